@@ -1,0 +1,136 @@
+//! The macros that declare an interface: a struct and its rows from the same lines.
+
+/// Declares a struct of variables.
+///
+/// Each field: the FMI name (a template, see [`Row`](crate::Row)), the Rust name and type, the unit in brackets where it
+/// is a real with one, the inclusive range in braces where it has one, and the start value. The doc comment is the
+/// variable's description everywhere: write one sentence, without markup.
+///
+/// ```
+/// use model_interface::{interface, units::*, Group};
+/// interface! {
+///     /// What a spring is told.
+///     pub struct Spring: Parameter, Fixed {
+///         /// Length at which the spring carries no load.
+///         "spring.length" length: f64 [M] = 0.3;
+///         /// Number of coils.
+///         "spring.coils" coils: i32 { 1 ..= 100 } = 7;
+///     }
+/// }
+/// assert_eq!(Spring::ROWS[1].variable_name(0), "spring.coils");
+/// assert_eq!(Spring::default().length, 0.3);
+/// ```
+#[macro_export]
+macro_rules! interface {
+    (
+        $(#[$attribute:meta])*
+        pub struct $group:ident: $causality:ident, $variability:ident {
+            $(
+                $(#[doc = $text:literal])+
+                $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $min:literal ..= $max:literal })? = $start:expr;
+            )+
+        }
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
+        #[serde(crate = "model_interface::serde")]
+        pub struct $group {
+            $( $(#[doc = $text])+ #[doc = concat!("\n\nFMI: `", $name, "`", $(" \\[", stringify!($unit), "\\]",)? ".")] pub $field: $type, )+
+        }
+
+        impl Default for $group {
+            fn default() -> Self {
+                $group { $( $field: $start, )+ }
+            }
+        }
+
+        impl $crate::Group for $group {
+            const ROWS: &'static [$crate::Row] = &[
+                $( $crate::Row::new(
+                    $name,
+                    $crate::Causality::$causality,
+                    $crate::Variability::$variability,
+                    <$type as $crate::Field>::KIND $(.in_unit(&$unit))?,
+                    <$type as $crate::Field>::COUNT,
+                    <$type as $crate::Field>::COMPONENTS,
+                    $crate::interface!(@range $($min, $max)?),
+                    concat!($($text),+),
+                ), )+
+            ];
+            fn read(reader: &mut $crate::Reader) -> Self {
+                $group { $( $field: reader.take(), )+ }
+            }
+            fn write(&self, writer: &mut $crate::Writer) {
+                $( writer.put(self.$field); )+
+            }
+        }
+    };
+    (@range) => { None };
+    (@range $min:literal, $max:literal) => { Some(($min as f64, $max as f64)) };
+}
+
+/// Declares a struct of groups, itself a group: its rows are theirs, one group after another.
+#[macro_export]
+macro_rules! interface_tree {
+    (
+        $(#[$attribute:meta])*
+        pub struct $group:ident {
+            $( $(#[$field_attribute:meta])* $field:ident: $type:ty, )+
+        }
+    ) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
+        #[serde(crate = "model_interface::serde")]
+        pub struct $group {
+            $( $(#[$field_attribute])* pub $field: $type, )+
+        }
+
+        impl $crate::Group for $group {
+            const ROWS: &'static [$crate::Row] = {
+                const GROUPS: &[&[$crate::Row]] = &[ $( <$type as $crate::Group>::ROWS ),+ ];
+                const ROWS: [$crate::Row; $crate::row_count(GROUPS)] = $crate::concat_rows(GROUPS);
+                &ROWS
+            };
+            fn read(reader: &mut $crate::Reader) -> Self {
+                $group { $( $field: $crate::Group::read(reader), )+ }
+            }
+            fn write(&self, writer: &mut $crate::Writer) {
+                $( $crate::Group::write(&self.$field, writer); )+
+            }
+        }
+    };
+}
+
+/// Declares an enumeration that a field may have; FMI counts its items from 1.
+#[macro_export]
+macro_rules! enumeration {
+    (
+        $(#[doc = $text:literal])+
+        pub enum $name:ident {
+            $( $(#[doc = $item_text:literal])+ $item_name:literal $item:ident, )+
+        }
+    ) => {
+        $(#[doc = $text])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, $crate::serde::Serialize, $crate::serde::Deserialize)]
+        #[serde(crate = "model_interface::serde")]
+        pub enum $name {
+            $( $(#[doc = $item_text])+ #[doc = concat!("\n\nFMI: `", $item_name, "`.")] $item, )+
+        }
+
+        impl $crate::Field for $name {
+            const KIND: $crate::Kind = $crate::Kind::Enumeration(&$crate::Enumeration {
+                name: stringify!($name),
+                text: concat!($($text),+),
+                items: &[ $( $crate::Item { name: $item_name, text: concat!($($item_text),+) }, )+ ],
+            });
+            fn read(slots: &[f64]) -> Self {
+                const ITEMS: &[$name] = &[ $( $name::$item, )+ ];
+                let last = ITEMS.len() - 1;
+                ITEMS[(slots[0] as usize).saturating_sub(1).min(last)]
+            }
+            fn write(self, slots: &mut [f64]) {
+                slots[0] = f64::from(self as i32 + 1);
+            }
+        }
+    };
+}

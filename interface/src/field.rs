@@ -1,0 +1,78 @@
+//! The types that a field of an interface may have, and how each lies in slots.
+
+use nalgebra::Vector3;
+
+use crate::{Kind, units};
+
+/// A type that is one or several scalar variables.
+pub trait Field: Copy {
+    /// Elements of the array; 1 where it is none.
+    const COUNT: usize = 1;
+    /// Names of an element's components.
+    const COMPONENTS: &'static [&'static str] = &[""];
+    const KIND: Kind = Kind::Real(&units::ONE);
+    fn read(slots: &[f64]) -> Self;
+    fn write(self, slots: &mut [f64]);
+}
+
+impl Field for f64 {
+    fn read(slots: &[f64]) -> Self {
+        slots[0]
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots[0] = self;
+    }
+}
+
+impl Field for bool {
+    const KIND: Kind = Kind::Boolean;
+    fn read(slots: &[f64]) -> Self {
+        slots[0] != 0.0
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots[0] = f64::from(self);
+    }
+}
+
+impl Field for i32 {
+    const KIND: Kind = Kind::Integer;
+    fn read(slots: &[f64]) -> Self {
+        slots[0] as i32
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots[0] = f64::from(self);
+    }
+}
+
+impl Field for Vector3<f64> {
+    const COMPONENTS: &'static [&'static str] = &["x", "y", "z"];
+    fn read(slots: &[f64]) -> Self {
+        Vector3::new(slots[0], slots[1], slots[2])
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots.copy_from_slice(self.as_slice());
+    }
+}
+
+impl Field for [f64; 6] {
+    const COUNT: usize = 6;
+    fn read(slots: &[f64]) -> Self {
+        std::array::from_fn(|i| slots[i])
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots.copy_from_slice(&self);
+    }
+}
+
+impl Field for [Vector3<f64>; 6] {
+    const COUNT: usize = 6;
+    const COMPONENTS: &'static [&'static str] = &["x", "y", "z"];
+    fn read(slots: &[f64]) -> Self {
+        std::array::from_fn(|i| Vector3::new(slots[3 * i], slots[3 * i + 1], slots[3 * i + 2]))
+    }
+    fn write(self, slots: &mut [f64]) {
+        for (element, slot) in self.iter().zip(slots.chunks_exact_mut(3)) {
+            slot.copy_from_slice(element.as_slice());
+        }
+    }
+}

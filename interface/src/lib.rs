@@ -1,0 +1,36 @@
+//! How a model declares its variables: once, in Rust.
+//!
+//! [`interface!`] declares a plain struct and, from the same lines, one [`Row`] a field: the FMI name, the unit, the
+//! range and the sentence that describes it. Everything else is derived from those rows: value references, the XML, the
+//! documentation's tables and the start values. A model is added by declaring its structs and implementing [`Model`].
+//!
+//! A model's values live in one flat array of `f64`, a *slot* for each scalar variable, in the order of the rows. A
+//! value reference is a slot's index. Booleans are 0 and 1, enumerations and integers whole numbers.
+
+mod declare;
+mod field;
+mod guid;
+mod model;
+mod row;
+mod slots;
+mod unit;
+
+#[doc(hidden)] // for the macros
+pub use serde;
+
+pub use field::Field;
+pub use guid::guid;
+pub use model::{Identity, Model, Refusal};
+pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, concat_rows, row_count};
+pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
+pub use unit::{BaseUnit, Unit, units};
+
+/// A struct whose fields are variables of the interface: made by [`interface!`] and [`interface_tree!`].
+pub trait Group: Default {
+    /// The rows of the struct's fields, in the order of the fields.
+    const ROWS: &'static [Row];
+    /// Takes the struct's fields from the reader's next slots.
+    fn read(reader: &mut Reader) -> Self;
+    /// Puts the struct's fields into the writer's next slots.
+    fn write(&self, writer: &mut Writer);
+}

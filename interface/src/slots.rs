@@ -1,0 +1,74 @@
+//! The flat array of a model's values: which slot belongs to which row, and reading and writing structs in it.
+
+use crate::{Field, Row};
+
+/// Where a slot comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot {
+    /// Index into the rows.
+    pub row: u16,
+    /// Which of the row's scalar variables, from 0.
+    pub element: u16,
+}
+
+/// How many slots the rows have together.
+pub const fn slot_count(rows: &[Row]) -> usize {
+    let mut count = 0;
+    let mut r = 0;
+    while r < rows.len() {
+        count += rows[r].slots();
+        r += 1;
+    }
+    count
+}
+
+/// The rows' slots in order. `N` is [`slot_count`] of them.
+pub const fn slot_table<const N: usize>(rows: &[Row]) -> [Slot; N] {
+    let mut slots = [Slot { row: 0, element: 0 }; N];
+    let (mut r, mut n) = (0, 0);
+    while r < rows.len() {
+        let mut element = 0;
+        while element < rows[r].slots() {
+            slots[n] = Slot { row: r as u16, element: element as u16 };
+            n += 1;
+            element += 1;
+        }
+        r += 1;
+    }
+    slots
+}
+
+/// Takes fields from slots, one after another.
+pub struct Reader<'a> {
+    slots: &'a [f64],
+}
+
+impl<'a> Reader<'a> {
+    pub fn new(slots: &'a [f64]) -> Self {
+        Reader { slots }
+    }
+
+    pub fn take<F: Field>(&mut self) -> F {
+        let (mine, rest) = self.slots.split_at(F::COUNT * F::COMPONENTS.len());
+        self.slots = rest;
+        F::read(mine)
+    }
+}
+
+/// Puts fields into slots, one after another.
+pub struct Writer<'a> {
+    slots: &'a mut [f64],
+}
+
+impl<'a> Writer<'a> {
+    pub fn new(slots: &'a mut [f64]) -> Self {
+        Writer { slots }
+    }
+
+    pub fn put<F: Field>(&mut self, field: F) {
+        let slots = std::mem::take(&mut self.slots);
+        let (mine, rest) = slots.split_at_mut(F::COUNT * F::COMPONENTS.len());
+        field.write(mine);
+        self.slots = rest;
+    }
+}
