@@ -1,0 +1,31 @@
+//! The evaluator (the paper's section 5): what the rider really feels on the commanded motion.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::head::Head;
+use crate::platform::PlatformMotion;
+use crate::spurious::{centripetal, tangential};
+
+/// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in the axes of the frame there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Felt {
+    pub specific_force: Vector3<f64>,
+    pub angular_velocity: Vector3<f64>,
+}
+
+/// f^H = R_B^H (p_head'' - g), eq. (5) with g = (0, 0, -gravity) and every term of p_head''.
+///
+/// The rider's own leaning is not the platform's doing: his head is taken as at rest relative to the platform.
+pub fn felt(platform: &PlatformMotion, head: &Head, gravity: f64) -> Felt {
+    let head_axes = platform.orientation.rotation * head.rotation;
+    let arm = platform.orientation.rotation * head.point;
+    let acceleration = platform.acceleration
+        + tangential(platform.angular_acceleration, arm)
+        + centripetal(platform.angular_velocity, arm);
+    let specific_force = acceleration + Vector3::new(0.0, 0.0, gravity);
+    Felt {
+        specific_force: head_axes.tr_mul(&specific_force),
+        angular_velocity: head_axes.tr_mul(&platform.angular_velocity),
+    }
+}

@@ -1,0 +1,62 @@
+//! Block (2), the gravitational strategy: tilt, so that gravity is felt as the low-frequency specific force.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::governor::{Limits, Motion};
+use crate::interface::TiltParameters;
+
+/// The tilt of the platform that the gravitational strategy commands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GravitationalStrategy {
+    pub roll: Motion,
+    pub pitch: Motion,
+    target: Tilt,
+    /// Whether a limit kept the tilt from its target in the last step.
+    pub limited: bool,
+}
+
+/// A roll and a pitch \[rad\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tilt {
+    pub roll: f64,
+    pub pitch: f64,
+}
+
+/// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in head axes) along x and y.
+///
+/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arguments are kept inside the angle limit, and so is
+/// the roll after the lean is taken off. Also returns whether they had to be.
+pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
+    let sin_limit = angle_limit.sin();
+    let surge = force.x / gravity;
+    let pitch = -surge.clamp(-sin_limit, sin_limit).asin();
+    let sway = force.y / (gravity * pitch.cos());
+    let leant = sway.clamp(-sin_limit, sin_limit).asin() - lean;
+    let roll = leant.clamp(-angle_limit, angle_limit);
+    (Tilt { roll, pitch }, surge.abs() > sin_limit || sway.abs() > sin_limit || roll != leant)
+}
+
+impl GravitationalStrategy {
+    /// Advances by `step` seconds towards the tilt for this low-frequency force in head axes, under the rate and the
+    /// acceleration limit.
+    pub fn advance(&mut self, force: Vector3<f64>, gravity: f64, lean: f64, parameters: &TiltParameters, step: f64) {
+        let (target, clipped) = tilt_target(force, gravity, lean, parameters.angle_limit);
+        let limits = Limits::symmetric(parameters.angle_limit, parameters.rate_limit, parameters.acceleration_limit);
+        let (roll, roll_limited) = track(&self.roll, self.target.roll, target.roll, &limits, step);
+        let (pitch, pitch_limited) = track(&self.pitch, self.target.pitch, target.pitch, &limits, step);
+        *self = GravitationalStrategy { roll, pitch, target, limited: clipped || roll_limited || pitch_limited };
+    }
+}
+
+/// How far the tilt may stay behind its target before it counts as limited \[rad\]: 0.001 degrees.
+const LAGGING: f64 = 2e-5;
+
+/// One step of one angle behind its target, whose rate is known from its last two values: a target inside the limits is
+/// tracked without lag, any other in nearly the shortest time and without overshoot.
+fn track(motion: &Motion, previous: f64, target: f64, limits: &Limits, step: f64) -> (Motion, bool) {
+    let rate = ((target - previous) / step).clamp(-limits.velocity, limits.velocity);
+    let goal = Motion { position: target, velocity: rate, acceleration: 0.0 };
+    let next = limits.follow(motion, &goal, limits.acceleration, step);
+    (next, (next.position - target).abs() > LAGGING)
+}

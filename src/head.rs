@@ -1,0 +1,45 @@
+//! Where the washout location is on the platform: the rider's head with his lean, eq. (4), or another point.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::interface::{StructureParameters, WashoutLocation};
+
+/// The washout location and the axes of the frame there, seen from the platform.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Head {
+    /// The location in the platform frame \[m\].
+    pub point: Vector3<f64>,
+    /// Roll of the frame at the location relative to the platform: the rider's lean, or 0 where no rider leans \[rad\].
+    pub lean: f64,
+    /// R_H^P = Rx(lean).
+    pub rotation: Matrix3<f64>,
+}
+
+impl Head {
+    /// The washout location with the rider leaning by `lean` \[rad\].
+    ///
+    /// Eq. (4) as corrected: p_h^P = (0, -b sin(lean), (h - b) + b cos(lean)), so that an upright rider's head is above
+    /// the platform's origin. The lean moves only the head: the other locations are points of the platform.
+    pub fn new(structure: &StructureParameters, lean: f64) -> Self {
+        match structure.washout_location {
+            WashoutLocation::Head => Head::leaning(structure.head_height, structure.torso_length, lean),
+            WashoutLocation::Platform => Head::fixed(Vector3::zeros()),
+            WashoutLocation::Custom => Head::fixed(structure.washout_point),
+        }
+    }
+
+    fn leaning(height: f64, torso: f64, lean: f64) -> Self {
+        let (sin, cos) = lean.sin_cos();
+        #[rustfmt::skip]
+        let rotation = Matrix3::new(
+            1.0, 0.0,  0.0,
+            0.0, cos, -sin,
+            0.0, sin,  cos,
+        );
+        Head { point: Vector3::new(0.0, -torso * sin, height - torso + torso * cos), lean, rotation }
+    }
+
+    fn fixed(point: Vector3<f64>) -> Self {
+        Head { point, lean: 0.0, rotation: Matrix3::identity() }
+    }
+}

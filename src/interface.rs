@@ -1,0 +1,272 @@
+//! The one table of variables: what goes in, what comes out, what can be set.
+//!
+//! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed: users and their
+//! scripts rely on them. A new variable goes at the end of its group.
+
+use model_interface::units::{M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
+use model_interface::{enumeration, interface, interface_tree};
+use nalgebra::Vector3;
+
+use crate::default_rig;
+pub use crate::orientation::RollPitchYaw;
+
+/// Standard gravity \[m/s2\].
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
+interface! {
+    /// What the host's clock says.
+    pub struct Clock: Independent, Continuous {
+        /// Simulation time.
+        "time" time: f64 [S] = 0.0;
+    }
+}
+
+interface! {
+    /// What the vehicle model delivers at every communication point.
+    pub struct Input: Input, Continuous {
+        /// Specific force at the washout location in the rider's head axes (x forward, y left, z up): what an accelerometer there reads, (0, 0, +g) at rest.
+        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+        /// Angular velocity of the vehicle, in the axes that angularVelocityFrame says.
+        "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        /// Orientation of the vehicle in its own world (roll about x, pitch about y with nose down positive, yaw about z).
+        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0);
+        /// Forward speed of the vehicle; the washout itself does not depend on it.
+        "vehicle.speed" speed: f64 [M_PER_S] = 0.0;
+        /// Lean of the rider's torso relative to the mock-up, positive to the right.
+        "rider.lean" lean: f64 [RAD] = 0.0;
+        /// True: cue the vehicle's motion. False: return to neutral within the limits, and stay.
+        "engaged" engaged: bool = true;
+    }
+}
+
+interface! {
+    /// What the platform and its actuators are commanded, and what the rider feels on it.
+    pub struct Output: Output, Continuous {
+        /// Position of the platform frame's origin in the base frame.
+        "platform.position.@" position: Vector3<f64> [M] = Vector3::zeros();
+        /// Velocity of the platform frame's origin in the base frame.
+        "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::zeros();
+        /// Acceleration of the platform frame's origin in the base frame.
+        "platform.acceleration.@" acceleration: Vector3<f64> [M_PER_S2] = Vector3::zeros();
+        /// Orientation of the platform in the base frame.
+        "platform.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::default();
+        /// Angular velocity of the platform in the base frame.
+        "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        /// Commanded length of the actuator, from base joint to platform joint.
+        "actuator[#].length" length: [f64; 6] [M] = [0.0; 6];
+        /// Commanded rate of the actuator's length.
+        "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
+        /// Specific force that the rider feels at the washout location on the commanded motion, in head axes.
+        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::zeros();
+        /// Angular velocity that the rider feels on the commanded motion, in head axes.
+        "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        /// Tilt coordination's share of the platform's roll.
+        "tilt.roll" tilt_roll: f64 [RAD] = 0.0;
+        /// Tilt coordination's share of the platform's pitch.
+        "tilt.pitch" tilt_pitch: f64 [RAD] = 0.0;
+        /// Rate of tilt coordination's roll.
+        "tilt.rollRate" tilt_roll_rate: f64 [RAD_PER_S] = 0.0;
+        /// Rate of tilt coordination's pitch.
+        "tilt.pitchRate" tilt_pitch_rate: f64 [RAD_PER_S] = 0.0;
+        /// Smallest distance of an actuator from either end of its stroke.
+        /// Whether, during the last communication step, tilt coordination lagged behind its target because of its rate, acceleration or angle limit.
+        "status.tiltLimited" tilt_limited: bool = false;
+        /// Whether, during the last communication step, a safety unit held the platform back from its position, velocity or acceleration limit.
+        "status.safetyActive" safety_active: bool = false;
+        /// Whether, during the last communication step, the actuator guard held an actuator back from its stroke, speed or acceleration limit.
+        "status.actuatorLimited" actuator_limited: bool = false;
+        /// Smallest distance of an actuator from either end of its stroke.
+        "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
+    }
+}
+
+enumeration! {
+    /// How gravity is taken out of the vehicle's specific force before it is split.
+    pub enum GravityRemoval {
+        /// Remove the part along the head's vertical axis only (the paper; right for a motorcycle).
+        "head_vertical" HeadVertical,
+        /// Remove the whole vector.
+        "full" Full,
+        /// Remove nothing: the input is the acceleration itself.
+        "none" None,
+    }
+}
+
+enumeration! {
+    /// Which of the accelerations that tilting causes at the washout location is compensated by linear motion.
+    pub enum Compensation {
+        /// None of them.
+        "none" None,
+        /// The centripetal term (the paper).
+        "centripetal" Centripetal,
+        /// The centripetal and the tangential term.
+        "full" Full,
+    }
+}
+
+enumeration! {
+    /// The axes in which the vehicle's angular velocity is given.
+    pub enum AngularVelocityFrame {
+        /// The axes of the vehicle's world (the paper).
+        "world" World,
+        /// The axes of the vehicle's body.
+        "body" Body,
+    }
+}
+
+enumeration! {
+    /// Where the low-frequency force for tilt coordination comes from.
+    pub enum LowPassKind {
+        /// What the high-pass leaves over, so that the two add up to the input, eq. (6).
+        "complementary" Complementary,
+        /// A second-order low-pass with its own frequency and damping.
+        "independent" Independent,
+    }
+}
+
+enumeration! {
+    /// The point of the platform at which the vehicle's motion is given, compensated for and evaluated.
+    pub enum WashoutLocation {
+        /// The rider's head, which moves with his lean.
+        "head" Head,
+        /// The origin of the platform frame.
+        "platform" Platform,
+        /// The point washoutPoint of the platform.
+        "custom" Custom,
+    }
+}
+
+interface! {
+    /// Block (1): the high-pass of each axis of the base frame, and the low-pass beside it.
+    pub struct SplitterParameters: Parameter, Tunable {
+        /// Break frequency of the high-pass filter's first pair of poles.
+        "splitter.@.omega1" omega1: Vector3<f64> [RAD_PER_S] = Vector3::new(2.5, 2.5, 2.5);
+        /// Damping ratio of the high-pass filter's first pair of poles.
+        "splitter.@.zeta1" zeta1: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
+        "splitter.@.omega2" omega2: Vector3<f64> [RAD_PER_S] = Vector3::new(2.5, 2.5, 2.5);
+        /// Damping ratio of the high-pass filter's second pair of poles (order 4).
+        "splitter.@.zeta2" zeta2: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        /// Break frequency of the low-pass filter when splitter.lowPass is independent.
+        "splitter.@.lowPassOmega" low_pass_omega: Vector3<f64> [RAD_PER_S] = Vector3::new(5.0, 5.0, 5.0);
+        /// Damping ratio of the low-pass filter when splitter.lowPass is independent.
+        "splitter.@.lowPassZeta" low_pass_zeta: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+    }
+}
+
+interface! {
+    /// Block (6): the high-pass of each angle.
+    pub struct AngularParameters: Parameter, Tunable {
+        /// Break frequency of the high-pass filter's first pair of poles.
+        "angular.@.omega1" omega1: RollPitchYaw [RAD_PER_S] = RollPitchYaw::new(1.0, 1.0, 1.0);
+        /// Damping ratio of the high-pass filter's first pair of poles.
+        "angular.@.zeta1" zeta1: RollPitchYaw = RollPitchYaw::new(1.0, 1.0, 1.0);
+        /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
+        "angular.@.omega2" omega2: RollPitchYaw [RAD_PER_S] = RollPitchYaw::new(1.0, 1.0, 1.0);
+        /// Damping ratio of the high-pass filter's second pair of poles (order 4).
+        "angular.@.zeta2" zeta2: RollPitchYaw = RollPitchYaw::new(1.0, 1.0, 1.0);
+    }
+}
+
+interface! {
+    /// What is done to the vehicle's motion before it is filtered.
+    pub struct ConditioningParameters: Parameter, Tunable {
+        /// Scale of the specific force after gravity removal.
+        "scale.specificForce.@" force_scale: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
+        "scale.angularVelocity.@" rate_scale: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        /// Largest scaled specific force; up to 80 % of it nothing changes, and it is approached smoothly.
+        "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] = Vector3::new(8.0, 8.0, 8.0);
+        /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), approached like the specific force's.
+        "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] = Vector3::new(1.0, 1.0, 1.0);
+        /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
+        "input.cutoff" cutoff: f64 [RAD_PER_S] = 0.0;
+        /// How gravity is removed from the specific force.
+        "gravityRemoval" gravity_removal: GravityRemoval = GravityRemoval::HeadVertical;
+        /// Which accelerations caused by tilting are compensated.
+        "compensation" compensation: Compensation = Compensation::Full;
+        /// The axes of vehicle.angularVelocity.
+        "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
+    }
+}
+
+interface! {
+    /// Block (2): tilt coordination's limits, for roll and pitch each.
+    pub struct TiltParameters: Parameter, Tunable {
+        /// Largest rate of tilt coordination (3 deg/s: below what riders perceive).
+        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] = 0.052_359_877_559_829_88;
+        /// Largest acceleration of tilt coordination.
+        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] = 0.2;
+        /// Largest angle of tilt coordination.
+        "tilt.angleLimit" angle_limit: f64 [RAD] = 0.35;
+    }
+}
+
+interface! {
+    /// Block (3): the safety units, one for each axis of the base frame, about the neutral position.
+    pub struct SafetyParameters: Parameter, Tunable {
+        /// Farthest that the platform goes from neutral.
+        "safety.@.positionLimit" position_limit: Vector3<f64> [M] = Vector3::new(0.45, 0.45, 0.33);
+        /// Largest velocity of the platform.
+        "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] = Vector3::new(1.0, 1.0, 1.0);
+        /// Largest acceleration of the platform; it also brakes with it.
+        "safety.@.accelerationLimit" acceleration_limit: Vector3<f64> [M_PER_S2] = Vector3::new(10.0, 10.0, 10.0);
+    }
+}
+
+interface! {
+    /// What the filter is made of; fixed once initialised.
+    pub struct StructureParameters: Parameter, Fixed {
+        /// Magnitude of gravity.
+        "gravity" gravity: f64 [M_PER_S2] = STANDARD_GRAVITY;
+        /// Order of the splitter's high-pass filters.
+        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 4;
+        /// Where the low-frequency force comes from.
+        "splitter.lowPass" low_pass: LowPassKind = LowPassKind::Complementary;
+        /// Order of the angular channel's high-pass filters.
+        "angular.order" angular_order: i32 { 2 ..= 4 } = 4;
+        /// Height of the rider's head above the platform (the paper's h).
+        "head.height" head_height: f64 [M] = 1.2;
+        /// Length of the torso from seat to head, about whose lower end the rider leans (the paper's b).
+        "head.torsoLength" torso_length: f64 [M] = 0.75;
+        /// The point at which the vehicle's motion is given, compensated for and evaluated.
+        "washoutLocation" washout_location: WashoutLocation = WashoutLocation::Head;
+        /// The washout location in the platform frame when washoutLocation is custom.
+        "washoutPoint.@" washout_point: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 1.2);
+        /// Longest internal step; a longer communication step is divided.
+        "solver.maxStep" max_step: f64 [S] = 0.001;
+    }
+}
+
+interface! {
+    /// The Stewart platform: its joints, and what its actuators can do.
+    pub struct Rig: Parameter, Fixed {
+        /// Joint of the actuator on the base, in the base frame.
+        "rig.base[#].@" base: [Vector3<f64>; 6] [M] = default_rig::BASE;
+        /// Joint of the actuator on the platform, in the platform frame.
+        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] = default_rig::PLATFORM;
+        /// Height of the platform frame's origin above the base frame's at neutral.
+        "rig.neutralHeight" neutral_height: f64 [M] = 1.091;
+        /// Shortest length of an actuator.
+        "actuator.minLength" min_length: f64 [M] = 1.0;
+        /// Longest length of an actuator.
+        "actuator.maxLength" max_length: f64 [M] = 1.6;
+        /// Largest speed of an actuator.
+        "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] = 1.0;
+        /// Largest acceleration of an actuator.
+        "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] = 15.0;
+    }
+}
+
+interface_tree! {
+    /// Everything that can be set: the filter's parameters and the rig.
+    pub struct Parameters {
+        splitter: SplitterParameters,
+        angular: AngularParameters,
+        conditioning: ConditioningParameters,
+        tilt: TiltParameters,
+        safety: SafetyParameters,
+        structure: StructureParameters,
+        rig: Rig,
+    }
+}

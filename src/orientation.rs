@@ -1,0 +1,111 @@
+//! Orientation as roll, pitch, yaw: eq. (2) for the rotation, eq. (10) for the rates.
+
+use model_interface::{Field, Kind, units};
+use nalgebra::{Matrix3, Vector3};
+use serde::{Deserialize, Serialize};
+
+/// Roll about x, pitch about y (nose down is positive), yaw about z, or three quantities that belong to them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct RollPitchYaw {
+    pub roll: f64,
+    pub pitch: f64,
+    pub yaw: f64,
+}
+
+impl RollPitchYaw {
+    pub const fn new(roll: f64, pitch: f64, yaw: f64) -> Self {
+        RollPitchYaw { roll, pitch, yaw }
+    }
+
+    /// The three as a vector: roll, pitch, yaw.
+    pub fn to_vector(self) -> Vector3<f64> {
+        Vector3::new(self.roll, self.pitch, self.yaw)
+    }
+
+    /// The inverse of [`RollPitchYaw::to_vector`].
+    pub fn from_vector(vector: Vector3<f64>) -> Self {
+        RollPitchYaw::new(vector.x, vector.y, vector.z)
+    }
+}
+
+impl Field for RollPitchYaw {
+    const COMPONENTS: &'static [&'static str] = &["roll", "pitch", "yaw"];
+    const KIND: Kind = Kind::Real(&units::ONE);
+    fn read(slots: &[f64]) -> Self {
+        RollPitchYaw::new(slots[0], slots[1], slots[2])
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots.copy_from_slice(self.to_vector().as_slice());
+    }
+}
+
+/// An orientation with the sines and cosines that its rotation and its rates need, computed once.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Orientation {
+    pub angles: RollPitchYaw,
+    /// R from the oriented frame to the reference frame, eq. (2).
+    pub rotation: Matrix3<f64>,
+    sin_pitch: f64,
+    cos_pitch: f64,
+    sin_yaw: f64,
+    cos_yaw: f64,
+}
+
+impl Orientation {
+    /// R = Rz(yaw) Ry(pitch) Rx(roll), eq. (2).
+    pub fn new(angles: RollPitchYaw) -> Self {
+        let (sr, cr) = angles.roll.sin_cos();
+        let (sp, cp) = angles.pitch.sin_cos();
+        let (sy, cy) = angles.yaw.sin_cos();
+        #[rustfmt::skip]
+        let rotation = Matrix3::new(
+            cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,
+            sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr,
+            -sp,     cp * sr,                cp * cr,
+        );
+        Orientation { angles, rotation, sin_pitch: sp, cos_pitch: cp, sin_yaw: sy, cos_yaw: cy }
+    }
+
+    /// The matrix E of eq. (10), with its columns in the order roll, pitch, yaw: omega = E (roll, pitch, yaw)'.
+    ///
+    /// The columns are the axes, in the reference frame, about which the three angles turn.
+    pub fn rate_matrix(&self) -> Matrix3<f64> {
+        #[rustfmt::skip]
+        let matrix = Matrix3::new(
+            self.cos_yaw * self.cos_pitch, -self.sin_yaw, 0.0,
+            self.sin_yaw * self.cos_pitch,  self.cos_yaw, 0.0,
+            -self.sin_pitch,                0.0,          1.0,
+        );
+        matrix
+    }
+
+    /// Angular velocity in the reference frame from the angles' rates, eq. (10).
+    pub fn angular_velocity(&self, rates: RollPitchYaw) -> Vector3<f64> {
+        self.rate_matrix() * rates.to_vector()
+    }
+
+    /// Angular acceleration in the reference frame: the time derivative of eq. (10).
+    pub fn angular_acceleration(&self, rates: RollPitchYaw, accelerations: RollPitchYaw) -> Vector3<f64> {
+        // The roll axis turns with yaw and pitch, the pitch axis with yaw: E' has a column for each.
+        let roll_axis = Vector3::new(self.cos_yaw * self.cos_pitch, self.sin_yaw * self.cos_pitch, -self.sin_pitch);
+        let pitch_axis = Vector3::new(-self.sin_yaw, self.cos_yaw, 0.0);
+        let yaw_turn = Vector3::new(0.0, 0.0, rates.yaw);
+        let roll_axis_rate = (yaw_turn + rates.pitch * pitch_axis).cross(&roll_axis);
+        let pitch_axis_rate = yaw_turn.cross(&pitch_axis);
+        self.angular_velocity(accelerations) + rates.roll * roll_axis_rate + rates.pitch * pitch_axis_rate
+    }
+
+    /// The angles' rates from an angular velocity in the reference frame: the inverse of eq. (10).
+    ///
+    /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is kept from falling below
+    /// [`SMALLEST_COS_PITCH`], so that the rates stay finite.
+    pub fn rates(&self, angular_velocity: Vector3<f64>) -> RollPitchYaw {
+        let along_heading = self.cos_yaw * angular_velocity.x + self.sin_yaw * angular_velocity.y;
+        let roll = along_heading / self.cos_pitch.abs().max(SMALLEST_COS_PITCH).copysign(self.cos_pitch);
+        let pitch = self.cos_yaw * angular_velocity.y - self.sin_yaw * angular_velocity.x;
+        RollPitchYaw::new(roll, pitch, angular_velocity.z + self.sin_pitch * roll)
+    }
+}
+
+/// The smallest magnitude of cos(pitch) that [`Orientation::rates`] divides by: pitch beyond 84 degrees is cut off.
+pub const SMALLEST_COS_PITCH: f64 = 0.1;

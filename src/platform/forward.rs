@@ -1,0 +1,90 @@
+//! Forward kinematics: from leg lengths to the pose, by Newton's method from a pose nearby.
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use super::{Geometry, Legs, PlatformMotion, Pose, inverse_kinematics, jacobian, leg_lengths};
+use crate::orientation::{Orientation, RollPitchYaw};
+
+/// Newton's method is given up after this many iterations. From a pose one step away it takes two or three.
+pub const MAX_ITERATIONS: usize = 20;
+
+/// Legs that fit their lengths to this are found \[m\].
+const TOLERANCE: f64 = 1e-13;
+/// What counts as found when rounding keeps Newton's method from [`TOLERANCE`] \[m\].
+const ACCEPTABLE: f64 = 1e-10;
+
+/// Newton's method did not find a pose with these leg lengths; they belong to none, or the platform is near a
+/// singularity.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("no pose found for these leg lengths: off by {residual} m after {MAX_ITERATIONS} iterations")]
+pub struct NotConverged {
+    /// The largest difference from the lengths asked for, in the last pose tried \[m\].
+    pub residual: f64,
+}
+
+/// The pose in which the legs have these lengths \[m\], on the branch of the pose `guess`.
+///
+/// # Errors
+/// If Newton's method does not converge within [`MAX_ITERATIONS`].
+pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose) -> Result<Pose, NotConverged> {
+    let target = Vector6::from(*lengths);
+    let mut pose = *guess;
+    let mut residual = f64::INFINITY;
+    for _ in 0..MAX_ITERATIONS {
+        let error = target - Vector6::from(leg_lengths(geometry, &pose));
+        let previous = residual;
+        residual = error.amax();
+        let stalled = residual >= 0.5 * previous;
+        if residual <= TOLERANCE || (stalled && residual <= ACCEPTABLE) {
+            return Ok(pose);
+        }
+        let Some(change) = pose_jacobian(geometry, &pose).lu().solve(&error) else { break };
+        pose = moved(&pose, &change);
+    }
+    Err(NotConverged { residual })
+}
+
+/// The Jacobian with respect to the coordinates of a pose, position and roll, pitch, yaw: eq. (10) turns the angles'
+/// rates into angular velocity.
+fn pose_jacobian(geometry: &Geometry, pose: &Pose) -> Matrix6<f64> {
+    let mut matrix = jacobian(geometry, pose);
+    let angular = matrix.fixed_view::<6, 3>(0, 3) * pose.orientation.rate_matrix();
+    matrix.fixed_view_mut::<6, 3>(0, 3).copy_from(&angular);
+    matrix
+}
+
+/// The largest change of an angle in one iteration \[rad\] and of the position \[m\]: keeps a bad guess from jumping
+/// to another branch.
+const LARGEST_CHANGE: f64 = 0.3;
+
+fn moved(pose: &Pose, change: &Vector6<f64>) -> Pose {
+    let change = change * (LARGEST_CHANGE / change.amax()).min(1.0);
+    let angles = pose.orientation.angles.to_vector() + change.fixed_rows::<3>(3);
+    Pose {
+        position: pose.position + change.fixed_rows::<3>(0),
+        orientation: Orientation::new(RollPitchYaw::from_vector(angles)),
+    }
+}
+
+/// The platform's motion from the legs' motion: pose by [`forward_kinematics`] from `guess`, velocities and
+/// accelerations by the Jacobian.
+///
+/// # Errors
+/// As [`forward_kinematics`].
+pub fn motion_of_legs(geometry: &Geometry, legs: &Legs, guess: &Pose) -> Result<PlatformMotion, NotConverged> {
+    let pose = forward_kinematics(geometry, &legs.length, guess)?;
+    let lu = jacobian(geometry, &pose).lu();
+    let solve = |rates: &[f64; 6]| lu.solve(&Vector6::from(*rates)).unwrap_or_else(Vector6::zeros);
+    let velocity = solve(&legs.velocity);
+    let mut motion = PlatformMotion {
+        velocity: velocity.fixed_rows::<3>(0).into(),
+        angular_velocity: velocity.fixed_rows::<3>(3).into(),
+        ..PlatformMotion::at_rest(pose)
+    };
+    // The legs' accelerations are J (p'', alpha) plus what they are while (p'', alpha) is zero.
+    let without = inverse_kinematics(geometry, &motion).acceleration;
+    let acceleration = solve(&std::array::from_fn(|i| legs.acceleration[i] - without[i]));
+    motion.acceleration = acceleration.fixed_rows::<3>(0).into();
+    motion.angular_acceleration = Vector3::from(acceleration.fixed_rows::<3>(3));
+    Ok(motion)
+}

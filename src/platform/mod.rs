@@ -1,0 +1,77 @@
+//! The Stewart platform: its geometry, and the way from pose to legs and back.
+
+mod forward;
+mod guard;
+mod inverse;
+mod jacobian;
+mod survey;
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
+pub use guard::ActuatorGuard;
+pub use inverse::{Legs, inverse_kinematics, leg_lengths};
+pub use jacobian::{Jacobian, jacobian};
+pub use survey::{Survey, SurveyFailed, survey};
+
+use crate::interface::Rig;
+use crate::orientation::{Orientation, RollPitchYaw};
+
+/// Where the joints are: on the base in the base frame, on the platform in the platform frame \[m\].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Geometry {
+    pub base: [Vector3<f64>; 6],
+    pub platform: [Vector3<f64>; 6],
+}
+
+impl From<&Rig> for Geometry {
+    fn from(rig: &Rig) -> Self {
+        Geometry { base: rig.base, platform: rig.platform }
+    }
+}
+
+/// Position of the platform frame's origin in the base frame \[m\], and the platform's orientation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pose {
+    pub position: Vector3<f64>,
+    pub orientation: Orientation,
+}
+
+impl Pose {
+    /// The rig's neutral pose: level, at the neutral height.
+    pub fn neutral(rig: &Rig) -> Self {
+        let orientation = Orientation::new(RollPitchYaw::default());
+        Pose { position: Vector3::new(0.0, 0.0, rig.neutral_height), orientation }
+    }
+}
+
+/// How the platform moves: pose, and the first two derivatives of it, all in the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlatformMotion {
+    pub position: Vector3<f64>,
+    pub orientation: Orientation,
+    pub velocity: Vector3<f64>,
+    pub angular_velocity: Vector3<f64>,
+    pub acceleration: Vector3<f64>,
+    pub angular_acceleration: Vector3<f64>,
+}
+
+impl PlatformMotion {
+    /// At rest in this pose.
+    pub fn at_rest(pose: Pose) -> Self {
+        PlatformMotion {
+            position: pose.position,
+            orientation: pose.orientation,
+            velocity: Vector3::zeros(),
+            angular_velocity: Vector3::zeros(),
+            acceleration: Vector3::zeros(),
+            angular_acceleration: Vector3::zeros(),
+        }
+    }
+
+    /// The pose alone.
+    pub fn pose(&self) -> Pose {
+        Pose { position: self.position, orientation: self.orientation }
+    }
+}

@@ -1,0 +1,59 @@
+//! Block (1), second half: the low-frequency part of the specific force, which tilt coordination reproduces.
+//!
+//! The high-frequency part is in [`crate::direct_linear`], where it is also integrated. With the complementary
+//! low-pass both are the same chain, D(s) xi = u, and add up to the input exactly, eq. (6); they are kept apart because
+//! the compensation of spurious accelerations enters only the high-pass.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::chain::{Chain, Denominator};
+use crate::interface::{LowPassKind, SplitterParameters};
+
+/// The low-pass filters, one for each axis of the base frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LowPass {
+    chains: [Chain; 3],
+    complementary: bool,
+}
+
+impl LowPass {
+    /// Filters at rest. `order` is that of the high-pass to which a complementary low-pass belongs.
+    pub fn new(parameters: &SplitterParameters, order: i32, kind: LowPassKind) -> Self {
+        let complementary = kind == LowPassKind::Complementary;
+        let denominators = denominators(parameters, order, complementary);
+        LowPass { chains: denominators.map(Chain::new), complementary }
+    }
+
+    /// Takes other frequencies and dampings; the output stays what it is.
+    pub fn retune(&mut self, parameters: &SplitterParameters, order: i32) {
+        for (chain, denominator) in self.chains.iter_mut().zip(denominators(parameters, order, self.complementary)) {
+            chain.retune(denominator, 0);
+        }
+    }
+
+    /// Advances by `step` seconds while the force goes linearly from `start` to `end`; returns its low-frequency part.
+    pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Vector3<f64> {
+        let mut output = Vector3::zeros();
+        for (axis, chain) in self.chains.iter_mut().enumerate() {
+            chain.advance(start[axis], end[axis], step);
+            output[axis] = if self.complementary { chain.low_pass() } else { chain.all_pole_low_pass() };
+        }
+        output
+    }
+}
+
+fn denominators(parameters: &SplitterParameters, order: i32, complementary: bool) -> [Denominator; 3] {
+    if complementary {
+        high_pass_denominators(parameters, order)
+    } else {
+        let (omega, zeta) = (parameters.low_pass_omega, parameters.low_pass_zeta);
+        std::array::from_fn(|axis| Denominator::new(2, omega[axis], zeta[axis], 1.0, 1.0))
+    }
+}
+
+/// The high-pass filters' D(s), one for each axis of the base frame.
+pub fn high_pass_denominators(parameters: &SplitterParameters, order: i32) -> [Denominator; 3] {
+    let SplitterParameters { omega1, zeta1, omega2, zeta2, .. } = parameters;
+    std::array::from_fn(|axis| Denominator::new(order, omega1[axis], zeta1[axis], omega2[axis], zeta2[axis]))
+}

@@ -1,0 +1,322 @@
+//! The whole washout, the paper's Fig. 4: an input, an output, one step.
+
+use model_interface::Refusal;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::angular::AngularChannel;
+use crate::check::check;
+use crate::conditioning::{Cue, InputFilter, cue};
+use crate::direct_linear::DirectLinearMotion;
+use crate::evaluator::{Felt, felt};
+use crate::gravitational::GravitationalStrategy;
+use crate::head::Head;
+use crate::interface::{Input, Output, Parameters, RollPitchYaw};
+use crate::orientation::Orientation;
+use crate::platform::{ActuatorGuard, PlatformMotion, Pose};
+use crate::splitter::LowPass;
+use crate::spurious::compensated;
+
+/// The washout filter with its platform.
+///
+/// ```
+/// use moris_washout::{Input, Parameters, Washout};
+///
+/// let mut washout = Washout::new(&Parameters::default())?;
+/// let mut input = Input::default();
+/// input.specific_force.x = 1.0; // m/s2: the vehicle accelerates
+/// for _ in 0..10_000 {
+///     washout.step(&input, 0.001);
+/// }
+/// let output = washout.output();
+/// assert!((output.felt_specific_force.x - 1.0).abs() < 0.01); // ... and the rider feels it,
+/// assert!(output.orientation.pitch < 0.0); // nose up,
+/// assert!(output.length.iter().all(|length| (1.0..1.6).contains(length))); // within the stroke
+/// # Ok::<(), moris_washout::Refusal>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Washout {
+    parameters: Parameters,
+    /// 1: engaged, 0: disengaged, between them: on the way.
+    engagement: f64,
+    /// The input at the end of the last step.
+    input: Input,
+    input_filter: InputFilter,
+    low_pass: LowPass,
+    gravitational: GravitationalStrategy,
+    angular: AngularChannel,
+    direct_linear: DirectLinearMotion,
+    /// What the washout wants of the platform; the guard says what it gets.
+    wanted: PlatformMotion,
+    guard: ActuatorGuard,
+    felt: Felt,
+    limited: Limited,
+    /// What cannot be differentiated exactly, one internal step ago.
+    before: Before,
+}
+
+/// What was limited in any internal step of the last communication step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Limited {
+    tilt: bool,
+    safety: bool,
+    actuator: bool,
+}
+
+/// The last internal step and what was felt at its beginning.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Before {
+    step: f64,
+    acceleration: Vector3<f64>,
+    felt: Felt,
+}
+
+/// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
+pub const ENGAGE_TIME: f64 = 1.0;
+
+/// No more internal steps than this in one call; longer steps are the caller's mistake.
+pub const MOST_INTERNAL_STEPS: f64 = 1e6;
+
+impl Washout {
+    /// The washout at rest at neutral.
+    ///
+    /// # Errors
+    /// The first parameter that cannot be used, and why.
+    pub fn new(parameters: &Parameters) -> Result<Self, Refusal> {
+        check(parameters)?;
+        let Parameters { splitter, angular, structure, rig, .. } = parameters;
+        let guard = ActuatorGuard::new(rig);
+        let at_rest = felt(guard.motion(), &Head::new(structure, 0.0), structure.gravity);
+        Ok(Washout {
+            parameters: *parameters,
+            engagement: 1.0,
+            input: Input::default(),
+            input_filter: InputFilter::default(),
+            low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass),
+            gravitational: GravitationalStrategy::default(),
+            angular: AngularChannel::new(angular, structure.angular_order),
+            direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order),
+            wanted: PlatformMotion::at_rest(Pose::neutral(rig)),
+            guard,
+            felt: at_rest,
+            limited: Limited::default(),
+            before: Before { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
+        })
+    }
+
+    /// The washout at rest at neutral before its first step, with this input: disengaged if that says so, and the head
+    /// where the rider's lean puts it.
+    pub fn starting_with(mut self, input: &Input) -> Self {
+        self.input = input.made_finite();
+        self.engagement = f64::from(input.engaged);
+        let head = Head::new(&self.parameters.structure, self.input.lean);
+        self.felt = felt(self.guard.motion(), &head, self.parameters.structure.gravity);
+        self.before.felt = self.felt;
+        self
+    }
+
+    /// Advances by `step` seconds while the input stays what it is (zero-order hold).
+    ///
+    /// Any input is safe: components that are not a number count as at rest. A step that is not positive does nothing;
+    /// one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
+    pub fn step(&mut self, input: &Input, step: f64) {
+        self.step_between(input, input, step);
+    }
+
+    /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order hold); whether it is
+    /// engaged is taken from `start`.
+    pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+        if step.is_nan() || step <= 0.0 {
+            return;
+        }
+        let (start, end) = (start.made_finite(), end.made_finite());
+        let ramp = start != end;
+        let count = self.internal_steps(step);
+        let internal_step = (step / count).min(self.parameters.structure.max_step);
+        self.limited = Limited::default();
+        let mut from = start;
+        for k in 1..=count as usize {
+            let to = if ramp { start.towards(&end, k as f64 / count) } else { start };
+            self.internal_step(&from, &to, internal_step);
+            from = to;
+        }
+    }
+
+    /// How many internal steps a step is divided into. A step a rounding error longer than the longest is not divided.
+    fn internal_steps(&self, step: f64) -> f64 {
+        const ROUNDING: f64 = 1e-9;
+        (step / self.parameters.structure.max_step * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS)
+    }
+
+    /// One step of Fig. 4 from left to right.
+    fn internal_step(&mut self, start: &Input, end: &Input, step: f64) {
+        let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
+        let head = Head::new(structure, start.lean);
+        let head_axes = self.guard.motion().orientation.rotation * head.rotation;
+
+        let engagement = self.engagement;
+        self.engagement = faded(engagement, start.engaged, step);
+        let cue_start = cue(start, conditioning, structure.gravity, head.lean).scaled(engagement);
+        let cue_end = if start == end && self.engagement == engagement {
+            cue_start
+        } else {
+            cue(end, conditioning, structure.gravity, Head::new(structure, end.lean).lean).scaled(self.engagement)
+        };
+        let (cue_start, cue_end) = self.input_filter.advance(cue_start, cue_end, conditioning.cutoff, step);
+        let (force_start, force_end) = (head_axes * cue_start.force, head_axes * cue_end.force);
+
+        let low_frequency = head_axes.tr_mul(&self.low_pass.advance(force_start, force_end, step));
+        self.gravitational.advance(low_frequency, structure.gravity, head.lean, tilt, step);
+        let turning = self.angular.advance(cue_start.rates, cue_end.rates, step);
+        let (roll, pitch) = (self.gravitational.roll, self.gravitational.pitch);
+        let [channel_roll, channel_pitch, yaw] = turning;
+        let orientation = Orientation::new(RollPitchYaw::new(
+            roll.position + channel_roll.position,
+            pitch.position + channel_pitch.position,
+            yaw.position,
+        ));
+        let rates = RollPitchYaw::new(
+            roll.velocity + channel_roll.velocity,
+            pitch.velocity + channel_pitch.velocity,
+            yaw.velocity,
+        );
+        let accelerations = RollPitchYaw::new(
+            roll.acceleration + channel_roll.acceleration,
+            pitch.acceleration + channel_pitch.acceleration,
+            yaw.acceleration,
+        );
+        let angular_velocity = orientation.angular_velocity(rates);
+        let angular_acceleration = orientation.angular_acceleration(rates, accelerations);
+
+        let arm = orientation.rotation * head.point;
+        let spurious = compensated(conditioning.compensation, angular_velocity, angular_acceleration, arm);
+        let linear = self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, step);
+
+        self.wanted = PlatformMotion {
+            position: Pose::neutral(&self.parameters.rig).position + linear.position,
+            orientation,
+            velocity: linear.velocity,
+            angular_velocity,
+            acceleration: linear.acceleration,
+            angular_acceleration,
+        };
+        self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
+        self.guard.advance(&self.wanted, step);
+        self.input = *end;
+        self.felt = felt(self.guard.motion(), &Head::new(structure, end.lean), structure.gravity);
+        self.limited.tilt |= self.gravitational.limited;
+        self.limited.safety |= self.direct_linear.limited();
+        self.limited.actuator |= self.guard.acting();
+    }
+
+    /// Takes over other tunable parameters. Position, velocity, angles and rates of the platform stay what they are;
+    /// what the new parameters would make jump fades over within a second or two.
+    ///
+    /// # Errors
+    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+        if parameters.structure != self.parameters.structure || parameters.rig != self.parameters.rig {
+            return Err(Refusal {
+                variable: "structure and rig".to_owned(),
+                reason: "these parameters are fixed once the washout is made; make another".to_owned(),
+            });
+        }
+        check(parameters)?;
+        let (force_before, rates_before) = self.drive(self.input_filter.cue());
+        self.parameters = *parameters;
+        let conditioning = &parameters.conditioning;
+        let head = Head::new(&parameters.structure, self.input.lean);
+        let now = if conditioning.cutoff == 0.0 {
+            cue(&self.input, conditioning, parameters.structure.gravity, head.lean).scaled(self.engagement)
+        } else {
+            self.input_filter.cue()
+        };
+        let (force_after, rates_after) = self.drive(now);
+        let order = parameters.structure.splitter_order;
+        self.low_pass.retune(&parameters.splitter, order);
+        self.direct_linear.retune(&parameters.splitter, order, force_before, force_after);
+        self.angular.retune(&parameters.angular, parameters.structure.angular_order, rates_before, rates_after);
+        Ok(())
+    }
+
+    /// What drives the linear channel (a force in the base frame, less what is compensated) and the angular channel
+    /// (rates) now, if the conditioned cue is this one.
+    fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
+        let head = Head::new(&self.parameters.structure, self.input.lean);
+        let force = self.guard.motion().orientation.rotation * head.rotation * cue.force;
+        let PlatformMotion { orientation, angular_velocity, angular_acceleration, .. } = self.wanted;
+        let arm = orientation.rotation * head.point;
+        let compensation = self.parameters.conditioning.compensation;
+        (force - compensated(compensation, angular_velocity, angular_acceleration, arm), cue.rates)
+    }
+
+    /// The parameters in force.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The platform's motion as commanded, with its accelerations.
+    pub fn motion(&self) -> &PlatformMotion {
+        self.guard.motion()
+    }
+
+    /// The output now.
+    pub fn output(&self) -> Output {
+        let motion = self.guard.motion();
+        let legs = self.guard.legs();
+        Output {
+            position: motion.position,
+            velocity: motion.velocity,
+            acceleration: motion.acceleration,
+            orientation: motion.orientation.angles,
+            angular_velocity: motion.angular_velocity,
+            length: legs.length,
+            leg_velocity: legs.velocity,
+            felt_specific_force: self.felt.specific_force,
+            felt_angular_velocity: self.felt.angular_velocity,
+            tilt_roll: self.gravitational.roll.position,
+            tilt_pitch: self.gravitational.pitch.position,
+            tilt_roll_rate: self.gravitational.roll.velocity,
+            tilt_pitch_rate: self.gravitational.pitch.velocity,
+            tilt_limited: self.limited.tilt,
+            safety_active: self.limited.safety,
+            actuator_limited: self.limited.actuator,
+            stroke_margin: self.guard.stroke_margin(),
+        }
+    }
+
+    /// The time derivative of the output now; the flags in it mean nothing.
+    ///
+    /// Exact where the output holds the derivative of another part of it; the platform's acceleration and what the
+    /// rider feels are differenced over the last internal step, and are zero before the first.
+    pub fn output_derivative(&self) -> Output {
+        let motion = self.guard.motion();
+        let legs = self.guard.legs();
+        let per_step = if self.before.step > 0.0 { 1.0 / self.before.step } else { 0.0 };
+        Output {
+            position: motion.velocity,
+            velocity: motion.acceleration,
+            acceleration: (motion.acceleration - self.before.acceleration) * per_step,
+            orientation: motion.orientation.rates(motion.angular_velocity),
+            angular_velocity: motion.angular_acceleration,
+            length: legs.velocity,
+            leg_velocity: legs.acceleration,
+            felt_specific_force: (self.felt.specific_force - self.before.felt.specific_force) * per_step,
+            felt_angular_velocity: (self.felt.angular_velocity - self.before.felt.angular_velocity) * per_step,
+            tilt_roll: self.gravitational.roll.velocity,
+            tilt_pitch: self.gravitational.pitch.velocity,
+            tilt_roll_rate: self.gravitational.roll.acceleration,
+            tilt_pitch_rate: self.gravitational.pitch.acceleration,
+            tilt_limited: false,
+            safety_active: false,
+            actuator_limited: false,
+            stroke_margin: self.guard.stroke_margin_rate(),
+        }
+    }
+}
+
+/// The engagement after `step` seconds on the way to `engaged`.
+fn faded(engagement: f64, engaged: bool, step: f64) -> f64 {
+    let change = step / ENGAGE_TIME;
+    if engaged { (engagement + change).min(1.0) } else { (engagement - change).max(0.0) }
+}
