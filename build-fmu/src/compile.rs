@@ -1,0 +1,132 @@
+//! Compiling a model's shared library for a platform.
+
+use std::ffi::OsString;
+use std::fmt;
+use std::fs;
+use std::process::Command;
+
+use crate::{Error, Model, Platform, tools, workspace};
+
+/// The oldest glibc on which a library for Linux runs when zig links it: that of RHEL 7, and of what Rust itself needs.
+const OLDEST_GLIBC: &str = "2.17";
+
+/// How the library for a platform is to be compiled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    pub platform: Platform,
+    pub linker: Linker,
+}
+
+/// What links the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Linker {
+    /// This machine's own. A library for Linux then needs this machine's glibc or a newer one.
+    Host,
+    /// zig, by cargo-zigbuild, for Linux.
+    Zig,
+    /// GCC for Windows.
+    Mingw,
+}
+
+/// How to compile for these platforms, with all of the tools found; for this machine where there are none.
+///
+/// # Errors
+/// A tool that is missing, before anything is compiled.
+pub fn plan(platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
+    if platforms.is_empty() {
+        return Ok(vec![plan_for_host()?]);
+    }
+    let mut platforms = platforms.to_vec();
+    platforms.sort_unstable();
+    platforms.dedup();
+    platforms.into_iter().map(plan_for).collect()
+}
+
+/// For this machine. On Linux by its own linker where zig is not there: good enough to try the FMU where it was built.
+fn plan_for_host() -> Result<Plan, Error> {
+    let platform = Platform::host().ok_or(Error::NoHostPlatform)?;
+    match plan_for(platform) {
+        Err(_) if platform.is_linux() => Ok(Plan { platform, linker: Linker::Host }),
+        planned => planned,
+    }
+}
+
+/// For any machine with this platform.
+fn plan_for(platform: Platform) -> Result<Plan, Error> {
+    let linker = match platform {
+        Platform::Linux64 | Platform::Aarch64Linux => Linker::Zig,
+        Platform::Win64 => Linker::Mingw,
+        Platform::Darwin64 | Platform::Aarch64Darwin => Linker::Host,
+    };
+    match linker {
+        Linker::Zig => tools::zigbuild(platform)?,
+        Linker::Mingw => tools::mingw(platform)?,
+        // zig links for macOS too, but exports names of Rust's that are nobody's business.
+        Linker::Host if !cfg!(target_os = "macos") => return Err(Error::NeedsMac { platform }),
+        Linker::Host => {}
+    }
+    tools::standard_library(platform)?;
+    Ok(Plan { platform, linker })
+}
+
+/// Compiles the model's library and returns it.
+///
+/// # Errors
+/// The compiler cannot be run or fails, or its result cannot be read.
+pub fn compile(model: &Model, plan: &Plan) -> Result<Vec<u8>, Error> {
+    let mut command = plan.cargo();
+    command.args(["--release", "--package", model.package, "--target-dir"]).arg(workspace::target_directory());
+    command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags()?);
+    let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
+    if !status.success() {
+        return Err(Error::Compile { platform: plan.platform });
+    }
+    let built = plan.platform.built_library(model.name);
+    let file = workspace::target_directory().join(plan.platform.target()).join("release").join(built);
+    fs::read(&file).map_err(|reason| Error::Read { file, reason })
+}
+
+impl Plan {
+    /// The cargo command that builds for the platform. The target is always named, so that the flags below hold for the
+    /// library only and its build does not disturb the build of anything else.
+    fn cargo(&self) -> Command {
+        let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+        command.args([if self.linker == Linker::Zig { "zigbuild" } else { "build" }, "--target", &self.target()]);
+        command
+    }
+
+    /// The target as cargo, or cargo-zigbuild, wants it.
+    fn target(&self) -> String {
+        match self.linker {
+            Linker::Zig => format!("{}.{OLDEST_GLIBC}", self.platform.target()),
+            Linker::Host | Linker::Mingw => self.platform.target().to_owned(),
+        }
+    }
+
+    /// rustc's flags, in the form of `CARGO_ENCODED_RUSTFLAGS`: no symbols but the exported ones, no directory of this
+    /// machine, no time of day.
+    fn rust_flags(&self) -> Result<OsString, Error> {
+        let mut flags = vec![OsString::from("-Cstrip=symbols")];
+        for (path, name) in workspace::private_paths()? {
+            let mut flag = OsString::from("--remap-path-prefix=");
+            flag.push(path);
+            flag.push(format!("={name}"));
+            flags.push(flag);
+        }
+        if self.linker == Linker::Mingw {
+            flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into());
+        }
+        Ok(flags.join(&OsString::from("\u{1f}")))
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        let linker = match self.linker {
+            Linker::Host => "this machine's linker",
+            Linker::Zig => "zig",
+            Linker::Mingw => "GCC for Windows",
+        };
+        write!(formatter, "compiling for {}, linked by {linker}", self.target())
+    }
+}

@@ -1,0 +1,72 @@
+//! Builds a model's shared library for each platform and packs it, with all that belongs to it, into an FMU.
+//!
+//! `cargo build-fmu` is the command; [`build`] is the same for a program. What an FMU holds is decided in [`contents`],
+//! the models that there are in [`model`], the platforms in [`platform`].
+
+pub mod archive;
+pub mod compile;
+pub mod contents;
+pub mod documentation;
+mod error;
+pub mod functions;
+pub mod icon;
+pub mod library;
+pub mod model;
+pub mod platform;
+mod tools;
+pub mod workspace;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+pub use error::Error;
+pub use model::{MODELS, Model};
+pub use platform::Platform;
+
+/// An FMU that has been written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Built {
+    pub file: PathBuf,
+    /// Size of the file \[bytes\].
+    pub size: usize,
+}
+
+/// Builds a model's FMU into the directory `output`, which is made where it does not exist, and says through `report`
+/// what it does, a line at a time.
+///
+/// Without platforms the FMU is for this machine.
+///
+/// # Errors
+/// A tool that is missing, a library that does not compile or is not fit to be shipped, a file that cannot be written.
+pub fn build(
+    model: &Model,
+    platforms: &[Platform],
+    output: &Path,
+    mut report: impl FnMut(&str),
+) -> Result<Built, Error> {
+    let plans = compile::plan(platforms)?;
+    let mut libraries = Vec::new();
+    for plan in &plans {
+        report(&format!("{}: {plan}", plan.platform));
+        let bytes = compile::compile(model, plan)?;
+        let facts = library::examine(&bytes, &workspace::private_paths()?)
+            .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
+        report(&format!("{}: {facts}", plan.platform));
+        libraries.push((plan.platform, bytes));
+    }
+    let archive = archive::pack(&contents::contents(model, libraries))?;
+    let file = output.join(format!("{}.fmu", model.name));
+    write_whole(&file, &archive)?;
+    Ok(Built { file, size: archive.len() })
+}
+
+/// Writes a file that others never see half written.
+fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let part = file.with_extension(format!("fmu.{}", std::process::id()));
+    let write = || {
+        fs::create_dir_all(file.parent().unwrap_or(Path::new(".")))?;
+        fs::write(&part, bytes)?;
+        fs::rename(&part, file)
+    };
+    write().map_err(|reason| Error::Write { file: file.to_owned(), reason })
+}

@@ -1,0 +1,49 @@
+//! Where things are on the machine that builds.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use crate::Error;
+
+/// The root of the workspace.
+pub fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("this crate is a directory of the workspace")
+}
+
+/// Where an FMU goes when nothing else is said.
+pub fn default_output() -> PathBuf {
+    root().join("target").join("fmu")
+}
+
+/// Where cargo compiles.
+pub fn target_directory() -> PathBuf {
+    env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |directory| root().join(directory))
+}
+
+/// Directories of this machine that must not show in a library, and what is written in their place: the workspace,
+/// where cargo keeps the dependencies' sources, and where rustc keeps its own.
+///
+/// # Errors
+/// rustc cannot be asked.
+pub fn private_paths() -> Result<Vec<(PathBuf, &'static str)>, Error> {
+    let mut paths = vec![(root().to_owned(), "workspace"), (sysroot()?.join("lib/rustlib/src/rust"), "rust")];
+    let home = env::home_dir().map(|home| home.join(".cargo"));
+    paths.extend(env::var_os("CARGO_HOME").map(PathBuf::from).or(home).map(|cargo| (cargo, "cargo")));
+    Ok(paths)
+}
+
+/// Where the compiler and the standard libraries of its targets are.
+///
+/// # Errors
+/// rustc cannot be asked.
+pub fn sysroot() -> Result<PathBuf, Error> {
+    let asked = Command::new(rustc()).args(["--print", "sysroot"]).output();
+    let answer = asked.map_err(|reason| Error::Run { program: "rustc".to_owned(), reason })?;
+    Ok(PathBuf::from(String::from_utf8_lossy(&answer.stdout).trim()))
+}
+
+/// The rustc that cargo uses.
+fn rustc() -> std::ffi::OsString {
+    env::var_os("RUSTC").unwrap_or_else(|| "rustc".into())
+}

@@ -1,0 +1,130 @@
+//! The root of the file, and the parts of it that are small.
+
+use serde::{Deserialize, Serialize};
+
+use crate::model_structure::ModelStructure;
+use crate::scalar_variable::ScalarVariable;
+use crate::type_definitions::SimpleType;
+use crate::units::Unit;
+
+/// `fmiModelDescription`: the order of the fields is the order that the schema prescribes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "fmiModelDescription")]
+pub struct ModelDescription {
+    /// Exactly "2.0", whatever the revision of the standard.
+    #[serde(rename = "@fmiVersion")]
+    pub fmi_version: String,
+    #[serde(rename = "@modelName")]
+    pub model_name: String,
+    /// By which the binary knows that the description is its own.
+    #[serde(rename = "@guid")]
+    pub guid: String,
+    #[serde(rename = "@description")]
+    pub description: String,
+    #[serde(rename = "@author")]
+    pub author: String,
+    #[serde(rename = "@version")]
+    pub version: String,
+    #[serde(rename = "@copyright")]
+    pub copyright: String,
+    #[serde(rename = "@license")]
+    pub license: String,
+    #[serde(rename = "@generationTool")]
+    pub generation_tool: String,
+    /// `YYYY-MM-DDThh:mm:ssZ`.
+    #[serde(rename = "@generationDateAndTime")]
+    pub generation_date_and_time: String,
+    /// "structured": names have dots and indices.
+    #[serde(rename = "@variableNamingConvention")]
+    pub variable_naming_convention: String,
+    #[serde(rename = "CoSimulation")]
+    pub co_simulation: CoSimulation,
+    /// None rather than empty: the schema knows no empty lists.
+    #[serde(rename = "UnitDefinitions", skip_serializing_if = "Option::is_none")]
+    pub unit_definitions: Option<UnitDefinitions>,
+    /// None rather than empty: the schema knows no empty lists.
+    #[serde(rename = "TypeDefinitions", skip_serializing_if = "Option::is_none")]
+    pub type_definitions: Option<TypeDefinitions>,
+    #[serde(rename = "LogCategories")]
+    pub log_categories: LogCategories,
+    #[serde(rename = "DefaultExperiment")]
+    pub default_experiment: DefaultExperiment,
+    #[serde(rename = "ModelVariables")]
+    pub model_variables: ModelVariables,
+    #[serde(rename = "ModelStructure")]
+    pub model_structure: ModelStructure,
+}
+
+/// `CoSimulation`: what the binary is called and what it can do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CoSimulation {
+    /// The name of the shared library, without its ending.
+    #[serde(rename = "@modelIdentifier")]
+    pub model_identifier: String,
+    #[serde(rename = "@canHandleVariableCommunicationStepSize")]
+    pub can_handle_variable_communication_step_size: bool,
+    /// Whether input derivatives are taken.
+    #[serde(rename = "@canInterpolateInputs")]
+    pub can_interpolate_inputs: bool,
+    #[serde(rename = "@maxOutputDerivativeOrder")]
+    pub max_output_derivative_order: u32,
+    #[serde(rename = "@canBeInstantiatedOnlyOncePerProcess")]
+    pub can_be_instantiated_only_once_per_process: bool,
+    /// True: the callbacks for memory are not called.
+    #[serde(rename = "@canNotUseMemoryManagementFunctions")]
+    pub can_not_use_memory_management_functions: bool,
+    #[serde(rename = "@canGetAndSetFMUstate")]
+    pub can_get_and_set_fmu_state: bool,
+    #[serde(rename = "@canSerializeFMUstate")]
+    pub can_serialize_fmu_state: bool,
+    #[serde(rename = "@providesDirectionalDerivative")]
+    pub provides_directional_derivative: bool,
+}
+
+/// `UnitDefinitions`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct UnitDefinitions {
+    #[serde(rename = "Unit")]
+    pub units: Vec<Unit>,
+}
+
+/// `TypeDefinitions`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TypeDefinitions {
+    #[serde(rename = "SimpleType")]
+    pub types: Vec<SimpleType>,
+}
+
+/// `LogCategories`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LogCategories {
+    #[serde(rename = "Category")]
+    pub categories: Vec<Category>,
+}
+
+/// A kind of message that a host can ask for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Category {
+    #[serde(rename = "@name")]
+    pub name: String,
+    #[serde(rename = "@description")]
+    pub description: String,
+}
+
+/// `DefaultExperiment`: what a host runs when its user says nothing; times in seconds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DefaultExperiment {
+    #[serde(rename = "@startTime")]
+    pub start_time: f64,
+    #[serde(rename = "@stopTime")]
+    pub stop_time: f64,
+    #[serde(rename = "@stepSize")]
+    pub step_size: f64,
+}
+
+/// `ModelVariables`: a variable's index is its place in this list, from 1.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModelVariables {
+    #[serde(rename = "ScalarVariable")]
+    pub variables: Vec<ScalarVariable>,
+}

@@ -1,0 +1,152 @@
+//! The documentation's tables of variables.
+
+use std::fmt::Write;
+
+use model_interface::{Causality, Identity, Kind, Model, Row, Variability};
+
+/// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters that can be changed
+/// while the simulation runs, and those that cannot, with a row for each row of the interface.
+pub fn variables_html<M: Model>() -> String {
+    let identity = M::IDENTITY;
+    let mut start = vec![0.0; identity.slots.len()];
+    M::start(&mut start);
+    let mut html = String::new();
+    for section in SECTIONS {
+        html.push_str(&section_html(&identity, &start, section));
+    }
+    html
+}
+
+/// A table: its anchor, its heading and which rows it holds.
+struct Section {
+    anchor: &'static str,
+    heading: &'static str,
+    holds: fn(&Row) -> bool,
+}
+
+const SECTIONS: &[Section] = &[
+    Section { anchor: "inputs", heading: "Inputs", holds: |row| row.causality == Causality::Input },
+    Section { anchor: "outputs", heading: "Outputs", holds: |row| row.causality == Causality::Output },
+    Section {
+        anchor: "tunable-parameters",
+        heading: "Parameters that may change between steps",
+        holds: |row| row.causality == Causality::Parameter && row.variability == Variability::Tunable,
+    },
+    Section {
+        anchor: "fixed-parameters",
+        heading: "Parameters that are fixed once initialised",
+        holds: |row| row.causality == Causality::Parameter && row.variability == Variability::Fixed,
+    },
+];
+
+fn section_html(identity: &Identity, start: &[f64], section: &Section) -> String {
+    let mut rows = String::new();
+    let mut slot = 0;
+    for row in identity.rows {
+        let mine = &start[slot..slot + row.slots()];
+        slot += row.slots();
+        if (section.holds)(row) {
+            rows.push_str(&row_html(row, mine));
+        }
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let Section { anchor, heading, .. } = section;
+    format!(
+        "<h3 id=\"{anchor}\">{heading}</h3>\n<table class=\"variables\">\n<thead><tr><th>Name</th><th>Type</th>\
+         <th>Unit</th><th>Start</th><th>Range</th><th>Meaning</th></tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n"
+    )
+}
+
+fn row_html(row: &Row, start: &[f64]) -> String {
+    // An output's start value is calculated: the description has none.
+    let start = if row.causality == Causality::Output { String::new() } else { start_html(row, start) };
+    format!(
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{start}</td><td>{}</td><td>{}</td></tr>\n",
+        name_html(row),
+        type_name(row.kind),
+        unit_html(row.kind),
+        range_html(row),
+        meaning_html(row),
+    )
+}
+
+/// The template with what its places stand for: `rig.base[1…6].{x, y, z}`.
+fn name_html(row: &Row) -> String {
+    let components = format!("<i>{{{}}}</i>", row.components.join(",\u{a0}"));
+    let index = format!("<i>1…{}</i>", row.count);
+    // A line may break after a dot.
+    let name = escape(row.name).replace('.', ".<wbr>").replace('#', &index).replace('@', &components);
+    format!("<code>{name}</code>")
+}
+
+fn type_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Real(_) => "Real",
+        Kind::Integer => "Integer",
+        Kind::Boolean => "Boolean",
+        Kind::Enumeration(_) => "Enumeration",
+    }
+}
+
+fn unit_html(kind: Kind) -> String {
+    match kind {
+        Kind::Real(unit) if unit.name.is_empty() => "1".to_owned(),
+        Kind::Real(unit) => escape(unit.name).replace("s2", "s<sup>2</sup>"),
+        _ => String::new(),
+    }
+}
+
+/// One value where all of the row's variables start alike, else the values, an array element a line.
+fn start_html(row: &Row, start: &[f64]) -> String {
+    if start.iter().all(|value| value == &start[0]) {
+        return value_html(row.kind, start[0]);
+    }
+    let element =
+        |values: &[f64]| values.iter().map(|&value| value_html(row.kind, value)).collect::<Vec<_>>().join(",\u{a0}");
+    start.chunks(row.components.len()).map(element).collect::<Vec<_>>().join("<br>")
+}
+
+fn value_html(kind: Kind, value: f64) -> String {
+    match kind {
+        Kind::Real(_) => rounded(value),
+        Kind::Integer => format!("{value}"),
+        Kind::Boolean => format!("{}", value != 0.0),
+        Kind::Enumeration(enumeration) => format!("<code>{}</code>", enumeration.items[value as usize - 1].name),
+    }
+}
+
+/// A number for reading, with a true minus sign: six decimals at most. The exact value is in modelDescription.xml.
+fn rounded(value: f64) -> String {
+    let digits = if value == 0.0 {
+        "0".to_owned()
+    } else if value.abs() < 1e-4 {
+        format!("{value:.6e}").replacen(".000000", "", 1)
+    } else {
+        format!("{value:.6}").trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    digits.replace('-', "−")
+}
+
+fn range_html(row: &Row) -> String {
+    row.range.map_or(String::new(), |(min, max)| format!("{}…{}", rounded(min), rounded(max)))
+}
+
+fn meaning_html(row: &Row) -> String {
+    let mut html = escape(row.text());
+    if let Kind::Enumeration(enumeration) = row.kind {
+        html.push_str("<dl>");
+        for (item, value) in enumeration.items.iter().zip(1..) {
+            let (name, text) = (escape(item.name), escape(item.text.trim()));
+            write!(html, "<dt>{value}: <code>{name}</code></dt><dd>{text}</dd>")
+                .expect("a string takes whatever is written");
+        }
+        html.push_str("</dl>");
+    }
+    html
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

@@ -1,0 +1,299 @@
+//! What FMI 2.0 demands of a model description, and what no validator notices, checked on the text of the file with an
+//! XML reader that knows nothing of how it was written.
+
+mod small_model;
+
+use std::collections::{BTreeSet, HashMap};
+
+use model_description::{describe, to_xml};
+use model_interface::{Causality, Kind, Model};
+use moris_washout::Washout;
+use roxmltree::{Document, Node};
+use small_model::Small;
+
+/// Every check, on the washout and on a model with a variable of every kind.
+macro_rules! on_both_models {
+    ($($check:ident)+) => {
+        mod washout { $( #[test] fn $check() { super::$check::<super::Washout>(); } )+ }
+        mod small { $( #[test] fn $check() { super::$check::<super::Small>(); } )+ }
+    };
+}
+
+on_both_models! {
+    it_begins_as_fmi_asks
+    its_parts_are_in_the_order_of_the_schema
+    it_has_no_empty_element_where_the_schema_wants_content
+    variables_are_the_models_in_order
+    start_values_are_the_models_bit_for_bit
+    start_values_are_inside_their_ranges
+    every_unit_used_is_defined_and_every_unit_defined_is_used
+    every_enumeration_used_is_defined_with_its_items_from_one
+    causality_variability_and_initial_go_together
+    outputs_are_listed_once_in_order_and_depend_on_nothing
+    initial_unknowns_are_the_calculated_variables_in_order
+    it_reads_back_as_what_was_written
+}
+
+fn it_begins_as_fmi_asks<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    assert!(xml.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription "));
+    assert!(xml.ends_with("</fmiModelDescription>\n"));
+    let document = Document::parse(&xml).unwrap();
+    let root = document.root_element();
+    assert_eq!(root.attribute("fmiVersion"), Some("2.0"));
+    assert_eq!(root.attribute("guid"), Some(model_interface::guid::<M>().as_str()));
+    assert_eq!(root.attribute("modelName"), Some(M::IDENTITY.name));
+    assert_eq!(root.attribute("variableNamingConvention"), Some("structured"));
+    let date = root.attribute("generationDateAndTime").unwrap();
+    let shape: String = date.chars().map(|c| if c.is_ascii_digit() { '0' } else { c }).collect();
+    assert_eq!(shape, "0000-00-00T00:00:00Z");
+    assert!(!xml.contains("NaN") && !xml.contains("inf\"") && !xml.contains("INF"));
+
+    let identifier = child(root, "CoSimulation").attribute("modelIdentifier").unwrap();
+    assert!(identifier.starts_with(|c: char| c.is_ascii_alphabetic()));
+    assert!(identifier.chars().all(|c| c.is_ascii_alphanumeric() || c == '_'));
+}
+
+fn its_parts_are_in_the_order_of_the_schema<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let parts: Vec<_> = elements(document.root_element()).map(|part| part.tag_name().name()).collect();
+    let order = [
+        "CoSimulation",
+        "UnitDefinitions",
+        "TypeDefinitions",
+        "LogCategories",
+        "DefaultExperiment",
+        "ModelVariables",
+        "ModelStructure",
+    ];
+    assert_eq!(parts, order);
+}
+
+fn it_has_no_empty_element_where_the_schema_wants_content<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let lists = ["UnitDefinitions", "TypeDefinitions", "LogCategories", "ModelVariables", "Outputs", "InitialUnknowns"];
+    for node in document.descendants().filter(|node| lists.contains(&node.tag_name().name())) {
+        assert!(elements(node).count() > 0, "{}", node.tag_name().name());
+    }
+}
+
+fn variables_are_the_models_in_order<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let identity = M::IDENTITY;
+    let variables = variables(&document);
+    assert_eq!(variables.len(), identity.slots.len());
+    let mut names = BTreeSet::new();
+    for (slot, variable) in variables.iter().enumerate() {
+        let name = variable.attribute("name").unwrap();
+        assert_eq!(name, identity.variable_name(slot));
+        assert!(names.insert(name), "{name} appears twice");
+        assert!(is_structured(name), "{name}");
+        assert_eq!(variable.attribute("valueReference"), Some(slot.to_string().as_str()), "{name}");
+        assert_eq!(variable.attribute("description"), Some(identity.row(slot).text()), "{name}");
+        assert!(!identity.row(slot).text().is_empty(), "{name}");
+        let type_name = match identity.row(slot).kind {
+            Kind::Real(_) => "Real",
+            Kind::Integer => "Integer",
+            Kind::Boolean => "Boolean",
+            Kind::Enumeration(_) => "Enumeration",
+        };
+        assert_eq!(type_of(*variable).tag_name().name(), type_name, "{name}");
+    }
+}
+
+/// FMI 2.0, 2.2.9, without quoted names and derivatives, which we do not use.
+fn is_structured(name: &str) -> bool {
+    name.split('.').all(|part| {
+        let (identifier, index) = part.split_once('[').map_or((part, "1"), |(identifier, rest)| {
+            (identifier, rest.strip_suffix(']').unwrap_or("no closing bracket"))
+        });
+        identifier.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+            && identifier.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+            && index.parse::<u32>().is_ok_and(|index| index > 0)
+    })
+}
+
+fn start_values_are_the_models_bit_for_bit<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let identity = M::IDENTITY;
+    let mut start = vec![f64::NAN; identity.slots.len()];
+    M::start(&mut start);
+    for (slot, variable) in variables(&document).into_iter().enumerate() {
+        let name = identity.variable_name(slot);
+        let written = type_of(variable).attribute("start");
+        if matches!(identity.row(slot).causality, Causality::Independent | Causality::Output) {
+            assert_eq!(written, None, "{name}");
+            continue;
+        }
+        let read = match written.unwrap() {
+            "true" => 1.0,
+            "false" => 0.0,
+            number => number.parse::<f64>().unwrap(),
+        };
+        assert_eq!(read.to_bits(), start[slot].to_bits(), "{name}: {read} is not {}", start[slot]);
+    }
+}
+
+fn start_values_are_inside_their_ranges<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    for variable in variables(&document) {
+        let number = |attribute| type_of(variable).attribute(attribute).and_then(|text| text.parse::<f64>().ok());
+        let (Some(start), Some(min), Some(max)) = (number("start"), number("min"), number("max")) else { continue };
+        assert!((min..=max).contains(&start), "{}", variable.attribute("name").unwrap());
+    }
+}
+
+fn every_unit_used_is_defined_and_every_unit_defined_is_used<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let mut defined = HashMap::new();
+    for unit in elements(child(document.root_element(), "UnitDefinitions")) {
+        assert!(child(unit, "BaseUnit").attributes().count() > 0);
+        let display = elements(unit).find(|node| node.has_tag_name("DisplayUnit"));
+        let display = display.map(|node| node.attribute("name").unwrap());
+        assert!(defined.insert(unit.attribute("name").unwrap(), display).is_none());
+    }
+    let mut used = BTreeSet::new();
+    for variable in variables(&document) {
+        let name = variable.attribute("name").unwrap();
+        let unit = type_of(variable).attribute("unit");
+        assert_ne!(unit, Some(""), "{name}");
+        let display = unit.and_then(|unit| *defined.get(unit).unwrap_or_else(|| panic!("{name}: {unit}")));
+        assert_eq!(type_of(variable).attribute("displayUnit"), display, "{name}");
+        used.extend(unit);
+    }
+    assert_eq!(used, defined.keys().copied().collect());
+}
+
+fn every_enumeration_used_is_defined_with_its_items_from_one<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let variables = variables(&document);
+    let mut sizes = HashMap::new();
+    for definition in elements(child(document.root_element(), "TypeDefinitions")) {
+        let name = definition.attribute("name").unwrap();
+        assert!(variables.iter().all(|variable| variable.attribute("name") != Some(name)), "{name} is a variable too");
+        let items: Vec<_> = elements(child(definition, "Enumeration")).collect();
+        let names: BTreeSet<_> = items.iter().map(|item| item.attribute("name").unwrap()).collect();
+        assert_eq!(names.len(), items.len(), "{name}");
+        for (item, value) in items.iter().zip(1..) {
+            assert_eq!(item.attribute("value"), Some(value.to_string().as_str()), "{name}");
+            assert!(!item.attribute("description").unwrap().is_empty(), "{name}");
+        }
+        assert!(sizes.insert(name, items.len().to_string()).is_none(), "{name} is defined twice");
+    }
+    let mut used = BTreeSet::new();
+    for of_type in variables.iter().map(|variable| type_of(*variable)).filter(|node| node.has_tag_name("Enumeration")) {
+        let name = of_type.attribute("declaredType").unwrap();
+        assert_eq!(of_type.attribute("min"), Some("1"));
+        assert_eq!(of_type.attribute("max"), Some(sizes[name].as_str()));
+        used.insert(name);
+    }
+    assert_eq!(used, sizes.keys().copied().collect());
+}
+
+fn causality_variability_and_initial_go_together<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    for variable in variables(&document) {
+        let is_real = type_of(variable).has_tag_name("Real");
+        let [causality, variability] = ["causality", "variability"].map(|name| variable.attribute(name).unwrap());
+        let legal = match (causality, variability, variable.attribute("initial")) {
+            ("independent", "continuous", None) => is_real,
+            ("input", "continuous", None) | ("output", "continuous", Some("calculated")) => is_real,
+            ("input", "discrete", None) | ("output", "discrete", Some("calculated")) => !is_real,
+            ("parameter", "fixed" | "tunable", None) => true,
+            _ => false,
+        };
+        assert!(legal, "{variable:?}");
+    }
+    let times = variables(&document).iter().filter(|node| node.attribute("causality") == Some("independent")).count();
+    assert_eq!(times, 1);
+}
+
+fn outputs_are_listed_once_in_order_and_depend_on_nothing<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let unknowns = unknowns(&document, "Outputs");
+    assert_eq!(indices(&unknowns), indices_of_outputs(&document));
+    assert!(unknowns.iter().all(|unknown| unknown.attribute("dependencies") == Some("")));
+}
+
+fn initial_unknowns_are_the_calculated_variables_in_order<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    assert_eq!(indices(&unknowns(&document, "InitialUnknowns")), indices_of_outputs(&document));
+}
+
+fn it_reads_back_as_what_was_written<M: Model>() {
+    let description = describe::<M>();
+    let read: model_description::ModelDescription = quick_xml::de::from_str(&to_xml(&description)).unwrap();
+    assert_eq!(read, description);
+}
+
+#[test]
+fn the_checked_in_file_is_that_of_the_washout() {
+    let checked_in = include_str!("../modelDescription.xml");
+    assert!(
+        checked_in == to_xml(&describe::<Washout>()),
+        "modelDescription/modelDescription.xml is stale: run `cargo run -p model-description`, look at the diff, check it in"
+    );
+}
+
+#[test]
+fn a_changed_variable_is_one_changed_line() {
+    let xml = to_xml(&describe::<Small>());
+    let variables = xml.lines().filter(|line| line.contains("<ScalarVariable "));
+    assert!(variables.clone().all(|line| line.ends_with("</ScalarVariable>")));
+    assert_eq!(variables.count(), Small::IDENTITY.slots.len());
+}
+
+#[test]
+fn display_units_are_degrees() {
+    let xml = to_xml(&describe::<Small>());
+    let document = Document::parse(&xml).unwrap();
+    let display = document.descendants().find(|node| node.has_tag_name("DisplayUnit")).unwrap();
+    assert_eq!(display.attribute("name"), Some("deg/s"));
+    let factor: f64 = display.attribute("factor").unwrap().parse().unwrap();
+    assert_eq!(factor, 1.0_f64.to_degrees());
+}
+
+fn elements<'a, 'input: 'a>(node: Node<'a, 'input>) -> impl Iterator<Item = Node<'a, 'input>> {
+    node.children().filter(Node::is_element)
+}
+
+fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Node<'a, 'input> {
+    elements(node).find(|child| child.has_tag_name(name)).unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn variables<'a, 'input>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
+    elements(child(document.root_element(), "ModelVariables")).collect()
+}
+
+/// The one element inside a variable.
+fn type_of<'a, 'input>(variable: Node<'a, 'input>) -> Node<'a, 'input> {
+    let mut types = elements(variable);
+    let only = types.next().unwrap();
+    assert!(types.next().is_none());
+    only
+}
+
+fn unknowns<'a, 'input>(document: &'a Document<'input>, list: &str) -> Vec<Node<'a, 'input>> {
+    elements(child(child(document.root_element(), "ModelStructure"), list)).collect()
+}
+
+fn indices(unknowns: &[Node]) -> Vec<usize> {
+    unknowns.iter().map(|unknown| unknown.attribute("index").unwrap().parse().unwrap()).collect()
+}
+
+/// Places in the list of variables, from 1, ascending.
+fn indices_of_outputs(document: &Document) -> Vec<usize> {
+    let variables = variables(document);
+    let numbered = (1..).zip(&variables);
+    numbered.filter(|(_, node)| node.attribute("causality") == Some("output")).map(|(index, _)| index).collect()
+}

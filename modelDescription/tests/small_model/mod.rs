@@ -1,0 +1,113 @@
+//! A model with a variable of every kind, for the tests.
+
+use model_interface::units::{M, RAD_PER_S, S};
+use model_interface::{
+    Group, Identity, Model, Refusal, Slot, Writer, enumeration, interface, interface_tree, slot_count, slot_table,
+};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+interface! {
+    /// The host's clock.
+    pub struct Clock: Independent, Continuous {
+        /// Simulation time.
+        "time" time: f64 [S] = 0.0;
+    }
+}
+
+interface! {
+    /// What goes in.
+    pub struct Entry: Input, Continuous {
+        /// A direction & a "size" < 1.
+        "entry.@" entry: Vector3<f64> [M] = Vector3::new(0.1 + 0.2, -0.0, 1e-9);
+        /// Whether it counts.
+        "counts" counts: bool = true;
+    }
+}
+
+interface! {
+    /// What comes out.
+    pub struct Exit: Output, Continuous {
+        /// How fast it turns.
+        "exit[#].rate" rate: [f64; 6] [RAD_PER_S] = [0.5; 6];
+        /// Whether it turns.
+        "turns" turns: bool = true;
+    }
+}
+
+enumeration! {
+    /// How to turn.
+    pub enum Turning {
+        /// To the left.
+        "left" Left,
+        /// To the right.
+        "right" Right,
+    }
+}
+
+interface! {
+    /// What can be changed at any time.
+    pub struct Tunable: Parameter, Tunable {
+        /// A ratio.
+        "ratio" ratio: f64 { 0 ..= 1 } = 1.0 / 3.0;
+        /// The sense of turning.
+        "turning" turning: Turning = Turning::Right;
+    }
+}
+
+interface! {
+    /// What cannot.
+    pub struct Fixed: Parameter, Fixed {
+        /// How many.
+        "many" many: i32 { 1 ..= 9 } = 3;
+        /// Whether it is stiff.
+        "stiff" stiff: bool = false;
+    }
+}
+
+interface_tree! {
+    /// All of it.
+    pub struct All {
+        clock: Clock,
+        entry: Entry,
+        exit: Exit,
+        tunable: Tunable,
+        fixed: Fixed,
+    }
+}
+
+static SLOTS: [Slot; slot_count(All::ROWS)] = slot_table(All::ROWS);
+
+/// It does nothing; it is only described.
+#[derive(Clone, Serialize, Deserialize)]
+pub struct Small;
+
+impl Model for Small {
+    const IDENTITY: Identity = Identity {
+        name: "Small",
+        version: "1.2.3",
+        text: "A model for tests.",
+        rows: All::ROWS,
+        slots: &SLOTS,
+        stop_time: 2.5,
+        step_size: 0.01,
+    };
+
+    fn start(slots: &mut [f64]) {
+        All::default().write(&mut Writer::new(slots));
+    }
+
+    fn new(_: &[f64]) -> Result<Self, Refusal> {
+        Ok(Small)
+    }
+
+    fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn step(&mut self, _: &[f64], _: &[f64], _: f64) {}
+
+    fn outputs(&self, _: &mut [f64]) {}
+
+    fn output_derivatives(&self, _: &mut [f64]) {}
+}
