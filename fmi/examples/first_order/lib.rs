@@ -1,0 +1,5 @@
+//! A small model as a shared library: the least that an FMU's library needs, and what the tests load.
+
+pub mod model;
+
+fmi_export::export_fmi2!(super::model::FirstOrder);

@@ -1,0 +1,29 @@
+//! What is said when a call does not do what was asked.
+
+/// How bad it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// A value was not taken; everything is as before the call.
+    Discard,
+    /// The call was wrong; everything is as before it, unless the text says otherwise.
+    Error,
+}
+
+/// Why a call did not do what was asked: what, which variable, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Complaint {
+    pub severity: Severity,
+    pub text: String,
+}
+
+impl Complaint {
+    /// A complaint about a value.
+    pub fn discard(text: impl Into<String>) -> Self {
+        Complaint { severity: Severity::Discard, text: text.into() }
+    }
+
+    /// A complaint about the call.
+    pub fn error(text: impl Into<String>) -> Self {
+        Complaint { severity: Severity::Error, text: text.into() }
+    }
+}

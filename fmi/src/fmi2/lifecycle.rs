@@ -1,0 +1,157 @@
+//! From fmi2Instantiate to fmi2FreeInstance.
+
+use std::ffi::{CStr, CString, c_int};
+use std::ptr::null_mut;
+
+use model_interface::Model;
+
+use super::calling_sequence as function;
+use super::component::{Component, call};
+use super::logger::Logger;
+use super::pointers::{slice, string};
+use super::types::*;
+use crate::{Complaint, Instance, LogCategory, SharedTables, panics};
+
+/// `fmi2Instantiate`; the resources' location and visibility make no difference.
+pub unsafe fn instantiate<M: Model, const N: usize>(
+    tables: &'static SharedTables<N>,
+    instance_name: fmi2String,
+    fmu_type: c_int,
+    guid: fmi2String,
+    callbacks: *const fmi2CallbackFunctions,
+    logging_on: fmi2Boolean,
+) -> fmi2Component {
+    panics::silence();
+    // SAFETY: unless null, the host's struct and strings live during the call.
+    let (name, guid, callbacks) = unsafe { (string(instance_name), string(guid), callbacks.as_ref()) };
+    let Some(callbacks) = callbacks else { return null_mut() };
+    let logger = Logger::new(name.map_or_else(CString::default, CStr::to_owned), callbacks, logging_on.0 != 0);
+    let new = || {
+        let tables = tables.get::<M>();
+        check_request(name, fmu_type, guid, &tables.guid[..])?;
+        Ok(Instance::<M>::new(tables))
+    };
+    match panics::contain(new).and_then(|instance| instance) {
+        Ok(instance) => {
+            logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
+            Box::into_raw(Box::new(Component { instance, logger })).cast()
+        }
+        Err(complaint) => {
+            logger.failure(fmi2Status::fmi2Error, &format!("fmi2Instantiate: {}", complaint.text));
+            null_mut()
+        }
+    }
+}
+
+fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expected: &[u8]) -> Result<(), Complaint> {
+    if name.is_none_or(CStr::is_empty) {
+        return Err(Complaint::error("the instance has no name"));
+    }
+    if fmu_type != CO_SIMULATION {
+        return Err(Complaint::error("only co-simulation is possible"));
+    }
+    if guid.map(CStr::to_bytes) != Some(expected) {
+        let given = guid.map_or("none".into(), CStr::to_string_lossy);
+        let expected = String::from_utf8_lossy(expected);
+        return Err(Complaint::error(format!(
+            "the GUID is {given}, not {expected}: modelDescription.xml and the shared library do not belong together"
+        )));
+    }
+    Ok(())
+}
+
+/// `fmi2FreeInstance`
+pub unsafe fn free_instance<M: Model>(component: fmi2Component) {
+    if component.is_null() {
+        return;
+    }
+    // SAFETY: the host hands back what `instantiate` made.
+    let component = unsafe { Box::from_raw(component.cast::<Component<M>>()) };
+    // A panic now has nobody left to be told to.
+    let _ = panics::contain(|| drop(component));
+}
+
+/// `fmi2SetDebugLogging`: events are logged if it is on for all categories or for theirs.
+pub unsafe fn set_debug_logging<M: Model>(
+    component: fmi2Component,
+    logging_on: fmi2Boolean,
+    count: usize,
+    categories: *const fmi2String,
+) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        let mut events = count == 0;
+        // SAFETY: the host's array and its strings live during the call.
+        for &category in unsafe { slice(categories, count) }? {
+            // SAFETY: as above.
+            let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
+            let category = LogCategory::named(&name)
+                .ok_or_else(|| Complaint::error(format!("'{name}' is no category of modelDescription.xml")))?;
+            events |= matches!(category, LogCategory::Events | LogCategory::All);
+        }
+        component.logger.log_events(events && logging_on.0 != 0);
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::SET_DEBUG_LOGGING, body) }
+}
+
+/// `fmi2SetupExperiment`
+pub unsafe fn setup_experiment<M: Model>(
+    component: fmi2Component,
+    tolerance_defined: fmi2Boolean,
+    tolerance: fmi2Real,
+    start_time: fmi2Real,
+    stop_time_defined: fmi2Boolean,
+    stop_time: fmi2Real,
+) -> fmi2Status {
+    let stop = (stop_time_defined.0 != 0).then_some(stop_time);
+    let tolerance = (tolerance_defined.0 != 0).then_some(tolerance);
+    let body = |component: &mut Component<M>| component.instance.define_experiment(start_time, stop, tolerance);
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::SETUP_EXPERIMENT, body) }
+}
+
+/// `fmi2EnterInitializationMode`
+pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        component
+            .instance
+            .enter_initialization()
+            .map_err(|complaint| Complaint::error(format!("{}: call fmi2SetupExperiment before", complaint.text)))
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::ENTER_INITIALIZATION_MODE, body) }
+}
+
+/// `fmi2ExitInitializationMode`
+pub unsafe fn exit_initialization_mode<M: Model>(component: fmi2Component) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        component.instance.exit_initialization()?;
+        component.logger.event("initialized");
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::EXIT_INITIALIZATION_MODE, body) }
+}
+
+/// `fmi2Terminate`
+pub unsafe fn terminate<M: Model>(component: fmi2Component) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        component.instance.terminate();
+        component.logger.event("terminated");
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::TERMINATE, body) }
+}
+
+/// `fmi2Reset`
+pub unsafe fn reset<M: Model>(component: fmi2Component) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        component.instance.reset();
+        component.logger.event("reset");
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::RESET, body) }
+}

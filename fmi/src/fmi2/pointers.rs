@@ -1,0 +1,82 @@
+//! A host's pointers as slices and strings.
+
+use std::ffi::{CStr, c_char};
+use std::mem::MaybeUninit;
+
+use crate::Complaint;
+
+/// `length` elements from `pointer` on; null will do for none.
+///
+/// # Safety
+/// Unless null, `pointer` leads to `length` elements that nothing else changes during `'a`.
+#[inline]
+pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], Complaint> {
+    if length == 0 {
+        return Ok(&[]);
+    }
+    if !is_array(pointer, length) {
+        return Err(not_an_array(length));
+    }
+    // SAFETY: not null, aligned, not longer than memory can be; for the rest the caller vouches.
+    Ok(unsafe { std::slice::from_raw_parts(pointer, length) })
+}
+
+/// Room for `length` elements from `pointer` on; null will do for none.
+///
+/// # Safety
+/// Unless null, `pointer` leads to room for `length` elements that nothing else uses during `'a`.
+#[inline]
+pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [MaybeUninit<T>], Complaint> {
+    if length == 0 {
+        return Ok(&mut []);
+    }
+    if !is_array(pointer, length) {
+        return Err(not_an_array(length));
+    }
+    // SAFETY: as in `slice`; the elements need not be initialized.
+    Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), length) })
+}
+
+/// The place that `pointer` leads to.
+///
+/// # Safety
+/// Unless null, `pointer` leads to a `T` that nothing else uses during `'a`.
+pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, Complaint> {
+    if !is_array(pointer, 1) {
+        return Err(not_an_array(1));
+    }
+    // SAFETY: not null and aligned; for the rest the caller vouches.
+    Ok(unsafe { &mut *pointer })
+}
+
+/// Writes the answer to where `pointer` leads.
+///
+/// # Safety
+/// Unless null, `pointer` leads to room for a `T` that nothing else uses.
+pub unsafe fn answer<T>(pointer: *mut T, answer: T) -> Result<(), Complaint> {
+    if !is_array(pointer, 1) {
+        return Err(not_an_array(1));
+    }
+    // SAFETY: not null and aligned; for the rest the caller vouches.
+    unsafe { pointer.write(answer) };
+    Ok(())
+}
+
+/// The string at `pointer`; `None` for null.
+///
+/// # Safety
+/// Unless null, `pointer` leads to a string ended by a zero that stays as it is during `'a`.
+pub unsafe fn string<'a>(pointer: *const c_char) -> Option<&'a CStr> {
+    // SAFETY: not null where used; for the rest the caller vouches.
+    (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) })
+}
+
+#[inline]
+fn is_array<T>(pointer: *const T, length: usize) -> bool {
+    !pointer.is_null() && pointer.is_aligned() && length <= isize::MAX as usize / size_of::<T>()
+}
+
+#[cold]
+fn not_an_array(length: usize) -> Complaint {
+    Complaint::error(format!("a pointer to {length} values is null or leads nowhere"))
+}

@@ -1,0 +1,51 @@
+//! The functions with which a host asks how a step went. A step is over when fmi2DoStep returns, so there is little to say.
+
+use std::ffi::c_int;
+
+use model_interface::Model;
+
+use super::calling_sequence::{self as function, Function};
+use super::component::{Component, call};
+use super::pointers::answer;
+use super::types::*;
+use crate::Complaint;
+
+/// `fmi2GetRealStatus`: the time of the last good step is known, and nothing else.
+pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, value: *mut fmi2Real) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        if kind != LAST_SUCCESSFUL_TIME {
+            return Err(not_known(kind));
+        }
+        // SAFETY: the host's room for the answer.
+        unsafe { answer(value, component.instance.time()) }
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::GET_REAL_STATUS, body) }
+}
+
+/// `fmi2GetBooleanStatus`: no run ends by itself.
+pub unsafe fn get_boolean_status<M: Model>(
+    component: fmi2Component,
+    kind: c_int,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    let body = |_: &mut Component<M>| {
+        if kind != TERMINATED {
+            return Err(not_known(kind));
+        }
+        // SAFETY: the host's room for the answer.
+        unsafe { answer(value, fmi2Boolean(0)) }
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::GET_BOOLEAN_STATUS, body) }
+}
+
+/// `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus`: no step is pending.
+pub unsafe fn nothing_pending<M: Model>(component: fmi2Component, function: &Function, kind: c_int) -> fmi2Status {
+    // SAFETY: the host's component.
+    unsafe { call(component, function, |_: &mut Component<M>| Err(not_known(kind))) }
+}
+
+fn not_known(kind: c_int) -> Complaint {
+    Complaint::discard(format!("nothing is known of status kind {kind}: a step is over when fmi2DoStep returns"))
+}

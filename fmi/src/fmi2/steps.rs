@@ -1,0 +1,15 @@
+//! Communication steps.
+
+use model_interface::Model;
+
+use super::calling_sequence as function;
+use super::component::{Component, call};
+use super::types::*;
+
+/// `fmi2DoStep`
+#[inline]
+pub unsafe fn do_step<M: Model>(component: fmi2Component, time: fmi2Real, step: fmi2Real) -> fmi2Status {
+    let body = |component: &mut Component<M>| component.instance.step(time, step);
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::DO_STEP, body) }
+}

@@ -1,0 +1,91 @@
+//! Getting and setting variables.
+
+use model_interface::Model;
+
+use super::calling_sequence::{self as function, Function};
+use super::component::{Component, call};
+use super::pointers::{room, slice};
+use super::types::*;
+use crate::{Complaint, Scalar};
+
+/// `fmi2GetReal`, `fmi2GetInteger`, `fmi2GetBoolean`
+#[inline]
+pub unsafe fn get<M: Model, S: Scalar>(
+    component: fmi2Component,
+    function: &Function,
+    references: *const fmi2ValueReference,
+    count: usize,
+    values: *mut S,
+) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        // SAFETY: the host's arrays have `count` elements.
+        let (references, values) = unsafe { (slice(references, count)?, room(values, count)?) };
+        component.instance.get(references, values)
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, function, body) }
+}
+
+/// `fmi2SetReal`, `fmi2SetInteger`, `fmi2SetBoolean`
+#[inline]
+pub unsafe fn set<M: Model, S: Scalar>(
+    component: fmi2Component,
+    function: &Function,
+    references: *const fmi2ValueReference,
+    count: usize,
+    values: *const S,
+) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        // SAFETY: the host's arrays have `count` elements.
+        let (references, values) = unsafe { (slice(references, count)?, slice(values, count)?) };
+        component.instance.set(references, values)
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, function, body) }
+}
+
+/// `fmi2GetString`, `fmi2SetString`: right for no variables, for there are none of this type.
+pub unsafe fn strings<M: Model>(component: fmi2Component, function: &Function, count: usize) -> fmi2Status {
+    let body = |_: &mut Component<M>| match count {
+        0 => Ok(()),
+        _ => Err(Complaint::error("the model has no variables of type String")),
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, function, body) }
+}
+
+/// `fmi2SetRealInputDerivatives`
+pub unsafe fn set_real_input_derivatives<M: Model>(
+    component: fmi2Component,
+    references: *const fmi2ValueReference,
+    count: usize,
+    orders: *const fmi2Integer,
+    values: *const fmi2Real,
+) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        // SAFETY: the host's arrays have `count` elements.
+        let (references, orders, values) =
+            unsafe { (slice(references, count)?, slice(orders, count)?, slice(values, count)?) };
+        component.instance.set_input_derivatives(references, orders, values)
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::SET_REAL_INPUT_DERIVATIVES, body) }
+}
+
+/// `fmi2GetRealOutputDerivatives`
+pub unsafe fn get_real_output_derivatives<M: Model>(
+    component: fmi2Component,
+    references: *const fmi2ValueReference,
+    count: usize,
+    orders: *const fmi2Integer,
+    values: *mut fmi2Real,
+) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        // SAFETY: the host's arrays have `count` elements.
+        let (references, orders, values) =
+            unsafe { (slice(references, count)?, slice(orders, count)?, room(values, count)?) };
+        component.instance.get_output_derivatives(references, orders, values)
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::GET_REAL_OUTPUT_DERIVATIVES, body) }
+}

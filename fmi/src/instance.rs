@@ -1,0 +1,73 @@
+//! An instance of a model, for any version of FMI. The version's own layer checks in which mode a call is allowed.
+
+use model_interface::Model;
+
+use crate::{Mode, Run, Tables};
+
+/// An instance of a model.
+///
+/// Its methods are in the modules named for what they do: `access` (get and set), `initialization`, `step` and
+/// `serialisation`.
+pub struct Instance<M> {
+    pub(crate) tables: Tables,
+    pub(crate) run: Run<M>,
+    /// Room for the outputs' time derivatives.
+    pub(crate) output_derivatives: Box<[f64]>,
+}
+
+impl<M: Model> Instance<M> {
+    /// A fresh instance of the model to which the tables belong.
+    pub fn new(tables: Tables) -> Self {
+        Instance { tables, run: Run::fresh(tables.start), output_derivatives: vec![0.0; tables.start.len()].into() }
+    }
+
+    /// Where in its life the instance is.
+    #[inline]
+    pub fn mode(&self) -> Mode {
+        self.run.mode
+    }
+
+    /// The present communication point \[s\].
+    pub fn time(&self) -> f64 {
+        self.run.time
+    }
+
+    /// What all instances of the model share.
+    pub fn tables(&self) -> &Tables {
+        &self.tables
+    }
+
+    /// Makes the instance as it was when it was new.
+    pub fn reset(&mut self) {
+        self.run = Run::fresh(self.tables.start);
+    }
+
+    /// Ends the run.
+    pub fn terminate(&mut self) {
+        self.run.mode = Mode::Terminated;
+    }
+
+    /// Marks the instance as unusable until it is reset or a state restored: the model broke off in the middle.
+    pub fn fail(&mut self) {
+        self.run.mode = Mode::Error;
+        self.run.untried = false;
+    }
+
+    /// Everything that distinguishes the instance from a fresh one.
+    pub fn run(&self) -> &Run<M> {
+        &self.run
+    }
+
+    /// Makes the instance as it was when `run` was taken from it or from another instance of the model.
+    pub fn restore(&mut self, run: &Run<M>) {
+        self.run.clone_from(run);
+    }
+
+    /// Moves to the time `time` \[s\], which the independent variable shows.
+    pub(crate) fn set_time(&mut self, time: f64) {
+        self.run.time = time;
+        if let Some(slot) = self.tables.time_slot {
+            self.run.values[slot] = time;
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Exports a model as the C functions of FMI.
+//!
+//! [`export_fmi2!`] makes a shared library's functions from a [`Model`](model_interface::Model): a `cdylib` needs no more
+//! than that line. What every version of FMI needs is in this crate's root, without a C type in it: an
+//! [`Instance`] with its values, its modes and its state. What FMI 2.0 needs on top of it is in [`fmi2`].
+//!
+//! Nothing here writes to standard output or standard error, reads the environment, or starts a thread.
+
+mod access;
+mod complaint;
+pub mod fmi2;
+mod initialization;
+mod instance;
+mod log_categories;
+mod mode;
+mod panics;
+mod run;
+mod serialisation;
+mod step;
+mod tables;
+mod variable_check;
+
+pub use complaint::{Complaint, Severity};
+pub use instance::Instance;
+pub use log_categories::{LOG_CATEGORIES, LogCategory};
+pub use mode::{Mode, Modes};
+pub use run::Run;
+pub use tables::{Guid, SharedTables, Tables, slot_count};
+pub use variable_check::{Role, Scalar, ValueType, VariableCheck};

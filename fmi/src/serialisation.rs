@@ -1,0 +1,72 @@
+//! A run as bytes that another process can restore: no pointers in them, and nothing in them taken on trust.
+
+use model_interface::Model;
+
+use crate::{Complaint, Guid, Mode, Run, Tables};
+
+/// Marks bytes as a run.
+const MARK: [u8; 8] = *b"FMI-RUN\n";
+/// To be raised whenever [`Run`] changes.
+const FORMAT: u32 = 1;
+
+impl<M: Model> Run<M> {
+    /// The run as bytes: mark, format, the model's GUID, length and checksum of the rest, and the rest.
+    ///
+    /// # Errors
+    /// The model cannot be written as bytes.
+    pub fn to_bytes(&self, guid: &Guid) -> Result<Vec<u8>, Complaint> {
+        let body = postcard::to_allocvec(self)
+            .map_err(|error| Complaint::error(format!("the state cannot be serialized: {error}")))?;
+        let length = (body.len() as u64).to_le_bytes();
+        let checksum = checksum(&body).to_le_bytes();
+        let parts: [&[u8]; 6] = [&MARK, &FORMAT.to_le_bytes(), guid, &length, &checksum, &body];
+        Ok(parts.concat())
+    }
+
+    /// The run that these bytes are, of the model to which the tables belong.
+    ///
+    /// # Errors
+    /// The bytes are anything but what [`Run::to_bytes`] of this very model gave.
+    pub fn from_bytes(mut bytes: &[u8], tables: &Tables) -> Result<Self, Complaint> {
+        let refuse = |why: &str| Complaint::error(format!("the serialized state is refused: {why}"));
+        let truncated = || refuse("it is truncated");
+        if take(&mut bytes).ok_or_else(truncated)? != MARK {
+            return Err(refuse("it is no state of an instance"));
+        }
+        if u32::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != FORMAT {
+            return Err(refuse("it comes from another version of this FMU"));
+        }
+        if take(&mut bytes).ok_or_else(truncated)? != *tables.guid {
+            return Err(refuse("it comes from another model, or another version of this one"));
+        }
+        if u64::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != bytes.len().saturating_sub(8) as u64 {
+            return Err(refuse("its length is wrong"));
+        }
+        if u64::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != checksum(bytes) {
+            return Err(refuse("it is damaged"));
+        }
+        match postcard::take_from_bytes::<Self>(bytes) {
+            Ok((run, [])) if run.is_coherent(tables) => Ok(run),
+            _ => Err(refuse("its contents make no sense")),
+        }
+    }
+
+    /// Whether the run can be one of the model to which the tables belong.
+    fn is_coherent(&self, tables: &Tables) -> bool {
+        let initialized = matches!(self.mode, Mode::StepComplete | Mode::Terminated);
+        let slots = tables.start.len();
+        self.values.len() == slots && self.derivatives.len() == slots && (self.model.is_some() || !initialized)
+    }
+}
+
+/// The first `N` bytes, which are then gone from `bytes`.
+fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
+    let (first, rest) = bytes.split_first_chunk()?;
+    *bytes = rest;
+    Some(*first)
+}
+
+/// FNV-1a in 64 bits. Each byte's step is one-to-one, so that no change of a single byte goes unnoticed.
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}

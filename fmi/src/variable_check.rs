@@ -1,0 +1,128 @@
+//! What may be done with each variable, worked out when the library is compiled, so that get and set are a tight loop.
+
+use model_interface::{Causality, Identity, Kind, Row, Variability};
+
+use crate::{Mode, Modes};
+
+/// The type by which a host gets and sets a variable. An enumeration goes by Integer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ValueType {
+    Real,
+    Integer,
+    Boolean,
+}
+
+/// A value as the host has it.
+pub trait Scalar: Copy {
+    /// The type that the host names it by.
+    const TYPE: ValueType;
+    /// The value as a slot holds it.
+    fn to_slot(self) -> f64;
+    /// The value that a slot holds.
+    fn from_slot(slot: f64) -> Self;
+}
+
+impl Scalar for f64 {
+    const TYPE: ValueType = ValueType::Real;
+    #[inline]
+    fn to_slot(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn from_slot(slot: f64) -> Self {
+        slot
+    }
+}
+
+impl Scalar for i32 {
+    const TYPE: ValueType = ValueType::Integer;
+    #[inline]
+    fn to_slot(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline]
+    fn from_slot(slot: f64) -> Self {
+        slot as i32
+    }
+}
+
+/// What a variable is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    Time,
+    /// An input; a continuous one can be given time derivatives.
+    Input {
+        continuous: bool,
+    },
+    Output {
+        continuous: bool,
+    },
+    Parameter,
+}
+
+/// What may be done with one variable.
+#[derive(Clone, Copy, Debug)]
+pub struct VariableCheck {
+    pub value_type: ValueType,
+    pub role: Role,
+    /// The modes in which it can be set.
+    pub settable: Modes,
+    /// The smallest and the largest value; NaN and the infinities are never between them.
+    lower: f64,
+    upper: f64,
+}
+
+impl VariableCheck {
+    /// The check of a row's variables.
+    pub const fn of(row: &Row) -> Self {
+        let (value_type, (lower, upper)) = match row.kind {
+            Kind::Real(_) => (ValueType::Real, (f64::MIN, f64::MAX)),
+            Kind::Integer => (ValueType::Integer, (i32::MIN as f64, i32::MAX as f64)),
+            Kind::Boolean => (ValueType::Boolean, (0.0, 1.0)),
+            Kind::Enumeration(enumeration) => (ValueType::Integer, (1.0, enumeration.items.len() as f64)),
+        };
+        let (lower, upper) = match row.range {
+            Some(range) => range,
+            None => (lower, upper),
+        };
+        VariableCheck { value_type, role: role(row), settable: settable(row), lower, upper }
+    }
+
+    /// Whether `value` is finite and inside the variable's range.
+    #[inline]
+    pub fn accepts(&self, value: f64) -> bool {
+        value >= self.lower && value <= self.upper
+    }
+}
+
+const fn role(row: &Row) -> Role {
+    let continuous = matches!(row.variability, Variability::Continuous) && matches!(row.kind, Kind::Real(_));
+    match row.causality {
+        Causality::Independent => Role::Time,
+        Causality::Input => Role::Input { continuous },
+        Causality::Output => Role::Output { continuous },
+        Causality::Parameter => Role::Parameter,
+    }
+}
+
+/// The modes in which the row's variables can be set. Inputs can be set before initialization too, as tools do.
+const fn settable(row: &Row) -> Modes {
+    match (row.causality, row.variability) {
+        (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => {
+            Modes::of(&[Mode::Instantiated, Mode::Initialization, Mode::StepComplete])
+        }
+        (Causality::Parameter, _) => Modes::of(&[Mode::Instantiated, Mode::Initialization]),
+        (Causality::Independent | Causality::Output, _) => Modes::NONE,
+    }
+}
+
+/// The check of every slot. `N` is the number of slots.
+pub(crate) const fn variable_checks<const N: usize>(identity: &Identity) -> [VariableCheck; N] {
+    let mut checks = [VariableCheck::of(&identity.rows[0]); N];
+    let mut slot = 0;
+    while slot < N {
+        checks[slot] = VariableCheck::of(&identity.rows[identity.slots[slot].row as usize]);
+        slot += 1;
+    }
+    checks
+}

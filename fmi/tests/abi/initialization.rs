@@ -1,0 +1,87 @@
+//! From the start values to the first step.
+
+use fmu_host::{Instance, Status};
+
+use crate::fixture::*;
+
+#[test]
+fn an_experiment_that_cannot_be_is_refused() {
+    let mut instance = instantiated();
+    let (nan, inf) = (f64::NAN, f64::INFINITY);
+    let cases = [(nan, None), (inf, None), (-inf, None), (0.0, Some(nan)), (0.0, Some(inf)), (1.0, Some(0.5))];
+    for (start, stop) in cases {
+        let status = instance.setup_experiment(start, stop);
+        assert_complaint(&instance, status, Status::Error, &["fmi2SetupExperiment", "time"]);
+    }
+    let (c, api) = (instance.component(), instance.api());
+    for tolerance in [0.0, -1e-6, nan, inf] {
+        // SAFETY: the component is alive.
+        let status = unsafe { (api.setup_experiment)(c, 1, tolerance, 0.0, 0, nan) };
+        assert_complaint(&instance, status.into(), Status::Error, &["tolerance"]);
+    }
+    // SAFETY: the component is alive. What is not defined does not matter.
+    assert_eq!(unsafe { (api.setup_experiment)(c, 0, nan, 0.0, 0, nan) }, 0);
+    // SAFETY: the component is alive.
+    assert_eq!(unsafe { (api.setup_experiment)(c, 1, 1e-6, 2.0, 1, 2.0) }, 0);
+    assert_eq!(instance.enter_initialization_mode(), Status::Ok);
+    assert_eq!(instance.get("time").unwrap(), 2.0);
+}
+
+#[test]
+fn outputs_during_initialization_are_those_after_it() {
+    let mut instance = initializing();
+    assert_eq!(instance.get("y").unwrap(), 0.0);
+    instance.set("y0", 3.0).unwrap();
+    assert_eq!(instance.get("y").unwrap(), 3.0);
+    instance.set("y0", 4.0).unwrap();
+    assert_eq!(instance.get("y").unwrap(), 4.0);
+    assert_eq!(instance.exit_initialization_mode(), Status::Ok);
+    assert_eq!(instance.get("y").unwrap(), 4.0);
+}
+
+#[test]
+fn values_set_before_initialization_count() {
+    let mut instance = instantiated();
+    for (name, value) in [("y0", 3.0), ("u", 2.0), ("gain", 5.0)] {
+        instance.set(name, value).unwrap();
+    }
+    instance.initialize(&[], None).unwrap();
+    assert_eq!(["y", "u", "gain"].map(|name| instance.get(name).unwrap()), [3.0, 2.0, 5.0]);
+}
+
+#[test]
+fn a_refused_parameter_can_be_set_again() {
+    let mut instance = initializing();
+    instance.set("y0", 3.0).unwrap();
+    assert_eq!(instance.get("y").unwrap(), 3.0);
+    instance.set("tau", 0.0).unwrap();
+    instance.set("y0", 5.0).unwrap();
+    assert_eq!(instance.get("y").unwrap(), 3.0, "outputs stay while a parameter is refused");
+    for _ in 0..2 {
+        let status = instance.exit_initialization_mode();
+        let parts = ["fmi2ExitInitializationMode", "tau: must be positive", "try again"];
+        assert_complaint(&instance, status, Status::Error, &parts);
+    }
+    instance.set("tau", 1.0).unwrap();
+    assert_eq!(instance.exit_initialization_mode(), Status::Ok);
+    assert_eq!(instance.get("y").unwrap(), 5.0);
+}
+
+/// All that can be got, after a run of a few steps.
+fn run(instance: &mut Instance) -> Vec<f64> {
+    instance.initialize(&[("tau", 0.3)], Some(1.0)).unwrap();
+    instance.set("u", 1.0).unwrap();
+    (0..3).for_each(|step| instance.step(f64::from(step) * 0.1, 0.1).unwrap());
+    (0..IDENTITY.slots.len()).map(|slot| instance.get(&IDENTITY.variable_name(slot)).unwrap()).collect()
+}
+
+#[test]
+fn reset_makes_an_instance_as_new() {
+    let mut instance = instantiated();
+    let fresh = bytes(&mut instance);
+    let first = run(&mut instance);
+    assert_ne!(bytes(&mut instance), fresh);
+    assert_eq!(instance.reset(), Status::Ok);
+    assert_eq!(bytes(&mut instance), fresh);
+    assert_eq!(run(&mut instance), first);
+}

@@ -1,0 +1,45 @@
+//! An FMU's files.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use tempfile::TempDir;
+use zip::ZipArchive;
+
+use crate::HostError;
+
+/// Unpacks an FMU into a new temporary directory.
+pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
+    let file_error = |source| HostError::File { path: path.into(), source };
+    let archive_error = |source| HostError::Archive { path: path.into(), source };
+    let file = File::open(path).map_err(file_error)?;
+    let directory = TempDir::with_prefix("fmu-").map_err(file_error)?;
+    ZipArchive::new(file).and_then(|mut archive| archive.extract(&directory)).map_err(archive_error)?;
+    Ok(directory)
+}
+
+/// The text of a file.
+pub(crate) fn read(path: &Path) -> Result<String, HostError> {
+    fs::read_to_string(path).map_err(|source| HostError::File { path: path.into(), source })
+}
+
+/// Where the shared library for this platform lies in an unpacked FMU.
+pub(crate) fn library_path(directory: &Path, model_identifier: &str) -> Result<PathBuf, HostError> {
+    let platform = platform();
+    let file = format!("{model_identifier}{}", std::env::consts::DLL_SUFFIX);
+    let path = directory.join("binaries").join(&platform).join(file);
+    if path.is_file() { Ok(path) } else { Err(HostError::NoBinary(platform)) }
+}
+
+/// The name of this platform's directory of binaries.
+fn platform() -> String {
+    let (system, bits) = match std::env::consts::OS {
+        "windows" => ("win", usize::BITS),
+        "macos" => ("darwin", usize::BITS),
+        system => (system, usize::BITS),
+    };
+    match std::env::consts::ARCH {
+        "x86" | "x86_64" => format!("{system}{bits}"),
+        architecture => format!("{architecture}-{system}"),
+    }
+}

@@ -1,0 +1,122 @@
+//! What a host needs of modelDescription.xml.
+
+use std::collections::HashMap;
+
+use quick_xml::Reader;
+use quick_xml::events::{BytesStart, Event};
+
+use crate::HostError;
+
+/// What a variable's values are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableKind {
+    Real,
+    Integer,
+    Boolean,
+    /// Got and set as an integer.
+    Enumeration,
+    String,
+}
+
+/// A variable of an FMU.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variable {
+    /// The number by which the FMU knows it.
+    pub value_reference: u32,
+    pub kind: VariableKind,
+}
+
+/// What a host needs of modelDescription.xml.
+#[derive(Debug, Default)]
+pub(crate) struct Description {
+    pub guid: String,
+    pub model_identifier: String,
+    pub variables: HashMap<String, Variable>,
+}
+
+impl Description {
+    /// Reads the file's contents.
+    pub fn parse(xml: &str) -> Result<Self, HostError> {
+        let mut description = Description::default();
+        let mut reader = Reader::from_str(xml);
+        // The variable whose type is the next element.
+        let mut variable = None;
+        loop {
+            let event = reader.read_event().map_err(|error| HostError::Description(error.to_string()))?;
+            let (Event::Start(element) | Event::Empty(element)) = event else {
+                if event == Event::Eof { break } else { continue }
+            };
+            match element.name().as_ref() {
+                b"fmiModelDescription" => description.guid = attribute(&element, "guid")?,
+                b"CoSimulation" => description.model_identifier = attribute(&element, "modelIdentifier")?,
+                b"ScalarVariable" => variable = Some((attribute(&element, "name")?, value_reference(&element)?)),
+                name => {
+                    let Some(kind) = kind(name) else { continue };
+                    let Some((name, value_reference)) = variable.take() else { continue };
+                    description.variables.insert(name, Variable { value_reference, kind });
+                }
+            }
+        }
+        if description.model_identifier.is_empty() {
+            return Err(HostError::Description("it is not for co-simulation".into()));
+        }
+        Ok(description)
+    }
+}
+
+fn kind(element_name: &[u8]) -> Option<VariableKind> {
+    match element_name {
+        b"Real" => Some(VariableKind::Real),
+        b"Integer" => Some(VariableKind::Integer),
+        b"Boolean" => Some(VariableKind::Boolean),
+        b"Enumeration" => Some(VariableKind::Enumeration),
+        b"String" => Some(VariableKind::String),
+        _ => None,
+    }
+}
+
+fn value_reference(element: &BytesStart) -> Result<u32, HostError> {
+    let text = attribute(element, "valueReference")?;
+    text.parse().map_err(|error| HostError::Description(format!("value reference '{text}': {error}")))
+}
+
+fn attribute(element: &BytesStart, name: &str) -> Result<String, HostError> {
+    let describe = |error: &dyn std::fmt::Display| HostError::Description(error.to_string());
+    let found = element.try_get_attribute(name).map_err(|error| describe(&error))?;
+    let found = found.ok_or_else(|| describe(&format!("an element has no attribute '{name}'")))?;
+    Ok(found.unescape_value().map_err(|error| describe(&error))?.into_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_what_a_host_needs() {
+        let xml = r#"<?xml version="1.0" encoding="UTF-8"?>
+            <fmiModelDescription fmiVersion="2.0" modelName="A &amp; B" guid="{1}">
+              <CoSimulation modelIdentifier="AB"/>
+              <TypeDefinitions><SimpleType name="T"><Enumeration><Item name="a" value="1"/></Enumeration></SimpleType></TypeDefinitions>
+              <ModelVariables>
+                <ScalarVariable name="leg[1].&lt;x&gt;" valueReference="7" causality="output"><Real unit="m"/></ScalarVariable>
+                <ScalarVariable name="choice" valueReference="8"><Enumeration declaredType="T" start="1"/></ScalarVariable>
+              </ModelVariables>
+            </fmiModelDescription>"#;
+        let description = Description::parse(xml).unwrap();
+        assert_eq!((description.guid.as_str(), description.model_identifier.as_str()), ("{1}", "AB"));
+        assert_eq!(description.variables.len(), 2);
+        let leg = Variable { value_reference: 7, kind: VariableKind::Real };
+        assert_eq!(description.variables["leg[1].<x>"], leg);
+        let choice = Variable { value_reference: 8, kind: VariableKind::Enumeration };
+        assert_eq!(description.variables["choice"], choice);
+    }
+
+    #[test]
+    fn refuses_what_is_no_co_simulation_fmu() {
+        let model_exchange =
+            r#"<fmiModelDescription guid="1"><ModelExchange modelIdentifier="A"/></fmiModelDescription>"#;
+        for xml in [model_exchange, "", "<fmiModelDescription/>", "<fmiModelDescription guid='1'><a></b>"] {
+            assert!(matches!(Description::parse(xml), Err(HostError::Description(_))), "{xml}");
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! What can go wrong when an FMU is used.
+
+use std::path::PathBuf;
+
+use crate::api::Status;
+
+/// Why an FMU could not be used.
+#[derive(Debug, thiserror::Error)]
+pub enum HostError {
+    #[error("{path}: {source}", path = path.display())]
+    File { path: PathBuf, source: std::io::Error },
+    #[error("{path} is no FMU: {source}", path = path.display())]
+    Archive { path: PathBuf, source: zip::result::ZipError },
+    #[error("modelDescription.xml: {0}")]
+    Description(String),
+    #[error("the FMU has no shared library for this platform, {0}")]
+    NoBinary(String),
+    #[error("{path}: {source}", path = path.display())]
+    Library { path: PathBuf, source: libloading::Error },
+    #[error("the FMU cannot be instantiated: {0}")]
+    Instantiate(String),
+    #[error("the FMU has no variable '{0}' that can be got and set as a number")]
+    NoSuchVariable(String),
+    /// A call that did not end with [`Status::Ok`], and what the FMU said about it.
+    #[error("{function} returned {status:?}: {messages}")]
+    Call { function: &'static str, status: Status, messages: String },
+}

@@ -1,0 +1,251 @@
+//! An instance of an FMU.
+
+use std::ffi::{CString, c_int};
+use std::sync::{Arc, PoisonError};
+
+use crate::api::{Api, CO_SIMULATION, Callbacks, Component};
+use crate::fmu::Loaded;
+use crate::messages::{Messages, log};
+use crate::{Fmu, HostError, Message, Status, VariableKind};
+
+/// An instance of an FMU, freed when it is dropped.
+pub struct Instance {
+    pub(crate) component: Component,
+    /// What the FMU said; in a box, for the FMU keeps its address.
+    messages: Box<Messages>,
+    loaded: Arc<Loaded>,
+}
+
+// SAFETY: the standard has an instance used by any thread, one at a time; `&mut` sees to that.
+unsafe impl Send for Instance {}
+
+impl Instance {
+    pub(crate) fn new(fmu: &Fmu, name: &str) -> Result<Self, HostError> {
+        let loaded = fmu.loaded.clone();
+        let messages = Box::new(Messages::default());
+        let environment = (&raw const *messages).cast_mut().cast();
+        let callbacks =
+            Callbacks { logger: Some(log), allocate_memory: None, free_memory: None, step_finished: None, environment };
+        let name = CString::new(name).map_err(|error| HostError::Instantiate(error.to_string()))?;
+        let resources = loaded.resources.as_ref().map_or(std::ptr::null(), |resources| resources.as_ptr());
+        // SAFETY: strings and callbacks live during the call, the environment longer than the instance.
+        let component = unsafe {
+            (loaded.api.instantiate)(name.as_ptr(), CO_SIMULATION, loaded.guid.as_ptr(), resources, &callbacks, 0, 1)
+        };
+        let instance = Instance { component, messages, loaded };
+        if component.is_null() {
+            return Err(HostError::Instantiate(instance.last_messages()));
+        }
+        Ok(instance)
+    }
+
+    /// From the start values to the first step, at time 0: sets parameters by name on the way.
+    ///
+    /// # Errors
+    /// The FMU refuses something, or there is no such variable.
+    pub fn initialize(&mut self, parameters: &[(&str, f64)], stop_time: Option<f64>) -> Result<(), HostError> {
+        let status = self.setup_experiment(0.0, stop_time);
+        self.expect_ok("fmi2SetupExperiment", status)?;
+        let status = self.enter_initialization_mode();
+        self.expect_ok("fmi2EnterInitializationMode", status)?;
+        for &(name, value) in parameters {
+            self.set(name, value)?;
+        }
+        let status = self.exit_initialization_mode();
+        self.expect_ok("fmi2ExitInitializationMode", status)
+    }
+
+    /// `fmi2SetupExperiment`, without a tolerance. Times in s.
+    pub fn setup_experiment(&mut self, start_time: f64, stop_time: Option<f64>) -> Status {
+        let (defined, stop_time) = (c_int::from(stop_time.is_some()), stop_time.unwrap_or(0.0));
+        // SAFETY: the FMU's instance.
+        unsafe { (self.api().setup_experiment)(self.component, 0, 0.0, start_time, defined, stop_time) }.into()
+    }
+
+    /// `fmi2EnterInitializationMode`
+    pub fn enter_initialization_mode(&mut self) -> Status {
+        // SAFETY: the FMU's instance.
+        unsafe { (self.api().enter_initialization_mode)(self.component) }.into()
+    }
+
+    /// `fmi2ExitInitializationMode`
+    pub fn exit_initialization_mode(&mut self) -> Status {
+        // SAFETY: the FMU's instance.
+        unsafe { (self.api().exit_initialization_mode)(self.component) }.into()
+    }
+
+    /// Sets a variable by name. Of a Boolean, everything but 0 is true; integers and enumerations are rounded.
+    ///
+    /// # Errors
+    /// The FMU refuses the value, or there is no such variable.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
+        let (reference, kind) = self.find(name)?;
+        let reference = [reference];
+        let (function, status) = match kind {
+            VariableKind::Real => ("fmi2SetReal", self.set_real(&reference, &[value])),
+            VariableKind::Boolean => ("fmi2SetBoolean", self.set_boolean(&reference, &[c_int::from(value != 0.0)])),
+            _ => ("fmi2SetInteger", self.set_integer(&reference, &[value.round() as c_int])),
+        };
+        self.expect_ok(function, status)
+    }
+
+    /// Gets a variable by name; of a Boolean, 0 or 1.
+    ///
+    /// # Errors
+    /// The FMU refuses, or there is no such variable.
+    pub fn get(&mut self, name: &str) -> Result<f64, HostError> {
+        let (reference, kind) = self.find(name)?;
+        let reference = [reference];
+        let (mut real, mut integer) = ([0.0], [0]);
+        let (function, status) = match kind {
+            VariableKind::Real => ("fmi2GetReal", self.get_real(&reference, &mut real)),
+            VariableKind::Boolean => ("fmi2GetBoolean", self.get_boolean(&reference, &mut integer)),
+            _ => ("fmi2GetInteger", self.get_integer(&reference, &mut integer)),
+        };
+        self.expect_ok(function, status)?;
+        Ok(if kind == VariableKind::Real { real[0] } else { f64::from(integer[0]) })
+    }
+
+    fn find(&self, name: &str) -> Result<(u32, VariableKind), HostError> {
+        match self.loaded.variables.get(name) {
+            Some(variable) if variable.kind != VariableKind::String => Ok((variable.value_reference, variable.kind)),
+            _ => Err(HostError::NoSuchVariable(name.into())),
+        }
+    }
+
+    /// `fmi2SetReal`; as many values as references.
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        // SAFETY: the FMU's instance, and arrays of the length given; here as below.
+        unsafe { (self.api().set_real)(self.component, references.as_ptr(), references.len(), values.as_ptr()) }.into()
+    }
+
+    /// `fmi2GetReal`; as many values as references.
+    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let (pointer, count) = (references.as_ptr(), references.len());
+        // SAFETY: see `set_real`.
+        unsafe { (self.api().get_real)(self.component, pointer, count, values.as_mut_ptr()) }.into()
+    }
+
+    /// `fmi2SetInteger`; as many values as references.
+    pub fn set_integer(&mut self, references: &[u32], values: &[c_int]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let (pointer, count) = (references.as_ptr(), references.len());
+        // SAFETY: see `set_real`.
+        unsafe { (self.api().set_integer)(self.component, pointer, count, values.as_ptr()) }.into()
+    }
+
+    /// `fmi2GetInteger`; as many values as references.
+    pub fn get_integer(&mut self, references: &[u32], values: &mut [c_int]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let (pointer, count) = (references.as_ptr(), references.len());
+        // SAFETY: see `set_real`.
+        unsafe { (self.api().get_integer)(self.component, pointer, count, values.as_mut_ptr()) }.into()
+    }
+
+    /// `fmi2SetBoolean`; as many values as references.
+    pub fn set_boolean(&mut self, references: &[u32], values: &[c_int]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let (pointer, count) = (references.as_ptr(), references.len());
+        // SAFETY: see `set_real`.
+        unsafe { (self.api().set_boolean)(self.component, pointer, count, values.as_ptr()) }.into()
+    }
+
+    /// `fmi2GetBoolean`; as many values as references.
+    pub fn get_boolean(&mut self, references: &[u32], values: &mut [c_int]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let (pointer, count) = (references.as_ptr(), references.len());
+        // SAFETY: see `set_real`.
+        unsafe { (self.api().get_boolean)(self.component, pointer, count, values.as_mut_ptr()) }.into()
+    }
+
+    /// `fmi2SetRealInputDerivatives`, of first order; as many values as references.
+    pub fn set_real_input_derivatives(&mut self, references: &[u32], values: &[f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let orders = vec![1; references.len()];
+        let (pointer, count) = (references.as_ptr(), references.len());
+        let function = self.api().set_real_input_derivatives;
+        // SAFETY: see `set_real`.
+        unsafe { function(self.component, pointer, count, orders.as_ptr(), values.as_ptr()) }.into()
+    }
+
+    /// `fmi2GetRealOutputDerivatives`, of first order; as many values as references.
+    pub fn get_real_output_derivatives(&mut self, references: &[u32], values: &mut [f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let orders = vec![1; references.len()];
+        let (pointer, count) = (references.as_ptr(), references.len());
+        let function = self.api().get_real_output_derivatives;
+        // SAFETY: see `set_real`.
+        unsafe { function(self.component, pointer, count, orders.as_ptr(), values.as_mut_ptr()) }.into()
+    }
+
+    /// `fmi2DoStep`, from `time` by `step` \[s\].
+    pub fn do_step(&mut self, time: f64, step: f64) -> Status {
+        // SAFETY: the FMU's instance.
+        unsafe { (self.api().do_step)(self.component, time, step, 1) }.into()
+    }
+
+    /// A step from `time` by `step` \[s\] that has to succeed.
+    ///
+    /// # Errors
+    /// The FMU does not make the step.
+    pub fn step(&mut self, time: f64, step: f64) -> Result<(), HostError> {
+        let status = self.do_step(time, step);
+        self.expect_ok("fmi2DoStep", status)
+    }
+
+    /// `fmi2Terminate`
+    pub fn terminate(&mut self) -> Status {
+        // SAFETY: the FMU's instance.
+        unsafe { (self.api().terminate)(self.component) }.into()
+    }
+
+    /// `fmi2Reset`
+    pub fn reset(&mut self) -> Status {
+        // SAFETY: the FMU's instance.
+        unsafe { (self.api().reset)(self.component) }.into()
+    }
+
+    /// What the FMU has said so far.
+    pub fn messages(&self) -> Vec<Message> {
+        self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// What the FMU has said since the last time that this was called, which is then forgotten.
+    pub fn take_messages(&mut self) -> Vec<Message> {
+        std::mem::take(&mut self.messages.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The FMU's functions, for callers that want to do wrong.
+    #[inline]
+    pub fn api(&self) -> &Api {
+        &self.loaded.api
+    }
+
+    /// The FMU's own pointer to the instance, to use with [`Instance::api`].
+    pub fn component(&self) -> Component {
+        self.component
+    }
+
+    pub(crate) fn expect_ok(&self, function: &'static str, status: Status) -> Result<(), HostError> {
+        if status == Status::Ok {
+            return Ok(());
+        }
+        Err(HostError::Call { function, status, messages: self.last_messages() })
+    }
+
+    /// The last things that the FMU said.
+    fn last_messages(&self) -> String {
+        let messages = self.messages();
+        let last: Vec<_> = messages.iter().rev().take(3).rev().map(|message| message.text.as_str()).collect();
+        last.join("; ")
+    }
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        // SAFETY: the FMU's instance, which nobody uses from here on.
+        unsafe { (self.loaded.api.free_instance)(self.component) }
+    }
+}

@@ -1,0 +1,33 @@
+//! A host for FMUs of FMI 2.0 for co-simulation: opens them, sets and gets variables, steps them, as a simulation tool
+//! does, and knows nothing of how they are made.
+//!
+//! ```no_run
+//! # fn main() -> Result<(), fmu_host::HostError> {
+//! let fmu = fmu_host::Fmu::open("MorisWashout.fmu".as_ref())?;
+//! let mut washout = fmu.instantiate("washout")?;
+//! washout.initialize(&[("tilt.angleLimit", 0.3)], None)?;
+//! washout.set("vehicle.speed", 20.0)?;
+//! for step in 0..1000 {
+//!     washout.step(f64::from(step) * 1e-3, 1e-3)?;
+//! }
+//! println!("{}", washout.get("actuator[1].length")?);
+//! # Ok(())
+//! # }
+//! ```
+
+pub mod api;
+mod archive;
+mod description;
+mod error;
+mod fmu;
+mod instance;
+mod messages;
+mod state;
+
+pub use api::{Api, Status};
+pub use description::{Variable, VariableKind};
+pub use error::HostError;
+pub use fmu::Fmu;
+pub use instance::Instance;
+pub use messages::Message;
+pub use state::State;

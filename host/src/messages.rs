@@ -1,0 +1,46 @@
+//! What an FMU says.
+
+use std::ffi::{CStr, c_int, c_void};
+use std::sync::Mutex;
+
+use crate::api::{Status, Text};
+
+/// What an FMU said.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// How the call ends in which it was said.
+    pub status: Status,
+    /// One of the model description's log categories.
+    pub category: String,
+    pub text: String,
+    /// The name of the instance that said it, as the FMU gave it back.
+    pub instance_name: String,
+}
+
+/// The messages so far, oldest first. Its address is the environment that [`log`] gets.
+pub(crate) type Messages = Mutex<Vec<Message>>;
+
+/// On these, arguments in the variable part are passed differently from others.
+const ARGUMENT_UNREADABLE: bool = cfg!(all(target_vendor = "apple", target_arch = "aarch64"));
+
+/// The host's function for messages: keeps them.
+pub(crate) unsafe extern "C" fn log(
+    environment: *mut c_void,
+    instance_name: Text,
+    status: c_int,
+    category: Text,
+    message: Text,
+    argument: Text,
+) {
+    // SAFETY: the environment is the address that the host passed, and outlives the instance.
+    let Some(messages) = (unsafe { environment.cast::<Messages>().as_ref() }) else { return };
+    let string = |text: Text| {
+        // SAFETY: the FMU passes strings.
+        if text.is_null() { String::new() } else { unsafe { CStr::from_ptr(text) }.to_string_lossy().into_owned() }
+    };
+    let format = string(message);
+    let text = if format == "%s" && !ARGUMENT_UNREADABLE { string(argument) } else { format };
+    let (category, instance_name) = (string(category), string(instance_name));
+    let message = Message { status: status.into(), category, text, instance_name };
+    messages.lock().unwrap_or_else(std::sync::PoisonError::into_inner).push(message);
+}
