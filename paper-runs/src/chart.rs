@@ -1,0 +1,192 @@
+//! Draws curves over time into an SVG file.
+//!
+//! The canvas is large and so is the writing, because the coordinates of a drawing are whole pixels: shown at half its
+//! size, which is about the width of a page, a picture's curves are smooth.
+
+use std::path::Path;
+
+use anyhow::Result;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use crate::thin::thin;
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+const WIDTH: u32 = 1600;
+const FONT: &str = "sans-serif";
+const FONT_SIZE: i32 = 26;
+const TEXT: RGBColor = RGBColor(40, 40, 40);
+const GRID: RGBColor = RGBColor(222, 222, 222);
+const LIMIT: RGBColor = RGBColor(190, 30, 45);
+
+/// Share of a panel's height that its legend has to itself, above the curves.
+const LEGEND_HEIGHT: f64 = 0.16;
+/// Largest error of a drawn curve, as a share of the panel's height: a fifth of a pixel, about.
+const TOLERANCE: f64 = 0.0005;
+
+/// A diagram of curves over time.
+#[derive(Clone, Debug)]
+pub struct Panel {
+    /// Stands above.
+    pub title: String,
+    /// What the vertical axis says.
+    pub quantity: &'static str,
+    pub curves: Vec<Curve>,
+    /// Values that the curves must not cross, drawn as lines.
+    pub limits: Vec<f64>,
+}
+
+/// One curve of a diagram.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    pub label: String,
+    pub colour: RGBColor,
+    pub stroke: Stroke,
+    /// Time \[s\] and value, in the order of time.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// Wide enough to show on both sides of a fine one on top of it.
+    Broad,
+    Fine,
+    /// Lets another of the same course show through the gaps.
+    Dashed,
+}
+
+impl Stroke {
+    fn width(self) -> u32 {
+        match self {
+            Stroke::Broad => 6,
+            Stroke::Fine | Stroke::Dashed => 3,
+        }
+    }
+}
+
+/// Draws the panels one below the other, each `panel_height` pixels high.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn draw(path: &Path, panels: &[Panel], panel_height: u32) -> Result<()> {
+    let root = SVGBackend::new(path, (WIDTH, panel_height * panels.len() as u32)).into_drawing_area();
+    root.fill(&WHITE)?;
+    for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
+        draw_panel(area, panel)?;
+    }
+    root.present()?;
+    Ok(())
+}
+
+fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
+    let (bottom, top) = vertical_range(panel);
+    let end = panel.curves.iter().filter_map(|curve| curve.points.last()).map(|point| point.0).fold(0.0, f64::max);
+    let mut chart = ChartBuilder::on(area)
+        .caption(&panel.title, (FONT, FONT_SIZE + 4).into_font().color(&TEXT))
+        .margin(14)
+        .margin_right(40)
+        .x_label_area_size(74)
+        .y_label_area_size(116)
+        .build_cartesian_2d(0.0..end, bottom..top)?;
+    chart
+        .configure_mesh()
+        .x_desc("time [s]")
+        .y_desc(panel.quantity)
+        .x_labels(12)
+        .y_labels(7)
+        .x_label_formatter(&|value| tick(*value))
+        .y_label_formatter(&|value| tick(*value))
+        .bold_line_style(GRID)
+        .light_line_style(TRANSPARENT)
+        .axis_style(TEXT)
+        .label_style((FONT, FONT_SIZE - 2).into_font().color(&TEXT))
+        .axis_desc_style((FONT, FONT_SIZE).into_font().color(&TEXT))
+        .draw()?;
+    for &limit in &panel.limits {
+        let line = [(0.0, limit), (end, limit)];
+        chart.draw_series(DashedLineSeries::new(line, 18, 10, LIMIT.stroke_width(3)))?;
+    }
+    for curve in in_drawing_order(&panel.curves) {
+        let points = thin(&curve.points, TOLERANCE * (top - bottom));
+        let style = curve.colour.stroke_width(curve.stroke.width());
+        if curve.stroke == Stroke::Dashed {
+            chart.draw_series(DashedLineSeries::new(points, 16, 16, style))?;
+        } else {
+            chart.draw_series(LineSeries::new(points, style))?;
+        }
+    }
+    draw_legend(&chart.plotting_area().strip_coord_spec(), panel)
+}
+
+/// Dashed curves last, on top of the others.
+fn in_drawing_order(curves: &[Curve]) -> impl Iterator<Item = &Curve> {
+    let is_dashed = |curve: &&Curve| curve.stroke == Stroke::Dashed;
+    curves.iter().filter(move |curve| !is_dashed(curve)).chain(curves.iter().filter(is_dashed))
+}
+
+/// From the lowest value to the highest, with a margin, and room for the legend above.
+fn vertical_range(panel: &Panel) -> (f64, f64) {
+    let values =
+        || panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point.1).chain(panel.limits.clone());
+    let lowest = values().fold(f64::INFINITY, f64::min);
+    let highest = values().fold(f64::NEG_INFINITY, f64::max);
+    let height = (highest - lowest).max(0.1);
+    (lowest - 0.06 * height, highest + (0.06 + 1.12 * LEGEND_HEIGHT / (1.0 - LEGEND_HEIGHT)) * height)
+}
+
+/// The curves' labels in one row at the top of the plotting area.
+fn draw_legend(area: &Area, panel: &Panel) -> Result<()> {
+    const SAMPLE: i32 = 56;
+    const GAP: i32 = 12;
+    const NEXT: i32 = 36;
+    let y = (LEGEND_HEIGHT * f64::from(area.dim_in_pixel().1) / 2.0) as i32;
+    let text = (FONT, FONT_SIZE - 2).into_font().color(&TEXT);
+    let mut x = 24;
+    for (label, colour, stroke) in legend_entries(panel) {
+        let dashes = if stroke == Stroke::Dashed { vec![(0, 16), (20, 36), (40, 56)] } else { vec![(0, SAMPLE)] };
+        for (from, to) in dashes {
+            area.draw(&PathElement::new([(x + from, y), (x + to, y)], colour.stroke_width(stroke.width())))?;
+        }
+        x += SAMPLE + GAP;
+        area.draw(&Text::new(label, (x, y - FONT_SIZE / 2 + 2), text.clone()))?;
+        x += label.chars().count() as i32 * FONT_SIZE * 11 / 20 + NEXT;
+    }
+    Ok(())
+}
+
+fn legend_entries(panel: &Panel) -> Vec<(&str, RGBColor, Stroke)> {
+    let curves = panel.curves.iter().map(|curve| (curve.label.as_str(), curve.colour, curve.stroke));
+    let limits = panel.limits.first().map(|_| ("limits", LIMIT, Stroke::Dashed));
+    curves.chain(limits).collect()
+}
+
+/// A tick's label, without trailing zeros, with a true minus sign.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_short() {
+        assert_eq!(tick(-0.0001), "0");
+        assert_eq!(tick(1.250), "1.25");
+        assert_eq!(tick(-10.0), "−10");
+    }
+
+    #[test]
+    fn the_legend_has_its_share_of_the_height_to_itself() {
+        let curve =
+            Curve { label: "felt".into(), colour: BLACK, stroke: Stroke::Fine, points: vec![(0.0, -1.0), (1.0, 3.0)] };
+        let panel = Panel { title: String::new(), quantity: "", curves: vec![curve], limits: vec![4.0] };
+        let (bottom, top) = vertical_range(&panel);
+        assert!(bottom < -1.0);
+        assert!((top - 4.0) / (top - bottom) > LEGEND_HEIGHT);
+    }
+}

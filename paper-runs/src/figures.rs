@@ -1,0 +1,182 @@
+//! The paper's figures 5 to 9: what the rider feels against what he should, and the legs.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use plotters::style::{BLACK, RGBColor};
+
+use crate::chart::{Curve, Panel, Stroke, draw};
+use crate::manoeuvres::{A, B, C};
+use crate::recording::{Recording, Sample};
+
+/// Colours that the colour-blind tell apart too (Okabe and Ito's).
+const BLUE: RGBColor = RGBColor(0, 114, 178);
+const VERMILION: RGBColor = RGBColor(213, 94, 0);
+const GREEN: RGBColor = RGBColor(0, 158, 115);
+const PURPLE: RGBColor = RGBColor(204, 121, 167);
+const SKY: RGBColor = RGBColor(86, 180, 233);
+const ORANGE: RGBColor = RGBColor(230, 159, 0);
+const GREY: RGBColor = RGBColor(170, 170, 170);
+
+const FORCE: &str = "specific force [m/s²]";
+const RATE: &str = "angular velocity [deg/s]";
+const PANEL_HEIGHT: u32 = 560;
+const README_PANEL_HEIGHT: u32 = 400;
+
+/// Writes `figure-5.svg` to `figure-9.svg` into the directory and returns their paths.
+///
+/// # Errors
+/// A run is missing from the recordings, or a file cannot be written.
+pub fn write_figures(directory: &Path, recordings: &[Recording]) -> Result<Vec<PathBuf>> {
+    let a = runs(recordings, A.name)?;
+    let b = runs(recordings, B.name)?;
+    let c = runs(recordings, C.name)?;
+    let figures = [
+        ("figure-5.svg", vec![force("Figure 5 (a)", &a, 0), force("Figure 5 (b)", &a, 2)]),
+        ("figure-6.svg", vec![rate("Figure 6 (a)", &a, 1), legs("Figure 6 (b)", a[0])]),
+        ("figure-7.svg", vec![force("Figure 7 (a)", &b, 0), force("Figure 7 (b)", &b, 1)]),
+        ("figure-8.svg", vec![force("Figure 8 (a)", &b, 2), rate("Figure 8 (b)", &b, 0)]),
+        ("figure-9.svg", vec![force("Figure 9", &c, 0)]),
+    ];
+    let write = |(name, panels): &(&str, Vec<Panel>)| {
+        let path = directory.join(name);
+        draw(&path, panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))?;
+        Ok(path)
+    };
+    figures.iter().map(write).collect()
+}
+
+/// Writes one compact picture of run a, for the top of a page.
+///
+/// # Errors
+/// Run a is missing from the recordings, or the file cannot be written.
+pub fn write_readme_picture(path: &Path, recordings: &[Recording]) -> Result<()> {
+    let a = runs(recordings, A.name)?;
+    let surge = Panel { title: "Accelerate, then brake: what the rider feels along x".into(), ..force("", &a, 0) };
+    let legs = Panel { title: "What the six legs do for it".into(), ..legs("", a[0]) };
+    draw(path, &[surge, legs], README_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
+}
+
+/// The recordings of one run, at least one.
+fn runs<'a>(recordings: &'a [Recording], run: &str) -> Result<Vec<&'a Recording>> {
+    let runs: Vec<_> = recordings.iter().filter(|recording| recording.run == run).collect();
+    anyhow::ensure!(!runs.is_empty(), "run {run} has not been made");
+    Ok(runs)
+}
+
+fn force(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
+    let quantity = format!("specific force along {}_H", ["x", "y", "z"][axis]);
+    Panel {
+        title: format!("{figure}: {quantity}, run {}", runs[0].run),
+        quantity: FORCE,
+        curves: felt_against_desired(runs, |s| s.desired_force[axis], |s| s.felt_force[axis]),
+        limits: vec![],
+    }
+}
+
+fn rate(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
+    let quantity = format!("ω_{} at the head", ["x", "y", "z"][axis]);
+    Panel {
+        title: format!("{figure}: {quantity}, run {}", runs[0].run),
+        quantity: RATE,
+        curves: felt_against_desired(runs, |s| s.desired_rate[axis].to_degrees(), |s| s.felt_rate[axis].to_degrees()),
+        limits: vec![],
+    }
+}
+
+/// What is desired in a run, and what is felt with each set of parameters.
+fn felt_against_desired(
+    runs: &[&Recording],
+    desired: impl Fn(&Sample) -> f64,
+    felt: impl Fn(&Sample) -> f64,
+) -> Vec<Curve> {
+    let mut curves = vec![curve("desired", GREY, Stroke::Broad, runs[0], desired)];
+    for (run, colour) in runs.iter().zip([BLUE, VERMILION, GREEN]) {
+        let label = if runs.len() == 1 { "felt".into() } else { format!("felt, parameters “{}”", run.parameters) };
+        curves.push(curve(&label, colour, Stroke::Fine, run, &felt));
+    }
+    curves
+}
+
+/// The six legs. In a straight run legs 2, 6 and 5 do as 1, 3 and 4 do, and are dashed on top of them to show it.
+fn legs(figure: &str, run: &Recording) -> Panel {
+    let styles = [
+        (BLUE, Stroke::Broad),
+        (ORANGE, Stroke::Dashed),
+        (GREEN, Stroke::Broad),
+        (SKY, Stroke::Broad),
+        (BLACK, Stroke::Dashed),
+        (PURPLE, Stroke::Dashed),
+    ];
+    let leg = |(i, (colour, stroke))| curve(&format!("leg {}", i + 1), colour, stroke, run, |s| s.legs[i]);
+    Panel {
+        title: format!("{figure}: actuators' lengths, run {}", run.run),
+        quantity: "length [m]",
+        curves: styles.into_iter().enumerate().map(leg).collect(),
+        limits: run.stroke.to_vec(),
+    }
+}
+
+fn curve(
+    label: &str,
+    colour: RGBColor,
+    stroke: Stroke,
+    recording: &Recording,
+    value: impl Fn(&Sample) -> f64,
+) -> Curve {
+    let points = recording.samples.iter().map(|sample| (sample.time, value(sample))).collect();
+    Curve { label: label.into(), colour, stroke, points }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::manoeuvres::Manoeuvre;
+
+    /// A run felt a tenth of a second late.
+    fn recording(run: &Manoeuvre, parameters: &'static str) -> Recording {
+        let sample = |k: u32| {
+            let time = f64::from(k) * 0.01;
+            let (now, before) = (run.motion(time), run.motion(time - 0.1));
+            Sample {
+                time,
+                desired_force: now.specific_force(),
+                desired_rate: now.angular_velocity(),
+                felt_force: before.specific_force(),
+                felt_rate: before.angular_velocity(),
+                legs: [1.3; 6],
+                ..Sample::default()
+            }
+        };
+        let samples = (0..(100.0 * run.duration) as u32).map(sample).collect();
+        Recording { run: run.name, parameters, step: 0.01, stroke: [1.0, 1.6], samples, ..Recording::default() }
+    }
+
+    #[test]
+    fn every_figure_is_drawn_with_its_title_and_legend() {
+        let directory = std::env::temp_dir().join(format!("paper-runs-figures-{}", std::process::id()));
+        std::fs::create_dir_all(&directory).unwrap();
+        let recordings =
+            [recording(&A, "default"), recording(&B, "default"), recording(&B, "wake"), recording(&C, "default")];
+        let paths = write_figures(&directory, &recordings).unwrap();
+        let drawings: Vec<String> = paths.iter().map(|path| std::fs::read_to_string(path).unwrap()).collect();
+        std::fs::remove_dir_all(&directory).unwrap();
+
+        let titles =
+            ["Figure 5 (a): specific", "Figure 6 (b): act", "Figure 7 (b): specific", "Figure 8 (b): ω_x", "Figure 9:"];
+        assert_eq!(drawings.len(), titles.len());
+        for (drawing, title) in drawings.iter().zip(titles) {
+            assert!(drawing.contains(title), "{title}");
+            assert!(drawing.contains("time [s]"));
+            assert!(drawing.len() < 400_000, "{} is {} bytes", title, drawing.len());
+        }
+        assert!(drawings[1].contains("leg 6") && drawings[1].contains("limits"));
+        assert!(drawings[2].contains("felt, parameters “wake”"));
+    }
+
+    #[test]
+    fn a_missing_run_is_an_error_that_names_it() {
+        let error = write_figures(Path::new("."), &[recording(&A, "default")]).unwrap_err();
+        assert_eq!(error.to_string(), "run b has not been made");
+    }
+}

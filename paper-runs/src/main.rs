@@ -1,0 +1,74 @@
+//! `cargo paper-runs`: builds the FMU, steps it through the paper's runs, prints how well it does, draws the figures.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use build_fmu::{model, workspace};
+use clap::Parser;
+use fmu_host::Fmu;
+use paper_runs::figures::{write_figures, write_readme_picture};
+use paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre};
+use paper_runs::parameter_set::{DEFAULT, ParameterSet, WAKE};
+use paper_runs::recording::Recording;
+use paper_runs::simulate::simulate;
+use paper_runs::table::{force_table, platform_table, rate_table};
+
+/// Steps the washout's FMU through the runs of the paper, prints how well the rider is served, and draws its figures 5 to 9.
+#[derive(Parser)]
+#[command(name = "cargo paper-runs", bin_name = "cargo paper-runs")]
+struct Options {
+    /// Directory that the figures are written to [default: target/paper-runs]
+    #[arg(long, value_name = "DIR")]
+    output: Option<PathBuf>,
+
+    /// Communication step in seconds
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.001)]
+    step: f64,
+
+    /// Take target/fmu/MorisWashout.fmu as it is instead of building it
+    #[arg(long)]
+    no_build: bool,
+
+    /// Also write a compact picture of run a to this file
+    #[arg(long, value_name = "FILE")]
+    readme_picture: Option<PathBuf>,
+}
+
+fn main() -> Result<()> {
+    let options = Options::parse();
+    let path = if options.no_build { workspace::default_output().join("MorisWashout.fmu") } else { build_fmu()? };
+    let recordings = make_runs(&path, options.step)?;
+    println!("{}", force_table(&recordings));
+    println!("{}", rate_table(&recordings));
+    println!("{}", platform_table(&recordings));
+
+    let output = options.output.unwrap_or_else(|| workspace::root().join("target/paper-runs"));
+    fs::create_dir_all(&output).with_context(|| format!("cannot make {}", output.display()))?;
+    for path in write_figures(&output, &recordings)? {
+        println!("{}", path.display());
+    }
+    if let Some(path) = &options.readme_picture {
+        write_readme_picture(path, &recordings)?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}
+
+/// Builds the FMU for this machine, as `cargo build-fmu` does, and says so on standard error.
+fn build_fmu() -> Result<PathBuf> {
+    let built = build_fmu::build(&model::WASHOUT, &[], &workspace::default_output(), |line| eprintln!("{line}"))?;
+    eprintln!("{}\n", built.file.display());
+    Ok(built.file)
+}
+
+/// The four runs with the FMU's own parameters, and run b with those made for it.
+fn make_runs(path: &Path, step: f64) -> Result<Vec<Recording>> {
+    let fmu = Fmu::open(path).with_context(|| format!("cannot open {}", path.display()))?;
+    let runs = [(A, DEFAULT), (A_BRISK, DEFAULT), (B, DEFAULT), (B, WAKE), (C, DEFAULT)];
+    let make = |(run, parameters): &(Manoeuvre, ParameterSet)| {
+        simulate(&fmu, run, parameters, step)
+            .with_context(|| format!("run {} with parameters {}", run.name, parameters.name))
+    };
+    runs.iter().map(make).collect()
+}

@@ -1,0 +1,225 @@
+//! The paper's three runs, and a brisk variant of the first, as the motion of the rider's head.
+//!
+//! The paper prints no amplitudes; those here are a choice in the spirit of its figures. Everything is in closed form, so
+//! that nothing recorded is needed and every value can be checked by hand.
+
+use std::f64::consts::TAU;
+
+use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
+
+/// When run c comes to a stop \[s\]. The speed gained is 2.2 m/s2 for 11 s (from the middle of one ramp to that of the next);
+/// braking with 3.5 m/s2 takes as much away, counted from the middle of its own ramp.
+pub const STOP: f64 = 22.0 + 10.5 / 2.0 + 2.2 * 11.0 / 3.5;
+
+/// The motion of the rider's head at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Acceleration along x (forward), y (left) and z (up), axes that do not roll \[m/s2\].
+    pub acceleration: [f64; 3],
+    /// Roll \[rad\], positive to the right.
+    pub roll: f64,
+    /// Time derivative of the roll \[rad/s\].
+    pub roll_rate: f64,
+}
+
+impl Motion {
+    /// What an accelerometer at the head reads \[m/s2\]: acceleration and gravity's reaction, in axes that roll with the head.
+    pub fn specific_force(&self) -> [f64; 3] {
+        let [x, y, z] = self.acceleration;
+        let (sin, cos) = self.roll.sin_cos();
+        [x, cos * y + sin * (z + GRAVITY), cos * (z + GRAVITY) - sin * y]
+    }
+
+    /// Angular velocity \[rad/s\]. With roll alone it is the same in the axes of the body and of the world.
+    pub fn angular_velocity(&self) -> [f64; 3] {
+        [self.roll_rate, 0.0, 0.0]
+    }
+}
+
+/// One run: a name, a duration, and the motion as a function of time.
+#[derive(Clone, Copy, Debug)]
+pub struct Manoeuvre {
+    /// The name in tables and figures.
+    pub name: &'static str,
+    /// What the motorcycle does.
+    pub text: &'static str,
+    /// \[s\]
+    pub duration: f64,
+    motion: fn(f64) -> Motion,
+}
+
+impl Manoeuvre {
+    /// The head's motion at `time` \[s\].
+    pub fn motion(&self, time: f64) -> Motion {
+        (self.motion)(time)
+    }
+}
+
+/// Run a: accelerate, then brake, in a straight line.
+pub const A: Manoeuvre =
+    Manoeuvre { name: "a", text: "accelerate, then brake, straight", duration: 55.0, motion: run_a };
+
+/// Run a with every ramp of 2 s.
+pub const A_BRISK: Manoeuvre =
+    Manoeuvre { name: "a brisk", text: "run a with faster ramps", duration: 55.0, motion: run_a_brisk };
+
+/// Run b: constant speed in the wake of a truck.
+pub const B: Manoeuvre =
+    Manoeuvre { name: "b", text: "constant speed in a truck's wake", duration: 10.0, motion: run_b };
+
+/// Run c: accelerate, then brake to a brusque stop: the deceleration of 3.5 m/s2 ends at once.
+pub const C: Manoeuvre =
+    Manoeuvre { name: "c", text: "accelerate, brake to a brusque stop", duration: 50.0, motion: run_c };
+
+fn run_a(t: f64) -> Motion {
+    let ax = 2.0 * (rise(t, 3.0, 6.0) - rise(t, 15.0, 6.0)) - 2.5 * (rise(t, 24.0, 7.5) - rise(t, 33.6, 7.5));
+    Motion { acceleration: [ax, 0.0, 0.0], ..Motion::default() }
+}
+
+fn run_a_brisk(t: f64) -> Motion {
+    let ax = 2.0 * (rise(t, 3.0, 2.0) - rise(t, 15.0, 2.0)) - 2.5 * (rise(t, 24.0, 2.0) - rise(t, 33.6, 2.0));
+    Motion { acceleration: [ax, 0.0, 0.0], ..Motion::default() }
+}
+
+fn run_b(t: f64) -> Motion {
+    /// Waves as amplitude, frequency \[Hz\], phase \[rad\].
+    const AX: &[Wave] = &[(0.60, 0.35, 0.0), (0.35, 1.1, 0.7), (0.15, 2.0, 1.9)];
+    const AY: &[Wave] = &[(0.80, 0.5, 0.4), (0.40, 1.3, 2.1), (0.20, 2.0, 0.3)];
+    const AZ: &[Wave] = &[(0.30, 1.8, 1.0), (0.15, 3.1, 2.2)];
+    const ROLL_DEGREES: &[Wave] = &[(3.0, 0.5, 2.0), (1.0, 1.3, 0.6)];
+
+    let window = rise(t, 0.5, 1.5) - rise(t, 8.0, 1.5);
+    let window_rate = rise_rate(t, 0.5, 1.5) - rise_rate(t, 8.0, 1.5);
+    let roll = sum(ROLL_DEGREES, t).to_radians();
+    let roll_rate = sum_rate(ROLL_DEGREES, t).to_radians();
+    Motion {
+        acceleration: [window * sum(AX, t), window * sum(AY, t), window * sum(AZ, t)],
+        roll: window * roll,
+        roll_rate: window_rate * roll + window * roll_rate,
+    }
+}
+
+fn run_c(t: f64) -> Motion {
+    let ax = 2.2 * (rise(t, 1.0, 6.6) - rise(t, 12.0, 6.6)) - 3.5 * rise(t, 22.0, 10.5);
+    let ax = if t < STOP { ax } else { 0.0 };
+    Motion { acceleration: [ax, 0.0, 0.0], ..Motion::default() }
+}
+
+/// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].
+fn rise(t: f64, start: f64, duration: f64) -> f64 {
+    let x = ((t - start) / duration).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// The time derivative of [`rise`].
+fn rise_rate(t: f64, start: f64, duration: f64) -> f64 {
+    let x = ((t - start) / duration).clamp(0.0, 1.0);
+    6.0 * x * (1.0 - x) / duration
+}
+
+/// Amplitude, frequency \[Hz\], phase \[rad\].
+type Wave = (f64, f64, f64);
+
+/// The waves' sum.
+fn sum(waves: &[Wave], t: f64) -> f64 {
+    waves.iter().map(|(amplitude, frequency, phase)| amplitude * (TAU * frequency * t + phase).sin()).sum()
+}
+
+/// The time derivative of [`sum`].
+fn sum_rate(waves: &[Wave], t: f64) -> f64 {
+    waves.iter().map(|(amplitude, f, phase)| amplitude * TAU * f * (TAU * f * t + phase).cos()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn assert_near(value: f64, expected: f64, tolerance: f64) {
+        assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+    }
+
+    fn surge(run: Manoeuvre, time: f64) -> f64 {
+        run.motion(time).acceleration[0]
+    }
+
+    #[test]
+    fn run_a_passes_through_values_worked_out_by_hand() {
+        assert_eq!(surge(A, 3.0), 0.0);
+        assert_near(surge(A, 4.5), 2.0 * 0.15625, 1e-15); // A quarter of the rise: 1/16 (3 - 1/2).
+        assert_near(surge(A, 6.0), 1.0, 1e-15);
+        assert_eq!(surge(A, 12.0), 2.0);
+        assert_eq!(surge(A, 22.0), 0.0);
+        assert_near(surge(A, 27.75), -1.25, 1e-15);
+        assert_eq!(surge(A, 32.0), -2.5);
+        assert_near(surge(A, 54.9), 0.0, 1e-15);
+    }
+
+    #[test]
+    fn the_brisk_run_has_the_amplitudes_of_run_a_and_ramps_of_two_seconds() {
+        assert_near(surge(A_BRISK, 4.0), 1.0, 1e-15);
+        assert_eq!(surge(A_BRISK, 5.0), 2.0);
+        assert_eq!(surge(A_BRISK, 17.0), 0.0);
+        assert_eq!(surge(A_BRISK, 26.0), -2.5);
+        assert_near(surge(A_BRISK, 35.6), 0.0, 1e-15);
+    }
+
+    #[test]
+    fn run_b_is_still_at_both_ends_and_is_its_waves_in_the_middle() {
+        for time in [0.0, 0.5, 9.5, 10.0] {
+            assert_eq!(B.motion(time), Motion::default());
+        }
+        // At 4 s the window is 1, and 0.35, 1.1, 0.5 and 1.3 Hz are 1.4, 4.4, 2 and 5.2 turns.
+        let Motion { acceleration: [ax, ay, az], roll, .. } = B.motion(4.0);
+        assert_near(ax, 0.6 * (0.4 * TAU).sin() + 0.35 * (0.4 * TAU + 0.7).sin() + 0.15 * 1.9_f64.sin(), 1e-13);
+        assert_near(ay, 0.8 * 0.4_f64.sin() + 0.4 * (0.2 * TAU + 2.1).sin() + 0.2 * 0.3_f64.sin(), 1e-13);
+        assert_near(az, 0.3 * (0.2 * TAU + 1.0).sin() + 0.15 * (0.4 * TAU + 2.2).sin(), 1e-13);
+        assert_near(roll.to_degrees(), 3.0 * 2.0_f64.sin() + (0.2 * TAU + 0.6).sin(), 1e-12);
+    }
+
+    #[test]
+    fn the_roll_rate_is_the_roll_s_derivative() {
+        for k in 1..1000 {
+            let time = 0.01 * f64::from(k) + 0.0033;
+            let difference = (B.motion(time + 1e-5).roll - B.motion(time - 1e-5).roll) / 2e-5;
+            assert_near(B.motion(time).roll_rate, difference, 1e-8);
+        }
+    }
+
+    #[test]
+    fn run_c_stops_when_its_speed_is_zero() {
+        let step = 1e-4;
+        let before = (0..(STOP / step) as usize).map(|k| surge(C, (k as f64 + 0.5) * step));
+        assert_near(before.sum::<f64>() * step, 0.0, 4e-4); // Half a step at 3.5 m/s2, rounded up.
+        assert_near(STOP, 34.164_285_714, 1e-9);
+        assert_eq!(surge(C, STOP - 1e-9), -3.5);
+        assert_eq!(surge(C, STOP), 0.0);
+    }
+
+    #[test]
+    fn a_head_that_rolls_feels_gravity_from_the_side() {
+        let upright = Motion { acceleration: [1.0, 2.0, 3.0], ..Motion::default() };
+        assert_eq!(upright.specific_force(), [1.0, 2.0, 3.0 + GRAVITY]);
+        // 30 degrees to the right: half of gravity's reaction points to the left.
+        let rolled = Motion { roll: 30_f64.to_radians(), ..Motion::default() };
+        let [x, y, z] = rolled.specific_force();
+        assert_eq!(x, 0.0);
+        assert_near(y, GRAVITY / 2.0, 1e-14);
+        assert_near(z, GRAVITY * 0.75_f64.sqrt(), 1e-14);
+    }
+
+    #[test]
+    fn a_balanced_turn_has_no_lateral_force() {
+        // Leaning to the left (negative roll) into a turn that accelerates to the left.
+        let roll = -0.3_f64;
+        let turn = Motion { acceleration: [0.0, -GRAVITY * roll.tan(), 0.0], roll, ..Motion::default() };
+        assert_near(turn.specific_force()[1], 0.0, 1e-14);
+    }
+
+    #[test]
+    fn the_specific_force_at_rest_is_gravity_s_reaction() {
+        for run in [A, A_BRISK, B, C] {
+            assert_eq!(run.motion(0.0).specific_force(), [0.0, 0.0, GRAVITY]);
+            assert_eq!(run.motion(0.0).angular_velocity(), [0.0; 3]);
+        }
+    }
+}

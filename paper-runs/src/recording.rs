@@ -1,0 +1,59 @@
+//! What one run on the FMU leaves behind.
+
+/// Everything that the tables and figures need of one communication point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// \[s\]
+    pub time: f64,
+    /// Specific force that the vehicle's rider would feel, in head axes \[m/s2\].
+    pub desired_force: [f64; 3],
+    /// Angular velocity that the vehicle's rider would feel \[rad/s\].
+    pub desired_rate: [f64; 3],
+    /// Specific force that the rider on the platform feels, in head axes \[m/s2\].
+    pub felt_force: [f64; 3],
+    /// Angular velocity that the rider on the platform feels, in head axes \[rad/s\].
+    pub felt_rate: [f64; 3],
+    /// The actuators' lengths \[m\].
+    pub legs: [f64; 6],
+    /// Position of the platform in the base frame \[m\].
+    pub position: [f64; 3],
+    /// Rates of tilt coordination's roll and pitch \[rad/s\].
+    pub tilt_rate: [f64; 2],
+    /// What was limited during the step that led here.
+    pub limited: Limited,
+}
+
+/// Which of the FMU's limits were at work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limited {
+    /// Tilt coordination.
+    pub tilt: bool,
+    /// The safety units.
+    pub safety: bool,
+    /// The actuator guard.
+    pub actuator: bool,
+}
+
+/// One run with one set of parameters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// The manoeuvre's name.
+    pub run: &'static str,
+    /// The parameter set's name.
+    pub parameters: &'static str,
+    /// Time from one sample to the next \[s\].
+    pub step: f64,
+    /// Height of the platform in the base frame at neutral \[m\].
+    pub neutral_height: f64,
+    /// Shortest and longest length that an actuator may have \[m\].
+    pub stroke: [f64; 2],
+    /// The samples, the first of them before the first step.
+    pub samples: Vec<Sample>,
+}
+
+impl Recording {
+    /// One quantity at all samples.
+    pub fn series(&self, quantity: impl Fn(&Sample) -> f64) -> Vec<f64> {
+        self.samples.iter().map(quantity).collect()
+    }
+}

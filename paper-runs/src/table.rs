@@ -1,0 +1,196 @@
+//! The tables that the command prints.
+
+use std::fmt;
+
+use crate::measures::{Fidelity, effort, fidelity};
+use crate::recording::Recording;
+
+/// Stands where a number is not defined.
+const UNDEFINED: &str = "–";
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Rows of cells under a header; displayed with aligned columns, the first ones' text to the left and numbers to the right.
+#[derive(Clone, Debug)]
+pub struct Table {
+    title: &'static str,
+    header: Vec<&'static str>,
+    /// Columns of text, before those of numbers.
+    text_columns: usize,
+    rows: Vec<Vec<String>>,
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let widths: Vec<usize> = (0..self.header.len()).map(|column| self.width(column)).collect();
+        writeln!(f, "{}", self.title)?;
+        self.write_row(f, &widths, &self.header)?;
+        let rules: Vec<String> = widths.iter().map(|&width| "─".repeat(width)).collect();
+        self.write_row(f, &widths, &rules)?;
+        self.rows.iter().try_for_each(|row| self.write_row(f, &widths, row))
+    }
+}
+
+impl Table {
+    fn width(&self, column: usize) -> usize {
+        let cells = self.rows.iter().map(|row| row[column].chars().count());
+        cells.fold(self.header[column].chars().count(), usize::max)
+    }
+
+    fn write_row(&self, f: &mut fmt::Formatter, widths: &[usize], cells: &[impl AsRef<str>]) -> fmt::Result {
+        let padded = cells.iter().zip(widths).enumerate().map(|(column, (cell, &width))| {
+            let cell = cell.as_ref();
+            if column < self.text_columns { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+        });
+        writeln!(f, "{}", padded.collect::<Vec<_>>().join("  ").trim_end())
+    }
+}
+
+/// Felt against desired specific force.
+pub fn force_table(recordings: &[Recording]) -> Table {
+    let rows = recordings.iter().flat_map(|recording| {
+        fidelity_rows(recording, |axis| {
+            let desired = recording.series(|sample| sample.desired_force[axis]);
+            fidelity(&desired, &recording.series(|sample| sample.felt_force[axis]), recording.step)
+        })
+    });
+    Table {
+        title: "Specific force at the rider's head, felt against desired",
+        header: vec!["run", "parameters", "axis", "RMS error [m/s2]", "peak error [m/s2]", "correlation", "delay [ms]"],
+        text_columns: 3,
+        rows: rows.collect(),
+    }
+}
+
+/// Felt against desired angular velocity.
+pub fn rate_table(recordings: &[Recording]) -> Table {
+    let rows = recordings.iter().flat_map(|recording| {
+        fidelity_rows(recording, |axis| {
+            let desired = recording.series(|sample| sample.desired_rate[axis].to_degrees());
+            fidelity(&desired, &recording.series(|sample| sample.felt_rate[axis].to_degrees()), recording.step)
+        })
+    });
+    Table {
+        title: "Angular velocity of the rider's head, felt against desired",
+        header: vec![
+            "run",
+            "parameters",
+            "axis",
+            "RMS error [deg/s]",
+            "peak error [deg/s]",
+            "correlation",
+            "delay [ms]",
+        ],
+        text_columns: 3,
+        rows: rows.collect(),
+    }
+}
+
+/// A row for each axis on which something is desired or felt.
+fn fidelity_rows(recording: &Recording, on_axis: impl Fn(usize) -> Option<Fidelity>) -> Vec<Vec<String>> {
+    let row = |axis: usize| {
+        let fidelity = on_axis(axis)?;
+        let mut row = labels(recording);
+        row.extend([
+            AXES[axis].to_string(),
+            number(fidelity.rms_error, 3),
+            number(fidelity.peak_error, 3),
+            fidelity.correlation.map_or(UNDEFINED.into(), |correlation| number(correlation, 4)),
+            fidelity.delay.map_or(UNDEFINED.into(), |delay| number(1000.0 * delay, 1)),
+        ]);
+        Some(row)
+    };
+    (0..AXES.len()).filter_map(row).collect()
+}
+
+/// What the platform did.
+pub fn platform_table(recordings: &[Recording]) -> Table {
+    let row = |recording| {
+        let effort = effort(recording);
+        let mut row = labels(recording);
+        row.extend([
+            number(effort.shortest_leg, 3),
+            number(effort.longest_leg, 3),
+            number(effort.largest_tilt_rate.to_degrees(), 3),
+            number(100.0 * effort.tilt_limited, 1),
+            number(100.0 * effort.safety_active, 1),
+            number(100.0 * effort.actuator_limited, 1),
+            number(1000.0 * effort.final_distance, 2),
+        ]);
+        row
+    };
+    Table {
+        title: "The platform",
+        header: vec![
+            "run",
+            "parameters",
+            "shortest leg [m]",
+            "longest leg [m]",
+            "tilt rate up to [deg/s]",
+            "tilt limited [%]",
+            "safety active [%]",
+            "actuator limited [%]",
+            "from neutral at the end [mm]",
+        ],
+        text_columns: 2,
+        rows: recordings.iter().map(row).collect(),
+    }
+}
+
+fn labels(recording: &Recording) -> Vec<String> {
+    vec![recording.run.to_string(), recording.parameters.to_string()]
+}
+
+/// A number with so many decimals, never a negative zero.
+fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let is_zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
+    if is_zero { text.trim_start_matches('-').to_string() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::Sample;
+
+    /// Surge desired and felt, a constant heave that is missed, nothing in sway.
+    fn recording() -> Recording {
+        let sample = |k: u32| {
+            let time = f64::from(k) * 0.01;
+            let surge = time.sin();
+            Sample {
+                time,
+                desired_force: [surge, 0.0, 9.80665],
+                felt_force: [surge, 0.0, 9.80665 - 0.1 * surge * surge],
+                legs: [1.25; 6],
+                ..Sample::default()
+            }
+        };
+        let samples = (0..1000).map(sample).collect();
+        Recording { run: "a", parameters: "default", step: 0.01, samples, ..Recording::default() }
+    }
+
+    #[test]
+    fn an_axis_without_motion_has_no_row_and_a_constant_one_no_correlation() {
+        let table = force_table(&[recording()]);
+        assert_eq!(table.rows.len(), 2);
+        assert_eq!(table.rows[0], ["a", "default", "x", "0.000", "0.000", "1.0000", "0.0"]);
+        assert_eq!(table.rows[1][2], "z");
+        assert_eq!(table.rows[1][4..], ["0.100", "–", "–"]);
+        assert!(rate_table(&[recording()]).rows.is_empty());
+    }
+
+    #[test]
+    fn columns_are_aligned() {
+        let text = force_table(&[recording()]).to_string();
+        let lines: Vec<&str> = text.lines().skip(1).collect();
+        assert_eq!(lines.len(), 4);
+        assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()), "{text}");
+    }
+
+    #[test]
+    fn there_is_no_negative_zero() {
+        assert_eq!(number(-0.0001, 2), "0.00");
+        assert_eq!(number(-0.011, 2), "-0.01");
+    }
+}
