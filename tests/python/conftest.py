@@ -1,0 +1,104 @@
+"""What the tests share: the FMU, and a thin wrapper that steps it."""
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+
+ROOT = Path(__file__).resolve().parents[2]
+AXES = ("x", "y", "z")
+ANGLES = ("roll", "pitch", "yaw")
+
+
+@pytest.fixture(scope="session")
+def fmu():
+    path = Path(os.environ.get("MORIS_FMU", ROOT / "target" / "fmu" / "MorisWashout.fmu"))
+    assert path.exists(), f"{path} is missing: run `cargo build-fmu`"
+    return path
+
+
+@pytest.fixture(scope="session")
+def description(fmu):
+    return read_model_description(fmu)
+
+
+@pytest.fixture(scope="session")
+def unpacked(fmu):
+    directory = extract(fmu)
+    yield directory
+    shutil.rmtree(directory, ignore_errors=True)
+
+
+@pytest.fixture
+def washout(description, unpacked):
+    """Makes initialised instances: washout(parameters) -> Washout."""
+    made = []
+
+    def make(**parameters):
+        instance = Washout(description, unpacked, parameters.pop("parameters", {}))
+        made.append(instance)
+        return instance
+
+    yield make
+    for instance in made:
+        instance.slave.freeInstance()
+
+
+class Washout:
+    """An instance of the FMU, by the names of its variables."""
+
+    def __init__(self, description, unpacked, parameters=None):
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.slave = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=unpacked,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="test",
+        )
+        self.slave.instantiate()
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.set(parameters or {})
+        self.slave.exitInitializationMode()
+        self.time = 0.0
+
+    def references(self, names):
+        return [self.variables[name].valueReference for name in names]
+
+    def set(self, values):
+        for name, value in values.items():
+            variable = self.variables[name]
+            reference = [variable.valueReference]
+            if variable.type == "Real":
+                self.slave.setReal(reference, [float(value)])
+            elif variable.type == "Boolean":
+                self.slave.setBoolean(reference, [bool(value)])
+            else:
+                self.slave.setInteger(reference, [int(value)])
+
+    def get(self, *names):
+        return np.array(self.slave.getReal(self.references(names)))
+
+    def vector(self, name):
+        return self.get(*(f"{name}.{axis}" for axis in AXES))
+
+    def run(self, step, inputs, outputs, slopes=None):
+        """Steps through `inputs`, a dict of name -> array; returns the outputs after each step, a row a step."""
+        in_references = self.references(inputs)
+        out_references = self.references(outputs)
+        columns = np.column_stack(list(inputs.values()))
+        slope_columns = None if slopes is None else np.column_stack([slopes[name] for name in inputs])
+        rows = np.empty((len(columns), len(outputs)))
+        start = self.time
+        for k, row in enumerate(columns):
+            self.slave.setReal(in_references, row.tolist())
+            if slope_columns is not None:
+                self.slave.setRealInputDerivatives(in_references, [1] * len(in_references), slope_columns[k].tolist())
+            self.slave.doStep(start + k * step, step)
+            rows[k] = self.slave.getReal(out_references)
+        self.time = start + len(columns) * step
+        return rows

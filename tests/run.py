@@ -1,0 +1,46 @@
+#!/usr/bin/env python3
+"""Runs every test: the FMU is built, Rust's tests run, then Python's in a virtual environment made for them.
+
+    python3 tests/run.py
+"""
+
+import os
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
+VENV = TARGET / "venv"
+REQUIREMENTS = ROOT / "tests" / "python" / "requirements.txt"
+
+
+def run(*command):
+    print("$", *command, flush=True)
+    subprocess.run([str(part) for part in command], cwd=ROOT, check=True)
+
+
+def python():
+    """The virtual environment's interpreter; the environment is made where it is missing or out of date."""
+    interpreter = VENV / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+    installed = VENV / "requirements.txt"
+    if not installed.exists() or installed.read_text() != REQUIREMENTS.read_text():
+        venv.create(VENV, with_pip=True, clear=True)
+        run(interpreter, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r", REQUIREMENTS)
+        installed.write_text(REQUIREMENTS.read_text())
+    return interpreter
+
+
+def main():
+    run("cargo", "build-fmu")
+    run("cargo", "test", "--workspace", "--quiet")
+    run(python(), "-m", "pytest", "--quiet", "tests/python")
+    print("All tests passed.")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"failed: {' '.join(map(str, error.cmd))}")
