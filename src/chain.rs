@@ -5,7 +5,7 @@
 //! add up to the input exactly, eq. (6). The first integral of the high-pass is xi^(n-1) and the second xi^(n-2): no
 //! integrator runs free, nothing drifts.
 
-use nalgebra::{Matrix4, SMatrix, Vector4};
+use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
 /// The coefficients c1..c4 of D(s); those beyond the order are zero.
@@ -37,9 +37,8 @@ impl Denominator {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Transition {
     step: f64,
-    state: Matrix4<f64>,
-    input: Vector4<f64>,
-    slope: Vector4<f64>,
+    /// What each of the four states, the input and the input's slope add to the four states: a column each.
+    columns: [[f64; 4]; 6],
 }
 
 impl Transition {
@@ -55,12 +54,7 @@ impl Transition {
         matrix[(0, 4)] = 1.0;
         matrix[(4, 5)] = 1.0;
         let exponential = (matrix * step).exp();
-        Transition {
-            step,
-            state: exponential.fixed_view::<4, 4>(0, 0).into(),
-            input: exponential.fixed_view::<4, 1>(0, 4).into(),
-            slope: exponential.fixed_view::<4, 1>(0, 5).into(),
-        }
+        Transition { step, columns: std::array::from_fn(|j| std::array::from_fn(|i| exponential[(i, j)])) }
     }
 }
 
@@ -70,7 +64,7 @@ pub struct Chain {
     denominator: Denominator,
     transition: Transition,
     /// xi^(n-1), xi^(n-2), and down to xi; zero beyond the order.
-    state: Vector4<f64>,
+    state: [f64; 4],
 }
 
 /// State below this is rest: what decays for long would otherwise end in denormal numbers, which are slow.
@@ -79,7 +73,7 @@ const REST: f64 = 1e-30;
 impl Chain {
     /// A chain at rest.
     pub fn new(denominator: Denominator) -> Self {
-        Chain { denominator, transition: Transition::new(&denominator, 0.0), state: Vector4::zeros() }
+        Chain { denominator, transition: Transition::new(&denominator, 0.0), state: [0.0; 4] }
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end`.
@@ -87,15 +81,21 @@ impl Chain {
         if step != self.transition.step {
             self.transition = Transition::new(&self.denominator, step);
         }
-        let t = &self.transition;
-        let next = t.state * self.state + t.input * start + t.slope * ((end - start) / step);
-        self.state = next.map(|x| if x.abs() < REST { 0.0 } else { x });
+        let [x1, x2, x3, x4] = self.state;
+        let slope = (end - start) / step;
+        let [a, b, c, d, u, s] = &self.transition.columns;
+        let next = |i: usize| {
+            let x = (a[i] * x1 + b[i] * x2) + (c[i] * x3 + d[i] * x4) + (u[i] * start + s[i] * slope);
+            if x.abs() < REST { 0.0 } else { x }
+        };
+        self.state = std::array::from_fn(next);
     }
 
     /// The low-pass 1 - s^n/D of the input.
     pub fn low_pass(&self) -> f64 {
         let [c1, c2, c3, c4] = self.denominator.coefficients;
-        c1 * self.state.x + c2 * self.state.y + c3 * self.state.z + c4 * self.state.w
+        let [x1, x2, x3, x4] = self.state;
+        (c1 * x1 + c2 * x2) + (c3 * x3 + c4 * x4)
     }
 
     /// The high-pass s^n/D of the input, whose value is `input` now.
@@ -106,17 +106,18 @@ impl Chain {
     /// The time derivative of [`Chain::high_pass`] for an input with this value and this slope.
     pub fn high_pass_rate(&self, input: f64, slope: f64) -> f64 {
         let [c1, c2, c3, c4] = self.denominator.coefficients;
-        slope - c1 * self.high_pass(input) - c2 * self.state.x - c3 * self.state.y - c4 * self.state.z
+        let [x1, x2, x3, _] = self.state;
+        slope - c1 * self.high_pass(input) - c2 * x1 - c3 * x2 - c4 * x3
     }
 
     /// The first integral of the high-pass, s^(n-1)/D of the input.
     pub fn first_integral(&self) -> f64 {
-        self.state.x
+        self.state[0]
     }
 
     /// The second integral of the high-pass, s^(n-2)/D of the input.
     pub fn second_integral(&self) -> f64 {
-        self.state.y
+        self.state[1]
     }
 
     /// Only the last term of the low-pass, cn/D of the input: a low-pass without zeros, for an order of 2.

@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Refusal, Row, Writer, slot_count};
+use model_interface::{Group, Refusal, Row, Variability, Writer, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, leg_lengths, survey};
@@ -15,6 +15,35 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
     check_rig(&parameters.rig)
 }
 
+/// Checks parameters that are to follow others, of which the tunable ones may change. No survey: the rig is the same.
+///
+/// # Errors
+/// The first parameter that cannot be used or must not change, and why.
+pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
+    check_each(to)?;
+    let (before, after) = (values(from), values(to));
+    let mut begin = 0;
+    for row in Parameters::ROWS {
+        let slots = begin..begin + row.slots();
+        begin = slots.end;
+        if row.variability != Variability::Fixed {
+            continue;
+        }
+        if let Some(element) = before[slots.clone()].iter().zip(&after[slots]).position(|(old, new)| old != new) {
+            return refuse(row.variable_name(element), "is fixed once the washout is made; make another");
+        }
+    }
+    Ok(())
+}
+
+type Values = [f64; slot_count(Parameters::ROWS)];
+
+fn values(parameters: &Parameters) -> Values {
+    let mut values = [0.0; slot_count(Parameters::ROWS)];
+    parameters.write(&mut Writer::new(&mut values));
+    values
+}
+
 fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, Refusal> {
     Err(Refusal { variable: variable.into(), reason: reason.into() })
 }
@@ -26,8 +55,11 @@ enum Rule {
     Positive,
     /// Above 0 and at most this.
     UpTo(f64),
+    /// From the first to the second.
+    Between(f64, f64),
 }
 
+/// Frequencies and dampings have ends so far out that no one misses them; beyond, the filters' arithmetic fails.
 fn rule(row: &Row) -> Rule {
     match row.name {
         "rig.base[#].@" | "rig.platform[#].@" | "washoutPoint.@" => Rule::Finite,
@@ -37,7 +69,9 @@ fn rule(row: &Row) -> Rule {
         }
         "input.cutoff" | "head.height" | "head.torsoLength" => Rule::NotNegative,
         "tilt.angleLimit" => Rule::UpTo(LARGEST_TILT),
-        "solver.maxStep" => Rule::UpTo(LONGEST_STEP),
+        "solver.maxStep" => Rule::Between(1e-6, LONGEST_STEP),
+        name if name.contains(".omega") || name.ends_with("Omega") => Rule::Between(1e-6, 1e3),
+        name if name.contains(".zeta") || name.ends_with("Zeta") => Rule::Between(1e-3, 1e2),
         _ => Rule::Positive,
     }
 }
@@ -48,8 +82,7 @@ const LARGEST_TILT: f64 = 1.047_197_551_196_597_6;
 const LONGEST_STEP: f64 = 0.05;
 
 fn check_each(parameters: &Parameters) -> Result<(), Refusal> {
-    let mut values = [0.0; slot_count(Parameters::ROWS)];
-    parameters.write(&mut Writer::new(&mut values));
+    let values = values(parameters);
     let mut rest = &values[..];
     for row in Parameters::ROWS {
         let (mine, others) = rest.split_at(row.slots());
@@ -62,6 +95,7 @@ fn check_each(parameters: &Parameters) -> Result<(), Refusal> {
                 Rule::UpTo(largest) if value <= 0.0 || value > largest => {
                     format!("must be above 0 and at most {largest}")
                 }
+                Rule::Between(min, max) if value < min || value > max => format!("must be from {min} to {max}"),
                 _ => match row.range {
                     Some((min, max)) if value < min || value > max => format!("must be from {min} to {max}"),
                     _ => continue,

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
-use crate::orientation::{Orientation, RollPitchYaw};
+use crate::orientation::away_from_zero;
 
 /// What is left to cue: zero at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -26,41 +26,40 @@ impl Cue {
 ///
 /// `lean` is the lean of the head's frame relative to the vehicle's \[rad\], `gravity` the magnitude of gravity \[m/s2\].
 pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
-    let force = input.specific_force + removed_gravity(parameters.gravity_removal, input.orientation, gravity, lean);
-    let rates = euler_rates(input, parameters.angular_velocity_frame);
+    let pitch = input.orientation.pitch.sin_cos();
+    let force = input.specific_force
+        + gravity * removed_gravity(parameters.gravity_removal, input.orientation.roll + lean, pitch);
+    let rates = match parameters.angular_velocity_frame {
+        AngularVelocityFrame::World => rates_from_world(input.angular_velocity, input.orientation.yaw, pitch),
+        AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, input.orientation.roll, pitch),
+    };
     Cue {
         force: force.component_mul(&parameters.force_scale).zip_map(&parameters.force_limit, soft_limit),
         rates: rates.component_mul(&parameters.rate_scale).zip_map(&parameters.rate_limit, soft_limit),
     }
 }
 
-/// The gravity vector in head axes, R_D^H g with g = (0, 0, -g), or the part of it that is removed.
-fn removed_gravity(removal: GravityRemoval, vehicle: RollPitchYaw, gravity: f64, lean: f64) -> Vector3<f64> {
-    if removal == GravityRemoval::None {
-        return Vector3::zeros();
-    }
-    let (sin_roll, cos_roll) = (vehicle.roll + lean).sin_cos();
-    let (sin_pitch, cos_pitch) = vehicle.pitch.sin_cos();
-    let in_head = gravity * Vector3::new(sin_pitch, -cos_pitch * sin_roll, -cos_pitch * cos_roll);
+/// The direction of gravity in head axes, R_D^H (0, 0, -1), or the part of it that is removed.
+fn removed_gravity(removal: GravityRemoval, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
     match removal {
-        GravityRemoval::Full => in_head,
-        _ => Vector3::new(0.0, 0.0, in_head.z),
+        GravityRemoval::None => Vector3::zeros(),
+        GravityRemoval::HeadVertical => Vector3::new(0.0, 0.0, -cos_pitch * roll.cos()),
+        GravityRemoval::Full => Vector3::new(sin_pitch, -cos_pitch * roll.sin(), -cos_pitch * roll.cos()),
     }
 }
 
-/// Rates of the vehicle's roll, pitch and yaw: the inverse of eq. (10), for angular velocity in either frame.
-fn euler_rates(input: &Input, frame: AngularVelocityFrame) -> Vector3<f64> {
-    let vehicle = match frame {
-        // Eq. (10) does not depend on roll.
-        AngularVelocityFrame::World => Orientation::new(RollPitchYaw { roll: 0.0, ..input.orientation }),
-        // Nor does its form in body axes depend on yaw: any heading does.
-        AngularVelocityFrame::Body => Orientation::new(RollPitchYaw { yaw: 0.0, ..input.orientation }),
-    };
-    let in_world = match frame {
-        AngularVelocityFrame::World => input.angular_velocity,
-        AngularVelocityFrame::Body => vehicle.rotation * input.angular_velocity,
-    };
-    vehicle.rates(in_world).to_vector()
+/// Rates of roll, pitch and yaw from an angular velocity in the vehicle's world: the inverse of eq. (10).
+fn rates_from_world(omega: Vector3<f64>, yaw: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
+    let (sin_yaw, cos_yaw) = yaw.sin_cos();
+    let roll = (cos_yaw * omega.x + sin_yaw * omega.y) / away_from_zero(cos_pitch);
+    Vector3::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
+}
+
+/// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R omega_body, inverted.
+fn rates_from_body(omega: Vector3<f64>, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
+    let (sin_roll, cos_roll) = roll.sin_cos();
+    let yaw = (sin_roll * omega.y + cos_roll * omega.z) / away_from_zero(cos_pitch);
+    Vector3::new(omega.x + sin_pitch * yaw, cos_roll * omega.y - sin_roll * omega.z, yaw)
 }
 
 /// The share of a limit up to which [`soft_limit`] changes nothing.

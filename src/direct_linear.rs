@@ -55,16 +55,18 @@ impl DirectLinearMotion {
     }
 
     /// Advances by `step` seconds while the input, a force in the base frame, goes linearly from `start` to `end`.
+    /// No step is ever longer than `longest_step`.
     pub fn advance(
         &mut self,
         start: Vector3<f64>,
         end: Vector3<f64>,
         safety: &SafetyParameters,
+        longest_step: f64,
         step: f64,
     ) -> LinearMotion {
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = safety;
         for (k, axis) in self.axes.iter_mut().enumerate() {
-            let limits =
-                Limits::symmetric(safety.position_limit[k], safety.velocity_limit[k], safety.acceleration_limit[k]);
+            let limits = Limits::symmetric(position_limit[k], velocity_limit[k], acceleration_limit[k], longest_step);
             axis.advance(start[k], end[k], &limits, step);
         }
         self.motion()

@@ -25,24 +25,31 @@ pub struct Tilt {
 
 /// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in head axes) along x and y.
 ///
-/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arguments are kept inside the angle limit, and so is
+/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside the angle limit, and so is
 /// the roll after the lean is taken off. Also returns whether they had to be.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
-    let sin_limit = angle_limit.sin();
-    let surge = force.x / gravity;
-    let pitch = -surge.clamp(-sin_limit, sin_limit).asin();
-    let sway = force.y / (gravity * pitch.cos());
-    let leant = sway.clamp(-sin_limit, sin_limit).asin() - lean;
-    let roll = leant.clamp(-angle_limit, angle_limit);
-    (Tilt { roll, pitch }, surge.abs() > sin_limit || sway.abs() > sin_limit || roll != leant)
+    let nose_up = (force.x / gravity).clamp(-1.0, 1.0).asin();
+    let pitch = (-nose_up).clamp(-angle_limit, angle_limit);
+    let head_roll = (force.y / (gravity * pitch.cos())).clamp(-1.0, 1.0).asin();
+    let roll = (head_roll.clamp(-angle_limit, angle_limit) - lean).clamp(-angle_limit, angle_limit);
+    (Tilt { roll, pitch }, pitch != -nose_up || roll != head_roll - lean)
 }
 
 impl GravitationalStrategy {
     /// Advances by `step` seconds towards the tilt for this low-frequency force in head axes, under the rate and the
-    /// acceleration limit.
-    pub fn advance(&mut self, force: Vector3<f64>, gravity: f64, lean: f64, parameters: &TiltParameters, step: f64) {
-        let (target, clipped) = tilt_target(force, gravity, lean, parameters.angle_limit);
-        let limits = Limits::symmetric(parameters.angle_limit, parameters.rate_limit, parameters.acceleration_limit);
+    /// acceleration limit. No step is ever longer than `longest_step`.
+    pub fn advance(
+        &mut self,
+        force: Vector3<f64>,
+        gravity: f64,
+        lean: f64,
+        parameters: &TiltParameters,
+        longest_step: f64,
+        step: f64,
+    ) {
+        let TiltParameters { rate_limit, acceleration_limit, angle_limit } = *parameters;
+        let limits = Limits::symmetric(angle_limit, rate_limit, acceleration_limit, longest_step);
+        let (target, clipped) = tilt_target(force, gravity, lean, angle_limit);
         let (roll, roll_limited) = track(&self.roll, self.target.roll, target.roll, &limits, step);
         let (pitch, pitch_limited) = track(&self.pitch, self.target.pitch, target.pitch, &limits, step);
         *self = GravitationalStrategy { roll, pitch, target, limited: clipped || roll_limited || pitch_limited };

@@ -68,7 +68,6 @@ interface! {
         "tilt.rollRate" tilt_roll_rate: f64 [RAD_PER_S] = 0.0;
         /// Rate of tilt coordination's pitch.
         "tilt.pitchRate" tilt_pitch_rate: f64 [RAD_PER_S] = 0.0;
-        /// Smallest distance of an actuator from either end of its stroke.
         /// Whether, during the last communication step, tilt coordination lagged behind its target because of its rate, acceleration or angle limit.
         "status.tiltLimited" tilt_limited: bool = false;
         /// Whether, during the last communication step, a safety unit held the platform back from its position, velocity or acceleration limit.
@@ -198,7 +197,7 @@ interface! {
         /// Largest acceleration of tilt coordination.
         "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] = 0.2;
         /// Largest angle of tilt coordination.
-        "tilt.angleLimit" angle_limit: f64 [RAD] = 0.35;
+        "tilt.angleLimit" angle_limit: f64 [RAD] = 0.38;
     }
 }
 

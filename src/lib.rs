@@ -47,4 +47,4 @@ mod washout;
 pub use check::check;
 pub use interface::{Input, Output, Parameters, Rig};
 pub use model_interface::Refusal;
-pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, Washout};
+pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, SHORTEST_STEP, Washout};

@@ -97,15 +97,18 @@ impl Orientation {
 
     /// The angles' rates from an angular velocity in the reference frame: the inverse of eq. (10).
     ///
-    /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is kept from falling below
-    /// [`SMALLEST_COS_PITCH`], so that the rates stay finite.
+    /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is kept [`away_from_zero`].
     pub fn rates(&self, angular_velocity: Vector3<f64>) -> RollPitchYaw {
         let along_heading = self.cos_yaw * angular_velocity.x + self.sin_yaw * angular_velocity.y;
-        let roll = along_heading / self.cos_pitch.abs().max(SMALLEST_COS_PITCH).copysign(self.cos_pitch);
+        let roll = along_heading / away_from_zero(self.cos_pitch);
         let pitch = self.cos_yaw * angular_velocity.y - self.sin_yaw * angular_velocity.x;
         RollPitchYaw::new(roll, pitch, angular_velocity.z + self.sin_pitch * roll)
     }
 }
 
-/// The smallest magnitude of cos(pitch) that [`Orientation::rates`] divides by: pitch beyond 84 degrees is cut off.
-pub const SMALLEST_COS_PITCH: f64 = 0.1;
+/// The cosine of a pitch to divide by in inverting eq. (10), which is singular at 90 degrees: of magnitude 0.1 at least,
+/// so that the rates stay finite beyond a pitch of 84 degrees.
+pub fn away_from_zero(cos_pitch: f64) -> f64 {
+    const SMALLEST: f64 = 0.1;
+    cos_pitch.abs().max(SMALLEST).copysign(cos_pitch)
+}

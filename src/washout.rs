@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::angular::AngularChannel;
-use crate::check::check;
+use crate::check::{check, check_change};
 use crate::conditioning::{Cue, InputFilter, cue};
 use crate::direct_linear::DirectLinearMotion;
 use crate::evaluator::{Felt, felt};
@@ -74,6 +74,9 @@ struct Before {
 /// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
 pub const ENGAGE_TIME: f64 = 1.0;
 
+/// Shorter steps than this do nothing: a change of the input in so short a time is beyond what numbers can say \[s\].
+pub const SHORTEST_STEP: f64 = 1e-12;
+
 /// No more internal steps than this in one call; longer steps are the caller's mistake.
 pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 
@@ -85,7 +88,7 @@ impl Washout {
     pub fn new(parameters: &Parameters) -> Result<Self, Refusal> {
         check(parameters)?;
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
-        let guard = ActuatorGuard::new(rig);
+        let guard = ActuatorGuard::new(rig, structure.max_step);
         let at_rest = felt(guard.motion(), &Head::new(structure, 0.0), structure.gravity);
         Ok(Washout {
             parameters: *parameters,
@@ -117,28 +120,36 @@ impl Washout {
 
     /// Advances by `step` seconds while the input stays what it is (zero-order hold).
     ///
-    /// Any input is safe: components that are not a number count as at rest. A step that is not positive does nothing;
-    /// one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
+    /// Any input is safe: components that are not a number count as at rest. A step shorter than [`SHORTEST_STEP`] does
+    /// nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
-        self.step_between(input, input, step);
+        let input = input.made_finite();
+        self.divided(step, |_| (input, input));
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order hold); whether it is
     /// engaged is taken from `start`.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        if step.is_nan() || step <= 0.0 {
+        let (start, end) = (start.made_finite(), end.made_finite());
+        let mut from = start;
+        self.divided(step, |share| {
+            let to = start.towards(&end, share);
+            (std::mem::replace(&mut from, to), to)
+        });
+    }
+
+    /// Divides a step into internal ones. `inputs` gives the inputs at the start and the end of the internal step that
+    /// ends at this share of the whole.
+    fn divided(&mut self, step: f64, mut inputs: impl FnMut(f64) -> (Input, Input)) {
+        if step.is_nan() || step < SHORTEST_STEP {
             return;
         }
-        let (start, end) = (start.made_finite(), end.made_finite());
-        let ramp = start != end;
         let count = self.internal_steps(step);
         let internal_step = (step / count).min(self.parameters.structure.max_step);
         self.limited = Limited::default();
-        let mut from = start;
         for k in 1..=count as usize {
-            let to = if ramp { start.towards(&end, k as f64 / count) } else { start };
-            self.internal_step(&from, &to, internal_step);
-            from = to;
+            let (start, end) = inputs(k as f64 / count);
+            self.internal_step(&start, &end, internal_step);
         }
     }
 
@@ -153,20 +164,25 @@ impl Washout {
         let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
         let head = Head::new(structure, start.lean);
         let head_axes = self.guard.motion().orientation.rotation * head.rotation;
+        let held = start == end;
+        let head_at_end = if held { head } else { Head::new(structure, end.lean) };
+        let head_axes_end = self.guard.motion().rotation_after(step) * head_at_end.rotation;
 
         let engagement = self.engagement;
         self.engagement = faded(engagement, start.engaged, step);
         let cue_start = cue(start, conditioning, structure.gravity, head.lean).scaled(engagement);
-        let cue_end = if start == end && self.engagement == engagement {
+        let cue_end = if held && self.engagement == engagement {
             cue_start
         } else {
-            cue(end, conditioning, structure.gravity, Head::new(structure, end.lean).lean).scaled(self.engagement)
+            cue(end, conditioning, structure.gravity, head_at_end.lean).scaled(self.engagement)
         };
         let (cue_start, cue_end) = self.input_filter.advance(cue_start, cue_end, conditioning.cutoff, step);
-        let (force_start, force_end) = (head_axes * cue_start.force, head_axes * cue_end.force);
+        let (force_start, force_end) = (head_axes * cue_start.force, head_axes_end * cue_end.force);
 
-        let low_frequency = head_axes.tr_mul(&self.low_pass.advance(force_start, force_end, step));
-        self.gravitational.advance(low_frequency, structure.gravity, head.lean, tilt, step);
+        let low_frequency = head_axes_end.tr_mul(&self.low_pass.advance(force_start, force_end, step));
+        // Disengaged, the platform does not make up for the rider's lean either.
+        let lean = head_at_end.lean * self.engagement;
+        self.gravitational.advance(low_frequency, structure.gravity, lean, tilt, structure.max_step, step);
         let turning = self.angular.advance(cue_start.rates, cue_end.rates, step);
         let (roll, pitch) = (self.gravitational.roll, self.gravitational.pitch);
         let [channel_roll, channel_pitch, yaw] = turning;
@@ -188,9 +204,10 @@ impl Washout {
         let angular_velocity = orientation.angular_velocity(rates);
         let angular_acceleration = orientation.angular_acceleration(rates, accelerations);
 
-        let arm = orientation.rotation * head.point;
+        let arm = orientation.rotation * head_at_end.point;
         let spurious = compensated(conditioning.compensation, angular_velocity, angular_acceleration, arm);
-        let linear = self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, step);
+        let linear =
+            self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, structure.max_step, step);
 
         self.wanted = PlatformMotion {
             position: Pose::neutral(&self.parameters.rig).position + linear.position,
@@ -203,7 +220,7 @@ impl Washout {
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
         self.guard.advance(&self.wanted, step);
         self.input = *end;
-        self.felt = felt(self.guard.motion(), &Head::new(structure, end.lean), structure.gravity);
+        self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
         self.limited.tilt |= self.gravitational.limited;
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.acting();
@@ -215,13 +232,7 @@ impl Washout {
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
-        if parameters.structure != self.parameters.structure || parameters.rig != self.parameters.rig {
-            return Err(Refusal {
-                variable: "structure and rig".to_owned(),
-                reason: "these parameters are fixed once the washout is made; make another".to_owned(),
-            });
-        }
-        check(parameters)?;
+        check_change(&self.parameters, parameters)?;
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
         let conditioning = &parameters.conditioning;
@@ -300,7 +311,7 @@ impl Washout {
             orientation: motion.orientation.rates(motion.angular_velocity),
             angular_velocity: motion.angular_acceleration,
             length: legs.velocity,
-            leg_velocity: legs.acceleration,
+            leg_velocity: self.guard.leg_accelerations(),
             felt_specific_force: (self.felt.specific_force - self.before.felt.specific_force) * per_step,
             felt_angular_velocity: (self.felt.angular_velocity - self.before.felt.angular_velocity) * per_step,
             tilt_roll: self.gravitational.roll.velocity,

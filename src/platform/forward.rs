@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-use super::{Geometry, Legs, PlatformMotion, Pose, inverse_kinematics, jacobian, leg_lengths};
+use super::{Geometry, Legs, PlatformMotion, Pose, jacobian, leg_accelerations, leg_lengths};
 use crate::orientation::{Orientation, RollPitchYaw};
 
 /// Newton's method is given up after this many iterations. From a pose one step away it takes two or three.
@@ -66,12 +66,17 @@ fn moved(pose: &Pose, change: &Vector6<f64>) -> Pose {
     }
 }
 
-/// The platform's motion from the legs' motion: pose by [`forward_kinematics`] from `guess`, velocities and
-/// accelerations by the Jacobian.
+/// The platform's motion from the legs' motion, `accelerations` of their lengths included: pose by
+/// [`forward_kinematics`] from `guess`, velocities and accelerations by the Jacobian.
 ///
 /// # Errors
 /// As [`forward_kinematics`].
-pub fn motion_of_legs(geometry: &Geometry, legs: &Legs, guess: &Pose) -> Result<PlatformMotion, NotConverged> {
+pub fn motion_of_legs(
+    geometry: &Geometry,
+    legs: &Legs,
+    accelerations: &[f64; 6],
+    guess: &Pose,
+) -> Result<PlatformMotion, NotConverged> {
     let pose = forward_kinematics(geometry, &legs.length, guess)?;
     let lu = jacobian(geometry, &pose).lu();
     let solve = |rates: &[f64; 6]| lu.solve(&Vector6::from(*rates)).unwrap_or_else(Vector6::zeros);
@@ -82,8 +87,8 @@ pub fn motion_of_legs(geometry: &Geometry, legs: &Legs, guess: &Pose) -> Result<
         ..PlatformMotion::at_rest(pose)
     };
     // The legs' accelerations are J (p'', alpha) plus what they are while (p'', alpha) is zero.
-    let without = inverse_kinematics(geometry, &motion).acceleration;
-    let acceleration = solve(&std::array::from_fn(|i| legs.acceleration[i] - without[i]));
+    let without = leg_accelerations(geometry, &motion);
+    let acceleration = solve(&std::array::from_fn(|i| accelerations[i] - without[i]));
     motion.acceleration = acceleration.fixed_rows::<3>(0).into();
     motion.angular_acceleration = Vector3::from(acceleration.fixed_rows::<3>(3));
     Ok(motion)

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Geometry, Legs, PlatformMotion, inverse_kinematics, motion_of_legs};
+use super::{Geometry, Legs, PlatformMotion, inverse_kinematics, leg_accelerations, motion_of_legs};
 use crate::governor::{Governor, Limits, Motion};
 use crate::interface::Rig;
 
@@ -16,8 +16,8 @@ pub struct ActuatorGuard {
 }
 
 impl ActuatorGuard {
-    /// At rest at neutral.
-    pub fn new(rig: &Rig) -> Self {
+    /// At rest at neutral; no step will be longer than `longest_step` \[s\].
+    pub fn new(rig: &Rig, longest_step: f64) -> Self {
         let geometry = Geometry::from(rig);
         let motion = PlatformMotion::at_rest(super::Pose::neutral(rig));
         let limits = Limits {
@@ -25,6 +25,7 @@ impl ActuatorGuard {
             max: rig.max_length,
             velocity: rig.velocity_limit,
             acceleration: rig.acceleration_limit,
+            longest_step,
         };
         let legs = inverse_kinematics(&geometry, &motion).length.map(Governor::at_rest);
         ActuatorGuard { geometry, limits, legs, motion }
@@ -42,12 +43,14 @@ impl ActuatorGuard {
             let motion = Motion {
                 position: target.length[i],
                 velocity: target.velocity[i],
-                acceleration: target.acceleration[i],
+                // Over the step; what it is at an instant within does not move the machine.
+                acceleration: (target.velocity[i] - leg.motion.velocity) / step,
             };
             leg.advance(&motion, &self.limits, step);
         }
         self.motion = if self.acting() {
-            motion_of_legs(&self.geometry, &self.legs(), &self.motion.pose())
+            let accelerations = self.legs.map(|leg| leg.motion.acceleration);
+            motion_of_legs(&self.geometry, &self.legs(), &accelerations, &self.motion.pose())
                 .unwrap_or_else(|_| PlatformMotion::at_rest(self.motion.pose()))
         } else {
             *wanted
@@ -56,10 +59,15 @@ impl ActuatorGuard {
 
     /// The commanded legs.
     pub fn legs(&self) -> Legs {
-        Legs {
-            length: self.legs.map(|leg| leg.motion.position),
-            velocity: self.legs.map(|leg| leg.motion.velocity),
-            acceleration: self.legs.map(|leg| leg.motion.acceleration),
+        Legs { length: self.legs.map(|leg| leg.motion.position), velocity: self.legs.map(|leg| leg.motion.velocity) }
+    }
+
+    /// The accelerations of the commanded legs' lengths \[m/s2\]: over the last step while the guard acts.
+    pub fn leg_accelerations(&self) -> [f64; 6] {
+        if self.acting() {
+            self.legs.map(|leg| leg.motion.acceleration)
+        } else {
+            leg_accelerations(&self.geometry, &self.motion)
         }
     }
 

@@ -1,4 +1,4 @@
-//! Inverse kinematics: L_i = |v_p + R a_i - b_i| and its first two derivatives.
+//! Inverse kinematics: L_i = |v_p + R a_i - b_i| and its derivatives.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -6,37 +6,45 @@ use serde::{Deserialize, Serialize};
 use super::{Geometry, PlatformMotion, Pose};
 use crate::spurious::{centripetal, tangential};
 
-/// The six legs: length \[m\], rate \[m/s\] and acceleration of the length \[m/s2\].
+/// The six legs: length \[m\] and rate \[m/s\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Legs {
     pub length: [f64; 6],
     pub velocity: [f64; 6],
-    pub acceleration: [f64; 6],
 }
 
 /// A leg shorter than this has no direction; no rig that is accepted comes near it \[m\].
 const SHORTEST: f64 = 1e-9;
 
-/// Lengths, rates and accelerations of the legs for a motion of the platform.
+/// Lengths and rates of the legs for a motion of the platform.
 pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
     let mut legs = Legs::default();
     for i in 0..6 {
         let arm = motion.orientation.rotation * geometry.platform[i];
         let leg = motion.position + arm - geometry.base[i];
-        let length = leg.norm();
-        let direction = leg / length.max(SHORTEST);
         let joint_velocity = motion.velocity + motion.angular_velocity.cross(&arm);
-        let joint_acceleration = motion.acceleration
-            + tangential(motion.angular_acceleration, arm)
-            + centripetal(motion.angular_velocity, arm);
-        let rate = direction.dot(&joint_velocity);
-        // The part of the joint's velocity across the leg turns it, which lengthens it as well.
-        let turning = (joint_velocity.norm_squared() - rate * rate) / length.max(SHORTEST);
+        let length = leg.norm();
         legs.length[i] = length;
-        legs.velocity[i] = rate;
-        legs.acceleration[i] = direction.dot(&joint_acceleration) + turning;
+        legs.velocity[i] = leg.dot(&joint_velocity) / length.max(SHORTEST);
     }
     legs
+}
+
+/// Accelerations of the legs' lengths \[m/s2\] for a motion of the platform.
+pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 6] {
+    std::array::from_fn(|i| {
+        let arm = motion.orientation.rotation * geometry.platform[i];
+        let leg = motion.position + arm - geometry.base[i];
+        let length = leg.norm().max(SHORTEST);
+        let direction = leg / length;
+        let velocity = motion.velocity + motion.angular_velocity.cross(&arm);
+        let acceleration = motion.acceleration
+            + tangential(motion.angular_acceleration, arm)
+            + centripetal(motion.angular_velocity, arm);
+        let rate = direction.dot(&velocity);
+        // The part of the joint's velocity across the leg turns it, which lengthens it as well.
+        direction.dot(&acceleration) + (velocity.norm_squared() - rate * rate) / length
+    })
 }
 
 /// Lengths of the legs in a pose.

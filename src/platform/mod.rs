@@ -6,12 +6,12 @@ mod inverse;
 mod jacobian;
 mod survey;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
 pub use guard::ActuatorGuard;
-pub use inverse::{Legs, inverse_kinematics, leg_lengths};
+pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use survey::{Survey, SurveyFailed, survey};
 
@@ -68,6 +68,17 @@ impl PlatformMotion {
             acceleration: Vector3::zeros(),
             angular_acceleration: Vector3::zeros(),
         }
+    }
+
+    /// Rotation from the platform frame to the base frame `step` seconds later, to second order in the step.
+    pub fn rotation_after(&self, step: f64) -> Matrix3<f64> {
+        let (omega, rotation) = (self.angular_velocity, self.orientation.rotation);
+        let turned = |axis: Vector3<f64>| {
+            let rate = omega.cross(&axis);
+            axis + step * (rate + 0.5 * step * (omega.cross(&rate) + self.angular_acceleration.cross(&axis)))
+        };
+        let columns = [0, 1, 2].map(|k| turned(rotation.column(k).into()));
+        Matrix3::from_columns(&columns)
     }
 
     /// The pose alone.

@@ -1,0 +1,45 @@
+//! A manoeuvre: what the vehicle model says, sampled.
+
+use moris_washout::Input;
+
+/// Inputs at equal steps, between which they go linearly.
+#[derive(Clone, Debug)]
+pub struct Manoeuvre {
+    step: f64,
+    inputs: Vec<Input>,
+}
+
+impl Manoeuvre {
+    /// Inputs every `step` seconds, the first at time 0.
+    ///
+    /// # Panics
+    /// If the step is not positive.
+    pub fn new(step: f64, inputs: Vec<Input>) -> Self {
+        assert!(step > 0.0, "a manoeuvre's step must be positive, not {step}");
+        Manoeuvre { step, inputs }
+    }
+
+    /// Samples a function of time every `step` seconds over `duration` seconds.
+    ///
+    /// # Panics
+    /// If the step is not positive.
+    pub fn sampled(step: f64, duration: f64, input: impl Fn(f64) -> Input) -> Self {
+        let count = (duration / step).round() as usize;
+        Manoeuvre::new(step, (0..=count).map(|k| input(k as f64 * step)).collect())
+    }
+
+    /// Time between inputs \[s\].
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The inputs.
+    pub fn inputs(&self) -> &[Input] {
+        &self.inputs
+    }
+
+    /// Time from the first input to the last \[s\].
+    pub fn duration(&self) -> f64 {
+        self.step * self.inputs.len().saturating_sub(1) as f64
+    }
+}

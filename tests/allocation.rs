@@ -1,0 +1,54 @@
+//! A step allocates no memory, whatever happens in it.
+
+use moris_washout::interface::RollPitchYaw;
+use moris_washout::{Input, Parameters, Washout};
+use nalgebra::Vector3;
+
+/// Motion that makes tilt, safety units and actuator guard act.
+fn input(k: usize) -> Input {
+    let t = k as f64 * 0.001;
+    let blow = if k % 500 < 250 { 12.0 } else { -12.0 };
+    Input {
+        specific_force: Vector3::new(blow, 8.0 * t.sin(), 9.8 + blow),
+        angular_velocity: Vector3::new(t.cos(), 0.1 * blow, f64::NAN),
+        orientation: RollPitchYaw::new(t.sin(), 0.1, t),
+        lean: 0.3 * t.sin(),
+        engaged: k % 1000 < 900,
+        ..Input::default()
+    }
+}
+
+fn allocations(f: impl FnMut()) -> u64 {
+    allocation_counter::measure(f).count_total
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations(|| drop(std::hint::black_box(vec![1.0; 100]))), 1);
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let mut washout = Washout::new(&Parameters::default()).unwrap();
+    let (mut safety, mut actuator) = (false, false);
+    let count = allocations(|| {
+        for k in 0..5000 {
+            washout.step(&input(k), 0.001);
+            washout.step_between(&input(k), &input(k + 1), 0.0007 + 1e-7 * k as f64);
+            let output = washout.output();
+            let _ = std::hint::black_box(washout.output_derivative());
+            safety |= output.safety_active;
+            actuator |= output.actuator_limited;
+        }
+    });
+    assert!(safety && actuator, "the ride must be rough enough");
+    assert_eq!(count, 0);
+}
+
+#[test]
+fn retuning_with_the_default_rig_allocates_nothing() {
+    let mut washout = Washout::new(&Parameters::default()).unwrap();
+    let mut parameters = Parameters::default();
+    parameters.splitter.omega1.x = 1.7;
+    assert_eq!(allocations(|| washout.retune(&parameters).unwrap()), 0);
+}

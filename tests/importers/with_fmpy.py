@@ -1,0 +1,150 @@
+"""FMPy: validation, and every option of its simulation that concerns co-simulation."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+from fmpy.fmi2 import FMU2Slave
+from fmpy.util import read_csv
+from fmpy.validation import validate_fmu
+
+import report
+from ride import Ride
+
+FMU, WORK = sys.argv[1], Path(sys.argv[2])
+RIDE = Ride(FMU)
+# FMPy has room for the derivatives of nine inputs, no more and no fewer.
+NINE = 9
+
+
+def answers(result, names=RIDE.outputs):
+    """The outputs at each communication point."""
+    rows = np.column_stack([result[name] for name in names])
+    return {round(time / RIDE.step): row.tolist() for time, row in zip(result["time"], rows)}
+
+
+def simulate(signals, **options):
+    options = {"stop_time": RIDE.stop, "output_interval": RIDE.step, "output": RIDE.outputs, **options}
+    return simulate_fmu(FMU, input=signals, **options)
+
+
+def ride_with(what, signals, **options):
+    report.difference(what, RIDE.difference(answers(simulate(signals, **options))))
+
+
+def options(signals):
+    ride_with("ride", signals)
+    ride_with("ride, not validated, no stop time told", signals, validate=False, set_stop_time=False)
+    ride_with("ride, with a tolerance, all start values applied", signals, relative_tolerance=1e-6, apply_default_start_values=True)
+    calls, messages = [], []
+    logger = lambda environment, instance, status, category, message: messages.append(message)
+    ride_with("ride, calls and messages logged, visible", signals, debug_logging=True, visible=True, logger=logger, fmi_call_logger=calls.append)
+    report.check("every call of it returned fmi2OK", not problems_in(calls), "; ".join(problems_in(calls)[:3]))
+
+
+def problems_in(calls):
+    return [call for call in calls if any(bad in call for bad in ("fmi2Warning", "fmi2Discard", "fmi2Error", "fmi2Fatal"))]
+
+
+def without_input():
+    result = simulate(None)
+    moved = max(np.ptp(result[name]) for name in result.dtype.names[1:])
+    report.difference("ten seconds without input: nothing moves", moved)
+
+
+def stopped_early(signals):
+    half = RIDE.steps // 2
+    result = simulate(signals, step_finished=lambda time, recorder: time < RIDE.time(half) - 0.5 * RIDE.step)
+    ended = abs(result["time"][-1] - RIDE.time(half)) < 1e-9
+    report.check("ride, stopped half way by step_finished", ended, f"ended at {result['time'][-1]} s")
+    report.difference("and until then", RIDE.difference(answers(result), last=half))
+
+
+def start_values():
+    # A tunable and a fixed real, an integer, an enumeration, a Boolean.
+    wanted = {"tilt.angleLimit": 0.125, "head.height": 1.0, "splitter.order": 3, "compensation": 2, "engaged": False}
+    result = simulate(None, start_values=wanted, output=list(wanted))
+    got = {name: result[name][-1] for name in wanted}
+    report.check("start values of every type", got == wanted, f"got {got}")
+
+
+def in_two_halves(signals):
+    """Half a ride, its state as bytes, and the rest of it by another instance that begins with the state."""
+    description = read_model_description(FMU)
+    directory = extract(FMU)
+    half = RIDE.time(RIDE.steps // 2)
+    instance = instantiate_fmu(directory, description, "CoSimulation")
+    first = simulate(signals, fmu_instance=instance, model_description=description, stop_time=half, set_stop_time=False, terminate=False)
+    state = instance.getFMUState()
+    data = instance.serializeFMUState(state)
+    instance.freeFMUState(state)
+    instance.terminate()
+    instance.freeInstance()
+    second = simulate(signals, start_time=half, set_stop_time=False, fmu_state=data, initialize=False)
+    report.difference("ride in two halves, joined by a serialized state", RIDE.difference({**answers(first), **answers(second)}))
+    shutil.rmtree(directory, ignore_errors=True)
+
+
+def derivatives(signals):
+    """FMPy's option set_input_derivatives, against a loop that gives the same slopes."""
+    names = signals.dtype.names[1 : NINE + 1]
+    nine = signals[["time", *names]].copy()
+    result = simulate(nine, set_input_derivatives=True)
+
+    description = read_model_description(FMU)
+    directory = extract(FMU)
+    slave = FMU2Slave(guid=description.guid, unzipDirectory=directory, modelIdentifier=RIDE.model, instanceName="ride")
+    slave.instantiate()
+    slave.setupExperiment()
+    slave.enterInitializationMode()
+    slave.exitInitializationMode()
+    inputs, outputs = ([RIDE.references[name] for name in list] for list in (names, RIDE.outputs))
+    rows = []
+    for k in range(RIDE.steps):
+        time = RIDE.time(k)
+        # At a breakpoint FMPy gives the slope that was, and at the start none.
+        after = int(np.clip(np.searchsorted(nine["time"], time), 1, len(nine) - 1))
+        length = nine["time"][after] - nine["time"][after - 1]
+        slopes = [(nine[name][after] - nine[name][after - 1]) / length if k else 0.0 for name in names]
+        slave.setReal(inputs, RIDE.input(k)[:NINE])
+        slave.setRealInputDerivatives(inputs, [1] * NINE, slopes)
+        slave.doStep(time, RIDE.step)
+        rows.append(slave.getReal(outputs))
+    slave.terminate()
+    slave.freeInstance()
+    shutil.rmtree(directory, ignore_errors=True)
+    simulated = np.column_stack([result[name] for name in RIDE.outputs])[1:]
+    report.difference("ride with the slopes of nine inputs", float(np.abs(simulated - np.array(rows)).max()))
+    held = np.column_stack([simulate(nine)[name] for name in RIDE.outputs])[1:]
+    report.check("which make a difference", bool(np.abs(simulated - held).max() > 1e-4))
+
+
+def command_line(input_file):
+    result = WORK / "fmpy_out.csv"
+    command = [sys.executable, "-m", "fmpy", "simulate", FMU, "--input-file", input_file, "--output-file", result]
+    command += ["--stop-time", str(RIDE.stop), "--output-interval", str(RIDE.step)]
+    command += ["--output-variables", *RIDE.outputs]
+    subprocess.run([str(part) for part in command], check=True, stdout=subprocess.DEVNULL)
+    report.difference("ride by the command `fmpy simulate`", RIDE.difference_of_table(result.read_text()))
+
+
+def main():
+    problems = validate_fmu(FMU)
+    report.check("validation", not problems, "; ".join(problems[:3]))
+    input_file = WORK / "in.csv"
+    input_file.write_text(RIDE.input_text)
+    signals = read_csv(str(input_file))
+    options(signals)
+    without_input()
+    stopped_early(signals)
+    start_values()
+    in_two_halves(signals)
+    derivatives(signals)
+    command_line(input_file)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,70 @@
+"""The FMU manipulation toolbox: its checks, and the washout inside a container FMU, which FMPy then runs."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+from fmpy import simulate_fmu
+from fmpy.util import read_csv
+from fmpy.validation import validate_fmu
+
+import report
+from ride import Ride
+
+TOOLS = Path(sys.executable).parent
+
+
+def tool(name, *arguments):
+    """Runs one of the toolbox's programs; returns what it says."""
+    done = subprocess.run([TOOLS / name, *arguments], capture_output=True, text=True)
+    said = done.stdout + done.stderr
+    assert done.returncode == 0, f"{name} failed: {said}"
+    return said
+
+
+def complaints(said):
+    """The lines of the toolbox's log that warn or worse."""
+    return [line for line in said.splitlines() if line.startswith(("WARNING", "ERROR", "CRITICAL"))]
+
+
+def checks(fmu):
+    found = complaints(tool("fmutool", "-input", fmu, "-check"))
+    report.check("fmutool -check", not found, "; ".join(found[:3]))
+
+
+def container(fmu, work, ride, *options):
+    """Puts the FMU into a container and rides with that."""
+    fmu = Path(fmu)
+    specification = work / "container.csv"
+    rows = ["rule;from_fmu;from_port;to_fmu;to_port"]
+    rows += [f"FMU;{fmu.name};;;"]
+    rows += [f"INPUT;;{name};{fmu.name};{name}" for name in ride.inputs]
+    rows += [f"OUTPUT;{fmu.name};{name};;{name}" for name in ride.outputs]
+    specification.write_text("\n".join(rows) + "\n")
+    embedded = work / fmu.name
+    embedded.write_bytes(fmu.read_bytes())
+    built = work / "container.fmu"
+    built.unlink(missing_ok=True)
+    tool("fmucontainer", "-fmu-directory", work, "-container", f"{specification}:{ride.step}", *options)
+    problems = validate_fmu(str(built))
+    assert not problems, problems
+    (work / "in.csv").write_text(ride.input_text)
+    result = simulate_fmu(
+        str(built), input=read_csv(str(work / "in.csv")), stop_time=ride.stop, output_interval=ride.step, output=ride.outputs
+    )
+    rows = np.column_stack([result[name] for name in ride.outputs])
+    return ride.difference({round(time / ride.step): row.tolist() for time, row in zip(result["time"], rows)})
+
+
+def main(fmu, work):
+    ride = Ride(fmu)
+    os.chdir(work)
+    checks(fmu)
+    report.difference("ride inside a container, in FMPy", container(fmu, work, ride))
+    report.difference("ride inside a container with threads, in FMPy", container(fmu, work, ride, "-mt"))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], Path(sys.argv[2]))

@@ -1,0 +1,38 @@
+"""libcosim, the Open Simulation Platform's engine, by its Python package."""
+
+import sys
+
+from libcosimpy.CosimExecution import CosimExecution
+from libcosimpy.CosimManipulator import CosimManipulator
+from libcosimpy.CosimObserver import CosimObserver
+from libcosimpy.CosimSlave import CosimLocalSlave
+
+import report
+from ride import Ride
+
+NANOSECONDS = 1e9
+
+
+def main(fmu):
+    ride = Ride(fmu)
+    execution = CosimExecution.from_step_size(step_size=ride.step * NANOSECONDS)
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=fmu, instance_name="washout"))
+    manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
+    execution.add_manipulator(manipulator)
+    execution.add_observer(observer)
+    inputs = [ride.references[name] for name in ride.inputs]
+    outputs = [ride.references[name] for name in ride.outputs]
+
+    def step(_):
+        assert execution.step(), "a step failed"
+
+    largest = ride.replay(
+        lambda values: manipulator.slave_real_values(slave, inputs, values),
+        step,
+        lambda: observer.last_real_values(slave, outputs),
+    )
+    report.difference("ride", largest)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,119 @@
+//! Where the paper is silent, contradicts itself or errs, and what the washout does: one test for each erratum.
+
+use moris_washout::head::Head;
+use moris_washout::interface::StructureParameters;
+use moris_washout::spurious::{centripetal, tangential};
+use moris_washout::{Input, Washout};
+use nalgebra::Vector3;
+
+use crate::common::rotation::rotate_x;
+use crate::common::{G, accelerating, from_neutral, ride, washout};
+
+#[test]
+fn forward_force_raises_the_nose() {
+    // Eq. (8), not eqs. (5) and (7) with the nomenclature's g = (0, 0, g). Positive pitch is nose down.
+    let mut washout = washout(&[]);
+    ride(&mut washout, 30.0, 0.01, |_| accelerating(1.0, 0.0, 0.0), |_, _| {});
+    assert!((washout.output().orientation.pitch + (1.0 / G).asin()).abs() < 1e-6);
+    assert!((washout.output().felt_specific_force.x - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn force_to_the_left_rolls_to_the_right() {
+    let mut washout = washout(&[]);
+    ride(&mut washout, 30.0, 0.01, |_| accelerating(0.0, 1.0, 0.0), |_, _| {});
+    assert!((washout.output().orientation.roll - (1.0 / G).asin()).abs() < 1e-6);
+    assert!((washout.output().felt_specific_force.y - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn at_rest_the_specific_force_is_gravity_upward() {
+    assert_eq!(washout(&[]).output().felt_specific_force, Vector3::new(0.0, 0.0, G));
+}
+
+#[test]
+fn an_upright_head_is_above_the_platforms_origin() {
+    // Eq. (4) as printed has y = (h - b) + b sin(lean).
+    let structure = StructureParameters::default();
+    assert_eq!(Head::new(&structure, 0.0).point, Vector3::new(0.0, 0.0, 1.2));
+    for lean in [-0.5, -0.1, 0.2, 0.6] {
+        let [x, y, z] = rotate_x(lean, [0.0, 0.0, structure.torso_length]);
+        let seat = structure.head_height - structure.torso_length;
+        let head = Head::new(&structure, lean);
+        assert!((head.point - Vector3::new(x, y, seat + z)).norm() < 1e-15);
+        // Leaning to the right moves the head to the right, which is -y.
+        assert_eq!(head.point.y < 0.0, lean > 0.0);
+    }
+}
+
+/// The largest disturbance of the felt surge by pitching alone, with this item of `compensation`: the platform pitches
+/// because the vehicle does, and gravity's part of what is felt is taken off.
+fn disturbance_by_pitching(compensation: f64) -> f64 {
+    let mut washout =
+        washout(&[("compensation", compensation), ("splitter.x.omega1", 0.2), ("splitter.x.omega2", 0.2)]);
+    let mut largest = 0.0_f64;
+    let pitching =
+        |t: f64| Input { angular_velocity: Vector3::new(0.0, 0.12 * (6.0 * t).sin(), 0.0), ..Input::default() };
+    ride(&mut washout, 10.0, 0.001, pitching, |t, output| {
+        assert!(!output.safety_active && !output.actuator_limited);
+        if t > 5.0 {
+            largest = largest.max((output.felt_specific_force.x + G * output.orientation.pitch.sin()).abs());
+        }
+    });
+    largest
+}
+
+#[test]
+fn the_tangential_term_is_the_larger_and_is_compensated() {
+    let (none, paper, full) =
+        (disturbance_by_pitching(1.0), disturbance_by_pitching(2.0), disturbance_by_pitching(3.0));
+    assert!(none > 0.7, "{none}");
+    assert!(paper > 0.9 * none, "what the paper compensates hardly matters: {paper} of {none}");
+    assert!(full < 0.2 * none, "{full} of {none}");
+}
+
+#[test]
+fn tangential_and_centripetal_terms_are_those_of_circular_motion() {
+    // A point on a circle of radius 2 in the x-y plane, angle phi: p'' from the coordinates' second derivatives.
+    let (radius, phi, rate, acceleration) = (2.0, 0.7_f64, 1.3, -0.4);
+    let (s, c) = phi.sin_cos();
+    let arm = Vector3::new(radius * c, radius * s, 0.0);
+    let expected = Vector3::new(
+        radius * (-c * rate * rate - s * acceleration),
+        radius * (-s * rate * rate + c * acceleration),
+        0.0,
+    );
+    let ours = tangential(Vector3::new(0.0, 0.0, acceleration), arm) + centripetal(Vector3::new(0.0, 0.0, rate), arm);
+    assert!((ours - expected).norm() < 1e-15);
+}
+
+#[test]
+fn eq_8_takes_the_components_in_the_heads_axes() {
+    // In the head's axes the steady state is exact; what the base's would give is far from it.
+    let mut washout = washout(&[]);
+    ride(&mut washout, 60.0, 0.01, |_| accelerating(2.5, 2.0, 0.0), |_, _| {});
+    let output = washout.output();
+    assert!((output.felt_specific_force.x - 2.5).abs() < 1e-4);
+    assert!((output.felt_specific_force.y - 2.0).abs() < 1e-4);
+    let in_base = washout.motion().orientation.rotation * Vector3::new(2.5, 2.0, 0.0);
+    let pitch_from_base = -(in_base.x / G).asin();
+    assert!((-G * pitch_from_base.sin() - 2.5).abs() > 0.05);
+}
+
+#[test]
+fn compensation_does_not_drift() {
+    // Ten minutes of tilting to and fro, lopsided, so that the compensated acceleration has a mean.
+    let mut washout: Washout = washout(&[("solver.maxStep", 0.005)]);
+    let input = |t: f64| accelerating(1.0 + 1.5 * (0.4 * t).sin(), 0.7 + 1.2 * (0.55 * t).sin(), 0.0);
+    let mut mean = Vector3::zeros();
+    let mut count = 0.0;
+    ride(&mut washout, 600.0, 0.005, input, |t, output| {
+        assert!(!output.safety_active && !output.actuator_limited, "at {t}");
+        if t > 60.0 {
+            mean += from_neutral(output);
+            count += 1.0;
+        }
+    });
+    mean /= count;
+    assert!(mean.amax() < 0.01, "{mean}");
+}

@@ -1,0 +1,21 @@
+//! The mathematics of the washout against closed forms, integrations, differences and identities that are computed here,
+//! with code of its own.
+//!
+//! One binary for all topics: they share helpers, and are linked once.
+
+mod chain;
+mod common;
+mod communication_steps;
+mod conditioning;
+mod errata;
+mod evaluator;
+mod governor;
+mod hostile;
+mod kinematics;
+mod paper_runs;
+mod refusals;
+mod retuning;
+mod rigs;
+mod small_signals;
+mod steady_state;
+mod tilt_tracker;

@@ -1,0 +1,105 @@
+//! Parameters that cannot be used are refused with the variable's name and the reason.
+
+use model_interface::{Causality, Kind, Model, Refusal};
+use moris_washout::{Input, Washout, check};
+
+use crate::common::parameters;
+
+fn refusal(changed: &[(&str, f64)]) -> Refusal {
+    check(&parameters(changed)).expect_err(&format!("{changed:?} must be refused"))
+}
+
+/// Names of all real parameters.
+fn real_parameters() -> Vec<String> {
+    let identity = Washout::IDENTITY;
+    (0..identity.slots.len())
+        .filter(|&slot| {
+            let row = identity.row(slot);
+            row.causality == Causality::Parameter && matches!(row.kind, Kind::Real(_))
+        })
+        .map(|slot| identity.variable_name(slot))
+        .collect()
+}
+
+#[test]
+fn what_is_not_a_finite_number_is_refused_for_every_parameter() {
+    for name in real_parameters() {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let refusal = refusal(&[(&name, value)]);
+            assert_eq!(refusal.variable, name);
+            assert!(refusal.reason.contains("finite"), "{refusal}");
+        }
+    }
+}
+
+#[test]
+fn what_must_be_above_zero_is_refused_at_zero_and_below() {
+    for name in real_parameters() {
+        let any_sign = ["rig.base[", "rig.platform[", "washoutPoint.", "scale."];
+        if any_sign.iter().any(|prefix| name.starts_with(prefix)) {
+            continue;
+        }
+        let may_be_zero = ["input.cutoff", "head.height", "head.torsoLength"].contains(&name.as_str());
+        let bad = if may_be_zero { vec![-1.0] } else { vec![-1.0, 0.0] };
+        for value in bad {
+            let refusal = refusal(&[(&name, value)]);
+            assert_eq!(refusal.variable, name, "{refusal}");
+            assert!(refusal.reason.contains(&format!("is {value}")), "{refusal}");
+        }
+    }
+}
+
+#[test]
+fn what_is_out_of_its_range_is_refused() {
+    for (name, value) in [
+        ("splitter.order", 1.0),
+        ("splitter.order", 5.0),
+        ("angular.order", 0.0),
+        ("tilt.angleLimit", 1.5),
+        ("solver.maxStep", 1.0),
+        ("solver.maxStep", 1e-7),
+        ("splitter.x.omega1", 1e4),
+        ("splitter.z.lowPassOmega", 1e-7),
+        ("angular.yaw.zeta2", 1e3),
+        ("head.torsoLength", 1.3),
+        ("actuator.minLength", 1.7),
+        ("rig.neutralHeight", 0.2),
+    ] {
+        let refusal = refusal(&[(name, value)]);
+        assert_eq!(refusal.variable, name, "{refusal}");
+        assert!(refusal.to_string().starts_with(name) && refusal.reason.len() > 10, "{refusal}");
+    }
+}
+
+#[test]
+fn the_model_refuses_alike_and_retuning_changes_nothing() {
+    let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
+    Washout::start(&mut slots);
+    let mut washout = <Washout as Model>::new(&slots).unwrap();
+    let before = washout.clone();
+    slots[Washout::IDENTITY.slot("tilt.rateLimit").unwrap()] = -1.0;
+    assert_eq!(Model::retune(&mut washout, &slots).unwrap_err().variable, "tilt.rateLimit");
+    assert_eq!(<Washout as Model>::new(&slots).unwrap_err().variable, "tilt.rateLimit");
+    assert_eq!(washout, before);
+}
+
+#[test]
+fn parameters_so_extreme_that_arithmetic_fails_are_refused_or_survived() {
+    for name in real_parameters() {
+        for value in [1e-300, 1e-30, 1e-9, 1e4, 1e9, 1e30, 1e300] {
+            let Ok(mut washout) = Washout::new(&parameters(&[(&name, value)])) else { continue };
+            for k in 0..200 {
+                let mut input = Input::default();
+                input.specific_force.x += if k < 100 { 3.0 } else { 0.0 };
+                input.specific_force.y -= 2.0;
+                input.angular_velocity.fill(0.3);
+                washout.step(&input, 0.001);
+            }
+            let output = washout.output();
+            assert!(output.position.iter().all(|p| p.is_finite()), "{name} = {value}");
+            assert!(output.length.iter().all(|length| (1.0..=1.6).contains(length)) || name.starts_with("actuator"));
+            assert!(output.felt_specific_force.iter().all(|f| f.is_finite()), "{name} = {value}");
+            assert!(washout.retune(&parameters(&[(&name, value), ("tilt.rateLimit", 0.05)])).is_ok());
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Tunable parameters changed in the middle of a ride, engaging and disengaging: nothing jumps.
+
+use model_interface::{Causality, Kind, Model, Variability};
+use moris_washout::interface::RollPitchYaw;
+use moris_washout::{Input, Output, Parameters, Washout};
+use nalgebra::Vector3;
+
+use crate::common::limits::Watch;
+use crate::common::{G, displacement, parameters, ride, washout};
+
+const STEP: f64 = 0.001;
+
+/// A ride in which everything moves.
+fn moving(t: f64) -> Input {
+    let wave = |amplitude: f64, omega: f64, phase: f64| amplitude * (omega * t + phase).sin();
+    Input {
+        specific_force: Vector3::new(1.0 + wave(0.8, 0.9, 0.0), wave(1.0, 0.7, 1.0), G + wave(0.8, 3.0, 2.0)),
+        angular_velocity: Vector3::new(wave(0.2, 1.5, 0.0), wave(0.15, 1.1, 1.0), wave(0.3, 0.9, 2.0)),
+        orientation: RollPitchYaw::new(wave(0.13, 1.5, 1.6), wave(0.13, 1.1, 2.6), wave(0.3, 0.9, 3.6)),
+        lean: 0.1,
+        ..Input::default()
+    }
+}
+
+/// Slots of the model with the default parameters.
+fn start_slots() -> Vec<f64> {
+    let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
+    Washout::start(&mut slots);
+    slots
+}
+
+/// Every tunable variable with the values to change it to.
+fn changes() -> Vec<(usize, Vec<f64>)> {
+    let identity = Washout::IDENTITY;
+    let start = start_slots();
+    (0..identity.slots.len())
+        .filter(|&slot| {
+            let row = identity.row(slot);
+            row.causality == Causality::Parameter && row.variability == Variability::Tunable
+        })
+        .map(|slot| {
+            let values = match identity.row(slot).kind {
+                Kind::Enumeration(enumeration) => (1..=enumeration.items.len()).map(|item| item as f64).collect(),
+                _ if identity.variable_name(slot) == "input.cutoff" => vec![1.0, 20.0],
+                _ => [0.1, 0.5, 1.5, 2.5].map(|factor| factor * start[slot]).to_vec(),
+            };
+            (slot, values)
+        })
+        .collect()
+}
+
+/// How two outputs one step apart, or of two washouts, may differ: by what accelerations do in a step.
+fn assert_no_jump(a: &Output, b: &Output, what: &str) {
+    const LINEAR: f64 = 10.0;
+    const ANGULAR: f64 = 10.0;
+    let close = |a: f64, b: f64, bound: f64, quantity: &str| {
+        assert!((a - b).abs() <= bound, "{what}: {quantity} jumps from {a} to {b}");
+    };
+    for k in 0..3 {
+        close(a.position[k], b.position[k], LINEAR * STEP * STEP, "position");
+        close(a.velocity[k], b.velocity[k], LINEAR * STEP * 1.001, "velocity");
+        close(a.orientation.to_vector()[k], b.orientation.to_vector()[k], ANGULAR * STEP * STEP, "angle");
+        close(a.angular_velocity[k], b.angular_velocity[k], ANGULAR * STEP, "angular velocity");
+    }
+    for i in 0..6 {
+        close(a.length[i], b.length[i], 15.0 * STEP * STEP, "length");
+        close(a.leg_velocity[i], b.leg_velocity[i], 15.0 * STEP * 1.001, "leg's velocity");
+    }
+}
+
+#[test]
+fn no_tunable_parameter_makes_anything_jump() {
+    let mut ridden = washout(&[]);
+    ride(&mut ridden, 6.0, STEP, moving, |_, _| {});
+    let changes = changes();
+    assert!(changes.len() > 50, "{}", changes.len());
+    for (slot, values) in changes {
+        for value in values {
+            let what = format!("{} = {value}", Washout::IDENTITY.variable_name(slot));
+            let mut slots = start_slots();
+            slots[slot] = value;
+            let (mut changed, mut unchanged) = (ridden.clone(), ridden.clone());
+            Model::retune(&mut changed, &slots).unwrap_or_else(|refusal| panic!("{refusal}"));
+            let mut after = |changed: &mut Washout| {
+                changed.step(&moving(6.0), STEP);
+                unchanged.step(&moving(6.0), STEP);
+                assert_no_jump(&changed.output(), &unchanged.output(), &what);
+            };
+            after(&mut changed);
+            // What follows may not jump either, and the legs keep their limits.
+            let mut watch = Watch::new(changed.parameters(), &changed.output());
+            let mut last = changed.output();
+            for k in 6001..9000 {
+                changed.step(&moving(k as f64 * STEP), STEP);
+                let now = changed.output();
+                watch.look_at_machine(&now, STEP);
+                let moved = now.position - last.position - 0.5 * STEP * (now.velocity + last.velocity);
+                assert!(moved.amax() < 2.0 * 0.01 * 15.0 * STEP * STEP, "{what} at {k}: {moved}");
+                last = now;
+            }
+        }
+    }
+}
+
+#[test]
+fn retuning_with_the_same_parameters_changes_nothing() {
+    let mut washout = washout(&[]);
+    ride(&mut washout, 3.0, STEP, moving, |_, _| {});
+    let mut retuned = washout.clone();
+    retuned.retune(&parameters(&[])).unwrap();
+    for k in 3000..6000 {
+        washout.step(&moving(k as f64 * STEP), STEP);
+        retuned.step(&moving(k as f64 * STEP), STEP);
+    }
+    let (a, b) = (washout.output(), retuned.output());
+    assert!((a.position - b.position).amax() < 1e-12);
+    assert!((a.orientation.to_vector() - b.orientation.to_vector()).amax() < 1e-12);
+}
+
+#[test]
+fn after_retuning_the_steady_state_is_the_new_parameters() {
+    let mut changed = washout(&[]);
+    ride(&mut changed, 5.0, STEP, moving, |_, _| {});
+    let others = parameters(&[("scale.specificForce.x", 0.5), ("splitter.x.omega1", 1.0), ("splitter.y.zeta2", 0.6)]);
+    changed.retune(&others).unwrap();
+    let lasting = |_: f64| Input { specific_force: Vector3::new(2.0, 1.0, G), ..Input::default() };
+    ride(&mut changed, 60.0, 0.01, lasting, |_, _| {});
+    let output = changed.output();
+    assert!((output.felt_specific_force.x - 1.0).abs() < 1e-4);
+    assert!((output.felt_specific_force.y - 1.0).abs() < 1e-4);
+}
+
+#[test]
+fn lowered_safety_limits_are_reached_and_then_kept() {
+    let mut washout = washout(&[]);
+    let pushed = |_: f64| Input { specific_force: Vector3::new(6.0, 0.0, G), ..Input::default() };
+    ride(&mut washout, 0.4, STEP, pushed, |_, _| {});
+    assert!(washout.output().position.x > 0.1);
+    let lowered = parameters(&[("safety.x.positionLimit", 0.05), ("safety.x.velocityLimit", 0.2)]);
+    washout.retune(&lowered).unwrap();
+    ride(&mut washout, 5.0, STEP, pushed, |t, output| {
+        if t > 1.5 {
+            assert!(output.position.x.abs() <= 0.05 && output.velocity.x.abs() <= 0.2 + 1e-12, "at {t}");
+        }
+    });
+}
+
+#[test]
+fn fixed_parameters_are_refused_by_name() {
+    let mut washout = washout(&[]);
+    let before = washout.clone();
+    for (name, value) in [("head.height", 1.3), ("rig.base[2].y", 0.5), ("splitter.order", 3.0), ("gravity", 9.81)] {
+        let refusal = washout.retune(&parameters(&[(name, value)])).unwrap_err();
+        assert_eq!(refusal.variable, name, "{refusal}");
+        assert_eq!(washout, before);
+    }
+}
+
+#[test]
+fn disengaged_it_returns_to_neutral_and_stays_whatever_the_vehicle_does() {
+    let parameters = Parameters::default();
+    let mut washout = washout(&[]);
+    let mut watch = Watch::new(&parameters, &washout.output());
+    ride(&mut washout, 5.0, STEP, moving, |_, output| watch.look(output, STEP));
+    assert!(displacement(&washout.output()) > 0.02);
+    let disengaged = |t: f64| Input { engaged: false, ..moving(5.0 + t) };
+    ride(&mut washout, 60.0, STEP, disengaged, |t, output| {
+        watch.look(output, STEP);
+        if t > 40.0 {
+            assert!(displacement(output) < 1e-6, "{} at {t}", displacement(output));
+        }
+    });
+    ride(&mut washout, 5.0, STEP, moving, |_, output| watch.look(output, STEP));
+    assert!(displacement(&washout.output()) > 0.02, "engaged again it cues again");
+}
+
+#[test]
+fn started_disengaged_it_stays_at_neutral() {
+    let input = |t: f64| Input { engaged: false, ..moving(t) };
+    let mut washout = washout(&[]).starting_with(&input(0.0));
+    ride(&mut washout, 10.0, STEP, input, |t, output| assert!(displacement(output) < 1e-12, "at {t}"));
+}

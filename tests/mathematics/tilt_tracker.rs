@@ -1,0 +1,104 @@
+//! The tilt tracker: limits never exceeded, no overshoot, hardly slower than possible, and no lag inside the limits.
+
+use moris_washout::gravitational::{GravitationalStrategy, tilt_target};
+use moris_washout::interface::TiltParameters;
+use nalgebra::Vector3;
+use proptest::prelude::*;
+
+use crate::common::random::Random;
+use crate::common::{G, cases};
+
+/// The force at the head for which the pitch target is this, with no sway.
+fn force_for_pitch(pitch: f64) -> Vector3<f64> {
+    Vector3::new(-G * pitch.sin(), 0.0, 0.0)
+}
+
+fn tracker_after(seconds: f64, step: f64, limits: &TiltParameters, pitch: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut tracker = GravitationalStrategy::default();
+    (0..(seconds / step).round() as usize)
+        .map(|k| {
+            tracker.advance(force_for_pitch(pitch((k + 1) as f64 * step)), G, 0.0, limits, step, step);
+            tracker.pitch.position
+        })
+        .collect()
+}
+
+proptest! {
+    #![proptest_config(cases(100))]
+
+    #[test]
+    fn limits_hold_for_hostile_targets(
+        seed: u64, rate_limit in 0.01..0.5, acceleration_limit in 0.02..3.0, step in 0.0005..0.02, hold in 1..400_u64,
+    ) {
+        let limits = TiltParameters { rate_limit, acceleration_limit, angle_limit: 0.35 };
+        let mut tracker = GravitationalStrategy::default();
+        let mut random = Random::new(seed);
+        let (mut force, mut lean) = (Vector3::zeros(), 0.0);
+        let mut last = tracker;
+        for k in 0..3000 {
+            if k % hold == 0 {
+                force = Vector3::from_fn(|_, _| random.between(-20.0, 20.0));
+                lean = random.between(-0.6, 0.6);
+            }
+            tracker.advance(force, G, lean, &limits, step, step);
+            for (now, before) in [(tracker.pitch, last.pitch), (tracker.roll, last.roll)] {
+                let rounding = 1.0 + 1e-9;
+                prop_assert!(now.velocity.abs() <= rate_limit * rounding);
+                prop_assert!(now.acceleration.abs() <= acceleration_limit * rounding);
+                prop_assert!(now.position.abs() <= 0.35);
+                prop_assert!((now.velocity - before.velocity).abs() <= acceleration_limit * step * rounding);
+                // What is reported is what is done.
+                let moved = now.position - before.position;
+                prop_assert!((moved - 0.5 * (now.velocity + before.velocity) * step).abs() < 1e-15);
+            }
+            last = tracker;
+        }
+    }
+
+    #[test]
+    fn a_step_is_reached_without_overshoot_in_nearly_the_shortest_time(
+        angle in 0.002..0.34, rate_limit in 0.02..0.3, acceleration_limit in 0.05..2.0,
+    ) {
+        let limits = TiltParameters { rate_limit, acceleration_limit, angle_limit: 0.35 };
+        let to_full_rate = rate_limit * rate_limit / acceleration_limit;
+        let shortest = if angle >= to_full_rate {
+            angle / rate_limit + rate_limit / acceleration_limit
+        } else {
+            2.0 * f64::sqrt(angle / acceleration_limit)
+        };
+        let positions = tracker_after(1.5 * shortest + 1.0, 0.001, &limits, |_| angle);
+        let farthest = positions.iter().copied().fold(0.0, f64::max);
+        prop_assert!(farthest <= 1.005 * angle, "overshoot to {farthest} of {angle}");
+        let arrived = positions.iter().rposition(|p| (p - angle).abs() > 0.002 * angle).unwrap() + 1;
+        let time = arrived as f64 * 0.001;
+        prop_assert!(time <= 1.05 * shortest + 0.001, "{time} s, at best {shortest} s");
+    }
+}
+
+#[test]
+fn a_target_inside_the_limits_is_followed_within_20_ms() {
+    let limits = TiltParameters::default();
+    for (amplitude, omega) in [(0.03_f64, 1.2_f64), (0.1, 0.5), (0.01, 4.0)] {
+        assert!(amplitude * omega < limits.rate_limit && amplitude * omega * omega < limits.acceleration_limit);
+        for step in [0.001, 0.01] {
+            let positions = tracker_after(30.0, step, &limits, |t| amplitude * (omega * t).sin());
+            for (k, position) in positions.iter().enumerate().skip((10.0 / step) as usize) {
+                let target = amplitude * (omega * (k + 1) as f64 * step).sin();
+                assert!((position - target).abs() < 0.020 * amplitude * omega, "step {step}, {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_target_is_eq_8_kept_inside_the_angle_limit() {
+    let (target, clipped) = tilt_target(Vector3::new(2.0, 1.0, 0.3), G, 0.1, 0.35);
+    let pitch = -(2.0 / G).asin();
+    assert!((target.pitch - pitch).abs() < 1e-15);
+    assert!((target.roll - ((1.0 / (G * pitch.cos())).asin() - 0.1)).abs() < 1e-15);
+    assert!(!clipped);
+    for force in [Vector3::new(50.0, 50.0, 0.0), Vector3::new(-50.0, -50.0, 0.0), Vector3::new(9.9, -9.9, 0.0)] {
+        let (target, clipped) = tilt_target(force, G, 0.0, 0.35);
+        assert!(target.pitch.abs() <= 0.35 && target.roll.abs() <= 0.35 && clipped);
+    }
+}
