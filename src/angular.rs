@@ -66,11 +66,13 @@ impl Axis {
         let (bump_start, bump_end) = self.bump.advance(step);
         let (start, end) = (start + bump_start, end + bump_end);
         self.chain.advance(start, end, step);
-        let jump = (start - self.input) / step;
+        let rate = self.chain.high_pass(end);
+        // The input's slope over the step, and its jump before it.
+        let slope = (end - self.input) / step;
         self.motion = Motion {
             position: self.chain.first_integral(),
-            velocity: self.chain.high_pass(end),
-            acceleration: self.chain.high_pass_rate(end, (end - start) / step) + jump,
+            velocity: rate,
+            acceleration: self.chain.high_pass_rate(rate, slope),
         };
         self.input = end;
     }

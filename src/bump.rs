@@ -25,7 +25,7 @@ impl Bump {
             return (0.0, 0.0);
         }
         let start = self.value;
-        let end = start * (-step / TIME_CONSTANT).exp();
+        let end = start * libm::exp(-step / TIME_CONSTANT);
         self.value = if end.abs() < OVER { 0.0 } else { end };
         (start, self.value)
     }

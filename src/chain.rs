@@ -103,11 +103,11 @@ impl Chain {
         input - self.low_pass()
     }
 
-    /// The time derivative of [`Chain::high_pass`] for an input with this value and this slope.
-    pub fn high_pass_rate(&self, input: f64, slope: f64) -> f64 {
+    /// The time derivative of [`Chain::high_pass`], for an input with this slope and a high-pass that is `high_pass` now.
+    pub fn high_pass_rate(&self, high_pass: f64, slope: f64) -> f64 {
         let [c1, c2, c3, c4] = self.denominator.coefficients;
         let [x1, x2, x3, _] = self.state;
-        slope - c1 * self.high_pass(input) - c2 * x1 - c3 * x2 - c4 * x3
+        slope - (c1 * high_pass + c2 * x1) - (c3 * x2 + c4 * x3)
     }
 
     /// The first integral of the high-pass, s^(n-1)/D of the input.

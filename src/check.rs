@@ -78,6 +78,8 @@ fn rule(row: &Row) -> Rule {
 
 /// 60 degrees: beyond it tilting hardly adds to the force that is felt along the axis \[rad\].
 const LARGEST_TILT: f64 = 1.047_197_551_196_597_6;
+/// No machine comes near this in SI units; far beyond it arithmetic would overflow.
+const LARGEST: f64 = 1e9;
 /// Beyond this the limits act too coarsely \[s\].
 const LONGEST_STEP: f64 = 0.05;
 
@@ -90,6 +92,7 @@ fn check_each(parameters: &Parameters) -> Result<(), Refusal> {
         for (element, &value) in mine.iter().enumerate() {
             let reason = match rule(row) {
                 _ if !value.is_finite() => "must be a finite number".to_owned(),
+                _ if value.abs() > LARGEST => format!("must not be beyond +-{LARGEST:e}"),
                 Rule::Positive if value <= 0.0 => "must be above 0".to_owned(),
                 Rule::NotNegative if value < 0.0 => "must not be below 0".to_owned(),
                 Rule::UpTo(largest) if value <= 0.0 || value > largest => {

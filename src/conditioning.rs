@@ -26,7 +26,7 @@ impl Cue {
 ///
 /// `lean` is the lean of the head's frame relative to the vehicle's \[rad\], `gravity` the magnitude of gravity \[m/s2\].
 pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
-    let pitch = input.orientation.pitch.sin_cos();
+    let pitch = libm::sincos(input.orientation.pitch);
     let force = input.specific_force
         + gravity * removed_gravity(parameters.gravity_removal, input.orientation.roll + lean, pitch);
     let rates = match parameters.angular_velocity_frame {
@@ -43,21 +43,24 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
 fn removed_gravity(removal: GravityRemoval, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
     match removal {
         GravityRemoval::None => Vector3::zeros(),
-        GravityRemoval::HeadVertical => Vector3::new(0.0, 0.0, -cos_pitch * roll.cos()),
-        GravityRemoval::Full => Vector3::new(sin_pitch, -cos_pitch * roll.sin(), -cos_pitch * roll.cos()),
+        GravityRemoval::HeadVertical => Vector3::new(0.0, 0.0, -cos_pitch * libm::cos(roll)),
+        GravityRemoval::Full => {
+            let (sin_roll, cos_roll) = libm::sincos(roll);
+            Vector3::new(sin_pitch, -cos_pitch * sin_roll, -cos_pitch * cos_roll)
+        }
     }
 }
 
 /// Rates of roll, pitch and yaw from an angular velocity in the vehicle's world: the inverse of eq. (10).
 fn rates_from_world(omega: Vector3<f64>, yaw: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
-    let (sin_yaw, cos_yaw) = yaw.sin_cos();
+    let (sin_yaw, cos_yaw) = libm::sincos(yaw);
     let roll = (cos_yaw * omega.x + sin_yaw * omega.y) / away_from_zero(cos_pitch);
     Vector3::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
 }
 
 /// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R omega_body, inverted.
 fn rates_from_body(omega: Vector3<f64>, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
-    let (sin_roll, cos_roll) = roll.sin_cos();
+    let (sin_roll, cos_roll) = libm::sincos(roll);
     let yaw = (sin_roll * omega.y + cos_roll * omega.z) / away_from_zero(cos_pitch);
     Vector3::new(omega.x + sin_pitch * yaw, cos_roll * omega.y - sin_roll * omega.z, yaw)
 }
@@ -70,7 +73,7 @@ pub fn soft_limit(value: f64, limit: f64) -> f64 {
     let knee = KNEE * limit;
     let room = limit - knee;
     let beyond = value.abs() - knee;
-    if beyond <= 0.0 { value } else { (knee + room * (beyond / room).tanh()).copysign(value) }
+    if beyond <= 0.0 { value } else { (knee + room * libm::tanh(beyond / room)).copysign(value) }
 }
 
 /// The optional first-order low-pass on the cue.
@@ -93,7 +96,7 @@ impl InputFilter {
             return (start, end);
         }
         let before = self.cue;
-        let decay = (-cutoff * step).exp();
+        let decay = libm::exp(-cutoff * step);
         // The exact response of y' = cutoff (u - y) to a ramp: it lags by slope/cutoff, and the rest decays.
         let ramp = |y: Vector3<f64>, u0: Vector3<f64>, u1: Vector3<f64>| {
             let lag = (u1 - u0) / (cutoff * step);

@@ -18,14 +18,14 @@ pub struct Felt {
 ///
 /// The rider's own leaning is not the platform's doing: his head is taken as at rest relative to the platform.
 pub fn felt(platform: &PlatformMotion, head: &Head, gravity: f64) -> Felt {
-    let head_axes = platform.orientation.rotation * head.rotation;
-    let arm = platform.orientation.rotation * head.point;
+    let rotation = platform.orientation.rotation;
+    let arm = rotation * head.point;
     let acceleration = platform.acceleration
         + tangential(platform.angular_acceleration, arm)
         + centripetal(platform.angular_velocity, arm);
     let specific_force = acceleration + Vector3::new(0.0, 0.0, gravity);
     Felt {
-        specific_force: head_axes.tr_mul(&specific_force),
-        angular_velocity: head_axes.tr_mul(&platform.angular_velocity),
+        specific_force: head.to_head_axes(rotation.tr_mul(&specific_force)),
+        angular_velocity: head.to_head_axes(rotation.tr_mul(&platform.angular_velocity)),
     }
 }

@@ -4,6 +4,8 @@
 //! [`approach_velocity`]: the velocity from which one can still stop within a distance. Over a step the acceleration is
 //! constant, so position and velocity at the steps' ends are exact and nothing happens between them unseen.
 
+use std::ops::Add;
+
 use serde::{Deserialize, Serialize};
 
 /// Position, velocity and acceleration of something that moves along a line, in SI units.
@@ -18,6 +20,18 @@ impl Motion {
     /// At rest at this position.
     pub fn at_rest(position: f64) -> Self {
         Motion { position, velocity: 0.0, acceleration: 0.0 }
+    }
+}
+
+impl Add for Motion {
+    type Output = Motion;
+
+    fn add(self, other: Motion) -> Motion {
+        Motion {
+            position: self.position + other.position,
+            velocity: self.velocity + other.velocity,
+            acceleration: self.acceleration + other.acceleration,
+        }
     }
 }
 
@@ -121,6 +135,7 @@ impl Governor {
     }
 
     /// Advances by one step at whose end the target's motion is `target`.
+    #[inline(always)]
     pub fn advance(&mut self, target: &Motion, limits: &Limits, step: f64) {
         let joined = self.may_be(target, limits, step);
         let next = if joined {
@@ -135,6 +150,7 @@ impl Governor {
     }
 
     /// Whether the motion at the step's end can be the target's.
+    #[inline(always)]
     fn may_be(&self, target: &Motion, limits: &Limits, step: f64) -> bool {
         let Motion { position, velocity, .. } = self.motion;
         let near = REJOIN_DISTANCE * limits.acceleration * step * step;

@@ -28,9 +28,9 @@ pub struct Tilt {
 /// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside the angle limit, and so is
 /// the roll after the lean is taken off. Also returns whether they had to be.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
-    let nose_up = (force.x / gravity).clamp(-1.0, 1.0).asin();
+    let nose_up = libm::asin((force.x / gravity).clamp(-1.0, 1.0));
     let pitch = (-nose_up).clamp(-angle_limit, angle_limit);
-    let head_roll = (force.y / (gravity * pitch.cos())).clamp(-1.0, 1.0).asin();
+    let head_roll = libm::asin((force.y / (gravity * libm::cos(pitch))).clamp(-1.0, 1.0));
     let roll = (head_roll.clamp(-angle_limit, angle_limit) - lean).clamp(-angle_limit, angle_limit);
     (Tilt { roll, pitch }, pitch != -nose_up || roll != head_roll - lean)
 }

@@ -1,6 +1,6 @@
 //! Where the washout location is on the platform: the rider's head with his lean, eq. (4), or another point.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use crate::interface::{StructureParameters, WashoutLocation};
 
@@ -11,8 +11,8 @@ pub struct Head {
     pub point: Vector3<f64>,
     /// Roll of the frame at the location relative to the platform: the rider's lean, or 0 where no rider leans \[rad\].
     pub lean: f64,
-    /// R_H^P = Rx(lean).
-    pub rotation: Matrix3<f64>,
+    sin_lean: f64,
+    cos_lean: f64,
 }
 
 impl Head {
@@ -29,17 +29,22 @@ impl Head {
     }
 
     fn leaning(height: f64, torso: f64, lean: f64) -> Self {
-        let (sin, cos) = lean.sin_cos();
-        #[rustfmt::skip]
-        let rotation = Matrix3::new(
-            1.0, 0.0,  0.0,
-            0.0, cos, -sin,
-            0.0, sin,  cos,
-        );
-        Head { point: Vector3::new(0.0, -torso * sin, height - torso + torso * cos), lean, rotation }
+        let (sin_lean, cos_lean) = libm::sincos(lean);
+        let point = Vector3::new(0.0, -torso * sin_lean, height - torso + torso * cos_lean);
+        Head { point, lean, sin_lean, cos_lean }
     }
 
     fn fixed(point: Vector3<f64>) -> Self {
-        Head { point, lean: 0.0, rotation: Matrix3::identity() }
+        Head { point, lean: 0.0, sin_lean: 0.0, cos_lean: 1.0 }
+    }
+
+    /// A vector in the axes of the frame at the location, R_H^P v with R_H^P = Rx(lean), in the platform's axes.
+    pub fn to_platform_axes(&self, v: Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(v.x, self.cos_lean * v.y - self.sin_lean * v.z, self.sin_lean * v.y + self.cos_lean * v.z)
+    }
+
+    /// The inverse of [`Head::to_platform_axes`].
+    pub fn to_head_axes(&self, v: Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(v.x, self.cos_lean * v.y + self.sin_lean * v.z, self.cos_lean * v.z - self.sin_lean * v.y)
     }
 }

@@ -19,6 +19,8 @@
 //! Frames: the base frame and the platform frame have x forward, y left, z up; roll, pitch and yaw turn about x, y and
 //! z, so that positive pitch is nose down. All quantities are in SI units.
 //!
+//! Sines, cosines and their like come from the crate `libm`, so that every platform computes the same bits.
+//!
 //! A step allocates nothing, does no I/O and does not panic, whatever it is fed.
 
 #![forbid(unsafe_code)]

@@ -4,6 +4,8 @@ use model_interface::{Field, Kind, units};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
+use crate::governor::Motion;
+
 /// Roll about x, pitch about y (nose down is positive), yaw about z, or three quantities that belong to them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RollPitchYaw {
@@ -54,9 +56,9 @@ pub struct Orientation {
 impl Orientation {
     /// R = Rz(yaw) Ry(pitch) Rx(roll), eq. (2).
     pub fn new(angles: RollPitchYaw) -> Self {
-        let (sr, cr) = angles.roll.sin_cos();
-        let (sp, cp) = angles.pitch.sin_cos();
-        let (sy, cy) = angles.yaw.sin_cos();
+        let (sr, cr) = libm::sincos(angles.roll);
+        let (sp, cp) = libm::sincos(angles.pitch);
+        let (sy, cy) = libm::sincos(angles.yaw);
         #[rustfmt::skip]
         let rotation = Matrix3::new(
             cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr,
@@ -81,18 +83,28 @@ impl Orientation {
 
     /// Angular velocity in the reference frame from the angles' rates, eq. (10).
     pub fn angular_velocity(&self, rates: RollPitchYaw) -> Vector3<f64> {
-        self.rate_matrix() * rates.to_vector()
+        self.out_of_heading(Vector3::new(
+            self.cos_pitch * rates.roll,
+            rates.pitch,
+            rates.yaw - self.sin_pitch * rates.roll,
+        ))
     }
 
     /// Angular acceleration in the reference frame: the time derivative of eq. (10).
+    ///
+    /// In axes that turn with the heading, of what [`Orientation::angular_velocity`] has there, and of the heading.
     pub fn angular_acceleration(&self, rates: RollPitchYaw, accelerations: RollPitchYaw) -> Vector3<f64> {
-        // The roll axis turns with yaw and pitch, the pitch axis with yaw: E' has a column for each.
-        let roll_axis = Vector3::new(self.cos_yaw * self.cos_pitch, self.sin_yaw * self.cos_pitch, -self.sin_pitch);
-        let pitch_axis = Vector3::new(-self.sin_yaw, self.cos_yaw, 0.0);
-        let yaw_turn = Vector3::new(0.0, 0.0, rates.yaw);
-        let roll_axis_rate = (yaw_turn + rates.pitch * pitch_axis).cross(&roll_axis);
-        let pitch_axis_rate = yaw_turn.cross(&pitch_axis);
-        self.angular_velocity(accelerations) + rates.roll * roll_axis_rate + rates.pitch * pitch_axis_rate
+        let (sin, cos) = (self.sin_pitch, self.cos_pitch);
+        self.out_of_heading(Vector3::new(
+            cos * accelerations.roll - rates.pitch * (sin * rates.roll + rates.yaw),
+            accelerations.pitch + rates.yaw * cos * rates.roll,
+            accelerations.yaw - sin * accelerations.roll - cos * rates.pitch * rates.roll,
+        ))
+    }
+
+    /// A vector in axes that share only the yaw, in the reference frame.
+    fn out_of_heading(&self, v: Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(self.cos_yaw * v.x - self.sin_yaw * v.y, self.sin_yaw * v.x + self.cos_yaw * v.y, v.z)
     }
 
     /// The angles' rates from an angular velocity in the reference frame: the inverse of eq. (10).
@@ -103,6 +115,28 @@ impl Orientation {
         let roll = along_heading / away_from_zero(self.cos_pitch);
         let pitch = self.cos_yaw * angular_velocity.y - self.sin_yaw * angular_velocity.x;
         RollPitchYaw::new(roll, pitch, angular_velocity.z + self.sin_pitch * roll)
+    }
+}
+
+/// An orientation that changes, with its angular velocity and acceleration in the reference frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turning {
+    pub orientation: Orientation,
+    pub velocity: Vector3<f64>,
+    pub acceleration: Vector3<f64>,
+}
+
+impl Turning {
+    /// From roll, pitch and yaw as they move.
+    pub fn new([roll, pitch, yaw]: [Motion; 3]) -> Self {
+        let orientation = Orientation::new(RollPitchYaw::new(roll.position, pitch.position, yaw.position));
+        let rates = RollPitchYaw::new(roll.velocity, pitch.velocity, yaw.velocity);
+        let accelerations = RollPitchYaw::new(roll.acceleration, pitch.acceleration, yaw.acceleration);
+        Turning {
+            orientation,
+            velocity: orientation.angular_velocity(rates),
+            acceleration: orientation.angular_acceleration(rates, accelerations),
+        }
     }
 }
 

@@ -11,8 +11,8 @@ use crate::direct_linear::DirectLinearMotion;
 use crate::evaluator::{Felt, felt};
 use crate::gravitational::GravitationalStrategy;
 use crate::head::Head;
-use crate::interface::{Input, Output, Parameters, RollPitchYaw};
-use crate::orientation::Orientation;
+use crate::interface::{Input, Output, Parameters};
+use crate::orientation::Turning;
 use crate::platform::{ActuatorGuard, PlatformMotion, Pose};
 use crate::splitter::LowPass;
 use crate::spurious::compensated;
@@ -159,71 +159,58 @@ impl Washout {
         (step / self.parameters.structure.max_step * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS)
     }
 
-    /// One step of Fig. 4 from left to right.
+    /// One step of Fig. 4, from left to right.
     fn internal_step(&mut self, start: &Input, end: &Input, step: f64) {
-        let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
-        let head = Head::new(structure, start.lean);
-        let head_axes = self.guard.motion().orientation.rotation * head.rotation;
-        let held = start == end;
-        let head_at_end = if held { head } else { Head::new(structure, end.lean) };
-        let head_axes_end = self.guard.motion().rotation_after(step) * head_at_end.rotation;
+        let head = Head::new(&self.parameters.structure, start.lean);
+        let head_at_end = if start == end { head } else { Head::new(&self.parameters.structure, end.lean) };
+        let (cue_start, cue_end) = self.conditioned((start, &head), (end, &head_at_end), step);
 
-        let engagement = self.engagement;
-        self.engagement = faded(engagement, start.engaged, step);
-        let cue_start = cue(start, conditioning, structure.gravity, head.lean).scaled(engagement);
-        let cue_end = if held && self.engagement == engagement {
-            cue_start
-        } else {
-            cue(end, conditioning, structure.gravity, head_at_end.lean).scaled(self.engagement)
-        };
-        let (cue_start, cue_end) = self.input_filter.advance(cue_start, cue_end, conditioning.cutoff, step);
-        let (force_start, force_end) = (head_axes * cue_start.force, head_axes_end * cue_end.force);
+        let rotation = self.guard.motion().orientation.rotation;
+        let turn = self.guard.motion().turn(step);
+        let force_start = rotation * head.to_platform_axes(cue_start.force);
+        let force_end = turn.apply(rotation * head_at_end.to_platform_axes(cue_end.force));
+        let low_frequency = turn.undo(self.low_pass.advance(force_start, force_end, step));
 
-        let low_frequency = head_axes_end.tr_mul(&self.low_pass.advance(force_start, force_end, step));
+        let Parameters { conditioning, tilt, safety, structure, rig, .. } = &self.parameters;
+        let low_frequency = head_at_end.to_head_axes(rotation.tr_mul(&low_frequency));
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * self.engagement;
         self.gravitational.advance(low_frequency, structure.gravity, lean, tilt, structure.max_step, step);
-        let turning = self.angular.advance(cue_start.rates, cue_end.rates, step);
-        let (roll, pitch) = (self.gravitational.roll, self.gravitational.pitch);
-        let [channel_roll, channel_pitch, yaw] = turning;
-        let orientation = Orientation::new(RollPitchYaw::new(
-            roll.position + channel_roll.position,
-            pitch.position + channel_pitch.position,
-            yaw.position,
-        ));
-        let rates = RollPitchYaw::new(
-            roll.velocity + channel_roll.velocity,
-            pitch.velocity + channel_pitch.velocity,
-            yaw.velocity,
-        );
-        let accelerations = RollPitchYaw::new(
-            roll.acceleration + channel_roll.acceleration,
-            pitch.acceleration + channel_pitch.acceleration,
-            yaw.acceleration,
-        );
-        let angular_velocity = orientation.angular_velocity(rates);
-        let angular_acceleration = orientation.angular_acceleration(rates, accelerations);
 
-        let arm = orientation.rotation * head_at_end.point;
-        let spurious = compensated(conditioning.compensation, angular_velocity, angular_acceleration, arm);
+        let [roll, pitch, yaw] = self.angular.advance(cue_start.rates, cue_end.rates, step);
+        let turning = Turning::new([self.gravitational.roll + roll, self.gravitational.pitch + pitch, yaw]);
+        let arm = turning.orientation.rotation * head_at_end.point;
+        let spurious = compensated(conditioning.compensation, turning.velocity, turning.acceleration, arm);
         let linear =
             self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, structure.max_step, step);
 
         self.wanted = PlatformMotion {
-            position: Pose::neutral(&self.parameters.rig).position + linear.position,
-            orientation,
+            position: Pose::neutral(rig).position + linear.position,
+            orientation: turning.orientation,
             velocity: linear.velocity,
-            angular_velocity,
+            angular_velocity: turning.velocity,
             acceleration: linear.acceleration,
-            angular_acceleration,
+            angular_acceleration: turning.acceleration,
         };
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
         self.guard.advance(&self.wanted, step);
-        self.input = *end;
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
+        self.input = *end;
         self.limited.tilt |= self.gravitational.limited;
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.acting();
+    }
+
+    /// The cue at the step's start and end, faded while the washout is being engaged or disengaged.
+    fn conditioned(&mut self, start: (&Input, &Head), end: (&Input, &Head), step: f64) -> (Cue, Cue) {
+        let Parameters { conditioning, structure, .. } = &self.parameters;
+        let faded_before = self.engagement;
+        self.engagement = faded(faded_before, start.0.engaged, step);
+        let cue_of = |(input, head): (&Input, &Head)| cue(input, conditioning, structure.gravity, head.lean);
+        let cue_start = cue_of(start);
+        let cue_end = if start.0 == end.0 { cue_start } else { cue_of(end) };
+        let (cue_start, cue_end) = (cue_start.scaled(faded_before), cue_end.scaled(self.engagement));
+        self.input_filter.advance(cue_start, cue_end, conditioning.cutoff, step)
     }
 
     /// Takes over other tunable parameters. Position, velocity, angles and rates of the platform stay what they are;
@@ -254,7 +241,7 @@ impl Washout {
     /// (rates) now, if the conditioned cue is this one.
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let head = Head::new(&self.parameters.structure, self.input.lean);
-        let force = self.guard.motion().orientation.rotation * head.rotation * cue.force;
+        let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
         let PlatformMotion { orientation, angular_velocity, angular_acceleration, .. } = self.wanted;
         let arm = orientation.rotation * head.point;
         let compensation = self.parameters.conditioning.compensation;

@@ -6,7 +6,7 @@ mod inverse;
 mod jacobian;
 mod survey;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
@@ -70,19 +70,30 @@ impl PlatformMotion {
         }
     }
 
-    /// Rotation from the platform frame to the base frame `step` seconds later, to second order in the step.
-    pub fn rotation_after(&self, step: f64) -> Matrix3<f64> {
-        let (omega, rotation) = (self.angular_velocity, self.orientation.rotation);
-        let turned = |axis: Vector3<f64>| {
-            let rate = omega.cross(&axis);
-            axis + step * (rate + 0.5 * step * (omega.cross(&rate) + self.angular_acceleration.cross(&axis)))
-        };
-        let columns = [0, 1, 2].map(|k| turned(rotation.column(k).into()));
-        Matrix3::from_columns(&columns)
+    /// How the platform goes on turning over the next `step` seconds.
+    pub fn turn(&self, step: f64) -> Turn {
+        Turn(step * (self.angular_velocity + 0.5 * step * self.angular_acceleration))
     }
 
     /// The pose alone.
     pub fn pose(&self) -> Pose {
         Pose { position: self.position, orientation: self.orientation }
+    }
+}
+
+/// A small rotation, as a vector along its axis in the base frame \[rad\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn(pub Vector3<f64>);
+
+impl Turn {
+    /// A vector turned with it, to second order.
+    pub fn apply(self, v: Vector3<f64>) -> Vector3<f64> {
+        let first = self.0.cross(&v);
+        v + first + 0.5 * self.0.cross(&first)
+    }
+
+    /// A vector turned back, to second order.
+    pub fn undo(self, v: Vector3<f64>) -> Vector3<f64> {
+        Turn(-self.0).apply(v)
     }
 }
