@@ -1,0 +1,90 @@
+//! What a step costs, and what it is made of: the kernel without FMI.
+//!
+//! `cargo bench --bench kernel`. Instruction counts, which do not depend on what else the machine does, come from
+//! `examples/steps.rs` under callgrind (see docs/performance.md).
+
+use std::hint::black_box;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use moris_washout::platform::{
+    Geometry, PlatformMotion, Pose, forward_kinematics, inverse_kinematics, leg_lengths, survey,
+};
+use moris_washout::{Input, Output, Parameters, Rig, Washout};
+
+/// A smooth ride on all axes that comes back to its start after 8192 steps of 1 ms.
+fn ride() -> Vec<Input> {
+    (0..8192)
+        .map(|k| {
+            let phase = std::f64::consts::TAU * f64::from(k) / 8192.0;
+            let mut input = Input::default();
+            input.specific_force.x = 0.5 * phase.sin();
+            input.specific_force.y = 0.3 * (2.0 * phase).sin();
+            input.specific_force.z += 0.2 * (3.0 * phase).sin();
+            input.angular_velocity.x = 0.02 * (2.0 * phase).sin();
+            input.orientation.roll = 0.1 * (2.0 * phase).sin();
+            input.orientation.pitch = 0.02 * phase.sin();
+            input
+        })
+        .collect()
+}
+
+fn step(c: &mut Criterion) {
+    let ride = ride();
+    let rest = [Input::default()];
+    let mut bench = |name: &str, inputs: &[Input], warm_up: &[Input]| {
+        let mut washout = Washout::new(&Parameters::default()).expect("the default parameters can be used");
+        for input in warm_up {
+            washout.step(input, 0.001);
+        }
+        let mut next = inputs.iter().cycle();
+        c.bench_function(name, |b| {
+            b.iter(|| -> Output {
+                if let Some(input) = next.next() {
+                    washout.step(black_box(input), 0.001);
+                }
+                washout.output()
+            });
+        });
+    };
+    bench("step of 1 ms, riding", &ride, &[]);
+    // Ten simulated minutes after the ride: what decays must not have become denormal.
+    let long_after: Vec<Input> = ride.iter().cloned().chain(std::iter::repeat_n(rest[0], 600_000)).collect();
+    bench("step of 1 ms, long after a ride", &rest, &long_after);
+}
+
+fn kinematics(c: &mut Criterion) {
+    let rig = Rig::default();
+    let geometry = Geometry::from(&rig);
+    let mut washout = Washout::new(&Parameters::default()).expect("the default parameters can be used");
+    for input in &ride()[..3000] {
+        washout.step(input, 0.001);
+    }
+    let motion: PlatformMotion = *washout.motion();
+    c.bench_function("inverse kinematics with leg rates", |b| {
+        b.iter(|| inverse_kinematics(black_box(&geometry), black_box(&motion)));
+    });
+    let lengths = leg_lengths(&geometry, &motion.pose());
+    for input in &ride()[3000..3010] {
+        washout.step(input, 0.001);
+    }
+    let nearby = washout.motion().pose();
+    c.bench_function("forward kinematics from a pose 10 ms away", |b| {
+        b.iter(|| forward_kinematics(black_box(&geometry), black_box(&lengths), black_box(&nearby)));
+    });
+    let neutral = Pose::neutral(&rig);
+    c.bench_function("forward kinematics from neutral", |b| {
+        b.iter(|| forward_kinematics(black_box(&geometry), black_box(&lengths), black_box(&neutral)));
+    });
+}
+
+fn beginnings(c: &mut Criterion) {
+    let parameters = Parameters::default();
+    c.bench_function("new washout, default rig", |b| b.iter(|| Washout::new(black_box(&parameters))));
+    let mut group = c.benchmark_group("slow");
+    group.sample_size(10);
+    group.bench_function("survey of a rig", |b| b.iter(|| survey(black_box(&parameters.rig))));
+    group.finish();
+}
+
+criterion_group!(benches, step, kinematics, beginnings);
+criterion_main!(benches);
