@@ -5,7 +5,7 @@ use std::fmt;
 use std::fs;
 use std::process::Command;
 
-use crate::{Error, Model, Platform, tools, workspace};
+use crate::{Error, FmiVersion, Model, Platform, apple_names, tools, workspace};
 
 /// The oldest glibc on which a library for Linux runs when zig links it: that of RHEL 7, and of what Rust itself needs.
 const OLDEST_GLIBC: &str = "2.17";
@@ -22,6 +22,8 @@ pub struct Plan {
 pub enum Linker {
     /// This machine's own. A library for Linux then needs this machine's glibc or a newer one.
     Host,
+    /// The one that comes with Rust, for macOS on other systems.
+    Lld,
     /// zig, by cargo-zigbuild, for Linux.
     Zig,
     /// GCC for Windows.
@@ -56,32 +58,36 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
     let linker = match platform {
         Platform::Linux64 | Platform::Aarch64Linux => Linker::Zig,
         Platform::Win64 => Linker::Mingw,
-        Platform::Darwin64 | Platform::Aarch64Darwin => Linker::Host,
+        Platform::Darwin64 | Platform::Aarch64Darwin if cfg!(target_os = "macos") => Linker::Host,
+        // zig links for macOS too, but exports names of Rust's that are nobody's business.
+        Platform::Darwin64 | Platform::Aarch64Darwin => Linker::Lld,
     };
     match linker {
         Linker::Zig => tools::zigbuild(platform)?,
         Linker::Mingw => tools::mingw(platform)?,
-        // zig links for macOS too, but exports names of Rust's that are nobody's business.
-        Linker::Host if !cfg!(target_os = "macos") => return Err(Error::NeedsMac { platform }),
+        Linker::Lld => tools::zig_library(platform).map(drop)?,
         Linker::Host => {}
     }
     tools::standard_library(platform)?;
     Ok(Plan { platform, linker })
 }
 
-/// Compiles the model's library and returns it.
+/// Compiles the model's library for a version of FMI and returns it.
 ///
 /// # Errors
 /// The compiler cannot be run or fails, or its result cannot be read.
-pub fn compile(model: &Model, plan: &Plan) -> Result<Vec<u8>, Error> {
+pub fn compile(model: &Model, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     let mut command = plan.cargo();
-    command.args(["--release", "--package", model.package, "--target-dir"]).arg(workspace::target_directory());
-    command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags()?);
+    command.args(["--release", "--package", model.package(fmi), "--target-dir"]).arg(workspace::target_directory());
+    command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags(model.library(fmi))?);
+    if plan.linker == Linker::Lld {
+        command.env("SDKROOT", apple_names::development_kit(plan.platform)?);
+    }
     let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
     if !status.success() {
         return Err(Error::Compile { platform: plan.platform });
     }
-    let built = plan.platform.built_library(model.name);
+    let built = plan.platform.built_library(model.library(fmi));
     let file = workspace::target_directory().join(plan.platform.target()).join("release").join(built);
     fs::read(&file).map_err(|reason| Error::Read { file, reason })
 }
@@ -99,13 +105,13 @@ impl Plan {
     fn target(&self) -> String {
         match self.linker {
             Linker::Zig => format!("{}.{OLDEST_GLIBC}", self.platform.target()),
-            Linker::Host | Linker::Mingw => self.platform.target().to_owned(),
+            Linker::Host | Linker::Lld | Linker::Mingw => self.platform.target().to_owned(),
         }
     }
 
-    /// rustc's flags, in the form of `CARGO_ENCODED_RUSTFLAGS`: no symbols but the exported ones, no directory of this
-    /// machine, no time of day.
-    fn rust_flags(&self) -> Result<OsString, Error> {
+    /// rustc's flags for a library of this name, in the form of `CARGO_ENCODED_RUSTFLAGS`: no symbols but the exported
+    /// ones, no directory of this machine, no time of day.
+    fn rust_flags(&self, library: &str) -> Result<OsString, Error> {
         let mut flags = vec![OsString::from("-Cstrip=symbols")];
         for (path, name) in workspace::private_paths()? {
             let mut flag = OsString::from("--remap-path-prefix=");
@@ -113,8 +119,17 @@ impl Plan {
             flag.push(format!("={name}"));
             flags.push(flag);
         }
-        if self.linker == Linker::Mingw {
-            flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into());
+        match self.linker {
+            Linker::Mingw => flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into()),
+            Linker::Lld => flags.extend(["-Clinker=rust-lld".into(), "-Clinker-flavor=ld64.lld".into()]),
+            Linker::Host | Linker::Zig => {}
+        }
+        if self.platform.is_apple() {
+            // A library there carries its own name, which unless told is where it was linked.
+            let name = format!("@rpath/{}", self.platform.packed_library(library));
+            let through_compiler = if self.linker == Linker::Host { "-Wl," } else { "" };
+            flags.push(format!("-Clink-arg={through_compiler}-install_name").into());
+            flags.push(format!("-Clink-arg={through_compiler}{name}").into());
         }
         Ok(flags.join(&OsString::from("\u{1f}")))
     }
@@ -124,6 +139,7 @@ impl fmt::Display for Plan {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
         let linker = match self.linker {
             Linker::Host => "this machine's linker",
+            Linker::Lld => "lld (nobody has run such a library yet)",
             Linker::Zig => "zig",
             Linker::Mingw => "GCC for Windows",
         };

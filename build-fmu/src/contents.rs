@@ -1,9 +1,8 @@
 //! What is in an FMU.
 
-use model_description::to_xml;
-
 use crate::archive::Contents;
-use crate::{Model, Platform, documentation};
+use crate::reference::{self, Stimuli};
+use crate::{FmiVersion, Model, Platform, documentation};
 
 /// Under which licences the FMU and its sources are: the choice is the user's.
 pub const LICENCES: &str = concat!(
@@ -14,16 +13,19 @@ pub const LICENCES: &str = concat!(
     include_str!("../../LICENSE-APACHE"),
 );
 
-/// The files of a model's FMU with these libraries.
-pub fn contents(model: &Model, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
-    let description = (model.description)();
+/// The files of a model's FMU of a version of FMI with these libraries.
+pub fn contents(model: &Model, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
     let mut contents = Contents::new();
-    contents.insert("documentation/index.html".to_owned(), documentation::page(model, &description).into_bytes());
+    contents.insert("documentation/index.html".to_owned(), documentation::page(model, fmi).into_bytes());
     contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());
-    contents.insert("model.png".to_owned(), (model.icon)());
-    contents.insert("modelDescription.xml".to_owned(), to_xml(&description).into_bytes());
+    contents.insert(fmi.icon_file().to_owned(), (model.icon)());
+    contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi).into_bytes());
+    // The tables' columns are scalar variables.
+    if fmi == FmiVersion::Fmi2 {
+        contents.extend(reference::files(model.name, &Stimuli::new(model.reference_input), model.reference_output));
+    }
     for (platform, bytes) in libraries {
-        let path = format!("binaries/{}/{}", platform.directory(), platform.packed_library(model.name));
+        let path = format!("binaries/{}/{}", platform.directory(fmi), platform.packed_library(model.name));
         contents.insert(path, bytes);
     }
     contents

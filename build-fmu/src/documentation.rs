@@ -2,16 +2,14 @@
 
 use std::fmt::Write;
 
-use model_description::ModelDescription;
-
-use crate::Model;
+use crate::{FmiVersion, Model};
 
 /// A part of the documentation.
 pub struct Section {
     /// What a link to it ends in.
     pub anchor: &'static str,
     pub heading: &'static str,
-    /// What stands under the heading.
+    /// What stands under the heading, with places in double braces: see [`Model::wording`].
     pub html: &'static str,
 }
 
@@ -20,8 +18,9 @@ const PAGE: &str = include_str!("../documentation/page.html");
 const STYLE: &str = include_str!("../documentation/style.css");
 
 /// `documentation/index.html`: the model's sections, then its tables of variables.
-pub fn page(model: &Model, description: &ModelDescription) -> String {
-    let variables = (model.variables)();
+pub fn page(model: &Model, fmi: FmiVersion) -> String {
+    let variables = (model.variables)(fmi);
+    let description = (model.description)();
     let sections = || {
         let written = model.sections.iter().map(|section| (section.anchor, section.heading, section.html));
         written.chain([("variables", "Variables", variables.as_str())])
@@ -32,11 +31,20 @@ pub fn page(model: &Model, description: &ModelDescription) -> String {
         write!(body, "<section id=\"{anchor}\">\n<h2>{heading}</h2>\n{html}</section>\n")
             .expect("a string takes whatever is written");
     }
-    PAGE.replace("{{style}}", STYLE)
+    let page = PAGE
+        .replace("{{style}}", STYLE)
         .replace("{{title}}", model.title)
-        .replace("{{name}}", &description.model_name)
-        .replace("{{version}}", &description.version)
-        .replace("{{guid}}", &description.guid)
         .replace("{{contents}}", &contents)
         .replace("{{sections}}", &body)
+        .replace("{{name}}", &description.model_name)
+        .replace("{{version}}", &description.version)
+        .replace("{{token_name}}", fmi.choose("GUID", "instantiation token"))
+        .replace("{{token}}", &description.guid)
+        .replace("{{icon}}", fmi.icon_file())
+        .replace("{{discard}}", fmi.choose("fmi2Discard", "fmi3Discard"))
+        .replace("{{fmi}}", &fmi.to_string());
+    let word = |page: String, (place, for_fmi2, for_fmi3): &(&str, &str, &str)| {
+        page.replace(&format!("{{{{{place}}}}}"), fmi.choose(for_fmi2, for_fmi3))
+    };
+    model.wording.iter().fold(page, word)
 }

@@ -12,9 +12,6 @@ pub enum Error {
     /// A tool that the platform's compilation needs is not there.
     #[error("{platform} needs {what}, which is not installed; install it with: {install}")]
     Missing { platform: Platform, what: &'static str, install: String },
-    /// A library for macOS can be linked on a Mac only.
-    #[error("{platform} can be built on a Mac only: run cargo build-fmu there")]
-    NeedsMac { platform: Platform },
     /// A program could not be started.
     #[error("cannot run {program}: {reason}")]
     Run { program: String, reason: io::Error },

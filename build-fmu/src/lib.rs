@@ -1,18 +1,21 @@
 //! Builds a model's shared library for each platform and packs it, with all that belongs to it, into an FMU.
 //!
 //! `cargo build-fmu` is the command; [`build`] is the same for a program. What an FMU holds is decided in [`contents`],
-//! the models that there are in [`model`], the platforms in [`platform`].
+//! the models that there are in [`model`], the platforms in [`platform`], the versions of FMI in [`fmi_version`].
 
+mod apple_names;
 pub mod archive;
 pub mod compile;
 pub mod contents;
 pub mod documentation;
 mod error;
+pub mod fmi_version;
 pub mod functions;
 pub mod icon;
 pub mod library;
 pub mod model;
 pub mod platform;
+pub mod reference;
 mod tools;
 pub mod workspace;
 
@@ -20,6 +23,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 pub use error::Error;
+pub use fmi_version::FmiVersion;
 pub use model::{MODELS, Model};
 pub use platform::Platform;
 
@@ -40,6 +44,7 @@ pub struct Built {
 /// A tool that is missing, a library that does not compile or is not fit to be shipped, a file that cannot be written.
 pub fn build(
     model: &Model,
+    fmi: FmiVersion,
     platforms: &[Platform],
     output: &Path,
     mut report: impl FnMut(&str),
@@ -48,14 +53,14 @@ pub fn build(
     let mut libraries = Vec::new();
     for plan in &plans {
         report(&format!("{}: {plan}", plan.platform));
-        let bytes = compile::compile(model, plan)?;
-        let facts = library::examine(&bytes, &workspace::private_paths()?)
+        let bytes = compile::compile(model, fmi, plan)?;
+        let facts = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
             .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
         report(&format!("{}: {facts}", plan.platform));
         libraries.push((plan.platform, bytes));
     }
-    let archive = archive::pack(&contents::contents(model, libraries))?;
-    let file = output.join(format!("{}.fmu", model.name));
+    let archive = archive::pack(&contents::contents(model, fmi, libraries))?;
+    let file = output.join(fmi.fmu_file(model.name));
     write_whole(&file, &archive)?;
     Ok(Built { file, size: archive.len() })
 }

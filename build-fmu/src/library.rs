@@ -8,8 +8,6 @@ use object::Object;
 use object::elf::{DT_NEEDED, DT_RPATH, DT_RUNPATH};
 use object::read::elf::{Dyn, ElfFile64};
 
-use crate::functions::FMI2_FUNCTIONS;
-
 /// What a user of the library may want to know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
@@ -45,13 +43,14 @@ pub enum Flaw {
     PrivatePath(PathBuf),
 }
 
-/// Examines a library for Linux, Windows or macOS; `private_paths` are directories that it must not mention.
+/// Examines a library for Linux, Windows or macOS, which is to export these functions; `private_paths` are directories that
+/// it must not mention.
 ///
 /// # Errors
 /// The first flaw found.
-pub fn examine(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<Facts, Flaw> {
+pub fn examine(library: &[u8], functions: &[&str], private_paths: &[(PathBuf, &str)]) -> Result<Facts, Flaw> {
     let file = object::File::parse(library)?;
-    check_exports(&file)?;
+    check_exports(&file, functions)?;
     check_paths(library, private_paths)?;
     let mut facts = Facts { glibc: None, needs: BTreeSet::new(), size: library.len() };
     if let object::File::Elf64(elf) = &file {
@@ -63,7 +62,7 @@ pub fn examine(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<Fact
 }
 
 /// Exactly the functions of FMI, and every one of them.
-fn check_exports(file: &object::File) -> Result<(), Flaw> {
+fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), Flaw> {
     // On macOS every name of C has an underscore before it.
     let prefix = if matches!(file, object::File::MachO64(_)) { "_" } else { "" };
     let name = |bytes| {
@@ -71,7 +70,7 @@ fn check_exports(file: &object::File) -> Result<(), Flaw> {
         name.strip_prefix(prefix).map(str::to_owned).unwrap_or(name)
     };
     let exported: BTreeSet<String> = file.exports()?.iter().map(|export| name(export.name())).collect();
-    let expected: BTreeSet<String> = FMI2_FUNCTIONS.iter().map(|&name| name.to_owned()).collect();
+    let expected: BTreeSet<String> = functions.iter().map(|&name| name.to_owned()).collect();
     let lacking: Vec<String> = expected.difference(&exported).cloned().collect();
     let unknown: Vec<String> = exported.difference(&expected).cloned().collect();
     match (lacking.is_empty(), unknown.is_empty()) {
@@ -178,6 +177,6 @@ mod tests {
 
     #[test]
     fn what_is_no_library_is_refused() {
-        assert!(matches!(examine(b"#!/bin/sh", &[]), Err(Flaw::Unreadable(_))));
+        assert!(matches!(examine(b"#!/bin/sh", &[], &[]), Err(Flaw::Unreadable(_))));
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use build_fmu::{MODELS, Platform, build, workspace};
+use build_fmu::{FmiVersion, MODELS, Platform, build, workspace};
 use clap::Parser;
 
 /// Builds the FMU: compiles the shared library and packs it with its model description and documentation.
@@ -13,6 +13,10 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo build-fmu", version)]
 struct Arguments {
+    /// Version of FMI
+    #[arg(long, value_name = "VERSION", default_value = "2")]
+    fmi: FmiVersion,
+
     /// Platforms that the FMU shall run on, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
@@ -26,7 +30,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let output = arguments.output.unwrap_or_else(workspace::default_output);
     for model in MODELS {
-        match build(model, &arguments.platform, &output, |line| println!("{line}")) {
+        match build(model, arguments.fmi, &arguments.platform, &output, |line| println!("{line}")) {
             Ok(built) => println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000)),
             Err(error) => {
                 eprintln!("error: {error}");

@@ -4,18 +4,20 @@ use std::fmt;
 
 use clap::ValueEnum;
 
-/// A platform, by the name of its directory in the FMU.
+use crate::FmiVersion;
+
+/// A platform, by the name of its directory in an FMU of FMI 2.0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub enum Platform {
     /// Linux on x86-64, glibc 2.17 or newer
     Linux64,
     /// Windows on x86-64
     Win64,
-    /// macOS on Intel, built on a Mac; never tried by us
+    /// macOS on Intel; never run by us
     Darwin64,
     /// Linux on 64-bit ARM, glibc 2.17 or newer
     Aarch64Linux,
-    /// macOS on Apple silicon, built on a Mac; never tried by us
+    /// macOS on Apple silicon; never run by us
     Aarch64Darwin,
 }
 
@@ -37,12 +39,17 @@ impl Platform {
         matches!(self, Platform::Linux64 | Platform::Aarch64Linux)
     }
 
+    /// Whether it is macOS.
+    pub fn is_apple(self) -> bool {
+        matches!(self, Platform::Darwin64 | Platform::Aarch64Darwin)
+    }
+
     /// Its directory under `binaries/`.
-    pub fn directory(self) -> &'static str {
+    pub fn directory(self, fmi: FmiVersion) -> &'static str {
         match self {
-            Platform::Linux64 => "linux64",
-            Platform::Win64 => "win64",
-            Platform::Darwin64 => "darwin64",
+            Platform::Linux64 => fmi.choose("linux64", "x86_64-linux"),
+            Platform::Win64 => fmi.choose("win64", "x86_64-windows"),
+            Platform::Darwin64 => fmi.choose("darwin64", "x86_64-darwin"),
             Platform::Aarch64Linux => "aarch64-linux",
             Platform::Aarch64Darwin => "aarch64-darwin",
         }
@@ -79,6 +86,6 @@ impl Platform {
 
 impl fmt::Display for Platform {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.write_str(self.directory())
+        formatter.write_str(self.directory(FmiVersion::Fmi2))
     }
 }

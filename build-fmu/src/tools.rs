@@ -15,10 +15,38 @@ pub fn zigbuild(platform: Platform) -> Result<(), Error> {
         return Err(Error::Missing { platform, what: "cargo-zigbuild", install });
     }
     if !has_zig() {
-        let install = "pip install ziglang (or from https://ziglang.org/download, with zig in the PATH)".to_owned();
-        return Err(Error::Missing { platform, what: "zig", install });
+        return Err(zig_is_missing(platform));
     }
     Ok(())
+}
+
+/// The directory of what zig knows of the systems for which it compiles.
+///
+/// # Errors
+/// zig is missing.
+pub fn zig_library(platform: Platform) -> Result<PathBuf, Error> {
+    zig_environment().and_then(|said| library_directory(&said)).ok_or_else(|| zig_is_missing(platform))
+}
+
+fn zig_is_missing(platform: Platform) -> Error {
+    let install = "pip install ziglang (or from https://ziglang.org/download, with zig in the PATH)";
+    Error::Missing { platform, what: "zig", install: install.to_owned() }
+}
+
+/// What zig says about itself, in the form of its own language, or of JSON if it is older.
+fn zig_environment() -> Option<String> {
+    let programs = [("zig", &["env"][..]), ("python3", &["-m", "ziglang", "env"])];
+    let said =
+        |(program, arguments)| Command::new(program).args::<&[&str], _>(arguments).stderr(Stdio::null()).output();
+    let done = programs.into_iter().filter_map(|program| said(program).ok()).find(|done| done.status.success())?;
+    String::from_utf8(done.stdout).ok()
+}
+
+/// The value of `lib_dir`, which stands between the next quotation marks.
+fn library_directory(said: &str) -> Option<PathBuf> {
+    let (_, rest) = said.split_once("lib_dir")?;
+    let (_, value) = rest.split_once(['=', ':'])?;
+    value.split('"').nth(1).map(PathBuf::from)
 }
 
 /// The linker for Windows.
@@ -56,4 +84,17 @@ fn has_zig() -> bool {
 fn runs(program: &str, arguments: &[&str]) -> bool {
     let status = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
     status.is_ok_and(|status| status.success())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zig_tells_its_directory_in_both_forms() {
+        let expected = Some(PathBuf::from("/opt/zig/lib"));
+        assert_eq!(library_directory(".{\n    .zig_exe = \"/zig\",\n    .lib_dir = \"/opt/zig/lib\",\n}"), expected);
+        assert_eq!(library_directory("{\n \"zig_exe\": \"/zig\",\n \"lib_dir\": \"/opt/zig/lib\"\n}"), expected);
+        assert_eq!(library_directory("unknown command"), None);
+    }
 }

@@ -34,7 +34,7 @@ def checks(fmu):
     report.check("fmutool -check", not found, "; ".join(found[:3]))
 
 
-def container(fmu, work, ride, *options):
+def container(fmu, work, ride):
     """Puts the FMU into a container and rides with that."""
     fmu = Path(fmu)
     specification = work / "container.csv"
@@ -47,7 +47,7 @@ def container(fmu, work, ride, *options):
     embedded.write_bytes(fmu.read_bytes())
     built = work / "container.fmu"
     built.unlink(missing_ok=True)
-    tool("fmucontainer", "-fmu-directory", work, "-container", f"{specification}:{ride.step}", *options)
+    tool("fmucontainer", "-fmu-directory", work, "-container", f"{specification}:{ride.step}")
     problems = validate_fmu(str(built))
     assert not problems, problems
     (work / "in.csv").write_text(ride.input_text)
@@ -63,7 +63,6 @@ def main(fmu, work):
     os.chdir(work)
     checks(fmu)
     report.difference("ride inside a container, in FMPy", container(fmu, work, ride))
-    report.difference("ride inside a container with threads, in FMPy", container(fmu, work, ride, "-mt"))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,135 @@
+//! A reference ride inside the FMU: an input, and the output that belongs to it, so that whoever loads the FMU can see
+//! whether the tool at hand runs it right.
+//!
+//! The files are those of the layered standard fmi-ls-ref: a manifest, a list of experiments, and for each of them a table of
+//! inputs and one of outputs. The outputs are computed by the model in Rust, without FMI.
+
+use std::fmt::Write;
+
+use model_interface::{Causality, Kind, Model};
+
+use crate::archive::Contents;
+
+/// Where the layered standard wants its files.
+const DIRECTORY: &str = "extra/org.fmi-standard.fmi-ls-ref";
+const MANIFEST: &str = include_str!("../reference/fmi-ls-manifest.xml");
+const EXPERIMENTS: &str = include_str!("../reference/experiments.exp");
+
+/// The communication steps in a second: inputs are set at the beginning of each and held.
+const RATE: usize = 100;
+/// How many communication steps from one row of the output to the next.
+const STEPS_PER_ROW: usize = 20;
+
+/// The files of a model's reference ride: `input` is a table of inputs, `output` what [`output`] makes of it.
+pub fn files(name: &str, input: &Stimuli, output: fn(&Stimuli) -> String) -> Contents {
+    let fill = |text: &str| {
+        text.replace("{{name}}", name)
+            .replace("{{stop}}", &input.end().to_string())
+            .replace("{{step}}", &(1.0 / RATE as f64).to_string())
+    };
+    let file = |file: &str, text: String| (format!("{DIRECTORY}/{file}"), text.into_bytes());
+    Contents::from([
+        file("fmi-ls-manifest.xml", fill(MANIFEST)),
+        file(&format!("{name}.exp"), fill(EXPERIMENTS)),
+        file(&format!("{name}_in.csv"), input.text.to_owned()),
+        file(&format!("{name}_ref.csv"), output(input)),
+    ])
+}
+
+/// A table of inputs over time, linear between its rows.
+pub struct Stimuli {
+    text: &'static str,
+    names: Vec<&'static str>,
+    rows: Vec<Vec<f64>>,
+}
+
+impl Stimuli {
+    /// Reads a table: comma-separated, a line of names, of which the first is `time`, then numbers, time ascending.
+    ///
+    /// # Panics
+    /// It is something else. The tables belong to the sources.
+    pub fn new(text: &'static str) -> Self {
+        let mut lines = text.lines();
+        let names = lines.next().expect("a line of names").split(',').collect();
+        let number = |cell: &str| cell.parse().expect("a number");
+        let rows = lines.map(|line| line.split(',').map(number).collect()).collect();
+        Stimuli { text, names, rows }
+    }
+
+    /// The time of the last row \[s\].
+    fn end(&self) -> f64 {
+        self.rows.last().expect("a row")[0]
+    }
+
+    /// The columns' values at a time, the time itself first.
+    fn at(&self, time: f64) -> Vec<f64> {
+        let after = self.rows.partition_point(|row| row[0] < time).clamp(1, self.rows.len() - 1);
+        let (from, to) = (&self.rows[after - 1], &self.rows[after]);
+        let share = (time - from[0]) / (to[0] - from[0]);
+        from.iter().zip(to).map(|(from, to)| from + share * (to - from)).collect()
+    }
+}
+
+/// What the model answers to these inputs: every real output, as a comma-separated table of ten decimals.
+///
+/// # Panics
+/// An input is not one of the model's, or its start values are not usable.
+pub fn output<M: Model>(input: &Stimuli) -> String {
+    let identity = M::IDENTITY;
+    let inputs: Vec<usize> =
+        input.names[1..].iter().map(|name| identity.slot(name).expect("one of the model's inputs")).collect();
+    let is_recorded = |&slot: &usize| {
+        let row = identity.row(slot);
+        row.causality == Causality::Output && matches!(row.kind, Kind::Real(_))
+    };
+    let outputs: Vec<usize> = (0..identity.slots.len()).filter(is_recorded).collect();
+
+    let mut slots = vec![0.0; identity.slots.len()];
+    let derivatives = slots.clone();
+    M::start(&mut slots);
+    let set = |slots: &mut [f64], time: f64| {
+        for (&slot, value) in inputs.iter().zip(input.at(time).into_iter().skip(1)) {
+            slots[slot] = value;
+        }
+    };
+    set(&mut slots, 0.0);
+    let mut model = M::new(&slots).expect("start values are usable");
+
+    let names = outputs.iter().map(|&slot| identity.variable_name(slot));
+    let mut table = std::iter::once("time".to_owned()).chain(names).collect::<Vec<_>>().join(",");
+    table.push('\n');
+    let time = |step: usize| step as f64 / RATE as f64;
+    for step in 0..=(input.end() * RATE as f64).round() as usize {
+        if step > 0 {
+            set(&mut slots, time(step - 1));
+            model.step(&slots, &derivatives, time(step) - time(step - 1));
+        }
+        if step.is_multiple_of(STEPS_PER_ROW) {
+            model.outputs(&mut slots);
+            write!(table, "{}", time(step)).expect("a string takes whatever is written");
+            for &slot in &outputs {
+                // Adding 0 makes a negative zero a plain one.
+                let value = (slots[slot] * 1e10).round() / 1e10 + 0.0;
+                write!(table, ",{value}").expect("a string takes whatever is written");
+            }
+            table.push('\n');
+        }
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inputs_are_linear_between_rows_and_end_with_the_last() {
+        let stimuli = Stimuli::new("time,a,b\n0,1,0\n1,3,-2\n4,3,1\n");
+        assert_eq!(stimuli.at(0.0), [0.0, 1.0, 0.0]);
+        assert_eq!(stimuli.at(0.5), [0.5, 2.0, -1.0]);
+        assert_eq!(stimuli.at(1.0), [1.0, 3.0, -2.0]);
+        assert_eq!(stimuli.at(2.0), [2.0, 3.0, -1.0]);
+        assert_eq!(stimuli.at(4.0), [4.0, 3.0, 1.0]);
+        assert_eq!(stimuli.end(), 4.0);
+    }
+}

@@ -1,0 +1,208 @@
+#!/usr/bin/env python3
+"""Runs the FMU's libraries for other platforms, Windows' under Wine and Arm's under qemu, against that for Linux.
+
+    python3 tests/platforms/run.py [--require] [--install]
+
+Each library makes the reference ride that is in the FMU, stepped by the host in host.c, and gives the numbers of the library
+for linux64 to 1e-12. Where a program is not installed, the platform is reported as missing; with --require that is an error.
+With --install everything needed is installed first (apt, rustup and pip; for Debian and Ubuntu).
+"""
+
+import argparse
+import os
+import platform
+import shutil
+import subprocess
+import sys
+import venv
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "importers"))
+from ride import TOLERANCE, Ride  # noqa: E402
+
+WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "platforms"
+VENV = WORK / "venv"
+MODEL = "MorisWashout"
+# How far a library may be from that for linux64, in SI units.
+AGREEMENT = 1e-12
+ARM_LIBRARIES = Path("/usr/aarch64-linux-gnu")
+
+APT = ["gcc-mingw-w64-x86-64", "wine64", "qemu-user", "libc6-arm64-cross"]
+PIP = ["cargo-zigbuild==0.24.0", "ziglang==0.17.0"]
+RUSTUP = ["x86_64-unknown-linux-gnu", "x86_64-pc-windows-gnu", "aarch64-unknown-linux-gnu"]
+
+
+class Missing(Exception):
+    """Something is not installed; the text says what."""
+
+
+@dataclass
+class Platform:
+    name: str
+    library: str
+    # For whom zig compiles the host.
+    target: str
+    # Returns what runs a program of that platform here, and its name for people.
+    emulator: callable
+
+
+def itself():
+    return [], "this machine"
+
+
+def wine():
+    program = shutil.which("wine64") or shutil.which("wine64", path="/usr/lib/wine") or shutil.which("wine")
+    if not program:
+        raise Missing("Wine: apt-get install wine64")
+    return [program], version(program).split()[0]
+
+
+def qemu():
+    program = shutil.which("qemu-aarch64")
+    if not program:
+        raise Missing("qemu: apt-get install qemu-user")
+    if not (ARM_LIBRARIES / "lib" / "ld-linux-aarch64.so.1").exists():
+        raise Missing("the C library for Arm: apt-get install libc6-arm64-cross")
+    return [program, "-L", str(ARM_LIBRARIES)], "qemu " + version(program).split("version ")[-1].split()[0]
+
+
+def version(program):
+    done = subprocess.run([program, "--version"], capture_output=True, text=True, check=True)
+    return done.stdout.splitlines()[0]
+
+
+LINUX = Platform("linux64", f"{MODEL}.so", "x86_64-linux-gnu.2.17", itself)
+OTHERS = [
+    Platform("win64", f"{MODEL}.dll", "x86_64-windows-gnu", wine),
+    Platform("aarch64-linux", f"{MODEL}.so", "aarch64-linux-gnu.2.17", qemu),
+]
+
+
+def environment():
+    """The environment for the tools, those that --install has put under target included."""
+    wine_home = {"WINEPREFIX": str(WORK / "wine"), "WINEDEBUG": "-all"}
+    return {**os.environ, **wine_home, "PATH": f"{VENV / 'bin'}{os.pathsep}{os.environ['PATH']}"}
+
+
+def call(command, **options):
+    return subprocess.run([str(part) for part in command], env=environment(), cwd=ROOT, capture_output=True, text=True, **options)
+
+
+def check_call(command):
+    print("$", *command, flush=True)
+    subprocess.run([str(part) for part in command], env=environment(), cwd=ROOT, check=True)
+
+
+def install():
+    become_root = [] if os.geteuid() == 0 else ["sudo"]
+    check_call([*become_root, "apt-get", "update", "-qq"])
+    check_call([*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *APT])
+    check_call(["rustup", "target", "add", *RUSTUP])
+    if not (VENV / "bin" / "python").exists():
+        venv.create(VENV, with_pip=True)
+    check_call([VENV / "bin" / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP])
+
+
+def build_library(chosen):
+    """Builds the FMU for a platform; returns it and the place of its library, unpacked."""
+    directory = WORK / chosen.name
+    done = call(["cargo", "build-fmu", "--platform", chosen.name, "--output", directory])
+    if done.returncode != 0:
+        reason = done.stderr.strip().splitlines()[-1].removeprefix("error: ")
+        if "is not installed" in reason:
+            raise Missing(reason)
+        raise AssertionError(f"{chosen.name} cannot be built:\n{done.stdout}{done.stderr}")
+    fmu = directory / f"{MODEL}.fmu"
+    shutil.unpack_archive(fmu, directory / "unpacked", "zip")
+    return fmu, directory / "unpacked" / "binaries" / chosen.name / chosen.library
+
+
+def build_host(chosen):
+    """Compiles host.c for a platform, which zig can do for all of them."""
+    program = WORK / chosen.name / ("host.exe" if chosen.name.startswith("win") else "host")
+    source = HERE / "host.c"
+    if not program.exists() or program.stat().st_mtime < source.stat().st_mtime:
+        compiler = next((zig for zig in (["zig"], ["python3", "-m", "ziglang"]) if runs([*zig, "version"])), None)
+        if compiler is None:
+            raise Missing("zig: pip install ziglang")
+        flags = ["-std=c99", "-O1", "-Wall", "-Wextra", "-Werror"]
+        done = call([*compiler, "cc", "-target", chosen.target, *flags, "-o", program, source])
+        assert done.returncode == 0, f"host.c does not compile for {chosen.name}:\n{done.stderr}"
+    return program
+
+
+def runs(command):
+    try:
+        return call(command).returncode == 0
+    except FileNotFoundError:
+        return False
+
+
+def ride_on(chosen):
+    """Makes the ride on a platform; returns it, its answers after each step, and by what it was run."""
+    emulator, name = chosen.emulator()
+    fmu, library = build_library(chosen)
+    ride = Ride(fmu)
+    inputs, outputs = ([ride.references[name] for name in names] for names in (ride.inputs, ride.outputs))
+    lines = [(len(inputs), *inputs), (len(outputs), *outputs), (ride.step, ride.steps)]
+    lines += [ride.input(k) for k in range(ride.steps)]
+    text = "".join(" ".join(map(repr, line)) + "\n" for line in lines)
+    done = call([*emulator, build_host(chosen), library, ride.guid], input=text)
+    assert done.returncode == 0, f"{chosen.name} under {name} ended with {done.returncode}:\n{done.stderr}"
+    answers = [list(map(float, line.split())) for line in done.stdout.splitlines()]
+    assert len(answers) == ride.steps, f"{chosen.name} gave {len(answers)} answers to {ride.steps} steps"
+    return ride, answers, name
+
+
+def report(name, by, largest, limit, of_what):
+    passed = largest <= limit
+    print(f"{name:15}{by:22}{largest:.1e} from {of_what:24}{'ok' if passed else f'FAILED (more than {limit:.0e})'}", flush=True)
+    return passed
+
+
+def compare():
+    """Runs every platform; returns whether none has failed, and whether none is missing."""
+    passed, complete = True, True
+    try:
+        ride, expected, by = ride_on(LINUX)
+    except Missing as reason:
+        print(f"{LINUX.name:15}missing ({reason})")
+        return True, False
+    largest = ride.difference({k + 1: row for k, row in enumerate(expected)})
+    passed &= report(LINUX.name, by, largest, TOLERANCE, "the reference output")
+    for other in OTHERS:
+        try:
+            _, answers, by = ride_on(other)
+        except Missing as reason:
+            print(f"{other.name:15}missing ({reason})", flush=True)
+            complete = False
+            continue
+        largest = max(abs(a - b) for row, wanted in zip(answers, expected) for a, b in zip(row, wanted, strict=True))
+        passed &= report(other.name, by, largest, AGREEMENT, "linux64")
+    return passed, complete
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--require", action="store_true", help="a platform that cannot be run is an error")
+    parser.add_argument("--install", action="store_true", help="install what is needed first, with apt, rustup and pip")
+    arguments = parser.parse_args()
+    if (sys.platform, platform.machine()) != ("linux", "x86_64"):
+        print("other platforms: missing (they are run on Linux on x86-64 only)")
+        sys.exit(1 if arguments.require else 0)
+    WORK.mkdir(parents=True, exist_ok=True)
+    if arguments.install:
+        install()
+    try:
+        passed, complete = compare()
+    except AssertionError as failure:
+        print(f"FAILED: {failure}")
+        sys.exit(1)
+    sys.exit(0 if passed and (complete or not arguments.require) else 1)
+
+
+if __name__ == "__main__":
+    main()
