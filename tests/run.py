@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Runs every test: the FMU is built, Rust's tests run, then Python's in a virtual environment made for them.
+"""Runs every test: the FMU is built, Rust's tests run, then Python's in a virtual environment made for them; then the FMU
+goes through other people's importers and, where there are Wine and qemu, through the libraries for other platforms.
 
     python3 tests/run.py
 """
@@ -34,9 +35,12 @@ def python():
 
 def main():
     run("cargo", "build-fmu")
+    run("cargo", "build-fmu", "--fmi", "3")
     run("cargo", "test", "--workspace", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
-    print("All tests passed.")
+    run(sys.executable, "tests/importers/run.py")
+    run(sys.executable, "tests/platforms/run.py")
+    print("No test has failed. What is missing above has not been run.")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,7 @@
-//! Getting and setting variables. All references and values of a call are checked before any is written.
+//! Getting and setting variables. All slots and values of a call are checked before any is written.
+//!
+//! A call's slots come as an iterator, for they are the host's value references in FMI 2.0, and in FMI 3.0 those of the
+//! arrays to which the references belong.
 
 use std::mem::MaybeUninit;
 
@@ -6,59 +9,65 @@ use model_interface::{Kind, Model};
 
 use crate::{Complaint, Instance, Mode, Role, Scalar};
 
+/// The slots that a call is about; it can be gone through several times.
+pub trait Slots: Iterator<Item = u32> + Clone {}
+impl<I: Iterator<Item = u32> + Clone> Slots for I {}
+
+/// The slots of output derivatives, each with the derivative's order.
+pub trait OrderedSlots: Iterator<Item = (u32, i32)> + Clone {}
+impl<I: Iterator<Item = (u32, i32)> + Clone> OrderedSlots for I {}
+
 impl<M: Model> Instance<M> {
-    /// Reads the variables of `references` into `values`, which has as many.
+    /// Reads the variables of `slots` into `values`, which has as many.
     ///
     /// # Errors
-    /// A reference to no variable, or to one of another type; then nothing is written.
+    /// A slot of no variable, or of one of another type; then nothing is written.
     #[inline]
-    pub fn get<S: Scalar>(&mut self, references: &[u32], values: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
+    pub fn get<S: Scalar>(&mut self, slots: impl Slots, values: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
         let mut output = false;
-        for &reference in references {
-            match self.tables.checks.get(reference as usize) {
-                Some(check) if check.value_type == S::TYPE => output |= matches!(check.role, Role::Output { .. }),
-                _ => return Err(self.why_not_readable::<S>(references)),
+        for slot in slots.clone() {
+            match self.tables.checks.get(slot as usize) {
+                Some(check) if S::is(check.value_type) => output |= matches!(check.role, Role::Output { .. }),
+                _ => return Err(self.why_not_readable::<S>(slots)),
             }
         }
         if output && self.run.untried {
             self.try_values();
         }
-        for (&reference, value) in references.iter().zip(values) {
-            value.write(S::from_slot(self.run.values[reference as usize]));
+        for (slot, value) in slots.zip(values) {
+            value.write(S::from_slot(self.run.values[slot as usize]));
         }
         Ok(())
     }
 
-    /// Writes `values` into the variables of `references`. Tunable parameters that change between steps take effect at
-    /// once, all of the call together.
+    /// Writes `values` into the variables of `slots`, of which there are as many. Tunable parameters that change between
+    /// steps take effect at once, all of the call together.
     ///
     /// # Errors
-    /// A reference to no variable, to one of another type, or to one that cannot be set now; a value outside the
-    /// variable's range, or that the model refuses. Then nothing has changed.
+    /// A slot of no variable, of one of another type, or of one that cannot be set now; a value outside the variable's
+    /// range, or that the model refuses. Then nothing has changed.
     #[inline]
-    pub fn set<S: Scalar>(&mut self, references: &[u32], values: &[S]) -> Result<(), Complaint> {
+    pub fn set<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
         let mode = self.run.mode;
         let mut parameter = false;
-        for (&reference, value) in references.iter().zip(values) {
-            match self.tables.checks.get(reference as usize) {
+        for (slot, value) in slots.clone().zip(values) {
+            match self.tables.checks.get(slot as usize) {
                 Some(check)
-                    if check.value_type == S::TYPE
-                        && check.settable.contains(mode)
-                        && check.accepts(value.to_slot()) =>
+                    if S::is(check.value_type) && check.settable.contains(mode) && check.accepts(value.to_slot()) =>
                 {
                     parameter |= matches!(check.role, Role::Parameter);
                 }
-                _ => return Err(self.why_not_settable(references, values)),
+                _ => return Err(self.why_not_settable(slots, values)),
             }
         }
         if mode == Mode::StepComplete {
             if parameter {
-                return self.set_and_retune(references, values);
+                return self.set_and_retune(slots, values);
             }
         } else {
             self.run.untried = true;
         }
-        self.write(references, values);
+        self.write(slots, values);
         Ok(())
     }
 
@@ -73,7 +82,8 @@ impl<M: Model> Instance<M> {
         orders: &[i32],
         values: &[f64],
     ) -> Result<(), Complaint> {
-        self.check_derivatives(references, orders, Role::Input { continuous: true }, "a continuous Real input")?;
+        let requests = references.iter().copied().zip(orders.iter().copied());
+        self.check_derivatives(requests, Role::Input { continuous: true }, "a continuous input")?;
         if let Some(i) = values.iter().position(|value| !value.is_finite()) {
             let name = self.name(references[i]);
             return Err(Complaint::discard(format!("the derivative of {name} = {} is not finite", values[i])));
@@ -85,39 +95,33 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Reads the outputs' time derivatives into `values`, which has as many as `references`.
+    /// Reads the outputs' time derivatives into `values`, which has as many as `requests`.
     ///
     /// # Errors
-    /// A reference to anything but a continuous real output, or an order other than 1; then nothing is written.
+    /// A slot of anything but a continuous real output, or an order other than 1; then nothing is written.
     pub fn get_output_derivatives(
         &mut self,
-        references: &[u32],
-        orders: &[i32],
+        requests: impl OrderedSlots,
         values: &mut [MaybeUninit<f64>],
     ) -> Result<(), Complaint> {
-        self.check_derivatives(references, orders, Role::Output { continuous: true }, "a continuous Real output")?;
+        let role = Role::Output { continuous: true };
+        self.check_derivatives(requests.clone(), role, "a continuous output")?;
         let Some(model) = &self.run.model else {
             return Err(Complaint::error("there are no derivatives before the model is initialized"));
         };
         model.output_derivatives(&mut self.output_derivatives);
-        for (&reference, value) in references.iter().zip(values) {
-            value.write(self.output_derivatives[reference as usize]);
+        for ((slot, _), value) in requests.zip(values) {
+            value.write(self.output_derivatives[slot as usize]);
         }
         Ok(())
     }
 
-    fn check_derivatives(
-        &self,
-        references: &[u32],
-        orders: &[i32],
-        role: Role,
-        role_text: &str,
-    ) -> Result<(), Complaint> {
-        for (&reference, &order) in references.iter().zip(orders) {
-            let Some(check) = self.tables.checks.get(reference as usize) else {
-                return Err(self.no_such_variable(reference));
+    fn check_derivatives(&self, requests: impl OrderedSlots, role: Role, role_text: &str) -> Result<(), Complaint> {
+        for (slot, order) in requests {
+            let Some(check) = self.tables.checks.get(slot as usize) else {
+                return Err(self.no_such_variable(slot));
             };
-            let name = self.name(reference);
+            let name = self.name(slot);
             if check.role != role {
                 return Err(Complaint::error(format!("{name} has no derivative: it is not {role_text}")));
             }
@@ -131,34 +135,34 @@ impl<M: Model> Instance<M> {
     }
 
     #[inline]
-    fn write<S: Scalar>(&mut self, references: &[u32], values: &[S]) {
-        for (&reference, value) in references.iter().zip(values) {
-            self.run.values[reference as usize] = value.to_slot();
+    fn write<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) {
+        for (slot, value) in slots.zip(values) {
+            self.run.values[slot as usize] = value.to_slot();
         }
     }
 
     /// Writes values of which some are tunable parameters, and tells the model if any of these has changed.
     #[inline(never)]
-    fn set_and_retune<S: Scalar>(&mut self, references: &[u32], values: &[S]) -> Result<(), Complaint> {
-        let old: Vec<f64> = references.iter().map(|&reference| self.run.values[reference as usize]).collect();
-        self.write(references, values);
-        let changed = references.iter().zip(&old).any(|(&reference, old)| {
-            let slot = reference as usize;
-            self.tables.checks[slot].role == Role::Parameter && self.run.values[slot] != *old
-        });
+    fn set_and_retune<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
+        let old: Vec<(usize, f64)> =
+            slots.clone().map(|slot| (slot as usize, self.run.values[slot as usize])).collect();
+        self.write(slots, values);
+        let changed = old
+            .iter()
+            .any(|&(slot, old)| self.tables.checks[slot].role == Role::Parameter && self.run.values[slot] != old);
         let Some(model) = self.run.model.as_mut().filter(|_| changed) else { return Ok(()) };
         model.retune(&self.run.values).map_err(|refusal| {
             // Backwards: of a variable named twice, the first of its old values is the one to keep.
-            for (&reference, old) in references.iter().zip(old).rev() {
-                self.run.values[reference as usize] = old;
+            for (slot, old) in old.into_iter().rev() {
+                self.run.values[slot] = old;
             }
             Complaint::discard(format!("{refusal}. The values of this call have not been taken; the old ones hold"))
         })
     }
 
     /// The variable's name in quotes.
-    fn name(&self, reference: u32) -> String {
-        format!("'{}'", M::IDENTITY.variable_name(reference as usize))
+    fn name(&self, slot: u32) -> String {
+        format!("'{}'", M::IDENTITY.variable_name(slot as usize))
     }
 
     fn no_such_variable(&self, reference: u32) -> Complaint {
@@ -166,44 +170,43 @@ impl<M: Model> Instance<M> {
         Complaint::error(format!("no variable has the value reference {reference}: they are 0 to {}", count - 1))
     }
 
-    fn wrong_type<S: Scalar>(&self, reference: u32) -> Complaint {
-        let name = self.name(reference);
-        let value_type = self.tables.checks[reference as usize].value_type;
-        Complaint::error(format!("{name} is of type {value_type:?}, not {:?}", S::TYPE))
+    fn wrong_type<S: Scalar>(&self, slot: u32) -> Complaint {
+        let name = self.name(slot);
+        let type_name = S::type_name(self.tables.checks[slot as usize].value_type);
+        Complaint::error(format!("{name} is of type {type_name}: use the functions for that type"))
     }
 
     #[cold]
     #[inline(never)]
-    fn why_not_readable<S: Scalar>(&self, references: &[u32]) -> Complaint {
-        let complaints = references.iter().filter_map(|&reference| match self.tables.checks.get(reference as usize) {
-            None => Some(self.no_such_variable(reference)),
-            Some(check) => (check.value_type != S::TYPE).then(|| self.wrong_type::<S>(reference)),
+    fn why_not_readable<S: Scalar>(&self, slots: impl Slots) -> Complaint {
+        let complaints = slots.filter_map(|slot| match self.tables.checks.get(slot as usize) {
+            None => Some(self.no_such_variable(slot)),
+            Some(check) => (!S::is(check.value_type)).then(|| self.wrong_type::<S>(slot)),
         });
         first(complaints)
     }
 
-    /// The first wrong reference or, where all are right, the first wrong value.
+    /// The first wrong slot or, where all are right, the first wrong value.
     #[cold]
     #[inline(never)]
-    fn why_not_settable<S: Scalar>(&self, references: &[u32], values: &[S]) -> Complaint {
-        let about_references =
-            references.iter().filter_map(|&reference| self.why_reference_not_settable::<S>(reference));
-        let pairs = references.iter().zip(values);
-        let about_values = pairs.filter_map(|(&reference, value)| self.why_value_not_taken(reference, value.to_slot()));
-        first(about_references.chain(about_values))
+    fn why_not_settable<S: Scalar>(&self, slots: impl Slots, values: &[S]) -> Complaint {
+        let about_slots = slots.clone().filter_map(|slot| self.why_slot_not_settable::<S>(slot));
+        let about_values =
+            slots.clone().zip(values).filter_map(|(slot, value)| self.why_value_not_taken(slot, value.to_slot()));
+        first(about_slots.chain(about_values))
     }
 
-    fn why_reference_not_settable<S: Scalar>(&self, reference: u32) -> Option<Complaint> {
-        let Some(check) = self.tables.checks.get(reference as usize) else {
-            return Some(self.no_such_variable(reference));
+    fn why_slot_not_settable<S: Scalar>(&self, slot: u32) -> Option<Complaint> {
+        let Some(check) = self.tables.checks.get(slot as usize) else {
+            return Some(self.no_such_variable(slot));
         };
-        if check.value_type != S::TYPE {
-            return Some(self.wrong_type::<S>(reference));
+        if !S::is(check.value_type) {
+            return Some(self.wrong_type::<S>(slot));
         }
         if check.settable.contains(self.run.mode) {
             return None;
         }
-        let name = self.name(reference);
+        let name = self.name(slot);
         Some(Complaint::error(match check.role {
             Role::Time => format!("{name} cannot be set: it follows from the steps"),
             Role::Output { .. } => format!("{name} cannot be set: it is an output"),

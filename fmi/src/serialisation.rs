@@ -55,7 +55,12 @@ impl<M: Model> Run<M> {
     fn is_coherent(&self, tables: &Tables) -> bool {
         let initialized = matches!(self.mode, Mode::StepComplete | Mode::Terminated);
         let slots = tables.start.len();
-        self.values.len() == slots && self.derivatives.len() == slots && (self.model.is_some() || !initialized)
+        self.values.len() == slots
+            && self.derivatives.len() == slots
+            && (self.model.is_some() || !initialized)
+            && self.time.is_finite()
+            && self.derivatives.iter().all(|derivative| derivative.is_finite())
+            && tables.checks.iter().zip(&self.values).all(|(check, &value)| check.accepts(value))
     }
 }
 

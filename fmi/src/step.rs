@@ -4,10 +4,13 @@ use model_interface::Model;
 
 use crate::{Complaint, Instance};
 
-/// How far rounding may take a host's time from ours, relative to the time itself.
-const TIME_TOLERANCE: f64 = 1e-9;
-/// How far a host's time may be from ours, relative to the step.
+/// How far rounding may take the end of a step beyond a limit, relative to the limit.
+const LIMIT_TOLERANCE: f64 = 1e-9;
+/// How far a host's time may be from ours, relative to the step ...
 const STEP_TOLERANCE: f64 = 1e-6;
+/// ... and to the time itself: a few units in the last place. More would let a step be made twice late in a long run, or
+/// where time is that of a calendar.
+const TIME_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 impl<M: Model> Instance<M> {
     /// Advances from `time` by `step` \[s\]. The present time is then `time + step` as the host reckons it, so that
@@ -24,8 +27,8 @@ impl<M: Model> Instance<M> {
         let fits = step > 0.0
             && end.is_finite()
             && off <= TIME_TOLERANCE * time.abs() + STEP_TOLERANCE * step
-            && end <= stop + TIME_TOLERANCE * (stop.abs() + step)
-            && step <= model.longest_step() * (1.0 + TIME_TOLERANCE);
+            && end <= stop + LIMIT_TOLERANCE * (stop.abs() + step)
+            && step <= model.longest_step() * (1.0 + LIMIT_TOLERANCE);
         if !fits {
             return Err(self.why_no_step(time, step));
         }
@@ -49,9 +52,9 @@ impl<M: Model> Instance<M> {
             format!("the communication step size {step} is not a positive, finite number")
         } else if !end.is_finite() {
             format!("the communication point {time} is not a finite number, or the step ends beyond all numbers")
-        } else if step > longest * (1.0 + TIME_TOLERANCE) {
+        } else if step > longest * (1.0 + LIMIT_TOLERANCE) {
             format!("the communication step size {step} is longer than {longest}, the longest possible here")
-        } else if end > stop + TIME_TOLERANCE * (stop.abs() + step) {
+        } else if end > stop + LIMIT_TOLERANCE * (stop.abs() + step) {
             format!("the step from {time} to {end} goes beyond the stop time {stop} that was set up")
         } else {
             format!("the communication point {time} is not the present one, {present}: step from there")

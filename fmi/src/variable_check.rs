@@ -4,46 +4,25 @@ use model_interface::{Causality, Identity, Kind, Row, Variability};
 
 use crate::{Mode, Modes};
 
-/// The type by which a host gets and sets a variable. An enumeration goes by Integer.
+/// What a variable's values are, whatever a version of FMI calls it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueType {
     Real,
     Integer,
     Boolean,
+    Enumeration,
 }
 
-/// A value as the host has it.
+/// A value as the host has it, by one of a version's get and set functions.
 pub trait Scalar: Copy {
-    /// The type that the host names it by.
-    const TYPE: ValueType;
+    /// Whether the version's variables of this type go by these functions.
+    fn is(value_type: ValueType) -> bool;
+    /// What the version calls the type.
+    fn type_name(value_type: ValueType) -> &'static str;
     /// The value as a slot holds it.
     fn to_slot(self) -> f64;
     /// The value that a slot holds.
     fn from_slot(slot: f64) -> Self;
-}
-
-impl Scalar for f64 {
-    const TYPE: ValueType = ValueType::Real;
-    #[inline]
-    fn to_slot(self) -> f64 {
-        self
-    }
-    #[inline]
-    fn from_slot(slot: f64) -> Self {
-        slot
-    }
-}
-
-impl Scalar for i32 {
-    const TYPE: ValueType = ValueType::Integer;
-    #[inline]
-    fn to_slot(self) -> f64 {
-        f64::from(self)
-    }
-    #[inline]
-    fn from_slot(slot: f64) -> Self {
-        slot as i32
-    }
 }
 
 /// What a variable is for.
@@ -65,6 +44,8 @@ pub enum Role {
 pub struct VariableCheck {
     pub value_type: ValueType,
     pub role: Role,
+    /// How many slots the row has of which this is the first; 0 for its other slots. FMI 3.0 has a variable a row.
+    pub row_slots: u32,
     /// The modes in which it can be set.
     pub settable: Modes,
     /// The smallest and the largest value; NaN and the infinities are never between them.
@@ -73,19 +54,20 @@ pub struct VariableCheck {
 }
 
 impl VariableCheck {
-    /// The check of a row's variables.
-    pub const fn of(row: &Row) -> Self {
+    /// The check of a row's scalar variable number `element` (from 0).
+    pub const fn of(row: &Row, element: usize) -> Self {
         let (value_type, (lower, upper)) = match row.kind {
             Kind::Real(_) => (ValueType::Real, (f64::MIN, f64::MAX)),
             Kind::Integer => (ValueType::Integer, (i32::MIN as f64, i32::MAX as f64)),
             Kind::Boolean => (ValueType::Boolean, (0.0, 1.0)),
-            Kind::Enumeration(enumeration) => (ValueType::Integer, (1.0, enumeration.items.len() as f64)),
+            Kind::Enumeration(enumeration) => (ValueType::Enumeration, (1.0, enumeration.items.len() as f64)),
         };
         let (lower, upper) = match row.range {
             Some(range) => range,
             None => (lower, upper),
         };
-        VariableCheck { value_type, role: role(row), settable: settable(row), lower, upper }
+        let row_slots = if element == 0 { row.slots() as u32 } else { 0 };
+        VariableCheck { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
     }
 
     /// Whether `value` is finite and inside the variable's range.
@@ -118,10 +100,11 @@ const fn settable(row: &Row) -> Modes {
 
 /// The check of every slot. `N` is the number of slots.
 pub(crate) const fn variable_checks<const N: usize>(identity: &Identity) -> [VariableCheck; N] {
-    let mut checks = [VariableCheck::of(&identity.rows[0]); N];
+    let mut checks = [VariableCheck::of(&identity.rows[0], 0); N];
     let mut slot = 0;
     while slot < N {
-        checks[slot] = VariableCheck::of(&identity.rows[identity.slots[slot].row as usize]);
+        let place = identity.slots[slot];
+        checks[slot] = VariableCheck::of(&identity.rows[place.row as usize], place.element as usize);
         slot += 1;
     }
     checks

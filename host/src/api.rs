@@ -2,8 +2,6 @@
 
 use std::ffi::{c_char, c_int, c_void};
 
-use libloading::Library;
-
 /// How a call ended: fmi2Status.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
@@ -62,7 +60,7 @@ pub struct Callbacks {
     pub environment: *mut c_void,
 }
 
-/// Declares the functions, and how they are found.
+/// Declares the functions, and how they are found. The functions of another version are declared by it too.
 macro_rules! api {
     ($($field:ident $symbol:ident ($($argument:ty),*) $(-> $result:ty)?;)+) => {
         /// The C functions of an FMU. Calling one is as safe as the FMU and the arguments are.
@@ -75,7 +73,7 @@ macro_rules! api {
             pub const SYMBOLS: &[&str] = &[$(stringify!($symbol)),+];
 
             /// Finds the functions in a library, which has to live as long as they are used.
-            pub(crate) fn load(library: &Library) -> Result<Self, libloading::Error> {
+            pub(crate) fn load(library: &libloading::Library) -> Result<Self, libloading::Error> {
                 Ok(Api {
                     // SAFETY: under these names, every library has functions of these types.
                     $( $field: *unsafe { library.get(concat!(stringify!($symbol), "\0").as_bytes()) }?, )+
@@ -84,6 +82,7 @@ macro_rules! api {
         }
     };
 }
+pub(crate) use api;
 
 api! {
     get_types_platform fmi2GetTypesPlatform() -> Text;

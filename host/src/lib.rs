@@ -19,6 +19,7 @@ pub mod api;
 mod archive;
 mod description;
 mod error;
+pub mod fmi3;
 mod fmu;
 mod instance;
 mod messages;

@@ -3,10 +3,13 @@
 //! The modules [`model_description`] to [`model_structure`] are the schema of FMI 2.0, as far as a co-simulation FMU of
 //! ours uses it, one module a part of the file. [`describe`] fills it in from a model's rows, [`to_xml`] writes it.
 //!
-//! `modelDescription.xml` beside this crate is the washout's, generated and checked in, so that every change of the
-//! interface shows in a diff. `cargo run -p model-description` writes it anew.
+//! [`fmi3`] is the same for FMI 3.0.
+//!
+//! `modelDescription.xml` and `modelDescription.fmi3.xml` beside this crate are the washout's, generated and checked in,
+//! so that every change of the interface shows in a diff. `cargo run -p model-description` writes them anew.
 
 mod describe;
+pub mod fmi3;
 pub mod model_description;
 pub mod model_structure;
 pub mod scalar_variable;

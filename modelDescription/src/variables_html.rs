@@ -5,14 +5,28 @@ use std::fmt::Write;
 use model_interface::{Causality, Identity, Kind, Model, Row, Variability};
 
 /// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters that can be changed
-/// while the simulation runs, and those that cannot, with a row for each row of the interface.
+/// while the simulation runs, and those that cannot, with a row for each row of the interface. Names and types are those
+/// of FMI 2.0.
 pub fn variables_html<M: Model>() -> String {
+    html::<M>(&Notation { name: name_html, type_name: |row| type_name(row.kind).to_owned() })
+}
+
+/// How a version of FMI shows a row of the interface.
+pub(crate) struct Notation {
+    /// The names of its variables.
+    pub name: fn(&Row) -> String,
+    /// Their type.
+    pub type_name: fn(&Row) -> String,
+}
+
+/// The tables in this notation.
+pub(crate) fn html<M: Model>(notation: &Notation) -> String {
     let identity = M::IDENTITY;
     let mut start = vec![0.0; identity.slots.len()];
     M::start(&mut start);
     let mut html = String::new();
     for section in SECTIONS {
-        html.push_str(&section_html(&identity, &start, section));
+        html.push_str(&section_html(&identity, &start, section, notation));
     }
     html
 }
@@ -39,14 +53,14 @@ const SECTIONS: &[Section] = &[
     },
 ];
 
-fn section_html(identity: &Identity, start: &[f64], section: &Section) -> String {
+fn section_html(identity: &Identity, start: &[f64], section: &Section, notation: &Notation) -> String {
     let mut rows = String::new();
     let mut slot = 0;
     for row in identity.rows {
         let mine = &start[slot..slot + row.slots()];
         slot += row.slots();
         if (section.holds)(row) {
-            rows.push_str(&row_html(row, mine));
+            rows.push_str(&row_html(row, mine, notation));
         }
     }
     if rows.is_empty() {
@@ -59,13 +73,13 @@ fn section_html(identity: &Identity, start: &[f64], section: &Section) -> String
     )
 }
 
-fn row_html(row: &Row, start: &[f64]) -> String {
+fn row_html(row: &Row, start: &[f64], notation: &Notation) -> String {
     // An output's start value is calculated: the description has none.
     let start = if row.causality == Causality::Output { String::new() } else { start_html(row, start) };
     format!(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td>{start}</td><td>{}</td><td>{}</td></tr>\n",
-        name_html(row),
-        type_name(row.kind),
+        (notation.name)(row),
+        (notation.type_name)(row),
         unit_html(row.kind),
         range_html(row),
         meaning_html(row),
@@ -76,9 +90,13 @@ fn row_html(row: &Row, start: &[f64]) -> String {
 fn name_html(row: &Row) -> String {
     let components = format!("<i>{{{}}}</i>", row.components.join(",\u{a0}"));
     let index = format!("<i>1…{}</i>", row.count);
-    // A line may break after a dot.
-    let name = escape(row.name).replace('.', ".<wbr>").replace('#', &index).replace('@', &components);
+    let name = breakable(row.name).replace('#', &index).replace('@', &components);
     format!("<code>{name}</code>")
+}
+
+/// A name in which a line may break after a dot.
+pub(crate) fn breakable(name: &str) -> String {
+    escape(name).replace('.', ".<wbr>")
 }
 
 fn type_name(kind: Kind) -> &'static str {

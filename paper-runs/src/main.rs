@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use build_fmu::{model, workspace};
+use build_fmu::{FmiVersion, model, workspace};
 use clap::Parser;
 use fmu_host::Fmu;
 use paper_runs::figures::{write_figures, write_readme_picture};
@@ -57,7 +57,9 @@ fn main() -> Result<()> {
 
 /// Builds the FMU for this machine, as `cargo build-fmu` does, and says so on standard error.
 fn build_fmu() -> Result<PathBuf> {
-    let built = build_fmu::build(&model::WASHOUT, &[], &workspace::default_output(), |line| eprintln!("{line}"))?;
+    let built = build_fmu::build(&model::WASHOUT, FmiVersion::Fmi2, &[], &workspace::default_output(), |line| {
+        eprintln!("{line}")
+    })?;
     eprintln!("{}\n", built.file.display());
     Ok(built.file)
 }

@@ -1,26 +1,10 @@
 //! Which function is allowed in which state: the table of FMI 2.0, 4.2.4.
 //!
-//! Left out are the states that an instance here never is in, see [`Mode`], and the functions that are allowed always.
+//! Left out are the states that an instance here never is in, see [`Mode`](crate::Mode), and the functions that are allowed always.
 //! Beyond the table, inputs and other variables can be set, and are checked one by one, wherever any can.
 
 use crate::Mode::{Error as E, Initialization as N, Instantiated as I, StepComplete as C, Terminated as T};
-use crate::{Mode, Modes};
-
-/// A function and where it is allowed.
-pub struct Function {
-    pub name: &'static str,
-    pub allowed: Modes,
-}
-
-macro_rules! calling_sequence {
-    ($($constant:ident $name:ident [$($mode:ident)*];)+) => {
-        $(
-            #[doc = concat!("`", stringify!($name), "`")]
-            pub const $constant: Function =
-                Function { name: stringify!($name), allowed: Modes::of(&[$($mode as Mode),*]) };
-        )+
-    };
-}
+use crate::abi::calling_sequence;
 
 calling_sequence! {
     SET_DEBUG_LOGGING                 fmi2SetDebugLogging              [I N C T E];

@@ -15,9 +15,10 @@ macro_rules! export_fmi2 {
             // SAFETY of all calls below: each function hands on what the host passes, for which the standard vouches.
             use std::ffi::{c_int, c_void};
 
+            use $crate::abi::{fmu_state, lifecycle as common};
             use $crate::fmi2::types::*;
             use $crate::fmi2::{
-                calling_sequence as function, fmu_state, lifecycle, status, steps, unsupported, variables,
+                Logger, calling_sequence as function, lifecycle, status, steps, unsupported, variables,
             };
 
             #[allow(unused_imports)] // the model's path may be relative to the macro's place
@@ -70,7 +71,7 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2FreeInstance(component: fmi2Component) {
-                unsafe { lifecycle::free_instance::<$model>(component) }
+                unsafe { common::free_instance::<$model, Logger>(component) }
             }
 
             #[unsafe(no_mangle)]
@@ -101,17 +102,19 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2ExitInitializationMode(component: fmi2Component) -> fmi2Status {
-                unsafe { lifecycle::exit_initialization_mode::<$model>(component) }
+                unsafe {
+                    common::exit_initialization_mode::<$model, Logger>(component, &function::EXIT_INITIALIZATION_MODE)
+                }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2Terminate(component: fmi2Component) -> fmi2Status {
-                unsafe { lifecycle::terminate::<$model>(component) }
+                unsafe { common::terminate::<$model, Logger>(component, &function::TERMINATE) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2Reset(component: fmi2Component) -> fmi2Status {
-                unsafe { lifecycle::reset::<$model>(component) }
+                unsafe { common::reset::<$model, Logger>(component, &function::RESET) }
             }
 
             #[unsafe(no_mangle)]
@@ -204,12 +207,12 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2GetFMUstate(component: fmi2Component, state: *mut fmi2FMUstate) -> fmi2Status {
-                unsafe { fmu_state::get::<$model>(component, state) }
+                unsafe { fmu_state::get::<$model, Logger>(component, &function::GET_FMU_STATE, state) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2SetFMUstate(component: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
-                unsafe { fmu_state::set::<$model>(component, state) }
+                unsafe { fmu_state::set::<$model, Logger>(component, &function::SET_FMU_STATE, state) }
             }
 
             #[unsafe(no_mangle)]
@@ -217,7 +220,7 @@ macro_rules! export_fmi2 {
                 component: fmi2Component,
                 state: *mut fmi2FMUstate,
             ) -> fmi2Status {
-                unsafe { fmu_state::free::<$model>(component, state) }
+                unsafe { fmu_state::free::<$model, Logger>(component, &function::FREE_FMU_STATE, state) }
             }
 
             #[unsafe(no_mangle)]
@@ -226,7 +229,14 @@ macro_rules! export_fmi2 {
                 state: fmi2FMUstate,
                 size: *mut usize,
             ) -> fmi2Status {
-                unsafe { fmu_state::serialized_size::<$model>(component, state, size) }
+                unsafe {
+                    fmu_state::serialized_size::<$model, Logger>(
+                        component,
+                        &function::SERIALIZED_FMU_STATE_SIZE,
+                        state,
+                        size,
+                    )
+                }
             }
 
             #[unsafe(no_mangle)]
@@ -236,7 +246,15 @@ macro_rules! export_fmi2 {
                 bytes: *mut fmi2Byte,
                 size: usize,
             ) -> fmi2Status {
-                unsafe { fmu_state::serialize::<$model>(component, state, bytes, size) }
+                unsafe {
+                    fmu_state::serialize::<$model, Logger>(
+                        component,
+                        &function::SERIALIZE_FMU_STATE,
+                        state,
+                        bytes.cast(),
+                        size,
+                    )
+                }
             }
 
             #[unsafe(no_mangle)]
@@ -246,7 +264,15 @@ macro_rules! export_fmi2 {
                 size: usize,
                 state: *mut fmi2FMUstate,
             ) -> fmi2Status {
-                unsafe { fmu_state::deserialize::<$model>(component, bytes, size, state) }
+                unsafe {
+                    fmu_state::deserialize::<$model, Logger>(
+                        component,
+                        &function::DESERIALIZE_FMU_STATE,
+                        bytes.cast(),
+                        size,
+                        state,
+                    )
+                }
             }
 
             #[unsafe(no_mangle)]
@@ -300,7 +326,7 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2CancelStep(component: fmi2Component) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::CANCEL_STEP) }
+                unsafe { common::never::<$model, Logger>(component, &function::CANCEL_STEP) }
             }
 
             #[unsafe(no_mangle)]
@@ -352,7 +378,7 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2EnterEventMode(component: fmi2Component) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::ENTER_EVENT_MODE) }
+                unsafe { common::never::<$model, Logger>(component, &function::ENTER_EVENT_MODE) }
             }
 
             #[unsafe(no_mangle)]
@@ -360,12 +386,12 @@ macro_rules! export_fmi2 {
                 component: fmi2Component,
                 _event_info: *mut c_void,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::NEW_DISCRETE_STATES) }
+                unsafe { common::never::<$model, Logger>(component, &function::NEW_DISCRETE_STATES) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(component: fmi2Component) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::ENTER_CONTINUOUS_TIME_MODE) }
+                unsafe { common::never::<$model, Logger>(component, &function::ENTER_CONTINUOUS_TIME_MODE) }
             }
 
             #[unsafe(no_mangle)]
@@ -375,12 +401,12 @@ macro_rules! export_fmi2 {
                 _enter_event_mode: *mut fmi2Boolean,
                 _terminate: *mut fmi2Boolean,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::COMPLETED_INTEGRATOR_STEP) }
+                unsafe { common::never::<$model, Logger>(component, &function::COMPLETED_INTEGRATOR_STEP) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2SetTime(component: fmi2Component, _time: fmi2Real) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::SET_TIME) }
+                unsafe { common::never::<$model, Logger>(component, &function::SET_TIME) }
             }
 
             #[unsafe(no_mangle)]
@@ -389,7 +415,7 @@ macro_rules! export_fmi2 {
                 _states: *const fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::SET_CONTINUOUS_STATES) }
+                unsafe { common::never::<$model, Logger>(component, &function::SET_CONTINUOUS_STATES) }
             }
 
             #[unsafe(no_mangle)]
@@ -398,7 +424,7 @@ macro_rules! export_fmi2 {
                 _derivatives: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::GET_DERIVATIVES) }
+                unsafe { common::never::<$model, Logger>(component, &function::GET_DERIVATIVES) }
             }
 
             #[unsafe(no_mangle)]
@@ -407,7 +433,7 @@ macro_rules! export_fmi2 {
                 _indicators: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::GET_EVENT_INDICATORS) }
+                unsafe { common::never::<$model, Logger>(component, &function::GET_EVENT_INDICATORS) }
             }
 
             #[unsafe(no_mangle)]
@@ -416,7 +442,7 @@ macro_rules! export_fmi2 {
                 _states: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::GET_CONTINUOUS_STATES) }
+                unsafe { common::never::<$model, Logger>(component, &function::GET_CONTINUOUS_STATES) }
             }
 
             #[unsafe(no_mangle)]
@@ -425,7 +451,7 @@ macro_rules! export_fmi2 {
                 _nominals: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { unsupported::never::<$model>(component, &function::GET_NOMINALS_OF_CONTINUOUS_STATES) }
+                unsafe { common::never::<$model, Logger>(component, &function::GET_NOMINALS_OF_CONTINUOUS_STATES) }
             }
         }
     };

@@ -1,16 +1,15 @@
-//! From fmi2Instantiate to fmi2FreeInstance.
+//! From fmi2Instantiate to fmi2EnterInitializationMode; what follows is [`abi::lifecycle`](crate::abi::lifecycle).
 
 use std::ffi::{CStr, CString, c_int};
 use std::ptr::null_mut;
 
 use model_interface::Model;
 
-use super::calling_sequence as function;
-use super::component::{Component, call};
-use super::logger::Logger;
-use super::pointers::{slice, string};
 use super::types::*;
-use crate::{Complaint, Instance, LogCategory, SharedTables, panics};
+use super::{Component, Logger, calling_sequence as function};
+use crate::abi::pointers::{slice, string};
+use crate::abi::{Host, call};
+use crate::{Complaint, Instance, LogCategory, Severity, SharedTables, panics};
 
 /// `fmi2Instantiate`; the resources' location and visibility make no difference.
 pub unsafe fn instantiate<M: Model, const N: usize>(
@@ -34,10 +33,10 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
     match panics::contain(new).and_then(|instance| instance) {
         Ok(instance) => {
             logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
-            Box::into_raw(Box::new(Component { instance, logger })).cast()
+            Component::into_pointer(instance, logger)
         }
         Err(complaint) => {
-            logger.failure(fmi2Status::fmi2Error, &format!("fmi2Instantiate: {}", complaint.text));
+            logger.failure(Severity::Error, &format!("fmi2Instantiate: {}", complaint.text));
             null_mut()
         }
     }
@@ -58,17 +57,6 @@ fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expe
         )));
     }
     Ok(())
-}
-
-/// `fmi2FreeInstance`
-pub unsafe fn free_instance<M: Model>(component: fmi2Component) {
-    if component.is_null() {
-        return;
-    }
-    // SAFETY: the host hands back what `instantiate` made.
-    let component = unsafe { Box::from_raw(component.cast::<Component<M>>()) };
-    // A panic now has nobody left to be told to.
-    let _ = panics::contain(|| drop(component));
 }
 
 /// `fmi2SetDebugLogging`: events are logged if it is on for all categories or for theirs.
@@ -121,37 +109,4 @@ pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component) -> f
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::ENTER_INITIALIZATION_MODE, body) }
-}
-
-/// `fmi2ExitInitializationMode`
-pub unsafe fn exit_initialization_mode<M: Model>(component: fmi2Component) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
-        component.instance.exit_initialization()?;
-        component.logger.event("initialized");
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, &function::EXIT_INITIALIZATION_MODE, body) }
-}
-
-/// `fmi2Terminate`
-pub unsafe fn terminate<M: Model>(component: fmi2Component) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
-        component.instance.terminate();
-        component.logger.event("terminated");
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, &function::TERMINATE, body) }
-}
-
-/// `fmi2Reset`
-pub unsafe fn reset<M: Model>(component: fmi2Component) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
-        component.instance.reset();
-        component.logger.event("reset");
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, &function::RESET, body) }
 }

@@ -3,7 +3,9 @@
 use std::ffi::{CStr, CString};
 
 use super::types::{fmi2CallbackFunctions, fmi2CallbackLogger, fmi2ComponentEnvironment, fmi2Status};
-use crate::LogCategory;
+use crate::abi::Host;
+use crate::abi::pointers::c_string;
+use crate::{LogCategory, Mode, Severity};
 
 /// Where an instance's messages go. Warnings and errors always do, events only with debug logging on.
 pub struct Logger {
@@ -22,24 +24,6 @@ impl Logger {
     /// Switches events on and off.
     pub fn log_events(&mut self, events: bool) {
         self.events = events;
-    }
-
-    /// Tells the host of a stage in the instance's life.
-    pub fn event(&self, text: &str) {
-        if self.events {
-            self.send(fmi2Status::fmi2OK, LogCategory::Events, text);
-        }
-    }
-
-    /// Tells the host why a call ends with `status`.
-    pub fn failure(&self, status: fmi2Status, text: &str) {
-        let category = match status {
-            fmi2Status::fmi2Warning => LogCategory::Warning,
-            fmi2Status::fmi2Discard => LogCategory::Discard,
-            fmi2Status::fmi2Fatal => LogCategory::Fatal,
-            _ => LogCategory::Error,
-        };
-        self.send(status, category, text);
     }
 
     /// The text is an argument of the message `"%s"`, for hosts take the message as a format.
@@ -62,8 +46,27 @@ impl Logger {
     }
 }
 
-/// The text, up to the first zero in it.
-fn c_string(text: &str) -> CString {
-    let end = text.find('\0').unwrap_or(text.len());
-    CString::new(&text[..end]).unwrap_or_default()
+impl Host for Logger {
+    type Status = fmi2Status;
+    const OK: fmi2Status = fmi2Status::fmi2OK;
+    const ERROR: fmi2Status = fmi2Status::fmi2Error;
+
+    fn mode_name(mode: Mode) -> &'static str {
+        mode.name()
+    }
+
+    fn event(&self, text: &str) {
+        if self.events {
+            self.send(fmi2Status::fmi2OK, LogCategory::Events, text);
+        }
+    }
+
+    fn failure(&self, severity: Severity, text: &str) -> fmi2Status {
+        let (status, category) = match severity {
+            Severity::Discard => (fmi2Status::fmi2Discard, LogCategory::Discard),
+            Severity::Error => (fmi2Status::fmi2Error, LogCategory::Error),
+        };
+        self.send(status, category, text);
+        status
+    }
 }

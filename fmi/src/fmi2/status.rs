@@ -4,11 +4,11 @@ use std::ffi::c_int;
 
 use model_interface::Model;
 
-use super::calling_sequence::{self as function, Function};
-use super::component::{Component, call};
-use super::pointers::answer;
 use super::types::*;
+use super::{Component, calling_sequence as function};
 use crate::Complaint;
+use crate::abi::pointers::answer;
+use crate::abi::{Function, call};
 
 /// `fmi2GetRealStatus`: the time of the last good step is known, and nothing else.
 pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, value: *mut fmi2Real) -> fmi2Status {

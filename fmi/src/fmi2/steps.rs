@@ -2,9 +2,9 @@
 
 use model_interface::Model;
 
-use super::calling_sequence as function;
-use super::component::{Component, call};
 use super::types::*;
+use super::{Component, calling_sequence as function};
+use crate::abi::call;
 
 /// `fmi2DoStep`
 #[inline]

@@ -32,8 +32,61 @@ pub type fmi2Byte = c_char;
 #[repr(transparent)]
 pub struct fmi2Boolean(pub c_int);
 
+/// What FMI 2.0 calls a type.
+fn type_name(value_type: ValueType) -> &'static str {
+    match value_type {
+        ValueType::Real => "Real",
+        ValueType::Integer => "Integer",
+        ValueType::Boolean => "Boolean",
+        ValueType::Enumeration => "Enumeration, which goes by Integer",
+    }
+}
+
+impl Scalar for fmi2Real {
+    #[inline]
+    fn is(value_type: ValueType) -> bool {
+        value_type == ValueType::Real
+    }
+    fn type_name(value_type: ValueType) -> &'static str {
+        type_name(value_type)
+    }
+    #[inline]
+    fn to_slot(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn from_slot(slot: f64) -> Self {
+        slot
+    }
+}
+
+/// An enumeration goes by Integer.
+impl Scalar for fmi2Integer {
+    #[inline]
+    fn is(value_type: ValueType) -> bool {
+        matches!(value_type, ValueType::Integer | ValueType::Enumeration)
+    }
+    fn type_name(value_type: ValueType) -> &'static str {
+        type_name(value_type)
+    }
+    #[inline]
+    fn to_slot(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline]
+    fn from_slot(slot: f64) -> Self {
+        slot as fmi2Integer
+    }
+}
+
 impl Scalar for fmi2Boolean {
-    const TYPE: ValueType = ValueType::Boolean;
+    #[inline]
+    fn is(value_type: ValueType) -> bool {
+        value_type == ValueType::Boolean
+    }
+    fn type_name(value_type: ValueType) -> &'static str {
+        type_name(value_type)
+    }
     #[inline]
     fn to_slot(self) -> f64 {
         f64::from(u8::from(self.0 != 0))

@@ -1,11 +1,12 @@
-//! Functions that have to be there and cannot be used.
+//! A function that has to be there and cannot be used. Those that are never allowed are
+//! [`abi::lifecycle::never`](crate::abi::lifecycle::never).
 
 use model_interface::Model;
 
-use super::calling_sequence::{self as function, Function};
-use super::component::{Component, call};
 use super::types::*;
+use super::{Component, calling_sequence as function};
 use crate::Complaint;
+use crate::abi::call;
 
 /// `fmi2GetDirectionalDerivative`
 pub unsafe fn get_directional_derivative<M: Model>(component: fmi2Component) -> fmi2Status {
@@ -14,10 +15,4 @@ pub unsafe fn get_directional_derivative<M: Model>(component: fmi2Component) -> 
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::GET_DIRECTIONAL_DERIVATIVE, body) }
-}
-
-/// A function of model exchange, or fmi2CancelStep: allowed in no state.
-pub unsafe fn never<M: Model>(component: fmi2Component, function: &Function) -> fmi2Status {
-    // SAFETY: the host's component.
-    unsafe { call(component, function, |_: &mut Component<M>| Ok(())) }
 }

@@ -2,10 +2,10 @@
 
 use model_interface::Model;
 
-use super::calling_sequence::{self as function, Function};
-use super::component::{Component, call};
-use super::pointers::{room, slice};
 use super::types::*;
+use super::{Component, calling_sequence as function};
+use crate::abi::pointers::{room, slice};
+use crate::abi::{Function, call};
 use crate::{Complaint, Scalar};
 
 /// `fmi2GetReal`, `fmi2GetInteger`, `fmi2GetBoolean`
@@ -20,7 +20,7 @@ pub unsafe fn get<M: Model, S: Scalar>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
         let (references, values) = unsafe { (slice(references, count)?, room(values, count)?) };
-        component.instance.get(references, values)
+        component.instance.get(references.iter().copied(), values)
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }
@@ -38,7 +38,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
         let (references, values) = unsafe { (slice(references, count)?, slice(values, count)?) };
-        component.instance.set(references, values)
+        component.instance.set(references.iter().copied(), values)
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }
@@ -84,7 +84,8 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
         // SAFETY: the host's arrays have `count` elements.
         let (references, orders, values) =
             unsafe { (slice(references, count)?, slice(orders, count)?, room(values, count)?) };
-        component.instance.get_output_derivatives(references, orders, values)
+        let requests = references.iter().copied().zip(orders.iter().copied());
+        component.instance.get_output_derivatives(requests, values)
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::GET_REAL_OUTPUT_DERIVATIVES, body) }

@@ -5,53 +5,7 @@ use std::ptr::{null, null_mut};
 use fmu_host::{Instance, Status};
 
 use crate::fixture::*;
-
-/// FMI 2.0.5, 4.2.4: I instantiated, N initialization mode, C step complete, F step failed, X step canceled, P step in
-/// progress, T terminated, E error. Inputs may be set in I, as tools do. Model exchange's functions: in none.
-const TABLE: &str = "
-    fmi2GetTypesPlatform              I N C F X P T E
-    fmi2GetVersion                    I N C F X P T E
-    fmi2SetDebugLogging               I N C F X P T E
-    fmi2SetupExperiment               I
-    fmi2EnterInitializationMode       I
-    fmi2ExitInitializationMode        N
-    fmi2Terminate                     C F
-    fmi2Reset                         I N C F X T E
-    fmi2GetReal                       N C T F X E
-    fmi2GetInteger                    N C T F X E
-    fmi2GetBoolean                    N C T F X E
-    fmi2GetString                     N C T F X E
-    fmi2SetReal                       I N C
-    fmi2SetInteger                    I N C
-    fmi2SetBoolean                    I N C
-    fmi2SetString                     I N C
-    fmi2GetFMUstate                   I N C T F X E
-    fmi2SetFMUstate                   I N C F X T E
-    fmi2FreeFMUstate                  I N C F X T E
-    fmi2SerializedFMUstateSize        I N C F X T E
-    fmi2SerializeFMUstate             I N C F X T E
-    fmi2DeSerializeFMUstate           I N C F X T E
-    fmi2GetDirectionalDerivative      N C T
-    fmi2SetRealInputDerivatives       I N C
-    fmi2GetRealOutputDerivatives      C T X
-    fmi2DoStep                        C
-    fmi2CancelStep                    P
-    fmi2GetStatus                     C P F T
-    fmi2GetRealStatus                 C P F T
-    fmi2GetIntegerStatus              C P F T
-    fmi2GetBooleanStatus              C P F T
-    fmi2GetStringStatus               C P F T
-    fmi2EnterEventMode
-    fmi2NewDiscreteStates
-    fmi2EnterContinuousTimeMode
-    fmi2CompletedIntegratorStep
-    fmi2SetTime
-    fmi2SetContinuousStates
-    fmi2GetDerivatives
-    fmi2GetEventIndicators
-    fmi2GetContinuousStates
-    fmi2GetNominalsOfContinuousStates
-";
+use crate::standard::CALLING_SEQUENCE;
 
 /// The states that an instance can be in, with how to get there.
 type State = (&'static str, &'static str, fn() -> Instance);
@@ -71,12 +25,9 @@ const STATES: [State; 5] = [
 #[test]
 fn every_function_is_allowed_where_the_standard_says() {
     let mut checked = 0;
-    for line in TABLE.lines().filter(|line| !line.trim().is_empty()) {
-        let mut words = line.split_whitespace();
-        let function = words.next().unwrap();
-        let allowed: Vec<_> = words.collect();
+    for (function, allowed) in CALLING_SEQUENCE {
         for (letter, state, make) in STATES {
-            check(function, allowed.contains(&letter), state, make());
+            check(function, allowed, letter, state, make());
             checked += 1;
         }
     }
@@ -84,7 +35,8 @@ fn every_function_is_allowed_where_the_standard_says() {
     assert_eq!(checked, (fmu_host::Api::SYMBOLS.len() - 2) * STATES.len());
 }
 
-fn check(function: &str, allowed: bool, state: &str, mut instance: Instance) {
+fn check(function: &str, states: &str, letter: &str, state: &str, mut instance: Instance) {
+    let allowed = states.contains(letter);
     let before = bytes(&mut instance);
     let said = instance.messages().len();
     let status = call(function, &mut instance);
@@ -95,6 +47,10 @@ fn check(function: &str, allowed: bool, state: &str, mut instance: Instance) {
         assert_eq!(status, 3, "{function} in state '{state}'");
         let text = &messages.last().unwrap().text;
         assert!(text.starts_with(function) && text.contains(&format!("'{state}'")), "{text}");
+        let expected: Vec<_> =
+            STATES.iter().filter(|(letter, ..)| states.contains(letter)).map(|(_, name, _)| *name).collect();
+        let expected = if expected.is_empty() { "none".into() } else { expected.join(", ") };
+        assert!(text.ends_with(&expected), "{text}");
         assert_eq!(bytes(&mut instance), before, "{function} in state '{state}' changed something");
     } else if function != "fmi2GetDirectionalDerivative" {
         // Discard: asking for a status that is not known.

@@ -1,14 +1,31 @@
 //! Null and nonsense where pointers belong: an error, never a crash.
 
+use std::ffi::c_void;
 use std::ptr::{null, null_mut};
 
 use crate::fixture::*;
 
 #[test]
-fn no_function_needs_an_instance() {
+fn null_is_no_instance() {
+    assert_refused_as_instance(null_mut());
+}
+
+#[test]
+fn memory_that_is_no_instance_is_told_from_one() {
+    let mut zeros = [0u64; 64];
+    assert_refused_as_instance(zeros.as_mut_ptr().cast());
+    assert_refused_as_instance(zeros.as_mut_ptr().cast::<c_void>().wrapping_byte_add(1));
+    let mut instance = instantiated();
+    let state = instance.get_state().unwrap();
+    assert_refused_as_instance(state.pointer());
+    assert_eq!(instance.free_state(state), fmu_host::Status::Ok);
+}
+
+/// Every function refuses the pointer.
+fn assert_refused_as_instance(c: *mut c_void) {
     let fmu = open();
-    let (api, c) = (fmu.api(), null_mut());
-    // SAFETY: null is to be refused.
+    let api = fmu.api();
+    // SAFETY: the pointer is null or leads to more memory than a look takes, and is to be refused.
     unsafe {
         let statuses = [
             (api.set_debug_logging)(c, 1, 0, null()),

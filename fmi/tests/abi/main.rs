@@ -11,6 +11,7 @@ mod library;
 #[path = "../../examples/first_order/model.rs"]
 mod model;
 mod panics;
+mod standard;
 mod states;
 mod status;
 mod steps;

@@ -1,6 +1,6 @@
-//! A host's pointers as slices and strings.
+//! A host's pointers as slices and strings, and our strings for the host.
 
-use std::ffi::{CStr, c_char};
+use std::ffi::{CStr, CString, c_char};
 use std::mem::MaybeUninit;
 
 use crate::Complaint;
@@ -69,6 +69,12 @@ pub unsafe fn answer<T>(pointer: *mut T, answer: T) -> Result<(), Complaint> {
 pub unsafe fn string<'a>(pointer: *const c_char) -> Option<&'a CStr> {
     // SAFETY: not null where used; for the rest the caller vouches.
     (!pointer.is_null()).then(|| unsafe { CStr::from_ptr(pointer) })
+}
+
+/// The text for C, up to the first zero in it.
+pub fn c_string(text: &str) -> CString {
+    let end = text.find('\0').unwrap_or(text.len());
+    CString::new(&text[..end]).unwrap_or_default()
 }
 
 #[inline]

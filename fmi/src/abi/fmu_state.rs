@@ -1,19 +1,21 @@
-//! Saving and restoring states.
+//! Saving and restoring states. The functions are named as in FMI 3.0; those of FMI 2.0 do the same.
 
+use std::ffi::c_void;
 use std::ptr::null_mut;
 
 use model_interface::Model;
 
-use super::calling_sequence as function;
-use super::component::{Component, call};
 use super::pointers::{answer, place, room, slice};
-use super::types::*;
+use super::{Component, Function, Host, call};
 use crate::{Complaint, Guid, Run};
+
+/// A saved state, as the host holds it.
+type FmuState = *mut c_void;
 
 /// What every state of this library begins with, and nothing else is likely to.
 const MARK: u64 = u64::from_le_bytes(*b"FMUstate");
 
-/// What an fmi2FMUstate points to.
+/// What an [`FmuState`] points to.
 #[repr(C)]
 struct State<M> {
     /// Belongs to whom; looked at before the rest is believed.
@@ -30,7 +32,7 @@ struct Owner {
 }
 
 impl Owner {
-    fn of<M: Model>(component: &Component<M>) -> Self {
+    fn of<M: Model, H: Host>(component: &Component<M, H>) -> Self {
         Owner { mark: MARK, guid: component.instance.tables().guid }
     }
 }
@@ -39,7 +41,7 @@ impl Owner {
 ///
 /// # Safety
 /// `pointer` is null or leads to memory that can be read.
-unsafe fn state<M: Model>(pointer: fmi2FMUstate, owner: Owner) -> Result<*mut State<M>, Complaint> {
+unsafe fn state<M: Model>(pointer: FmuState, owner: Owner) -> Result<*mut State<M>, Complaint> {
     let pointer = pointer.cast::<State<M>>();
     // SAFETY: not null and aligned where it is read; for the rest the caller vouches, and all bits make an owner.
     if pointer.is_null() || !pointer.is_aligned() || unsafe { pointer.cast::<Owner>().read() } != owner {
@@ -48,13 +50,13 @@ unsafe fn state<M: Model>(pointer: fmi2FMUstate, owner: Owner) -> Result<*mut St
     Ok(pointer)
 }
 
-fn into_pointer<M: Model>(owner: Owner, run: Run<M>) -> fmi2FMUstate {
+fn into_pointer<M: Model>(owner: Owner, run: Run<M>) -> FmuState {
     Box::into_raw(Box::new(State { owner, run })).cast()
 }
 
-/// `fmi2GetFMUstate`: into the state that is there, or else into a new one.
-pub unsafe fn get<M: Model>(component: fmi2Component, pointer: *mut fmi2FMUstate) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
+/// `fmi3GetFMUState`: into the state that is there, or else into a new one.
+pub unsafe fn get<M: Model, H: Host>(component: *mut c_void, function: &Function, pointer: *mut FmuState) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's place for the state.
         let pointer = unsafe { place(pointer) }?;
         let owner = Owner::of(component);
@@ -67,24 +69,28 @@ pub unsafe fn get<M: Model>(component: fmi2Component, pointer: *mut fmi2FMUstate
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::GET_FMU_STATE, body) }
+    unsafe { call(component, function, body) }
 }
 
-/// `fmi2SetFMUstate`
-pub unsafe fn set<M: Model>(component: fmi2Component, pointer: fmi2FMUstate) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
+/// `fmi3SetFMUState`
+pub unsafe fn set<M: Model, H: Host>(component: *mut c_void, function: &Function, pointer: FmuState) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call.
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
         component.instance.restore(&state.run);
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::SET_FMU_STATE, body) }
+    unsafe { call(component, function, body) }
 }
 
-/// `fmi2FreeFMUstate`; null is ignored.
-pub unsafe fn free<M: Model>(component: fmi2Component, pointer: *mut fmi2FMUstate) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
+/// `fmi3FreeFMUState`; null is ignored.
+pub unsafe fn free<M: Model, H: Host>(
+    component: *mut c_void,
+    function: &Function,
+    pointer: *mut FmuState,
+) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
         if pointer.is_null() {
             return Ok(());
         }
@@ -93,22 +99,28 @@ pub unsafe fn free<M: Model>(component: fmi2Component, pointer: *mut fmi2FMUstat
         if pointer.is_null() {
             return Ok(());
         }
-        // SAFETY: the host's state. It has this library's mark, so that `into_pointer` made it.
-        drop(unsafe { Box::from_raw(state::<M>(*pointer, Owner::of(component))?) });
+        // SAFETY: the host's state.
+        let state = unsafe { state::<M>(*pointer, Owner::of(component))? };
+        // SAFETY: it has this library's mark, so that `into_pointer` made it. The mark goes, so that its memory is no longer
+        // taken for a state; volatile, for nobody is seen to read it again.
+        unsafe { (&raw mut (*state).owner.mark).write_volatile(0) };
+        // SAFETY: as above.
+        drop(unsafe { Box::from_raw(state) });
         *pointer = null_mut();
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::FREE_FMU_STATE, body) }
+    unsafe { call(component, function, body) }
 }
 
-/// `fmi2SerializedFMUstateSize`
-pub unsafe fn serialized_size<M: Model>(
-    component: fmi2Component,
-    pointer: fmi2FMUstate,
+/// `fmi3SerializedFMUStateSize`
+pub unsafe fn serialized_size<M: Model, H: Host>(
+    component: *mut c_void,
+    function: &Function,
+    pointer: FmuState,
     size: *mut usize,
-) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
+) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call.
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
         let length = state.run.to_bytes(component.instance.tables().guid)?.len();
@@ -116,19 +128,20 @@ pub unsafe fn serialized_size<M: Model>(
         unsafe { answer(size, length) }
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::SERIALIZED_FMU_STATE_SIZE, body) }
+    unsafe { call(component, function, body) }
 }
 
-/// `fmi2SerializeFMUstate`
-pub unsafe fn serialize<M: Model>(
-    component: fmi2Component,
-    pointer: fmi2FMUstate,
-    bytes: *mut fmi2Byte,
+/// `fmi3SerializeFMUState`
+pub unsafe fn serialize<M: Model, H: Host>(
+    component: *mut c_void,
+    function: &Function,
+    pointer: FmuState,
+    bytes: *mut u8,
     size: usize,
-) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
+) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call, and its room for `size` bytes.
-        let (state, room) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, room(bytes.cast::<u8>(), size)?) };
+        let (state, room) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, room(bytes, size)?) };
         let bytes = state.run.to_bytes(component.instance.tables().guid)?;
         let (length, available) = (bytes.len(), room.len());
         let room = room.get_mut(..length).ok_or_else(|| {
@@ -138,19 +151,20 @@ pub unsafe fn serialize<M: Model>(
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::SERIALIZE_FMU_STATE, body) }
+    unsafe { call(component, function, body) }
 }
 
-/// `fmi2DeSerializeFMUstate`: into the state that is there, or else into a new one.
-pub unsafe fn deserialize<M: Model>(
-    component: fmi2Component,
-    bytes: *const fmi2Byte,
+/// `fmi3DeserializeFMUState`: into the state that is there, or else into a new one.
+pub unsafe fn deserialize<M: Model, H: Host>(
+    component: *mut c_void,
+    function: &Function,
+    bytes: *const u8,
     size: usize,
-    pointer: *mut fmi2FMUstate,
-) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
+    pointer: *mut FmuState,
+) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's bytes, and its place for the state.
-        let (bytes, pointer) = unsafe { (slice(bytes.cast::<u8>(), size)?, place(pointer)?) };
+        let (bytes, pointer) = unsafe { (slice(bytes, size)?, place(pointer)?) };
         let run = Run::from_bytes(bytes, component.instance.tables())?;
         let owner = Owner::of(component);
         if pointer.is_null() {
@@ -162,5 +176,5 @@ pub unsafe fn deserialize<M: Model>(
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::DESERIALIZE_FMU_STATE, body) }
+    unsafe { call(component, function, body) }
 }

@@ -1,0 +1,115 @@
+//! What a host's pointer to an instance points to, and the one way into it.
+
+use std::ffi::c_void;
+
+use model_interface::Model;
+
+use super::Function;
+use crate::{Complaint, Instance, Mode, Severity, panics};
+
+/// The host of an instance, as one version of FMI has it: takes messages, and is told how calls end.
+pub trait Host {
+    /// How a call ends.
+    type Status;
+    /// The call has done what was asked.
+    const OK: Self::Status;
+    /// How a call ends when a pointer to no instance comes.
+    const ERROR: Self::Status;
+    /// What the version calls a mode.
+    fn mode_name(mode: Mode) -> &'static str;
+    /// Tells the host of a stage in the instance's life, if it wants to know.
+    fn event(&self, text: &str);
+    /// Tells the host why a call does not do what was asked; gives back how the call ends.
+    fn failure(&self, severity: Severity, text: &str) -> Self::Status;
+}
+
+/// What every component begins with until it is freed, and nothing else is likely to.
+const MARK: u64 = u64::from_le_bytes(*b"instance");
+
+/// An instance, and where its messages go.
+#[repr(C)]
+pub struct Component<M, H> {
+    /// Looked at before the rest is believed.
+    mark: u64,
+    pub instance: Instance<M>,
+    pub logger: H,
+}
+
+impl<M, H> Component<M, H> {
+    /// The pointer that the host gets.
+    pub fn into_pointer(instance: Instance<M>, logger: H) -> *mut c_void {
+        Box::into_raw(Box::new(Component { mark: MARK, instance, logger })).cast()
+    }
+
+    /// The component that `pointer` leads to. `None` if it is null or leads to something else, a freed component for one,
+    /// as far as that can be told.
+    ///
+    /// # Safety
+    /// `pointer` is null or leads to memory that can be read; if it is a component, it is one of the model `M` and the
+    /// host `H`, and nothing else uses it during `'a`.
+    #[inline]
+    pub unsafe fn at<'a>(pointer: *mut c_void) -> Option<&'a mut Self> {
+        let pointer = pointer.cast::<Self>();
+        // SAFETY: not null and aligned where it is read; for the rest the caller vouches, and all bits make a mark.
+        let marked = !pointer.is_null() && pointer.is_aligned() && unsafe { pointer.cast::<u64>().read() } == MARK;
+        // SAFETY: it has the mark, so that `into_pointer` made it.
+        marked.then(|| unsafe { &mut *pointer })
+    }
+
+    /// Ends the component, so that its memory is no longer taken for one.
+    ///
+    /// # Safety
+    /// The component comes from [`Component::at`], and nobody uses it from here on.
+    pub unsafe fn free(component: *mut Self) {
+        // SAFETY: the field is there; volatile, for nobody is seen to read it again.
+        unsafe { (&raw mut (*component).mark).write_volatile(0) };
+        // SAFETY: `into_pointer` made it.
+        drop(unsafe { Box::from_raw(component) });
+    }
+}
+
+/// Runs a function of the interface on the component: checks that the function is allowed now, tells the host what went
+/// wrong, and lets no panic out.
+///
+/// # Safety
+/// `component` is null, or a component of the model `M` and the host `H` that is not freed yet and that nothing else is
+/// using.
+#[inline]
+pub unsafe fn call<M: Model, H: Host>(
+    component: *mut c_void,
+    function: &Function,
+    body: impl FnOnce(&mut Component<M, H>) -> Result<(), Complaint>,
+) -> H::Status {
+    // SAFETY: the caller vouches for it.
+    let Some(component) = (unsafe { Component::<M, H>::at(component) }) else { return H::ERROR };
+    if !function.allowed.contains(component.instance.mode()) {
+        return component.not_allowed(function);
+    }
+    match panics::contain(|| body(component)) {
+        Ok(Ok(())) => H::OK,
+        Ok(Err(complaint)) => component.complain(function, &complaint),
+        Err(complaint) => {
+            component.instance.fail();
+            component.complain(function, &complaint)
+        }
+    }
+}
+
+impl<M: Model, H: Host> Component<M, H> {
+    #[cold]
+    #[inline(never)]
+    fn complain(&self, function: &Function, complaint: &Complaint) -> H::Status {
+        self.logger.failure(complaint.severity, &format!("{}: {}", function.name, complaint.text))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn not_allowed(&self, function: &Function) -> H::Status {
+        let allowed: Vec<_> =
+            Mode::ALL.into_iter().filter(|&mode| function.allowed.contains(mode)).map(H::mode_name).collect();
+        let allowed = if allowed.is_empty() { "none".into() } else { allowed.join(", ") };
+        let state = H::mode_name(self.instance.mode());
+        let text = format!("not allowed in state '{state}'; the states in which it is: {allowed}");
+        self.complain(function, &Complaint::error(text))
+    }
+}

@@ -1,0 +1,56 @@
+//! The parts of an instance's life that every version of FMI has alike.
+
+use std::ffi::c_void;
+
+use model_interface::Model;
+
+use super::{Component, Function, Host, call};
+use crate::panics;
+
+/// `fmi2FreeInstance`, `fmi3FreeInstance`; what is no instance is ignored.
+pub unsafe fn free_instance<M: Model, H: Host>(component: *mut c_void) {
+    // SAFETY: the host hands back what the version's `instantiate` made.
+    let Some(component) = (unsafe { Component::<M, H>::at(component) }) else { return };
+    // A panic now has nobody left to be told to.
+    // SAFETY: as above.
+    let _ = panics::contain(|| unsafe { Component::free(component) });
+}
+
+/// `fmi2ExitInitializationMode`, `fmi3ExitInitializationMode`
+pub unsafe fn exit_initialization_mode<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
+        component.instance.exit_initialization()?;
+        component.logger.event("initialized");
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, function, body) }
+}
+
+/// `fmi2Terminate`, `fmi3Terminate`
+pub unsafe fn terminate<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
+        component.instance.terminate();
+        component.logger.event("terminated");
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, function, body) }
+}
+
+/// `fmi2Reset`, `fmi3Reset`
+pub unsafe fn reset<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
+    let body = |component: &mut Component<M, H>| {
+        component.instance.reset();
+        component.logger.event("reset");
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, function, body) }
+}
+
+/// A function that is there for the sake of the header, and allowed in no state.
+pub unsafe fn never<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
+    // SAFETY: the host's component.
+    unsafe { call(component, function, |_: &mut Component<M, H>| Ok(())) }
+}

@@ -1,0 +1,125 @@
+//! From fmi3InstantiateCoSimulation to fmi3EnterInitializationMode; what follows is
+//! [`abi::lifecycle`](crate::abi::lifecycle).
+
+use std::ffi::CStr;
+use std::ptr::null_mut;
+
+use model_interface::Model;
+
+use super::types::*;
+use super::{Component, LOG_CATEGORIES, Logger, calling_sequence as function};
+use crate::abi::pointers::{slice, string};
+use crate::abi::{Host, call};
+use crate::{Complaint, Instance, Severity, SharedTables, panics};
+
+/// What a host asks for when it makes an instance.
+pub struct Request {
+    pub instance_name: fmi3String,
+    pub instantiation_token: fmi3String,
+    pub event_mode_used: fmi3Boolean,
+    /// How many variables the host wants to get or set within a step.
+    pub intermediate_variable_count: usize,
+}
+
+/// `fmi3InstantiateCoSimulation`; the resources' path and visibility make no difference, and a step never ends early.
+pub unsafe fn instantiate<M: Model, const N: usize>(
+    tables: &'static SharedTables<N>,
+    request: &Request,
+    logger: Logger,
+) -> fmi3Instance {
+    panics::silence();
+    let new = || {
+        let tables = tables.get::<M>();
+        // SAFETY: the host's strings live during the call.
+        unsafe { check_request(request, &tables.guid[..]) }?;
+        Ok(Instance::<M>::new(tables))
+    };
+    match panics::contain(new).and_then(|instance| instance) {
+        Ok(instance) => {
+            logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
+            Component::into_pointer(instance, logger)
+        }
+        Err(complaint) => {
+            logger.failure(Severity::Error, &format!("fmi3InstantiateCoSimulation: {}", complaint.text));
+            null_mut()
+        }
+    }
+}
+
+/// Refuses what cannot be had.
+///
+/// # Safety
+/// The request's strings are null, or ended by a zero.
+unsafe fn check_request(request: &Request, expected_token: &[u8]) -> Result<(), Complaint> {
+    // SAFETY: the caller vouches for it.
+    let (name, token) = unsafe { (string(request.instance_name), string(request.instantiation_token)) };
+    if name.is_none_or(|name| name.to_bytes().trim_ascii().is_empty()) {
+        return Err(Complaint::error("the instance has no name"));
+    }
+    if token.map(CStr::to_bytes) != Some(expected_token) {
+        let given = token.map_or("none".into(), CStr::to_string_lossy);
+        let expected = String::from_utf8_lossy(expected_token);
+        return Err(Complaint::error(format!(
+            "the instantiation token is {given}, not {expected}: \
+             modelDescription.xml and the shared library do not belong together"
+        )));
+    }
+    if request.event_mode_used.is_true() {
+        return Err(Complaint::error("there is no event mode, as hasEventMode in modelDescription.xml says"));
+    }
+    if request.intermediate_variable_count > 0 {
+        return Err(Complaint::error(
+            "variables cannot be accessed within a step, as providesIntermediateUpdate in modelDescription.xml says",
+        ));
+    }
+    Ok(())
+}
+
+/// `fmi3InstantiateModelExchange`, `fmi3InstantiateScheduledExecution`
+pub fn refuse_to_instantiate(function: &str, logger: &Logger) -> fmi3Instance {
+    logger.failure(Severity::Error, &format!("{function}: only co-simulation is possible"));
+    null_mut()
+}
+
+/// `fmi3SetDebugLogging`
+pub unsafe fn set_debug_logging<M: Model>(
+    instance: fmi3Instance,
+    logging_on: fmi3Boolean,
+    count: usize,
+    categories: *const fmi3String,
+) -> fmi3Status {
+    let body = |component: &mut Component<M>| {
+        let on = logging_on.is_true();
+        let mut chosen = Vec::new();
+        // SAFETY: the host's array and its strings live during the call.
+        for &category in unsafe { slice(categories, count) }? {
+            // SAFETY: as above.
+            let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
+            let known = LOG_CATEGORIES.iter().map(|&(category, _)| category).find(|category| category.name() == name);
+            let unknown = || Complaint::error(format!("'{name}' is no category of modelDescription.xml"));
+            chosen.push(known.ok_or_else(unknown)?);
+        }
+        if count == 0 {
+            component.logger.switch_all(on);
+        }
+        chosen.into_iter().for_each(|category| component.logger.switch(category, on));
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(instance, &function::SET_DEBUG_LOGGING, body) }
+}
+
+/// `fmi3EnterInitializationMode`
+pub unsafe fn enter_initialization_mode<M: Model>(
+    instance: fmi3Instance,
+    tolerance: Option<f64>,
+    start_time: f64,
+    stop_time: Option<f64>,
+) -> fmi3Status {
+    let body = |component: &mut Component<M>| {
+        component.instance.define_experiment(start_time, stop_time, tolerance)?;
+        component.instance.enter_initialization()
+    };
+    // SAFETY: the host's component.
+    unsafe { call(instance, &function::ENTER_INITIALIZATION_MODE, body) }
+}

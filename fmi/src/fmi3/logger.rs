@@ -1,0 +1,80 @@
+//! Messages to the host.
+
+use super::log_categories::LOG_CATEGORIES;
+use super::types::{fmi3InstanceEnvironment, fmi3LogMessageCallback, fmi3Status};
+use crate::abi::Host;
+use crate::abi::pointers::c_string;
+use crate::{LogCategory, Mode, Severity};
+
+/// Where an instance's messages go. Errors always do, the others when the host wants them.
+pub struct Logger {
+    callback: Option<fmi3LogMessageCallback>,
+    environment: fmi3InstanceEnvironment,
+    events: bool,
+    discards: bool,
+}
+
+impl Logger {
+    /// A logger of all categories or of errors alone.
+    pub fn new(
+        callback: Option<fmi3LogMessageCallback>,
+        environment: fmi3InstanceEnvironment,
+        logging_on: bool,
+    ) -> Self {
+        Logger { callback, environment, events: logging_on, discards: logging_on }
+    }
+
+    /// Switches a category on or off. Errors are sent even when they are off.
+    pub fn switch(&mut self, category: LogCategory, on: bool) {
+        match category {
+            LogCategory::Events => self.events = on,
+            LogCategory::Discard => self.discards = on,
+            _ => {}
+        }
+    }
+
+    /// Switches every category on or off.
+    pub fn switch_all(&mut self, on: bool) {
+        LOG_CATEGORIES.iter().for_each(|&(category, _)| self.switch(category, on));
+    }
+
+    fn send(&self, status: fmi3Status, category: LogCategory, text: &str) {
+        let Some(callback) = self.callback else { return };
+        let category = c_string(category.name());
+        // Hosts may read `#7#` as the name of variable 7; `##` is `#`.
+        let text = c_string(&text.replace('#', "##"));
+        // SAFETY: the host gave this function for this purpose, and the strings live until it returns.
+        unsafe { callback(self.environment, status, category.as_ptr(), text.as_ptr()) }
+    }
+}
+
+impl Host for Logger {
+    type Status = fmi3Status;
+    const OK: fmi3Status = fmi3Status::fmi3OK;
+    const ERROR: fmi3Status = fmi3Status::fmi3Error;
+
+    fn mode_name(mode: Mode) -> &'static str {
+        if mode == Mode::StepComplete { "step mode" } else { mode.name() }
+    }
+
+    fn event(&self, text: &str) {
+        if self.events {
+            self.send(fmi3Status::fmi3OK, LogCategory::Events, text);
+        }
+    }
+
+    fn failure(&self, severity: Severity, text: &str) -> fmi3Status {
+        match severity {
+            Severity::Discard => {
+                if self.discards {
+                    self.send(fmi3Status::fmi3Discard, LogCategory::Discard, text);
+                }
+                fmi3Status::fmi3Discard
+            }
+            Severity::Error => {
+                self.send(fmi3Status::fmi3Error, LogCategory::Error, text);
+                fmi3Status::fmi3Error
+            }
+        }
+    }
+}

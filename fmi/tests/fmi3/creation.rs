@@ -1,0 +1,167 @@
+//! fmi3Instantiate..., fmi3FreeInstance, and the logger.
+
+use std::ffi::{CStr, CString};
+use std::ptr::{null, null_mut};
+use std::sync::Mutex;
+
+use crate::fixture::*;
+
+struct Request {
+    name: Option<&'static CStr>,
+    token: Option<CString>,
+    logging_on: u8,
+    event_mode_used: u8,
+    intermediate_variables: Vec<u32>,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Request {
+            name: Some(c"name"),
+            token: Some(token()),
+            logging_on: 0,
+            event_mode_used: 0,
+            intermediate_variables: vec![],
+        }
+    }
+}
+
+/// Whether an instance is made, and what is said until it is freed.
+fn ask(request: &Request) -> (bool, Vec<Said>) {
+    let library = open();
+    let said = Mutex::new(Vec::new());
+    let name = request.name.map_or(null(), CStr::as_ptr);
+    let token = request.token.as_ref().map_or(null(), |token| token.as_ptr());
+    let (references, count) = (request.intermediate_variables.as_ptr(), request.intermediate_variables.len());
+    let (logging, events, environment) = (request.logging_on, request.event_mode_used, environment(&said));
+    // SAFETY: strings and arrays live during the call, the messages longer than the instance.
+    let made = unsafe {
+        let instantiate = library.api().instantiate_co_simulation;
+        let instance = instantiate(
+            name,
+            token,
+            c"/tmp/".as_ptr(),
+            0,
+            logging,
+            events,
+            1,
+            references,
+            count,
+            environment,
+            Some(log),
+            None,
+        );
+        (library.api().free_instance)(instance);
+        !instance.is_null()
+    };
+    (made, said.into_inner().unwrap())
+}
+
+#[track_caller]
+fn assert_refused(request: &Request, part: &str) {
+    let (made, said) = ask(request);
+    assert!(!made);
+    let [(status, category, text)] = &said[..] else { panic!("{said:?}") };
+    assert_eq!((*status, category.as_str()), (ERROR, "logStatusError"));
+    assert!(text.starts_with("fmi3InstantiateCoSimulation: ") && text.contains(part), "{text}");
+}
+
+#[test]
+fn is_made_silently_unless_logging_is_on() {
+    assert_eq!(ask(&Request::default()), (true, vec![]));
+    let (made, said) = ask(&Request { logging_on: 1, ..Default::default() });
+    assert!(made);
+    assert_eq!(said, [(OK, "logEvents".into(), "Lags 1.0 instantiated".into())]);
+}
+
+#[test]
+fn is_refused_with_a_reason() {
+    assert_refused(&Request { name: None, ..Default::default() }, "no name");
+    assert_refused(&Request { name: Some(c""), ..Default::default() }, "no name");
+    assert_refused(&Request { name: Some(c" \t\n"), ..Default::default() }, "no name");
+    assert_refused(&Request { token: None, ..Default::default() }, "none");
+    assert_refused(&Request { event_mode_used: 1, ..Default::default() }, "hasEventMode");
+    let intermediate_variables = vec![reference("u")];
+    assert_refused(&Request { intermediate_variables, ..Default::default() }, "providesIntermediateUpdate");
+}
+
+/// A host may take `#7#` in a message for a variable.
+#[test]
+fn a_number_sign_in_a_message_is_doubled() {
+    assert_refused(&Request { token: Some(CString::from(c"a#7#%s")), ..Default::default() }, "a##7##%s");
+}
+
+#[test]
+fn only_co_simulation_is_possible() {
+    let library = open();
+    let said = Mutex::new(Vec::new());
+    let (name, token, environment) = (c"name".as_ptr(), token(), environment(&said));
+    // SAFETY: the strings live during the calls.
+    unsafe {
+        let model_exchange = library.api().instantiate_model_exchange;
+        assert!(model_exchange(name, token.as_ptr(), null(), 0, 0, environment, Some(log)).is_null());
+        assert!(model_exchange(name, token.as_ptr(), null(), 0, 0, null_mut(), None).is_null());
+        let scheduled = library.api().instantiate_scheduled_execution;
+        assert!(scheduled(name, token.as_ptr(), null(), 0, 0, environment, Some(log), None, None, None).is_null());
+    }
+    let said = said.into_inner().unwrap();
+    assert_eq!(said.len(), 2);
+    assert!(said.iter().all(|(status, _, text)| *status == ERROR && text.contains("only co-simulation")));
+}
+
+#[test]
+fn does_without_a_logger() {
+    let library = open();
+    let token = token();
+    // SAFETY: the strings live during the call; null is ignored.
+    unsafe {
+        let instantiate = library.api().instantiate_co_simulation;
+        let name = c"name".as_ptr();
+        assert!(instantiate(name, null(), null(), 0, 1, 0, 0, null(), 0, null_mut(), None, None).is_null());
+        let instance = instantiate(name, token.as_ptr(), null(), 0, 1, 0, 0, null(), 0, null_mut(), None, None);
+        assert!(!instance.is_null());
+        assert_eq!((library.api().terminate)(instance), ERROR);
+        (library.api().free_instance)(instance);
+        (library.api().free_instance)(null_mut());
+    }
+}
+
+/// Whether an event, a discarded value and an error are logged.
+fn logged(instance: &Instance) -> [bool; 3] {
+    let said = |act: &dyn Fn()| {
+        let before = instance.messages().len();
+        act();
+        instance.messages().len() > before
+    };
+    [
+        said(&|| assert_eq!(instance.reset(), OK)),
+        said(&|| assert_eq!(instance.set(&[reference("u")], &[f64::NAN; 3]), DISCARD)),
+        said(&|| assert_eq!(instance.exit_initialization_mode(), ERROR)),
+    ]
+}
+
+#[test]
+fn debug_logging_switches_categories_one_by_one() {
+    let instance = Instance::new();
+    let set = |on: u8, categories: &[&CStr]| {
+        let pointers: Vec<_> = categories.iter().map(|category| category.as_ptr()).collect();
+        // SAFETY: the instance is alive, and so are the strings.
+        unsafe { (instance.api().set_debug_logging)(instance.pointer, on, pointers.len(), pointers.as_ptr()) }
+    };
+    assert_eq!(logged(&instance), [true; 3], "all categories are on at first");
+    // Each with whether events, discarded values and errors are logged then; errors always are.
+    let cases: [(u8, &[&CStr], [bool; 3]); 6] = [
+        (0, &[c"logEvents"], [false, true, true]),
+        (0, &[], [false, false, true]),
+        (1, &[c"logStatusDiscard", c"logStatusError"], [false, true, true]),
+        (1, &[c"logEvents"], [true, true, true]),
+        (0, &[c"logStatusError", c"logStatusDiscard"], [true, false, true]),
+        (1, &[], [true, true, true]),
+    ];
+    for (on, categories, expected) in cases {
+        assert_eq!(set(on, categories), OK);
+        assert_eq!(logged(&instance), expected, "{on} {categories:?}");
+    }
+    instance.assert_complaint(set(0, &[c"logEvents", c"logAll"]), ERROR, &["fmi3SetDebugLogging", "logAll"]);
+    assert_eq!(logged(&instance), [true; 3], "a refused call changes nothing");
+}

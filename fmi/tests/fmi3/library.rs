@@ -1,0 +1,24 @@
+//! The shared library as a file.
+
+use std::collections::BTreeSet;
+
+use object::Object;
+
+use crate::fixture::*;
+
+#[test]
+fn exports_the_functions_of_the_standard_and_nothing_else() {
+    let bytes = std::fs::read(library()).unwrap();
+    let file = object::File::parse(&*bytes).unwrap();
+    // On macOS, C functions have an underscore in front.
+    let name = |name: &[u8]| String::from_utf8_lossy(name).trim_start_matches('_').to_string();
+    let exported: BTreeSet<_> = file.exports().unwrap().iter().map(|export| name(export.name())).collect();
+    let expected: BTreeSet<_> = fmu_host::fmi3::Api::SYMBOLS.iter().map(|symbol| symbol.to_string()).collect();
+    assert_eq!(exported, expected);
+}
+
+#[test]
+fn the_version_is_the_standard_s() {
+    // SAFETY: it takes no arguments.
+    assert_eq!(text(unsafe { (open().api().get_version)() }), "3.0");
+}

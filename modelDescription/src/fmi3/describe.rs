@@ -1,0 +1,151 @@
+//! From a model's rows to its description.
+
+use fmi_export::fmi3::LOG_CATEGORIES;
+use model_interface::{Causality, Identity, Kind, Model, Row};
+
+use super::model_description::{CoSimulation, EnumerationType, ModelDescription, ModelVariables, TypeDefinitions};
+use super::model_structure::{ModelStructure, Unknown};
+use super::variable::{Dimension, TypedVariable, Variable};
+use crate::model_description::{Category, LogCategories};
+use crate::scalar_variable::Initial;
+use crate::units::display_unit;
+
+/// The model description of a model that is exported for co-simulation.
+///
+/// Variables are listed in the order of the rows, and a value reference is the number of a row's first slot.
+pub fn describe<M: Model>() -> ModelDescription {
+    let identity = M::IDENTITY;
+    // Who made the FMU and the units are as in FMI 2.0.
+    let fmi2 = crate::describe::<M>();
+    ModelDescription {
+        fmi_version: "3.0".to_owned(),
+        model_name: fmi2.model_name,
+        instantiation_token: fmi2.guid,
+        description: fmi2.description,
+        author: fmi2.author,
+        version: fmi2.version,
+        copyright: fmi2.copyright,
+        license: fmi2.license,
+        generation_tool: fmi2.generation_tool,
+        generation_date_and_time: fmi2.generation_date_and_time,
+        variable_naming_convention: fmi2.variable_naming_convention,
+        co_simulation: co_simulation(&identity),
+        unit_definitions: fmi2.unit_definitions,
+        type_definitions: fmi2.type_definitions.map(|definitions| TypeDefinitions {
+            types: definitions.types.into_iter().map(EnumerationType::from).collect(),
+        }),
+        log_categories: log_categories(),
+        default_experiment: fmi2.default_experiment,
+        model_variables: ModelVariables { variables: variables::<M>() },
+        model_structure: model_structure(&identity),
+    }
+}
+
+/// What the C ABI of the crate fmi-export can do, for any model.
+fn co_simulation(identity: &Identity) -> CoSimulation {
+    CoSimulation {
+        model_identifier: identity.name.to_owned(),
+        can_be_instantiated_only_once_per_process: false,
+        can_get_and_set_fmu_state: true,
+        can_serialize_fmu_state: true,
+        provides_directional_derivatives: false,
+        provides_adjoint_derivatives: false,
+        provides_per_element_dependencies: false,
+        can_handle_variable_communication_step_size: true,
+        max_output_derivative_order: 1,
+        provides_intermediate_update: false,
+        might_return_early_from_do_step: false,
+        has_event_mode: false,
+    }
+}
+
+impl From<crate::type_definitions::SimpleType> for EnumerationType {
+    fn from(simple: crate::type_definitions::SimpleType) -> Self {
+        EnumerationType { name: simple.name, description: simple.description, items: simple.enumeration.items }
+    }
+}
+
+fn log_categories() -> LogCategories {
+    let category = |&(category, description): &(fmi_export::LogCategory, &str)| Category {
+        name: category.name().to_owned(),
+        description: description.to_owned(),
+    };
+    LogCategories { categories: LOG_CATEGORIES.iter().map(category).collect() }
+}
+
+/// Each row with its first slot.
+fn rows(identity: &Identity) -> impl Iterator<Item = (usize, &'static Row)> {
+    let firsts = (0..identity.slots.len()).filter(|&slot| identity.slots[slot].element == 0);
+    firsts.map(|slot| (slot, identity.row(slot)))
+}
+
+fn variables<M: Model>() -> Vec<TypedVariable> {
+    let identity = M::IDENTITY;
+    let mut start = vec![0.0; identity.slots.len()];
+    M::start(&mut start);
+    rows(&identity).map(|(slot, row)| typed_variable(row, slot, &start[slot..slot + row.slots()])).collect()
+}
+
+fn typed_variable(row: &Row, slot: usize, start: &[f64]) -> TypedVariable {
+    match row.kind {
+        Kind::Real(unit) => TypedVariable::Float64(Variable {
+            unit: (!unit.name.is_empty()).then(|| unit.name.to_owned()),
+            display_unit: display_unit(unit).map(|display| display.name),
+            ..variable(row, slot, start, |value| value)
+        }),
+        Kind::Integer => TypedVariable::Int32(variable(row, slot, start, |value| value as i32)),
+        Kind::Boolean => TypedVariable::Boolean(variable(row, slot, start, |value| value != 0.0)),
+        Kind::Enumeration(enumeration) => TypedVariable::Enumeration(Variable {
+            declared_type: Some(enumeration.name.to_owned()),
+            min: Some(1),
+            max: Some(enumeration.items.len() as i64),
+            ..variable(row, slot, start, |value| value as i64)
+        }),
+    }
+}
+
+/// What variables of all types have alike; `convert` makes values from those of slots.
+fn variable<T>(row: &Row, slot: usize, start: &[f64], convert: fn(f64) -> T) -> Variable<T> {
+    // Outputs are calculated and the time is the host's: neither may have a start value.
+    let has_start = matches!(row.causality, Causality::Input | Causality::Parameter);
+    Variable {
+        name: row.array_name(),
+        value_reference: slot as u32,
+        description: description(row),
+        causality: row.causality.into(),
+        variability: row.variability.into(),
+        initial: (row.causality == Causality::Output).then_some(Initial::Calculated),
+        declared_type: None,
+        unit: None,
+        display_unit: None,
+        min: row.range.map(|(min, _)| convert(min)),
+        max: row.range.map(|(_, max)| convert(max)),
+        start: has_start.then(|| start.iter().map(|&value| convert(value)).collect()),
+        dimensions: dimensions(row),
+    }
+}
+
+/// The row's sentence and, where elements have components, which they are: an array's name does not say it.
+fn description(row: &Row) -> String {
+    match row.components {
+        [_] => row.text().to_owned(),
+        components => format!("{} Components: {}.", row.text(), components.join(", ")),
+    }
+}
+
+/// Elements, then components; a row that has but one of either has no dimension for it.
+pub(super) fn dimensions(row: &Row) -> Vec<Dimension> {
+    let sizes = [row.count, row.components.len()];
+    sizes.into_iter().filter(|&size| size > 1).map(|size| Dimension { start: size as u64 }).collect()
+}
+
+/// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation possibly on everything.
+fn model_structure(identity: &Identity) -> ModelStructure {
+    let outputs = |dependencies: Option<Vec<u32>>| {
+        rows(identity)
+            .filter(|(_, row)| row.causality == Causality::Output)
+            .map(|(slot, _)| Unknown { value_reference: slot as u32, dependencies: dependencies.clone() })
+            .collect()
+    };
+    ModelStructure { outputs: outputs(Some(vec![])), initial_unknowns: outputs(None) }
+}

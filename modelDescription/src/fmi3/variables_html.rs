@@ -1,0 +1,33 @@
+//! The documentation's tables of variables.
+
+use model_interface::{Kind, Model, Row};
+
+use super::describe::dimensions;
+use crate::variables_html::{Notation, breakable, html};
+
+/// The tables of a model's variables as HTML, as [`crate::variables_html`] makes them, with the names and types of FMI
+/// 3.0.
+pub fn variables_html<M: Model>() -> String {
+    html::<M>(&Notation { name: name_html, type_name })
+}
+
+/// The array's name and what its components are: `rig.base (x, y, z)`.
+fn name_html(row: &Row) -> String {
+    let name = format!("<code>{}</code>", breakable(&row.array_name()));
+    match row.components {
+        [_] => name,
+        components => format!("{name} <i>({})</i>", components.join(",\u{a0}")),
+    }
+}
+
+/// The type, and the dimensions of an array: `Float64 [6, 3]`.
+fn type_name(row: &Row) -> String {
+    let name = match row.kind {
+        Kind::Real(_) => "Float64",
+        Kind::Integer => "Int32",
+        Kind::Boolean => "Boolean",
+        Kind::Enumeration(_) => "Enumeration",
+    };
+    let sizes: Vec<String> = dimensions(row).iter().map(|dimension| dimension.start.to_string()).collect();
+    if sizes.is_empty() { name.to_owned() } else { format!("{name} [{}]", sizes.join(",\u{a0}")) }
+}

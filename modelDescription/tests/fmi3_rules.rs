@@ -1,0 +1,302 @@
+//! What FMI 3.0 demands of a model description, checked on the text of the file with an XML reader that knows nothing of
+//! how it was written, and against the description for FMI 2.0, which has its own rules.
+
+mod small_model;
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use model_description::{describe, fmi3, to_xml};
+use model_interface::{Causality, Identity, Kind, Model, Row};
+use moris_washout::Washout;
+use roxmltree::{Document, Node};
+use small_model::Small;
+
+/// Every check, on the washout and on a model with a variable of every kind.
+macro_rules! on_both_models {
+    ($($check:ident)+) => {
+        mod washout { $( #[test] fn $check() { super::$check::<super::Washout>(); } )+ }
+        mod small { $( #[test] fn $check() { super::$check::<super::Small>(); } )+ }
+    };
+}
+
+on_both_models! {
+    it_begins_as_fmi_asks
+    its_parts_are_in_the_order_of_the_schema
+    variables_are_the_rows_in_order
+    arrays_are_the_scalars_of_fmi_2
+    start_values_are_the_models_bit_for_bit
+    every_unit_and_every_type_used_is_defined
+    causality_variability_and_initial_go_together
+    outputs_and_initial_unknowns_are_the_outputs_in_order
+    log_categories_have_names_of_the_standard
+    it_reads_back_as_what_was_written
+}
+
+fn xml<M: Model>() -> String {
+    to_xml(&fmi3::describe::<M>())
+}
+
+fn it_begins_as_fmi_asks<M: Model>() {
+    let xml = xml::<M>();
+    assert!(xml.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription "));
+    assert!(xml.ends_with("</fmiModelDescription>\n"));
+    let document = Document::parse(&xml).unwrap();
+    let root = document.root_element();
+    assert_eq!(root.attribute("fmiVersion"), Some("3.0"));
+    assert_eq!(root.attribute("instantiationToken"), Some(model_interface::guid::<M>().as_str()));
+    assert_eq!(root.attribute("modelName"), Some(M::IDENTITY.name));
+    assert_eq!(root.attribute("variableNamingConvention"), Some("structured"));
+    assert!(!xml.contains("NaN") && !xml.contains("inf\"") && !xml.contains("INF"));
+    assert_eq!(child(root, "CoSimulation").attribute("modelIdentifier"), Some(M::IDENTITY.name));
+}
+
+fn its_parts_are_in_the_order_of_the_schema<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    let parts: Vec<_> = elements(document.root_element()).map(|part| part.tag_name().name()).collect();
+    let order = [
+        "CoSimulation",
+        "UnitDefinitions",
+        "TypeDefinitions",
+        "LogCategories",
+        "DefaultExperiment",
+        "ModelVariables",
+        "ModelStructure",
+    ];
+    assert_eq!(parts, order);
+    assert!(elements(document.root_element()).all(|part| elements(part).count() > 0 || part.attributes().count() > 0));
+}
+
+/// The rows, each with its first slot.
+fn rows(identity: &Identity) -> Vec<(usize, &'static Row)> {
+    let mut first = 0;
+    let mut rows = Vec::new();
+    for row in identity.rows {
+        rows.push((first, row));
+        first += row.count * row.components.len();
+    }
+    rows
+}
+
+fn variables_are_the_rows_in_order<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    let (variables, rows) = (variables(&document), rows(&M::IDENTITY));
+    assert_eq!(variables.len(), rows.len());
+    let mut names = BTreeSet::new();
+    for (variable, (slot, row)) in variables.iter().zip(rows) {
+        let name = variable.attribute("name").unwrap();
+        assert_eq!(name, row.array_name());
+        assert!(names.insert(name), "{name} appears twice");
+        let identifier = |part: &str| {
+            part.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+                && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        };
+        assert!(name.split('.').all(identifier), "{name}");
+        assert_eq!(variable.attribute("valueReference"), Some(slot.to_string().as_str()), "{name}");
+        assert!(variable.attribute("description").unwrap().starts_with(row.text()), "{name}");
+        let type_name = match row.kind {
+            Kind::Real(_) => "Float64",
+            Kind::Integer => "Int32",
+            Kind::Boolean => "Boolean",
+            Kind::Enumeration(_) => "Enumeration",
+        };
+        assert_eq!(variable.tag_name().name(), type_name, "{name}");
+    }
+}
+
+/// How many values a variable has.
+fn size(variable: Node) -> usize {
+    elements(variable)
+        .map(|dimension| {
+            assert!(dimension.has_tag_name("Dimension"));
+            dimension.attribute("start").unwrap().parse::<usize>().unwrap()
+        })
+        .product()
+}
+
+/// The elements of the arrays, in their order, are the scalar variables that FMI 2.0 has under the same value references,
+/// with the same start values, units, ranges, causality and variability.
+fn arrays_are_the_scalars_of_fmi_2<M: Model>() {
+    let (xml2, xml3) = (to_xml(&describe::<M>()), xml::<M>());
+    let (document2, document3) = (Document::parse(&xml2).unwrap(), Document::parse(&xml3).unwrap());
+    let mut scalars = variables(&document2).into_iter();
+    for variable in variables(&document3) {
+        let name = variable.attribute("name").unwrap();
+        let start = variable.attribute("start").map(|list| list.split(' ').collect::<Vec<_>>());
+        assert!(start.as_ref().is_none_or(|start| start.len() == size(variable)), "{name}");
+        for element in 0..size(variable) {
+            let scalar = scalars.next().unwrap();
+            let values = elements(scalar).next().unwrap();
+            let first: usize = variable.attribute("valueReference").unwrap().parse().unwrap();
+            assert_eq!(scalar.attribute("valueReference"), Some((first + element).to_string().as_str()), "{name}");
+            assert_eq!(values.attribute("start"), start.as_ref().map(|start| start[element]), "{name}");
+            for attribute in ["causality", "variability", "initial"] {
+                assert_eq!(variable.attribute(attribute), scalar.attribute(attribute), "{name}");
+            }
+            for attribute in ["unit", "displayUnit", "min", "max", "declaredType"] {
+                assert_eq!(variable.attribute(attribute), values.attribute(attribute), "{name}");
+            }
+        }
+    }
+    assert!(scalars.next().is_none());
+}
+
+fn start_values_are_the_models_bit_for_bit<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    let mut start = vec![f64::NAN; M::IDENTITY.slots.len()];
+    M::start(&mut start);
+    for (variable, (slot, row)) in variables(&document).into_iter().zip(rows(&M::IDENTITY)) {
+        let name = variable.attribute("name").unwrap();
+        let Some(list) = variable.attribute("start") else {
+            assert!(matches!(row.causality, Causality::Independent | Causality::Output), "{name}");
+            continue;
+        };
+        let read = |text: &str| match text {
+            "true" => 1.0,
+            "false" => 0.0,
+            number => number.parse::<f64>().unwrap(),
+        };
+        let read: Vec<u64> = list.split(' ').map(|text| read(text).to_bits()).collect();
+        let expected: Vec<u64> = start[slot..slot + read.len()].iter().map(|value| value.to_bits()).collect();
+        assert_eq!(read, expected, "{name}");
+        assert_eq!(read.len(), row.count * row.components.len(), "{name}");
+    }
+}
+
+fn every_unit_and_every_type_used_is_defined<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    let root = document.root_element();
+    let units: HashMap<_, _> = elements(child(root, "UnitDefinitions"))
+        .map(|unit| {
+            let display = elements(unit).find(|node| node.has_tag_name("DisplayUnit"));
+            (unit.attribute("name").unwrap(), display.map(|node| node.attribute("name").unwrap()))
+        })
+        .collect();
+    let types: BTreeMap<_, _> = elements(child(root, "TypeDefinitions"))
+        .map(|definition| {
+            assert!(definition.has_tag_name("EnumerationType"));
+            for (item, value) in elements(definition).zip(1..) {
+                assert_eq!(item.attribute("value"), Some(value.to_string().as_str()));
+            }
+            (definition.attribute("name").unwrap(), elements(definition).count())
+        })
+        .collect();
+    let mut types_used = BTreeSet::new();
+    for variable in variables(&document) {
+        let name = variable.attribute("name").unwrap();
+        assert!(!types.contains_key(name), "{name} is a type too");
+        if let Some(unit) = variable.attribute("unit") {
+            assert_eq!(variable.attribute("displayUnit"), units[unit], "{name}");
+        }
+        assert_eq!(variable.attribute("declaredType").is_some(), variable.has_tag_name("Enumeration"), "{name}");
+        if let Some(declared) = variable.attribute("declaredType") {
+            assert_eq!(variable.attribute("min"), Some("1"), "{name}");
+            assert_eq!(variable.attribute("max"), Some(types[declared].to_string().as_str()), "{name}");
+            types_used.insert(declared);
+        }
+    }
+    assert_eq!(types_used, types.keys().copied().collect());
+}
+
+fn causality_variability_and_initial_go_together<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    for variable in variables(&document) {
+        let is_real = variable.has_tag_name("Float64");
+        let [causality, variability] = ["causality", "variability"].map(|name| variable.attribute(name).unwrap());
+        let legal = match (causality, variability, variable.attribute("initial")) {
+            ("independent", "continuous", None) => is_real && size(variable) == 1,
+            ("input", "continuous", None) | ("output", "continuous", Some("calculated")) => is_real,
+            ("input", "discrete", None) | ("output", "discrete", Some("calculated")) => !is_real,
+            ("parameter", "fixed" | "tunable", None) => true,
+            _ => false,
+        };
+        assert!(legal, "{variable:?}");
+    }
+    let is_time = |node: &&Node| node.attribute("causality") == Some("independent");
+    assert_eq!(variables(&document).iter().filter(is_time).count(), 1);
+}
+
+fn outputs_and_initial_unknowns_are_the_outputs_in_order<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    let is_output = |node: &Node| node.attribute("causality") == Some("output");
+    let expected: Vec<_> =
+        variables(&document).into_iter().filter(is_output).map(|node| node.attribute("valueReference")).collect();
+    let structure = child(document.root_element(), "ModelStructure");
+    let names: Vec<_> = elements(structure).map(|node| node.tag_name().name()).collect();
+    assert_eq!(names, [vec!["Output"; expected.len()], vec!["InitialUnknown"; expected.len()]].concat());
+    let references: Vec<_> = elements(structure).map(|node| node.attribute("valueReference")).collect();
+    assert_eq!(references, [&expected[..], &expected[..]].concat());
+    for node in elements(structure) {
+        assert_eq!(node.attribute("dependencies"), node.has_tag_name("Output").then_some(""));
+    }
+}
+
+fn log_categories_have_names_of_the_standard<M: Model>() {
+    let xml = xml::<M>();
+    let document = Document::parse(&xml).unwrap();
+    let standard = ["logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"];
+    for category in elements(child(document.root_element(), "LogCategories")) {
+        assert!(standard.contains(&category.attribute("name").unwrap()));
+        assert!(!category.attribute("description").unwrap().is_empty());
+    }
+}
+
+fn it_reads_back_as_what_was_written<M: Model>() {
+    let description = fmi3::describe::<M>();
+    let read: fmi3::ModelDescription = quick_xml::de::from_str(&to_xml(&description)).unwrap();
+    assert_eq!(read, description);
+}
+
+#[test]
+fn the_checked_in_file_is_that_of_the_washout() {
+    let checked_in = include_str!("../modelDescription.fmi3.xml");
+    assert!(
+        checked_in == xml::<Washout>(),
+        "modelDescription/modelDescription.fmi3.xml is stale: run `cargo run -p model-description`, look at the diff, check \
+         it in"
+    );
+}
+
+/// Names and shapes that users of the washout rely on.
+#[test]
+fn the_washout_s_vectors_are_arrays() {
+    let xml = xml::<Washout>();
+    let document = Document::parse(&xml).unwrap();
+    let dimensions = |name: &str| -> Vec<_> {
+        let variables = variables(&document);
+        let variable = variables.iter().find(|node| node.attribute("name") == Some(name)).unwrap();
+        elements(*variable).map(|dimension| dimension.attribute("start").unwrap().to_owned()).collect()
+    };
+    assert_eq!(dimensions("vehicle.specificForce"), ["3"]);
+    assert_eq!(dimensions("platform.orientation"), ["3"]);
+    assert_eq!(dimensions("actuator.length"), ["6"]);
+    assert_eq!(dimensions("rig.base"), ["6", "3"]);
+    assert_eq!(dimensions("splitter.omega1"), ["3"]);
+    assert!(dimensions("gravity").is_empty());
+    assert!(xml.contains("Components: roll, pitch, yaw."));
+}
+
+#[test]
+fn a_changed_variable_is_one_changed_line() {
+    let xml = xml::<Small>();
+    let variables = xml.lines().filter(|line| line.contains(" causality="));
+    assert!(variables.clone().all(|line| line.ends_with("</Float64>") || line.ends_with("/>")));
+    assert_eq!(variables.count(), Small::IDENTITY.rows.len());
+}
+
+fn elements<'a, 'input: 'a>(node: Node<'a, 'input>) -> impl Iterator<Item = Node<'a, 'input>> {
+    node.children().filter(Node::is_element)
+}
+
+fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Node<'a, 'input> {
+    elements(node).find(|child| child.has_tag_name(name)).unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn variables<'a, 'input>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
+    elements(child(document.root_element(), "ModelVariables")).collect()
+}
