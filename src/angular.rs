@@ -18,8 +18,6 @@ pub struct AngularChannel {
 struct Axis {
     chain: Chain,
     bump: Bump,
-    /// The chain's input at the end of the last step.
-    input: f64,
     motion: Motion,
 }
 
@@ -30,7 +28,6 @@ impl AngularChannel {
             axes: denominators(parameters, order).map(|denominator| Axis {
                 chain: Chain::new(denominator),
                 bump: Bump::default(),
-                input: 0.0,
                 motion: Motion::default(),
             }),
         }
@@ -40,19 +37,18 @@ impl AngularChannel {
     /// new parameters: angles and rates stay what they are, and the difference fades away.
     pub fn retune(&mut self, parameters: &AngularParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
         for (k, denominator) in denominators(parameters, order).into_iter().enumerate() {
-            let Axis { chain, bump, input, .. } = &mut self.axes[k];
+            let Axis { chain, bump, .. } = &mut self.axes[k];
             let rate = chain.high_pass(before[k]);
             chain.retune(denominator, 1);
             bump.add(rate - chain.high_pass(after[k]));
-            *input = after[k] + bump.value();
         }
     }
 
     /// Advances by `step` seconds while the rates go linearly from `start` to `end`. Returns angle, rate and
     /// acceleration of roll, pitch and yaw.
     ///
-    /// Where the rate jumps from one step's end to the next one's start, the jump counts as an acceleration over the
-    /// step, so that the accelerations always add up to the rates.
+    /// The acceleration is the mean over the step, from one step's rate to the next one's: the accelerations add up to the
+    /// rates, also where the input jumps between two steps.
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> [Motion; 3] {
         for (k, axis) in self.axes.iter_mut().enumerate() {
             axis.advance(start[k], end[k], step);
@@ -67,14 +63,8 @@ impl Axis {
         let (start, end) = (start + bump_start, end + bump_end);
         self.chain.advance(start, end, step);
         let rate = self.chain.high_pass(end);
-        // The input's slope over the step, and its jump before it.
-        let slope = (end - self.input) / step;
-        self.motion = Motion {
-            position: self.chain.first_integral(),
-            velocity: rate,
-            acceleration: self.chain.high_pass_rate(rate, slope),
-        };
-        self.input = end;
+        let acceleration = (rate - self.motion.velocity) / step;
+        self.motion = Motion { position: self.chain.first_integral(), velocity: rate, acceleration };
     }
 }
 

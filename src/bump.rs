@@ -29,9 +29,4 @@ impl Bump {
         self.value = if end.abs() < OVER { 0.0 } else { end };
         (start, self.value)
     }
-
-    /// The correction now.
-    pub fn value(&self) -> f64 {
-        self.value
-    }
 }

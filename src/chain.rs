@@ -53,7 +53,10 @@ impl Transition {
         }
         matrix[(0, 4)] = 1.0;
         matrix[(4, 5)] = 1.0;
-        let exponential = (matrix * step).exp();
+        let scaled = matrix * step;
+        // A state that somebody made up can have any coefficients, and on infinite ones the exponential never ends.
+        let usable = scaled.iter().all(|entry| entry.abs() < 1e30);
+        let exponential = if usable { scaled.exp() } else { SMatrix::zeros() };
         Transition { step, columns: std::array::from_fn(|j| std::array::from_fn(|i| exponential[(i, j)])) }
     }
 }
@@ -101,13 +104,6 @@ impl Chain {
     /// The high-pass s^n/D of the input, whose value is `input` now.
     pub fn high_pass(&self, input: f64) -> f64 {
         input - self.low_pass()
-    }
-
-    /// The time derivative of [`Chain::high_pass`], for an input with this slope and a high-pass that is `high_pass` now.
-    pub fn high_pass_rate(&self, high_pass: f64, slope: f64) -> f64 {
-        let [c1, c2, c3, c4] = self.denominator.coefficients;
-        let [x1, x2, x3, _] = self.state;
-        slope - (c1 * high_pass + c2 * x1) - (c3 * x2 + c4 * x3)
     }
 
     /// The first integral of the high-pass, s^(n-1)/D of the input.

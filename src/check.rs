@@ -135,10 +135,10 @@ fn check_rig(rig: &Rig) -> Result<(), Refusal> {
             return refuse(
                 "rig.neutralHeight",
                 format!(
-                    "is {}, where actuator {} would have to be {length:.4} m long, outside its stroke from {min_length} to \
-                     {max_length} m",
-                    rig.neutral_height,
-                    i + 1
+                    "is {height}, and there actuator {leg} would be {length:.4} m long, outside its stroke from {min_length} to \
+                     {max_length} m; mend it, or rig.base[{leg}], rig.platform[{leg}], actuator.minLength or .maxLength",
+                    height = rig.neutral_height,
+                    leg = i + 1
                 ),
             );
         }

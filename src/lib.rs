@@ -46,6 +46,8 @@ pub mod splitter;
 pub mod spurious;
 mod washout;
 
+pub use nalgebra;
+
 pub use check::check;
 pub use interface::{Input, Output, Parameters, Rig};
 pub use model_interface::Refusal;

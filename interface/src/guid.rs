@@ -1,17 +1,22 @@
 //! The GUID by which a host knows that a model description and a binary belong together.
 
-use crate::{Identity, Kind, Model};
+use crate::{Causality, Identity, Kind, Model};
 
-/// The GUID of a model: a hash of its name, version, variables and start values, so that a model description is refused
-/// by every binary whose interface differs from it in anything.
+/// The GUID of a model: a hash of its name, version, variables and the start values that a host can set, so that a model
+/// description is refused by every binary whose interface differs from it in anything.
+///
+/// The outputs' start values are computed, and come out differently where a host has set the processor to round or to
+/// flush small numbers otherwise; they are left out.
 pub fn guid<M: Model>() -> String {
     let identity = M::IDENTITY;
     let mut start = vec![0.0; identity.slots.len()];
     M::start(&mut start);
     let mut hash = Fnv::new();
     hash_identity(&mut hash, &identity);
-    for value in start {
-        hash.write(&value.to_bits().to_le_bytes());
+    for (slot, value) in start.iter().enumerate() {
+        if matches!(identity.row(slot).causality, Causality::Input | Causality::Parameter) {
+            hash.write(&value.to_bits().to_le_bytes());
+        }
     }
     let hex = format!("{:032x}", hash.0);
     format!("{{{}-{}-{}-{}-{}}}", &hex[..8], &hex[8..12], &hex[12..16], &hex[16..20], &hex[20..])
@@ -27,7 +32,10 @@ fn hash_identity(hash: &mut Fnv, identity: &Identity) {
             Kind::Real(unit) => hash.write(unit.name.as_bytes()),
             Kind::Integer => hash.write(b"Integer"),
             Kind::Boolean => hash.write(b"Boolean"),
-            Kind::Enumeration(enumeration) => hash.write(enumeration.name.as_bytes()),
+            Kind::Enumeration(enumeration) => {
+                hash.write(enumeration.name.as_bytes());
+                enumeration.items.iter().for_each(|item| hash.write(item.name.as_bytes()));
+            }
         }
         if let Some((min, max)) = row.range {
             hash.write(&min.to_bits().to_le_bytes());

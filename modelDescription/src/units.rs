@@ -43,10 +43,10 @@ impl From<&model_interface::Unit> for Unit {
     }
 }
 
-/// Degrees for whatever is counted in radians; none for the rest.
+/// Degrees for angles; none for the rest, for filters' break frequencies are given in rad/s and share that unit with
+/// angular velocities.
 pub fn display_unit(unit: &model_interface::Unit) -> Option<DisplayUnit> {
-    (unit.base.rad == 1)
-        .then(|| DisplayUnit { name: unit.name.replacen("rad", "deg", 1), factor: 180.0 / std::f64::consts::PI })
+    (unit.name == "rad").then(|| DisplayUnit { name: "deg".to_owned(), factor: 180.0 / std::f64::consts::PI })
 }
 
 // serde hands a reference over.

@@ -254,13 +254,17 @@ fn a_changed_variable_is_one_changed_line() {
 }
 
 #[test]
-fn display_units_are_degrees() {
-    let xml = to_xml(&describe::<Small>());
+fn angles_are_shown_in_degrees_and_nothing_else_is() {
+    let xml = to_xml(&describe::<Washout>());
     let document = Document::parse(&xml).unwrap();
-    let display = document.descendants().find(|node| node.has_tag_name("DisplayUnit")).unwrap();
-    assert_eq!(display.attribute("name"), Some("deg/s"));
-    let factor: f64 = display.attribute("factor").unwrap().parse().unwrap();
+    let displays: Vec<_> = document.descendants().filter(|node| node.has_tag_name("DisplayUnit")).collect();
+    assert_eq!(displays.len(), 1);
+    assert_eq!(displays[0].parent().unwrap().attribute("name"), Some("rad"));
+    assert_eq!(displays[0].attribute("name"), Some("deg"));
+    let factor: f64 = displays[0].attribute("factor").unwrap().parse().unwrap();
     assert_eq!(factor, 1.0_f64.to_degrees());
+    let break_frequency = document.descendants().find(|node| node.attribute("name") == Some("splitter.x.omega1"));
+    assert!(elements(break_frequency.unwrap()).all(|real| real.attribute("displayUnit").is_none()));
 }
 
 fn elements<'a, 'input: 'a>(node: Node<'a, 'input>) -> impl Iterator<Item = Node<'a, 'input>> {

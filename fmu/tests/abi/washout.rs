@@ -1,65 +1,14 @@
 //! The washout through its C functions, against the same washout in Rust.
 
-use std::collections::{BTreeSet, HashMap};
-use std::path::PathBuf;
+use std::collections::BTreeSet;
 
-use fmu_host::{Api, Fmu, Instance, Status, Variable, VariableKind};
-use model_interface::{Identity, Kind, Model};
+use fmu_host::{Api, Status};
+use model_interface::Model;
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Parameters, Washout};
 use object::Object;
 
-const IDENTITY: Identity = Washout::IDENTITY;
-
-/// The library, which `cargo test` has put beside the test.
-fn library() -> PathBuf {
-    let name = format!("{}shared_library{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let test = std::env::current_exe().unwrap();
-    let path = test.parent().and_then(|deps| deps.parent()).unwrap().join("examples").join(name);
-    assert!(
-        path.is_file(),
-        "{} is missing: run `cargo test` without choosing a target, or `cargo build --examples`",
-        path.display()
-    );
-    path
-}
-
-fn open() -> Fmu {
-    let variable = |slot: usize| {
-        let kind = match IDENTITY.row(slot).kind {
-            Kind::Real(_) => VariableKind::Real,
-            Kind::Integer => VariableKind::Integer,
-            Kind::Boolean => VariableKind::Boolean,
-            Kind::Enumeration(_) => VariableKind::Enumeration,
-        };
-        (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
-    };
-    let variables: HashMap<_, _> = (0..IDENTITY.slots.len()).map(variable).collect();
-    Fmu::with_variables(&library(), &model_interface::guid::<Washout>(), variables).unwrap()
-}
-
-fn initialized(parameters: &[(&str, f64)]) -> Instance {
-    let mut instance = open().instantiate("washout").unwrap();
-    instance.initialize(parameters, None).unwrap();
-    instance
-}
-
-/// Where the vehicle's inputs but `engaged` are: nine components, speed and lean.
-fn real_inputs() -> Vec<u32> {
-    let first = IDENTITY.slot("vehicle.specificForce.x").unwrap() as u32;
-    (first..first + 11).collect()
-}
-
-/// A ride that shakes every axis.
-fn input(time: f64) -> [f64; 11] {
-    let mut input = std::array::from_fn(|k| (0.3 + 0.1 * k as f64) * ((1.0 + 0.7 * k as f64) * time).sin());
-    input[2] += 9.80665;
-    input
-}
-
-fn all_values(instance: &mut Instance) -> Vec<u64> {
-    (0..IDENTITY.slots.len()).map(|slot| instance.get(&IDENTITY.variable_name(slot)).unwrap().to_bits()).collect()
-}
+use crate::fixture::*;
 
 #[test]
 fn every_variable_can_be_read_and_has_its_start_value() {
@@ -114,26 +63,17 @@ fn a_ride_is_the_same_bit_for_bit_as_in_rust() {
 #[test]
 fn a_restored_state_repeats_bit_for_bit() {
     let mut instance = initialized(&[("splitter.x.omega1", 1.5)]);
-    let references = real_inputs();
-    let ride = |instance: &mut Instance, from: u32| {
-        for step in from..from + 500 {
-            let time = f64::from(step) * 1e-3;
-            assert_eq!(instance.set_real(&references, &input(time)), Status::Ok);
-            instance.step(time, 1e-3).unwrap();
-        }
-        all_values(instance)
-    };
-    ride(&mut instance, 0);
+    ride(&mut instance, 0, 500);
     let state = instance.get_state().unwrap();
     let bytes = instance.serialize(&state).unwrap();
-    let expected = ride(&mut instance, 500);
+    let expected = ride(&mut instance, 500, 500);
     assert_eq!(instance.set_state(&state), Status::Ok);
-    assert_eq!(ride(&mut instance, 500), expected);
+    assert_eq!(ride(&mut instance, 500, 500), expected);
 
     let mut other = open().instantiate("other").unwrap();
     let read = other.deserialize(&bytes).unwrap();
     assert_eq!(other.set_state(&read), Status::Ok);
-    assert_eq!(ride(&mut other, 500), expected);
+    assert_eq!(ride(&mut other, 500, 500), expected);
     assert_eq!(other.free_state(read), Status::Ok);
     assert_eq!(instance.free_state(state), Status::Ok);
 }

@@ -1,0 +1,95 @@
+//! The washout's library, instances of it, and a ride.
+
+use std::collections::HashMap;
+use std::path::PathBuf;
+
+use fmu_host::{Fmu, Instance, Variable, VariableKind};
+use model_interface::{Identity, Kind, Model};
+use moris_washout::Washout;
+
+pub const IDENTITY: Identity = Washout::IDENTITY;
+
+/// The library, which `cargo test` has put beside the test.
+pub fn library() -> PathBuf {
+    let name = format!("{}shared_library{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    let test = std::env::current_exe().unwrap();
+    let path = test.parent().and_then(|deps| deps.parent()).unwrap().join("examples").join(name);
+    assert!(
+        path.is_file(),
+        "{} is missing: run `cargo test` without choosing a target, or `cargo build --examples`",
+        path.display()
+    );
+    path
+}
+
+pub fn open() -> Fmu {
+    let variable = |slot: usize| {
+        let kind = match IDENTITY.row(slot).kind {
+            Kind::Real(_) => VariableKind::Real,
+            Kind::Integer => VariableKind::Integer,
+            Kind::Boolean => VariableKind::Boolean,
+            Kind::Enumeration(_) => VariableKind::Enumeration,
+        };
+        (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
+    };
+    let variables: HashMap<_, _> = (0..IDENTITY.slots.len()).map(variable).collect();
+    Fmu::with_variables(&library(), &model_interface::guid::<Washout>(), variables).unwrap()
+}
+
+pub fn initialized(parameters: &[(&str, f64)]) -> Instance {
+    let mut instance = open().instantiate("washout").unwrap();
+    instance.initialize(parameters, None).unwrap();
+    instance
+}
+
+/// Where the vehicle's inputs but `engaged` are: nine components, speed and lean.
+pub fn real_inputs() -> Vec<u32> {
+    let first = IDENTITY.slot("vehicle.specificForce.x").unwrap() as u32;
+    (first..first + 11).collect()
+}
+
+/// A ride that shakes every axis.
+pub fn input(time: f64) -> [f64; 11] {
+    let mut input = std::array::from_fn(|k| (0.3 + 0.1 * k as f64) * ((1.0 + 0.7 * k as f64) * time).sin());
+    input[2] += 9.80665;
+    input
+}
+
+pub fn all_values(instance: &mut Instance) -> Vec<u64> {
+    (0..IDENTITY.slots.len()).map(|slot| instance.get(&IDENTITY.variable_name(slot)).unwrap().to_bits()).collect()
+}
+
+/// The value reference of the variable of this name.
+pub fn reference(name: &str) -> u32 {
+    IDENTITY.slot(name).unwrap() as u32
+}
+
+/// Everything about an instance, as bytes.
+pub fn bytes(instance: &mut Instance) -> Vec<u8> {
+    let state = instance.get_state().unwrap();
+    let bytes = instance.serialize(&state).unwrap();
+    assert_eq!(instance.free_state(state), fmu_host::Status::Ok);
+    bytes
+}
+
+/// Rides from step number `from` for `count` steps of 1 ms; all values at the end, to the bit.
+pub fn ride(instance: &mut Instance, from: u32, count: u32) -> Vec<u64> {
+    let references = real_inputs();
+    for step in from..from + count {
+        let time = f64::from(step) * 1e-3;
+        assert_eq!(instance.set_real(&references, &input(time)), fmu_host::Status::Ok);
+        instance.step(time, 1e-3).unwrap();
+    }
+    all_values(instance)
+}
+
+#[cfg(target_os = "linux")]
+/// Runs an ignored test in a process of its own, which has to succeed.
+pub fn run_alone(test: &str) {
+    let child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--ignored", "--exact", test, "--test-threads=1"])
+        .output()
+        .unwrap();
+    let output = String::from_utf8_lossy(&child.stdout);
+    assert!(child.status.success() && output.contains("1 passed"), "{output}");
+}

@@ -1,0 +1,103 @@
+//! What an instance has to be after the calls so far: a second, plain account of the standard.
+
+use model_interface::{Causality, Identity, Kind, Model, Variability};
+use moris_washout::Washout;
+
+use crate::standard::CALLING_SEQUENCE;
+
+pub const IDENTITY: Identity = Washout::IDENTITY;
+
+/// How calls may end: fmi2OK, fmi2Discard, fmi2Error.
+pub const OK: i32 = 0;
+pub const DISCARD: i32 = 2;
+pub const ERROR: i32 = 3;
+
+/// An instance as it has to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Expected {
+    /// The state, by the letter that it has in [`CALLING_SEQUENCE`].
+    pub state: char,
+    /// Start and stop time, once they are set up \[s\].
+    pub experiment: Option<(f64, f64)>,
+    /// The present communication point \[s\].
+    pub time: f64,
+    /// The values of all variables; those of the outputs are not looked at.
+    pub values: Vec<f64>,
+    /// Length and velocity of the legs after the last step, where it is known.
+    pub legs: Option<([f64; 6], [f64; 6])>,
+}
+
+impl Expected {
+    /// A fresh instance.
+    pub fn fresh() -> Self {
+        let mut values = vec![0.0; IDENTITY.slots.len()];
+        Washout::start(&mut values);
+        Expected { state: 'I', experiment: None, time: 0.0, values, legs: None }
+    }
+
+    /// Whether the function is allowed now.
+    pub fn allows(&self, function: &str) -> bool {
+        let (_, states) = CALLING_SEQUENCE.iter().find(|(name, _)| *name == function).expect(function);
+        states.contains(self.state)
+    }
+
+    /// Whether the variable can be set now, by the rule of the standard.
+    pub fn settable(&self, slot: usize) -> bool {
+        let row = IDENTITY.row(slot);
+        match (row.causality, row.variability) {
+            (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => "INC".contains(self.state),
+            (Causality::Parameter, _) => "IN".contains(self.state),
+            _ => false,
+        }
+    }
+
+    /// The value of the variable of this name.
+    pub fn value(&self, name: &str) -> f64 {
+        self.values[slot(name)]
+    }
+
+    /// Whether all parameters are what they are in a fresh instance.
+    pub fn has_start_parameters(&self) -> bool {
+        let fresh = Self::fresh();
+        (0..self.values.len())
+            .all(|slot| IDENTITY.row(slot).causality != Causality::Parameter || self.values[slot] == fresh.values[slot])
+    }
+}
+
+/// The slot of the variable of this name.
+pub fn slot(name: &str) -> usize {
+    IDENTITY.slot(name).expect(name)
+}
+
+/// Whether the variable is one of those that the host sets.
+pub fn is_set_by_host(slot: usize) -> bool {
+    matches!(IDENTITY.row(slot).causality, Causality::Input | Causality::Parameter)
+}
+
+/// The type by which a variable goes through the interface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    Real,
+    Integer,
+    Boolean,
+}
+
+/// The type of a variable.
+pub fn type_of(slot: usize) -> Type {
+    match IDENTITY.row(slot).kind {
+        Kind::Real(_) => Type::Real,
+        Kind::Boolean => Type::Boolean,
+        Kind::Integer | Kind::Enumeration(_) => Type::Integer,
+    }
+}
+
+/// Whether the value is one that the variable's declaration admits.
+pub fn admits(slot: usize, value: f64) -> bool {
+    let row = IDENTITY.row(slot);
+    let (min, max) = match (row.range, row.kind) {
+        (Some(range), _) => range,
+        (None, Kind::Enumeration(enumeration)) => (1.0, enumeration.items.len() as f64),
+        (None, _) => (f64::MIN, f64::MAX),
+    };
+    (min..=max).contains(&value)
+}

@@ -1,0 +1,42 @@
+//! The host's logger: what an instance says is kept until it is looked at.
+
+use std::ffi::{CStr, c_int, c_void};
+
+use fmu_host::api::Text;
+
+/// What was said in one call of the logger.
+#[derive(Debug)]
+pub struct Said {
+    pub status: c_int,
+    pub category: String,
+    pub text: String,
+}
+
+/// What has been said to one instance's logger; its address is the instance's environment.
+#[derive(Debug, Default)]
+pub struct Log {
+    pub name: String,
+    pub said: Vec<Said>,
+}
+
+/// fmi2CallbackLogger. The library calls it with one string for the format's one `%s`.
+pub unsafe extern "C" fn log(
+    environment: *mut c_void,
+    instance_name: Text,
+    status: c_int,
+    category: Text,
+    message: Text,
+    argument: Text,
+) {
+    // SAFETY: the environment is the log that `instantiate` was given, which nobody uses during a call.
+    let log = unsafe { &mut *environment.cast::<Log>() };
+    assert_eq!(string(instance_name), log.name);
+    assert_eq!(string(message), "%s", "a text must never be a format");
+    log.said.push(Said { status, category: string(category), text: string(argument) });
+}
+
+fn string(text: Text) -> String {
+    assert!(!text.is_null());
+    // SAFETY: the library passes strings ended by a zero.
+    unsafe { CStr::from_ptr(text) }.to_str().expect("UTF-8").into()
+}

@@ -1,0 +1,102 @@
+//! The hostile host itself: its instances and saved states, and the loop.
+
+use std::collections::BTreeMap;
+
+use fmu_host::Api;
+
+use super::choices::Choices;
+use super::player::Player;
+use super::states::{Bytes, Saved};
+use super::{calls, states, steps, variables};
+
+/// How many instances and saved states there are at most.
+const INSTANCES: usize = 4;
+const STATES: usize = 6;
+/// One call in this many has the whole instance compared before and after, in case it is refused.
+const WATCHED: usize = 16;
+
+/// How often each function ended in each way.
+pub type Tally = BTreeMap<(&'static str, i32), u64>;
+
+/// What the host holds.
+pub struct World<'a> {
+    pub api: &'a Api,
+    pub choices: Choices<'a>,
+    pub players: Vec<Player>,
+    pub states: Vec<Saved>,
+    pub bytes: Vec<Bytes>,
+    pub tally: Tally,
+    calls: u64,
+}
+
+/// Makes this many calls, or as many as the choices last for.
+///
+/// # Panics
+/// If a call does anything but what it should.
+pub fn run(api: &Api, choices: Choices, calls: u64) -> Tally {
+    let mut world =
+        World { api, choices, players: vec![], states: vec![], bytes: vec![], tally: Tally::new(), calls: 0 };
+    while world.calls < calls && !world.choices.are_over() {
+        world.one_thing();
+    }
+    world.leave()
+}
+
+impl World<'_> {
+    /// One call, or a few that belong together.
+    fn one_thing(&mut self) {
+        if self.players.is_empty() || self.players.len() < INSTANCES && self.choices.once_in(200) {
+            return calls::instantiate(self);
+        }
+        let who = self.choices.below(self.players.len());
+        let watched = self.choices.once_in(WATCHED);
+        let before = watched.then(|| self.players[who].bytes(self.api));
+        let status = match self.choices.below(100) {
+            0..36 => steps::do_step(self, who),
+            36..50 => variables::set(self, who),
+            50..58 => variables::get(self, who),
+            58..62 => variables::input_derivatives(self, who),
+            62..66 => variables::output_derivatives(self, who),
+            66..78 => states::any(self, who),
+            78..88 => calls::towards_steps(self, who),
+            88..98 => calls::any(self, who),
+            98 => calls::status(self, who),
+            _ => return calls::free_instance(self, who),
+        };
+        let player = &mut self.players[who];
+        player.inspect(self.api);
+        if let Some(before) = before.filter(|_| status != 0) {
+            assert!(player.bytes(self.api) == before, "a refused call changed something");
+        }
+    }
+
+    /// Counts a call, and checks how it ended.
+    pub fn accept(&mut self, who: usize, function: &'static str, status: i32, right: &[i32]) -> i32 {
+        self.count(function, status);
+        self.players[who].accept(function, status, right);
+        status
+    }
+
+    /// Counts a call.
+    pub fn count(&mut self, function: &'static str, status: i32) {
+        self.calls += 1;
+        *self.tally.entry((function, status)).or_default() += 1;
+    }
+
+    /// Whether another state can be saved.
+    pub fn has_room_for_states(&self) -> bool {
+        self.states.len() < STATES
+    }
+
+    /// Frees everything.
+    fn leave(mut self) -> Tally {
+        if self.players.is_empty() {
+            self.players.push(Player::new(self.api, "last", true, false));
+        }
+        while !self.states.is_empty() {
+            states::free(&mut self, 0);
+        }
+        self.players.drain(..).for_each(|player| player.free(self.api));
+        self.tally
+    }
+}

@@ -1,0 +1,19 @@
+//! The washout's shared library, tested as a host sees it.
+
+#[cfg(target_arch = "x86_64")]
+mod arithmetic;
+mod derivatives;
+mod fixture;
+mod forged_states;
+mod hostile;
+#[cfg(target_os = "linux")]
+mod process;
+mod resources;
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+mod rounds;
+#[path = "../../../fmi/tests/abi/standard.rs"]
+mod standard;
+mod steps;
+mod threads;
+mod values;
+mod washout;
