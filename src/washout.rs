@@ -285,8 +285,8 @@ impl Washout {
 
     /// The time derivative of the output now; the flags in it mean nothing.
     ///
-    /// Exact where the output holds the derivative of another part of it; the platform's acceleration and what the
-    /// rider feels are differenced over the last internal step, and are zero before the first.
+    /// Exact where the output holds the derivative of another part of it; those of angular velocities, of the platform's
+    /// acceleration and of what the rider feels are means over the last internal step, and zero before the first.
     pub fn output_derivative(&self) -> Output {
         let motion = self.guard.motion();
         let legs = self.guard.legs();
