@@ -19,6 +19,8 @@ fn exports_the_functions_of_the_standard_and_nothing_else() {
 
 #[test]
 fn the_version_is_the_standard_s() {
+    // The string lives as long as the library is loaded.
+    let library = open();
     // SAFETY: it takes no arguments.
-    assert_eq!(text(unsafe { (open().api().get_version)() }), "3.0");
+    assert_eq!(text(unsafe { (library.api().get_version)() }), "3.0");
 }
