@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
-use crate::orientation::away_from_zero;
+use crate::orientation::{away_from_zero, rates_from_reference};
 
 /// What is left to cue: zero at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -30,7 +30,9 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
     let force = input.specific_force
         + gravity * removed_gravity(parameters.gravity_removal, input.orientation.roll + lean, pitch);
     let rates = match parameters.angular_velocity_frame {
-        AngularVelocityFrame::World => rates_from_world(input.angular_velocity, input.orientation.yaw, pitch),
+        AngularVelocityFrame::World => {
+            rates_from_reference(input.angular_velocity, libm::sincos(input.orientation.yaw), pitch).to_vector()
+        }
         AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, input.orientation.roll, pitch),
     };
     Cue {
@@ -49,13 +51,6 @@ fn removed_gravity(removal: GravityRemoval, roll: f64, (sin_pitch, cos_pitch): (
             Vector3::new(sin_pitch, -cos_pitch * sin_roll, -cos_pitch * cos_roll)
         }
     }
-}
-
-/// Rates of roll, pitch and yaw from an angular velocity in the vehicle's world: the inverse of eq. (10).
-fn rates_from_world(omega: Vector3<f64>, yaw: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
-    let (sin_yaw, cos_yaw) = libm::sincos(yaw);
-    let roll = (cos_yaw * omega.x + sin_yaw * omega.y) / away_from_zero(cos_pitch);
-    Vector3::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
 }
 
 /// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R omega_body, inverted.

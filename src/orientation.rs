@@ -111,10 +111,7 @@ impl Orientation {
     ///
     /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is kept [`away_from_zero`].
     pub fn rates(&self, angular_velocity: Vector3<f64>) -> RollPitchYaw {
-        let along_heading = self.cos_yaw * angular_velocity.x + self.sin_yaw * angular_velocity.y;
-        let roll = along_heading / away_from_zero(self.cos_pitch);
-        let pitch = self.cos_yaw * angular_velocity.y - self.sin_yaw * angular_velocity.x;
-        RollPitchYaw::new(roll, pitch, angular_velocity.z + self.sin_pitch * roll)
+        rates_from_reference(angular_velocity, (self.sin_yaw, self.cos_yaw), (self.sin_pitch, self.cos_pitch))
     }
 }
 
@@ -138,6 +135,16 @@ impl Turning {
             acceleration: orientation.angular_acceleration(rates, accelerations),
         }
     }
+}
+
+/// The inverse of eq. (10), from sine and cosine of yaw and of pitch: see [`Orientation::rates`].
+pub fn rates_from_reference(
+    omega: Vector3<f64>,
+    (sin_yaw, cos_yaw): (f64, f64),
+    (sin_pitch, cos_pitch): (f64, f64),
+) -> RollPitchYaw {
+    let roll = (cos_yaw * omega.x + sin_yaw * omega.y) / away_from_zero(cos_pitch);
+    RollPitchYaw::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
 }
 
 /// The cosine of a pitch to divide by in inverting eq. (10), which is singular at 90 degrees: of magnitude 0.1 at least,
