@@ -10,3 +10,4 @@ pub mod ride;
 pub mod rig;
 pub mod run;
 pub mod setup_options;
+pub mod text_table;

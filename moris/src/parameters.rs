@@ -1,5 +1,6 @@
 //! `moris parameters`: the parameters as a file to start from.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -24,10 +25,10 @@ pub struct Options {
 ///
 /// # Errors
 /// The rig or the parameters cannot be used.
-pub fn main(options: &Options) -> Result<ExitCode> {
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
     let values = if options.changed { changed(&setup.parameters) } else { all(&setup.parameters) };
     let heading = format!("Parameters: {}\nRig: {}", setup.parameters_name, setup.rig_name);
-    print!("{}", parameter_file::write(&heading, &values, Parameters::ROWS));
+    write!(out, "{}", parameter_file::write(&heading, &values, Parameters::ROWS))?;
     Ok(ExitCode::SUCCESS)
 }

@@ -257,6 +257,10 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "HERTZ")]
     pub resample: Option<f64>,
 
+    /// Lead a recording that does not begin at rest in from rest, over so many seconds
+    #[arg(long, value_name = "SECONDS")]
+    pub fade_in: Option<f64>,
+
     /// TOML file that says the same in the same words (force-unit = "g"), names of columns in a table [columns]
     #[arg(long, value_name = "FILE")]
     #[serde(skip)]
@@ -277,6 +281,8 @@ pub struct Conventions {
     pub rate_frame: RateFrame,
     /// Samples a second to interpolate at \[1/s\].
     pub resample: Option<f64>,
+    /// Time over which the recording is led in from rest \[s\].
+    pub fade_in: f64,
 }
 
 impl Default for Conventions {
@@ -318,18 +324,22 @@ impl ConventionOptions {
             axes: self.axes.or(under.axes),
             rate_frame: self.rate_frame.or(under.rate_frame),
             resample: self.resample.or(under.resample),
+            fade_in: self.fade_in.or(under.fade_in),
             conventions: self.conventions.clone(),
         }
     }
 
     fn checked(&self) -> Result<Conventions, RideError> {
-        match self.resample {
-            Some(rate) if !(1.0..=1e5).contains(&rate) => Err(RideError::Conventions {
-                file: self.conventions.clone().unwrap_or_else(|| PathBuf::from("--resample")),
-                reason: format!("resample is {rate}, but must be from 1 to 100000 samples a second"),
-            }),
-            _ => Ok(self.said()),
+        let allowed = [
+            ("resample", self.resample, 1.0..=1e5, "samples a second"),
+            ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
+        ];
+        for (name, said, range, unit) in allowed {
+            if let Some(value) = said.filter(|value| !range.contains(value)) {
+                return Err(RideError::Option { name, value, min: *range.start(), max: *range.end(), unit });
+            }
         }
+        Ok(self.said())
     }
 
     fn said(&self) -> Conventions {
@@ -343,6 +353,7 @@ impl ConventionOptions {
             axes: self.axes.unwrap_or(Axes::ForwardLeftUp),
             rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
             resample: self.resample,
+            fade_in: self.fade_in.unwrap_or(0.0),
         }
     }
 }

@@ -36,3 +36,13 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Vec<Input> {
     };
     (0..table.time.len()).map(input).collect()
 }
+
+/// Leads the inputs in from rest over the first `duration` seconds: x^2 (3 - 2x) of the way after a share x of the time.
+pub fn fade_in(inputs: &mut [Input], step: f64, duration: f64) {
+    let rest = Input::default();
+    let faded = inputs.iter_mut().enumerate().map(|(k, input)| (k as f64 * step, input));
+    for (time, input) in faded.take_while(|(time, _)| *time < duration) {
+        let x = time / duration;
+        *input = rest.towards(input, x * x * (3.0 - 2.0 * x));
+    }
+}

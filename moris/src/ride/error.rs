@@ -12,6 +12,9 @@ pub enum RideError {
     /// The file with the conventions is not one.
     #[error("{}: {reason}", file.display())]
     Conventions { file: PathBuf, reason: String },
+    /// An option has a value that it cannot have.
+    #[error("{name} is {value}, but must be from {min} to {max} {unit}")]
+    Option { name: &'static str, value: f64, min: f64, max: f64, unit: &'static str },
     /// A column is not there.
     #[error(
         "{}: there is no column {column}; there are {}{}; say what it is called with --columns {key}=NAME",

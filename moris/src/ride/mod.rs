@@ -57,8 +57,10 @@ impl Ride {
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RideError> {
         let table = table::read(file, conventions)?;
         let (table, mut remarks) = sampling::at_equal_steps(table, conventions)?;
-        let inputs = convert::inputs(&table, conventions);
-        remarks.extend(suspicion::look_at(file, &inputs, conventions)?);
+        let mut inputs = convert::inputs(&table, conventions);
+        suspicion::look_at(file, &inputs, conventions)?;
+        convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
+        remarks.extend(suspicion::remarks(&inputs));
         Ok(Ride {
             name: file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
             start: table.time[0],

@@ -22,16 +22,15 @@ const BIAS: f64 = 0.3;
 /// A ride that begins with more than this begins with a jolt \[m/s2\].
 const JOLT: f64 = 1.0;
 
-/// Looks at a ride in SI units and the washout's axes. Returns remarks on what is odd, but can be.
+/// Looks at a ride in SI units and the washout's axes.
 ///
 /// # Errors
 /// What cannot be: the unit or the axes that it must be instead, and how to say so.
-pub fn look_at(file: &Path, inputs: &[Input], conventions: &Conventions) -> Result<Vec<String>, RideError> {
+pub fn look_at(file: &Path, inputs: &[Input], conventions: &Conventions) -> Result<(), RideError> {
     let refused = |reason: String| RideError::Whole { file: file.to_owned(), reason };
     force_is_plausible(inputs, conventions).map_err(refused)?;
     rates_are_plausible(inputs, conventions).map_err(refused)?;
-    angles_are_plausible(inputs, conventions).map_err(refused)?;
-    Ok(remarks(inputs))
+    angles_are_plausible(inputs, conventions).map_err(refused)
 }
 
 /// Judges by the medians of the accelerations, of which a ride's manoeuvres move none far.
@@ -111,7 +110,8 @@ fn angles_are_plausible(inputs: &[Input], conventions: &Conventions) -> Result<(
     })
 }
 
-fn remarks(inputs: &[Input]) -> Vec<String> {
+/// What is odd about a ride, but can be.
+pub fn remarks(inputs: &[Input]) -> Vec<String> {
     let mut remarks = Vec::new();
     for (axis, name) in ["x", "y"].into_iter().enumerate() {
         let mean = inputs.iter().map(|input| input.specific_force[axis]).sum::<f64>() / inputs.len() as f64;
@@ -126,7 +126,8 @@ fn remarks(inputs: &[Input]) -> Vec<String> {
     let first = inputs[0].specific_force - Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     if first.amax() > JOLT {
         remarks.push(format!(
-            "The ride does not begin at rest: the specific force jumps by ({:.1}, {:.1}, {:.1}) m/s2 when it begins.",
+            "The ride does not begin at rest: the specific force jumps by ({:.1}, {:.1}, {:.1}) m/s2 at once; \
+             --fade-in 1 leads it in from rest.",
             first.x, first.y, first.z
         ));
     }

@@ -1,5 +1,6 @@
 //! `moris rig`: looks at a platform.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -23,10 +24,10 @@ pub struct CheckOptions {
 ///
 /// # Errors
 /// The rig file cannot be used.
-pub fn main(command: &Command) -> Result<ExitCode> {
+pub fn main(command: &Command, out: &mut dyn Write) -> Result<ExitCode> {
     let Command::Check(options) = command;
     let rig = washout_setup::load_rig(&options.rig)?;
     rig.refusal()?;
-    println!("{}: free of singularities", rig.name);
+    writeln!(out, "{}: free of singularities", rig.name)?;
     Ok(ExitCode::SUCCESS)
 }
