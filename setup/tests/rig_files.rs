@@ -75,7 +75,7 @@ fn a_misspelt_key_is_named_with_the_right_one() {
 
 #[test]
 fn what_the_machine_is_made_of_has_to_be_there() {
-    let message = refusal(&default_text().replace("velocityLimit = 1.0\naccelerationLimit = 10.0\n", ""));
+    let message = refusal(&default_text().replace("velocityLimit = 1.0\naccelerationLimit = 15.0\n", ""));
     assert!(message.contains("velocityLimit") && message.contains("missing"), "{message}");
     let message = refusal(&default_text().replace("radius = 0.85\n", ""));
     assert!(message.contains("[platform]") && message.contains("radius and degrees, or joints"), "{message}");
@@ -84,7 +84,7 @@ fn what_the_machine_is_made_of_has_to_be_there() {
 #[test]
 fn five_joints_and_words_for_numbers_are_refused_at_their_line() {
     let message = refusal(&default_text().replace("[-8, 8, 112, 128, 232, 248]", "[-8, 8, 112, 128, 232]"));
-    assert!(message.contains("line 7") && message.contains("6"), "{message}");
+    assert!(message.contains("line 8") && message.contains("6"), "{message}");
     let message = refusal(&default_text().replace("= 1.091", "= \"high\""));
     assert!(message.contains("line 4") && message.contains("neutralHeight"), "{message}");
 }
