@@ -58,7 +58,8 @@ impl Tuner<'_> {
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         bail!(
             "no parameters were found with which every ride stays clear of the safety units and the actuators' limits{}; leave out the ride \
-             that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or an input.cutoff",
+             that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, where it vibrates, \
+             --tune splitter,angular,scale,cutoff",
             self.held_up(judges, &nearest)?
         )
     }
