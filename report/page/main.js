@@ -55,6 +55,7 @@ function select(index) {
   now.run = report.runs[index];
   [...byId("runs").children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === index)));
   timeLine.select(now.run);
+  showKey();
   buildCharts();
   drawCharts();
   seek(now.time);
@@ -95,7 +96,7 @@ function showFindings() {
 
 function showKey() {
   const arrow = (name, text) => [element("span", { class: "swatch", style: `border-top: 4px solid var(${name})` }), text];
-  byId("key").append(
+  byId("key").replaceChildren(
     ...arrow("--desired", "desired "), ...arrow(now.run.colour, "felt "),
     "\u2014 arrows at the head: specific force less gravity at rest. Legs: ",
     ...arrow("--leg-easy", "free "), ...arrow("--leg-near", "near "), ...arrow("--leg-end", "at an end of the stroke"),
@@ -137,7 +138,6 @@ function redraw() {
 }
 
 showFindings();
-showKey();
 showMeasures(byId("measures"), report.runs);
 byId("provenance").append(...report.provenance.map(([name, text]) => element("span", {}, [element("b", {}, [name]), " ", text])));
 setUpPlayer();

@@ -34,13 +34,16 @@ const REACHED: f64 = 0.98;
 /// A quantity's largest share of its limit, and how to say so.
 struct Share {
     share: f64,
-    text: String,
+    /// The axis or leg.
+    who: String,
+    /// Which limit it is at.
+    limit: String,
 }
 
 impl Share {
     /// A limit of 0 is one that is not known: nothing has a share of it.
-    fn new(value: f64, limit: f64, text: String) -> Self {
-        Share { share: if limit > 0.0 { value / limit } else { f64::NAN }, text }
+    fn new(who: impl Into<String>, value: f64, limit: f64, text: String) -> Self {
+        Share { share: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
     }
 }
 
@@ -117,17 +120,16 @@ fn tilt_reason(run: &Run, at: &Stretch) -> String {
     let limits = &run.limits;
     let axes = [(0, "roll"), (1, "pitch")];
     let angles = axes.map(|(i, axis)| {
-        let (limit, degrees) = (limits.tilt_angle, limits.tilt_angle.to_degrees());
-        Share::new(peak(at.of(&run.tilt[i])), limit, format!("{axis} at its angle limit of {degrees:.1}°"))
+        let text = format!("angle limit of {:.1}°", limits.tilt_angle.to_degrees());
+        Share::new(axis, peak(at.of(&run.tilt[i])), limits.tilt_angle, text)
     });
     let rates = axes.map(|(i, axis)| {
-        let (limit, degrees) = (limits.tilt_rate, limits.tilt_rate.to_degrees());
-        Share::new(peak(at.of(&run.tilt_rate[i])), limit, format!("{axis} at its rate limit of {degrees:.1}°/s"))
+        let text = format!("rate limit of {:.1}°/s", limits.tilt_rate.to_degrees());
+        Share::new(axis, peak(at.of(&run.tilt_rate[i])), limits.tilt_rate, text)
     });
     let accelerations = axes.map(|(i, axis)| {
-        let (limit, degrees) = (limits.tilt_acceleration, limits.tilt_acceleration.to_degrees());
-        let text = format!("{axis} at its acceleration limit of {degrees:.1}°/s²");
-        Share::new(at.peak_rate(&run.tilt_rate[i]), limit, text)
+        let text = format!("acceleration limit of {:.1}°/s²", limits.tilt_acceleration.to_degrees());
+        Share::new(axis, at.peak_rate(&run.tilt_rate[i]), limits.tilt_acceleration, text)
     });
     reason([angles.into(), rates.into(), accelerations.into()])
 }
@@ -138,16 +140,16 @@ fn safety_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     let positions = axes.map(|(i, axis, neutral)| {
         let limit = limits.safety_position[i];
         let farthest = at.of(&run.position[i]).iter().fold(0.0, |peak, x| f64::max(peak, (x - neutral).abs()));
-        Share::new(farthest, limit, format!("{axis} at its travel of {limit:.2} m"))
+        Share::new(axis, farthest, limit, format!("travel limit of {limit:.2} m"))
     });
     let velocities = axes.map(|(i, axis, _)| {
         let limit = limits.safety_velocity[i];
-        Share::new(at.peak_rate(&run.position[i]), limit, format!("{axis} at its velocity limit of {limit:.2} m/s"))
+        Share::new(axis, at.peak_rate(&run.position[i]), limit, format!("velocity limit of {limit:.2} m/s"))
     });
     let accelerations = axes.map(|(i, axis, _)| {
         let limit = limits.safety_acceleration[i];
-        let text = format!("{axis} at its acceleration limit of {limit:.1} m/s²");
-        Share::new(at.peak_second_rate(&run.position[i]), limit, text)
+        let text = format!("acceleration limit of {limit:.1} m/s²");
+        Share::new(axis, at.peak_second_rate(&run.position[i]), limit, text)
     });
     reason([positions.into(), velocities.into(), accelerations.into()])
 }
@@ -156,41 +158,46 @@ fn actuator_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     let limits = &run.limits;
     let [shortest, longest] = rig.stroke;
     let (middle, half) = (0.5 * (shortest + longest), 0.5 * (longest - shortest));
+    let farthest = |leg: &[f64], side: f64| at.of(leg).iter().fold(0.0, |far, x| f64::max(far, side * (x - middle)));
     let legs = || run.legs.iter().enumerate().map(|(i, leg)| (format!("leg {}", i + 1), leg));
-    let strokes = legs().flat_map(|(name, leg)| {
-        let [low, high] =
-            [-1.0, 1.0].map(|side| at.of(leg).iter().fold(0.0, |far, x| f64::max(far, side * (x - middle))));
-        [
-            Share::new(low, half, format!("{name} at its shortest, {shortest:.3} m")),
-            Share::new(high, half, format!("{name} at its longest, {longest:.3} m")),
-        ]
-    });
+    let short = legs()
+        .map(|(name, leg)| Share::new(name, farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m")));
+    let long = legs()
+        .map(|(name, leg)| Share::new(name, farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m")));
     let velocities = legs().map(|(name, leg)| {
         let limit = limits.actuator_velocity;
-        Share::new(at.peak_rate(leg), limit, format!("{name} at its speed limit of {limit:.2} m/s"))
+        Share::new(name, at.peak_rate(leg), limit, format!("speed limit of {limit:.2} m/s"))
     });
     let accelerations = legs().map(|(name, leg)| {
         let limit = limits.actuator_acceleration;
-        let text = format!("{name} at its acceleration limit of {limit:.1} m/s²");
-        Share::new(at.peak_second_rate(leg), limit, text)
+        Share::new(name, at.peak_second_rate(leg), limit, format!("acceleration limit of {limit:.1} m/s²"))
     });
-    reason([strokes.collect(), velocities.collect(), accelerations.collect()])
+    reason([short.chain(long).collect(), velocities.collect(), accelerations.collect()])
 }
 
 /// What of the first kind has reached its limit, else of the second, and so on; if nothing has, what came closest.
 fn reason(kinds: [Vec<Share>; 3]) -> String {
     for shares in &kinds {
-        let reached: Vec<&str> =
-            shares.iter().filter(|one| one.share >= REACHED).map(|one| one.text.as_str()).collect();
+        let reached: Vec<&Share> = shares.iter().filter(|one| one.share >= REACHED).collect();
         if !reached.is_empty() {
-            return reached.join("; ");
+            return said(&reached);
         }
     }
-    let known = kinds.into_iter().flatten().filter(|one| one.share.is_finite());
+    let known = kinds.iter().flatten().filter(|one| one.share.is_finite());
     known.max_by(|a, b| a.share.total_cmp(&b.share)).map_or_else(
         || "no limit is known".into(),
-        |one| format!("braking or catching up; at {:.0} % of: {}", 100.0 * one.share, one.text),
+        |one| format!("braking or catching up; {} at {:.0} % of the {}", one.who, 100.0 * one.share, one.limit),
     )
+}
+
+/// Who is at which limit: those at the same one together.
+fn said(reached: &[&Share]) -> String {
+    let same_limit = reached.chunk_by(|a, b| a.limit == b.limit);
+    let parts = same_limit.map(|shares| {
+        let who: Vec<&str> = shares.iter().map(|one| one.who.as_str()).collect();
+        format!("{} at the {}", who.join(", "), shares[0].limit)
+    });
+    parts.collect::<Vec<_>>().join("; ")
 }
 
 #[cfg(test)]
@@ -257,11 +264,15 @@ mod tests {
         run.position[2][100] = 1.1 - 0.33;
         run.legs[3][100] = 1.0;
         run.legs[4][100] = 1.6;
+        run.legs[5][100] = 1.6;
         let events = events(&run, &RIG);
         let reason = |kind| events.iter().find(|event| event.kind == kind).map(|event| event.why.as_str());
-        assert_eq!(reason(Kind::Tilt), Some("pitch at its rate limit of 3.0°/s"));
-        assert_eq!(reason(Kind::Safety), Some("heave at its travel of 0.33 m"));
-        assert_eq!(reason(Kind::Actuator), Some("leg 4 at its shortest, 1.000 m; leg 5 at its longest, 1.600 m"));
+        assert_eq!(reason(Kind::Tilt), Some("pitch at the rate limit of 3.0°/s"));
+        assert_eq!(reason(Kind::Safety), Some("heave at the travel limit of 0.33 m"));
+        assert_eq!(
+            reason(Kind::Actuator),
+            Some("leg 4 at the shortest length of 1.000 m; leg 5, leg 6 at the greatest length of 1.600 m")
+        );
     }
 
     #[test]
@@ -270,7 +281,7 @@ mod tests {
         run.limited.actuator[100] = true;
         run.limited.actuator[101] = true;
         run.legs[0][100..].fill(1.31); // 0.01 m in 0.01 s.
-        assert_eq!(events(&run, &RIG)[0].why, "leg 1 at its speed limit of 1.00 m/s");
+        assert_eq!(events(&run, &RIG)[0].why, "leg 1 at the speed limit of 1.00 m/s");
     }
 
     #[test]
@@ -279,7 +290,7 @@ mod tests {
         run.limited.safety[100] = true;
         run.position[0].fill(0.36);
         let why = &events(&run, &RIG)[0].why;
-        assert_eq!(why, "braking or catching up; at 80 % of: surge at its travel of 0.45 m");
+        assert_eq!(why, "braking or catching up; surge at 80 % of the travel limit of 0.45 m");
     }
 
     #[test]
