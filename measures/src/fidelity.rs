@@ -1,6 +1,4 @@
-//! How well a run went, in numbers.
-
-use crate::recording::{Recording, Sample};
+//! How well one signal follows another.
 
 /// Longest delay, of either sign, that is looked for \[s\].
 const LONGEST_DELAY: f64 = 2.0;
@@ -37,54 +35,6 @@ pub fn fidelity(desired: &[f64], felt: &[f64], step: f64) -> Option<Fidelity> {
         correlation: correlation(desired, felt),
         delay: delay(desired, felt, step),
     })
-}
-
-/// What the platform did in a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Effort {
-    /// Shortest length of any actuator \[m\].
-    pub shortest_leg: f64,
-    /// Longest length of any actuator \[m\].
-    pub longest_leg: f64,
-    /// Share of the steps in which tilt coordination was limited, 0 to 1.
-    pub tilt_limited: f64,
-    /// Share of the steps in which a safety unit was at work, 0 to 1.
-    pub safety_active: f64,
-    /// Share of the steps in which the actuator guard was at work, 0 to 1.
-    pub actuator_limited: f64,
-    /// Largest rate of tilt coordination in roll or pitch \[rad/s\].
-    pub largest_tilt_rate: f64,
-    /// Distance of the platform from neutral at the end \[m\].
-    pub final_distance: f64,
-}
-
-/// What the platform did in a run.
-pub fn effort(recording: &Recording) -> Effort {
-    let samples = &recording.samples;
-    let legs = || samples.iter().flat_map(|sample| sample.legs);
-    let tilt_rates = samples.iter().flat_map(|sample| sample.tilt_rate);
-    Effort {
-        shortest_leg: legs().fold(f64::INFINITY, f64::min),
-        longest_leg: legs().fold(f64::NEG_INFINITY, f64::max),
-        tilt_limited: share(samples, |sample| sample.limited.tilt),
-        safety_active: share(samples, |sample| sample.limited.safety),
-        actuator_limited: share(samples, |sample| sample.limited.actuator),
-        largest_tilt_rate: tilt_rates.fold(0.0, |largest, rate| rate.abs().max(largest)),
-        final_distance: samples.last().map_or(0.0, |last| distance_from_neutral(last, recording.neutral_height)),
-    }
-}
-
-/// Share of the steps after which `holds`, 0 to 1. The first sample is none: no step led to it.
-pub fn share(samples: &[Sample], holds: impl Fn(&Sample) -> bool) -> f64 {
-    match samples {
-        [] | [_] => 0.0,
-        [_, steps @ ..] => steps.iter().filter(|sample| holds(sample)).count() as f64 / steps.len() as f64,
-    }
-}
-
-fn distance_from_neutral(sample: &Sample, neutral_height: f64) -> f64 {
-    let [x, y, z] = sample.position;
-    (x * x + y * y + (z - neutral_height).powi(2)).sqrt()
 }
 
 /// Root mean square of the difference.
@@ -163,7 +113,6 @@ mod tests {
     use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
     use super::*;
-    use crate::recording::Limited;
 
     const STEP: f64 = 0.01;
 
@@ -247,27 +196,5 @@ mod tests {
         let fidelity = fidelity(&rest, &disturbed, STEP).unwrap();
         assert_eq!((fidelity.correlation, fidelity.delay), (None, None));
         assert_near(fidelity.peak_error, 0.1, 1e-6);
-    }
-
-    #[test]
-    fn the_effort_is_counted_over_the_steps() {
-        let limited = |tilt, safety, actuator| Limited { tilt, safety, actuator };
-        let sample = Sample { legs: [1.3; 6], position: [0.0, 0.0, 1.0], ..Sample::default() };
-        let recording = Recording {
-            neutral_height: 1.0,
-            samples: vec![
-                Sample { limited: limited(true, true, true), ..sample },
-                Sample { limited: limited(true, false, false), tilt_rate: [0.01, -0.05], ..sample },
-                Sample { limited: limited(true, true, false), legs: [1.3, 1.3, 1.1, 1.3, 1.3, 1.3], ..sample },
-                Sample { limited: limited(true, false, false), legs: [1.5, 1.3, 1.3, 1.3, 1.3, 1.3], ..sample },
-                Sample { position: [0.03, -0.04, 1.12], ..sample },
-            ],
-            ..Recording::default()
-        };
-        let effort = effort(&recording);
-        assert_eq!((effort.shortest_leg, effort.longest_leg), (1.1, 1.5));
-        assert_eq!((effort.tilt_limited, effort.safety_active, effort.actuator_limited), (0.75, 0.25, 0.0));
-        assert_eq!(effort.largest_tilt_rate, 0.05);
-        assert_near(effort.final_distance, 0.13, 1e-12);
     }
 }
