@@ -206,7 +206,8 @@ def charts_are_zoomed_and_clicked(browser):
 def it_plays_at_real_speed(browser):
     """On a clock that the test turns: a second of it is a second of the ride, or five at speed 5; it stops at the end."""
     with opened(browser, "two-runs") as page:
-        page.clock.install()
+        page.clock.install(time=0)
+        page.clock.pause_at(3_600_000)
         page.get_by_role("button", name="Play").click()
         page.clock.run_for(2000)
         near(page.evaluate("rideReport.now.time"), 2.0, 0.05, "time after two seconds")
