@@ -156,7 +156,7 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
         });
     }
     let file: RigFile = toml::from_str(text).map_err(toml_error)?;
-    file.check(source_name)?;
+    file.check_joints(source_name)?;
     Ok(file)
 }
 
@@ -184,7 +184,7 @@ impl Joints {
 
 impl RigFile {
     /// What the file's own form cannot tell: each joint once, and metres.
-    fn check(&self, source_name: &str) -> Result<(), Error> {
+    fn check_joints(&self, source_name: &str) -> Result<(), Error> {
         for (name, joints) in [("base", &self.base), ("platform", &self.platform)] {
             let wrong = |reason: String| Error::WrongValue {
                 source_name: source_name.to_owned(),
@@ -250,7 +250,7 @@ impl RigFile {
     ///
     /// # Errors
     /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a value out of its range.
-    pub fn refusal(&self) -> Result<(), Refusal> {
+    pub fn check(&self) -> Result<(), Refusal> {
         check(&self.parameters())
     }
 }
