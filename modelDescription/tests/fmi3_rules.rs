@@ -252,16 +252,6 @@ fn it_reads_back_as_what_was_written<M: Model>() {
     assert_eq!(read, description);
 }
 
-#[test]
-fn the_checked_in_file_is_that_of_the_washout() {
-    let checked_in = include_str!("../modelDescription.fmi3.xml");
-    assert!(
-        checked_in == xml::<Washout>(),
-        "modelDescription/modelDescription.fmi3.xml is stale: run `cargo run -p model-description`, look at the diff, check \
-         it in"
-    );
-}
-
 /// Names and shapes that users of the washout rely on.
 #[test]
 fn the_washout_s_vectors_are_arrays() {
