@@ -1,5 +1,7 @@
 //! The models of which there are FMUs. A new one is a file here and an entry in [`MODELS`].
 
+mod motorcycle;
+mod stewart_platform;
 mod washout;
 
 use std::path::PathBuf;
@@ -11,10 +13,12 @@ use crate::FmiVersion;
 use crate::documentation::Section;
 use crate::reference::{self, Stimuli};
 
+pub use motorcycle::MOTORCYCLE;
+pub use stewart_platform::STEWART_PLATFORM;
 pub use washout::WASHOUT;
 
 /// Every model, in the order in which they are built.
-pub const MODELS: &[Model] = &[WASHOUT];
+pub const MODELS: &[Model] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
 
 /// What the build needs to know of a model.
 pub struct Model {

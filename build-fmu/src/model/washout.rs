@@ -57,6 +57,6 @@ pub const WASHOUT: Model = Model {
             include_str!("../../documentation/MorisWashout/example.fmi3.html"),
         ),
     ],
-    icon: icon::stewart_platform,
+    icon: icon::motorcycle_on_platform,
     reference_input: include_str!("../../reference/MorisWashout_in.csv"),
 };
