@@ -99,55 +99,57 @@ interface! {
     /// Masses and geometry: the 25 parameters of a bicycle (Meijaard et al. 2007), without speed and gravity. Lengths are measured from the rear tyre's contact, x forward and heights above the road.
     pub struct Machine: Parameter, Fixed {
         /// Distance of the two tyres' contacts.
-        "geometry.wheelbase" wheelbase: f64 [M] = 1.5;
+        "geometry.wheelbase" wheelbase: f64 [M] = 1.448;
         /// Trail: how far the front tyre's contact is behind the point where the steering axis meets the road.
-        "geometry.trail" trail: f64 [M] = 0.1;
+        "geometry.trail" trail: f64 [M] = 0.1176;
         /// Angle of the steering axis from the vertical, leaning back.
-        "geometry.casterAngle" caster_angle: f64 [RAD] = 0.436_332_312_998_582_4;
+        "geometry.casterAngle" caster_angle: f64 [RAD] = 0.467_748_239_534_480_3;
         /// Radius of the rear wheel.
-        "rearWheel.radius" rear_wheel_radius: f64 [M] = 0.31;
+        "rearWheel.radius" rear_wheel_radius: f64 [M] = 0.299;
         /// Mass of the rear wheel.
         "rearWheel.mass" rear_wheel_mass: f64 [KG] = 15.0;
         /// Moment of inertia of the rear wheel about a diameter.
-        "rearWheel.inertia.xx" rear_wheel_xx: f64 [KG_M2] = 0.4;
+        "rearWheel.inertia.xx" rear_wheel_xx: f64 [KG_M2] = 0.42;
         /// Moment of inertia of the rear wheel about its axle, with what of the drive turns with it.
-        "rearWheel.inertia.yy" rear_wheel_yy: f64 [KG_M2] = 0.7;
+        "rearWheel.inertia.yy" rear_wheel_yy: f64 [KG_M2] = 0.8;
         /// Distance of the rear frame's centre of mass, rider included, ahead of the rear contact.
-        "frame.centre.x" frame_x: f64 [M] = 0.7;
+        "frame.centre.x" frame_x: f64 [M] = 0.642;
         /// Height of the rear frame's centre of mass, rider included.
-        "frame.centre.height" frame_height: f64 [M] = 0.68;
+        "frame.centre.height" frame_height: f64 [M] = 0.669;
         /// Mass of the rear frame with engine and rider.
-        "frame.mass" frame_mass: f64 [KG] = 280.0;
+        "frame.mass" frame_mass: f64 [KG] = 221.0;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis forward.
-        "frame.inertia.xx" frame_xx: f64 [KG_M2] = 25.0;
+        "frame.inertia.xx" frame_xx: f64 [KG_M2] = 29.7;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis to the left: of pitch.
-        "frame.inertia.yy" frame_yy: f64 [KG_M2] = 45.0;
+        "frame.inertia.yy" frame_yy: f64 [KG_M2] = 48.0;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis upwards.
-        "frame.inertia.zz" frame_zz: f64 [KG_M2] = 30.0;
+        "frame.inertia.zz" frame_zz: f64 [KG_M2] = 37.5;
         /// Product of inertia of the rear frame, minus the integral of x z dm about its centre of mass, x forward and z up.
-        "frame.inertia.xz" frame_xz: f64 [KG_M2] = -3.0;
+        "frame.inertia.xz" frame_xz: f64 [KG_M2] = 2.8;
         /// Distance of the front assembly's centre of mass (fork and bars, without the wheel) ahead of the rear contact.
-        "fork.centre.x" fork_x: f64 [M] = 1.35;
+        "fork.centre.x" fork_x: f64 [M] = 1.205;
         /// Height of the front assembly's centre of mass.
-        "fork.centre.height" fork_height: f64 [M] = 0.65;
+        "fork.centre.height" fork_height: f64 [M] = 0.767;
         /// Mass of the front assembly.
-        "fork.mass" fork_mass: f64 [KG] = 17.0;
+        "fork.mass" fork_mass: f64 [KG] = 22.0;
         /// Moment of inertia of the front assembly about its centre of mass, about the axis forward.
         "fork.inertia.xx" fork_xx: f64 [KG_M2] = 1.3;
         /// Moment of inertia of the front assembly about its centre of mass, about the axis upwards.
-        "fork.inertia.zz" fork_zz: f64 [KG_M2] = 0.5;
+        "fork.inertia.zz" fork_zz: f64 [KG_M2] = 0.71;
         /// Product of inertia of the front assembly, minus the integral of x z dm about its centre of mass, x forward and z up.
-        "fork.inertia.xz" fork_xz: f64 [KG_M2] = 0.3;
+        "fork.inertia.xz" fork_xz: f64 [KG_M2] = 0.4;
         /// Radius of the front wheel.
-        "frontWheel.radius" front_wheel_radius: f64 [M] = 0.30;
+        "frontWheel.radius" front_wheel_radius: f64 [M] = 0.294;
         /// Mass of the front wheel.
         "frontWheel.mass" front_wheel_mass: f64 [KG] = 12.0;
         /// Moment of inertia of the front wheel about a diameter.
-        "frontWheel.inertia.xx" front_wheel_xx: f64 [KG_M2] = 0.3;
+        "frontWheel.inertia.xx" front_wheel_xx: f64 [KG_M2] = 0.32;
         /// Moment of inertia of the front wheel about its axle.
-        "frontWheel.inertia.yy" front_wheel_yy: f64 [KG_M2] = 0.5;
+        "frontWheel.inertia.yy" front_wheel_yy: f64 [KG_M2] = 0.6;
         /// Steering damper: torque for a rate of steer.
-        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 5.0;
+        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 1.0;
+        /// Largest steer angle that the rider asks for.
+        "steer.lock" steer_lock: f64 [RAD] = 0.5;
     }
 }
 
@@ -155,17 +157,17 @@ interface! {
     /// The tyres, by their load at rest.
     pub struct Tyres: Parameter, Fixed {
         /// Lateral force for a small slip angle of the front tyre, divided by its load.
-        "tyre.front.corneringStiffness" front_cornering: f64 [PER_RAD] = 14.0;
+        "tyre.front.corneringStiffness" front_cornering: f64 [PER_RAD] = 16.0;
         /// Lateral force for a small camber angle of the front tyre, divided by its load.
-        "tyre.front.camberStiffness" front_camber: f64 [PER_RAD] = 0.9;
+        "tyre.front.camberStiffness" front_camber: f64 [PER_RAD] = 0.85;
         /// Distance that the front tyre rolls while its lateral force builds up.
-        "tyre.front.relaxationLength" front_relaxation: f64 [M] = 0.2;
+        "tyre.front.relaxationLength" front_relaxation: f64 [M] = 0.126;
         /// Lateral force for a small slip angle of the rear tyre, divided by its load.
-        "tyre.rear.corneringStiffness" rear_cornering: f64 [PER_RAD] = 15.0;
+        "tyre.rear.corneringStiffness" rear_cornering: f64 [PER_RAD] = 14.5;
         /// Lateral force for a small camber angle of the rear tyre, divided by its load.
-        "tyre.rear.camberStiffness" rear_camber: f64 [PER_RAD] = 0.9;
+        "tyre.rear.camberStiffness" rear_camber: f64 [PER_RAD] = 0.95;
         /// Distance that the rear tyre rolls while its lateral force builds up.
-        "tyre.rear.relaxationLength" rear_relaxation: f64 [M] = 0.2;
+        "tyre.rear.relaxationLength" rear_relaxation: f64 [M] = 0.144;
         /// Friction of the tyres on the road: the largest force along the road divided by the load.
         "tyre.friction" friction: f64 = 1.2;
         /// Rolling resistance divided by the load.
@@ -177,7 +179,7 @@ interface! {
     /// Drive, brakes and air.
     pub struct Longitudinal: Parameter, Fixed {
         /// Largest power at the rear wheel.
-        "drive.power" power: f64 [W] = 95e3;
+        "drive.power" power: f64 [W] = 85e3;
         /// Largest force at the rear wheel, in the lowest gear.
         "drive.forceLimit" drive_force: f64 [N] = 3500.0;
         /// Drag of the engine at the rear wheel with the throttle closed.
@@ -185,7 +187,7 @@ interface! {
         /// Time constant with which the drive follows the throttle.
         "drive.timeConstant" drive_time: f64 [S] = 0.15;
         /// Force of both brakes together when fully applied.
-        "brake.forceLimit" brake_force: f64 [N] = 4000.0;
+        "brake.forceLimit" brake_force: f64 [N] = 3000.0;
         /// Share of the front brake in it.
         "brake.frontShare" brake_front_share: f64 { 0.0 ..= 1.0 } = 0.7;
         /// Time constant with which the brakes follow the lever.
@@ -193,11 +195,11 @@ interface! {
         /// Share of the weight that drive and brakes always leave on either wheel.
         "wheelLift.reserve" lift_reserve: f64 { 0.0 ..= 0.3 } = 0.05;
         /// Drag coefficient times frontal area.
-        "aero.dragArea" drag_area: f64 [M2] = 0.45;
+        "aero.dragArea" drag_area: f64 [M2] = 0.467;
         /// Density of the air.
         "aero.density" air_density: f64 [KG_PER_M3] = 1.2;
         /// Height of the point at which drag and wind act.
-        "aero.height" aero_height: f64 [M] = 0.75;
+        "aero.height" aero_height: f64 [M] = 0.582;
     }
 }
 
@@ -205,13 +207,13 @@ interface! {
     /// The suspension, as springs and dampers upright at the wheels.
     pub struct Suspension: Parameter, Fixed {
         /// Stiffness of the front suspension at the wheel.
-        "suspension.front.stiffness" front_stiffness: f64 [N_PER_M] = 18e3;
+        "suspension.front.stiffness" front_stiffness: f64 [N_PER_M] = 9e3;
         /// Damping of the front suspension at the wheel.
-        "suspension.front.damping" front_damping: f64 [N_S_PER_M] = 1200.0;
+        "suspension.front.damping" front_damping: f64 [N_S_PER_M] = 550.0;
         /// Stiffness of the rear suspension at the wheel.
-        "suspension.rear.stiffness" rear_stiffness: f64 [N_PER_M] = 26e3;
+        "suspension.rear.stiffness" rear_stiffness: f64 [N_PER_M] = 25.7e3;
         /// Damping of the rear suspension at the wheel.
-        "suspension.rear.damping" rear_damping: f64 [N_S_PER_M] = 1600.0;
+        "suspension.rear.damping" rear_damping: f64 [N_S_PER_M] = 1100.0;
     }
 }
 
@@ -233,11 +235,11 @@ interface! {
         /// Largest lean of the rider's torso relative to the motorcycle.
         "rider.bodyLeanLimit" body_lean_limit: f64 [RAD] = 0.35;
         /// Mass of the torso that leans, with head and arms; part of frame.mass.
-        "rider.torsoMass" torso_mass: f64 [KG] = 43.5;
+        "rider.torsoMass" torso_mass: f64 [KG] = 44.5;
         /// Distance of the torso's centre of mass from the seat, about which it leans.
-        "rider.torsoCentre" torso_centre: f64 [M] = 0.3;
+        "rider.torsoCentre" torso_centre: f64 [M] = 0.4;
         /// Moment of inertia of the torso about its centre of mass, about the axis forward.
-        "rider.torsoInertia" torso_inertia: f64 [KG_M2] = 1.4;
+        "rider.torsoInertia" torso_inertia: f64 [KG_M2] = 1.3;
         /// Speed below which feet on the road and firm hands hold the motorcycle upright, all the more the slower.
         "feet.speed" feet_speed: f64 [M_PER_S] = 2.5;
         /// Distance of the rider's head ahead of the rear contact.
@@ -245,7 +247,7 @@ interface! {
         /// Height of the rider's head above the road.
         "head.height" head_height: f64 [M] = 1.5;
         /// Length of the torso from seat to head, about whose lower end the rider leans.
-        "head.torsoLength" torso_length: f64 [M] = 0.7;
+        "head.torsoLength" torso_length: f64 [M] = 0.75;
     }
 }
 
