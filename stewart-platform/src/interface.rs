@@ -117,7 +117,7 @@ interface! {
         /// Undamped natural frequency of an actuator's response to its command; at the default damping 3 dB are lost there.
         "actuator.bandwidth" bandwidth: f64 [RAD_PER_S] = 62.831_853_071_795_86;
         /// Damping ratio of an actuator's response.
-        "actuator.damping" damping: f64 = 0.707_106_781_186_547_6;
+        "actuator.damping" damping: f64 = std::f64::consts::FRAC_1_SQRT_2;
         /// Time that passes before an actuator's drive sees a command.
         "actuator.deadTime" dead_time: f64 [S] = 0.004;
         /// Largest force of an actuator's drive, either way.
