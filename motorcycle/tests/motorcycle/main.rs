@@ -1,0 +1,6 @@
+//! The motorcycle against what others published, closed forms, differences and balances.
+
+mod common;
+mod lateral;
+mod whipple;
+mod rider;
