@@ -149,9 +149,11 @@ fn rule(row: &Row) -> Rule {
     match row.name {
         _ if matches!(row.kind, Kind::Enumeration(_)) => Rule::Finite,
         "frame.inertia.xz" | "fork.inertia.xz" | "head.x" | "initial.heading" | "fork.centre.x" => Rule::Finite,
-        "steer.damping" | "drive.engineBraking" | "brake.forceLimit" | "brake.frontShare" | "tyre.rollingResistance" => {
-            Rule::NotNegative
-        }
+        "steer.damping"
+        | "drive.engineBraking"
+        | "brake.forceLimit"
+        | "brake.frontShare"
+        | "tyre.rollingResistance" => Rule::NotNegative,
         "wheelLift.reserve" | "aero.height" | "rider.torsoMass" | "rider.torsoCentre" | "rider.torsoInertia" => {
             Rule::NotNegative
         }

@@ -2,5 +2,5 @@
 
 mod common;
 mod lateral;
-mod whipple;
 mod rider;
+mod whipple;

@@ -3,7 +3,7 @@ use moris_motorcycle::*;
 fn poles() {
     let m = Motorcycle::new(&Parameters::default(), &Input::default()).unwrap();
     for k in 0..40 {
-        let v = 0.25 * k as f64 * if k > 16 { 0.1*(k-6) as f64 } else {1.0};
+        let v = 0.25 * k as f64 * if k > 16 { 0.1 * (k - 6) as f64 } else { 1.0 };
         let e = m.rider().closed_loop(m.lateral(), v).complex_eigenvalues();
         let o = m.lateral().state_matrix(v, 0.0).complex_eigenvalues();
         let mut l: Vec<_> = e.iter().map(|x| format!("{:.1}{:+.1}i", x.re, x.im)).collect();
