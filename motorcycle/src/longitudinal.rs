@@ -120,7 +120,7 @@ impl Longitudinal {
         };
         let wanted = Wheels { front: -p.brake_front_share * brake, rear: drive - (1.0 - p.brake_front_share) * brake };
         let on_tyres = Wheels { front: within(wanted.front, held.front), rear: within(wanted.rear, held.rear) };
-        let (on_tyres, lift_limited) = self.keep_wheels_down(on_tyres, resistance);
+        let (on_tyres, lift_limited) = self.keep_wheels_down(on_tyres, &now.loads, resistance);
         let tyres = Wheels {
             front: on_tyres.front - self.rolling_resistance * now.loads.front,
             rear: on_tyres.rear - self.rolling_resistance * now.loads.rear,
@@ -160,8 +160,9 @@ impl Longitudinal {
             + self.static_moment * speed * pitch_rate
     }
 
-    /// Drive or brakes eased so that, in a steady acceleration, a share of the weight stays on either wheel.
-    fn keep_wheels_down(&self, forces: Wheels, resistance: f64) -> (Wheels, bool) {
+    /// Drive or brakes eased so that a share of the weight stays on either wheel: in a steady acceleration as the balance
+    /// of moments has it, and while the springs still swing by the load that is there.
+    fn keep_wheels_down(&self, forces: Wheels, loads: &Wheels, resistance: f64) -> (Wheels, bool) {
         let p = &self.parameters;
         let reserve = p.lift_reserve * (self.static_loads.front + self.static_loads.rear);
         // The tyres' whole force that shifts this much load to the rear wheel.
@@ -169,18 +170,24 @@ impl Longitudinal {
             let acceleration = (shift * self.wheelbase - resistance * p.aero_height) / self.static_moment;
             self.inertia * acceleration + resistance
         };
-        let most = force_for(self.static_loads.front - reserve);
-        let least = force_for(reserve - self.static_loads.rear);
         let whole = forces.front + forces.rear;
-        if whole > most && forces.rear > 0.0 {
-            return (Wheels { rear: (most - forces.front).max(0.0), ..forces }, true);
+        if whole > 0.0 {
+            let most = force_for(self.static_loads.front - reserve).max(0.0);
+            let share = (most / whole).min(light(loads.front, reserve));
+            return (Wheels { rear: forces.rear - (1.0 - share.min(1.0)) * whole, ..forces }, share < 1.0);
         }
-        if whole < least && whole < 0.0 {
-            let share = (least / whole).max(0.0);
-            return (Wheels { front: share * forces.front, rear: share * forces.rear }, true);
+        if whole < 0.0 {
+            let least = force_for(reserve - self.static_loads.rear).min(0.0);
+            let share = (least / whole).min(light(loads.rear, reserve)).min(1.0);
+            return (Wheels { front: share * forces.front, rear: share * forces.rear }, share < 1.0);
         }
         (forces, false)
     }
+}
+
+/// The share of a force that a load above the reserve allows, and a lighter one less and less.
+fn light(load: f64, reserve: f64) -> f64 {
+    if load < reserve { load / reserve } else { 1.0 }
 }
 
 /// The speed up to which the clutch slips when the throttle is closed, so that the engine's drag ends with the ride
