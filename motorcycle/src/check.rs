@@ -82,7 +82,22 @@ pub fn ridden(
     };
     let fastest = top.max(2.0 * parameters.rider.feet_speed);
     let rider = Rider::new(&lateral, parameters, fastest)?;
-    let pole = fastest_pole(parameters, &lateral, &rider, suspension, fastest);
+    let mut pole = suspension.fastest_pole().max(fastest_lag(parameters));
+    for k in 0..=SPEEDS {
+        let speed = fastest * f64::from(k) / f64::from(SPEEDS);
+        let poles = rider.closed_loop(&lateral, speed).complex_eigenvalues();
+        if poles.iter().any(|pole| pole.re >= 0.0) {
+            return refuse(
+                "feet.speed",
+                format!(
+                    "is {}, and with these masses and tyres neither feet nor rider keep the motorcycle upright at \
+                     {speed:.1} m/s; mend it, rider.torqueWeight, or the masses and tyres",
+                    parameters.rider.feet_speed
+                ),
+            );
+        }
+        pole = poles.iter().map(|pole| pole.norm()).fold(pole, f64::max);
+    }
     let step = parameters.run.max_step;
     if pole * step > LARGEST_POLE {
         return refuse(
@@ -104,30 +119,17 @@ const LARGEST_SPEED: f64 = 150.0;
 /// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step; with a margin.
 const LARGEST_POLE: f64 = 2.0;
 
-/// The largest magnitude of a pole \[rad/s\]: of the ridden motorcycle over all speeds, the suspension and the lags.
-fn fastest_pole(
-    parameters: &Parameters,
-    lateral: &Lateral,
-    rider: &Rider,
-    suspension: &Suspension,
-    fastest: f64,
-) -> f64 {
-    let longitudinal = &parameters.longitudinal;
-    let lags = [
-        1.0 / longitudinal.drive_time,
-        1.0 / longitudinal.brake_time,
-        2.0 * parameters.rider.lean_frequency,
-        2.0 * parameters.rider.body_lean_frequency,
-    ];
-    let ridden = (0..=SPEEDS).map(|k| {
-        let speed = fastest * f64::from(k) / f64::from(SPEEDS);
-        rider.closed_loop(lateral, speed).complex_eigenvalues().iter().map(|pole| pole.norm()).fold(0.0, f64::max)
-    });
-    lags.into_iter().chain(ridden).fold(suspension.fastest_pole(), f64::max)
+/// The largest pole of throttle, brakes and the rider's taking up of commands \[rad/s\].
+fn fastest_lag(parameters: &Parameters) -> f64 {
+    let Parameters { longitudinal, rider, .. } = parameters;
+    (1.0 / longitudinal.drive_time)
+        .max(1.0 / longitudinal.brake_time)
+        .max(2.0 * rider.lean_frequency)
+        .max(2.0 * rider.body_lean_frequency)
 }
 
 /// How many speeds are looked at.
-const SPEEDS: u32 = 64;
+const SPEEDS: u32 = 200;
 
 type Values = [f64; slot_count(Parameters::ROWS)];
 
@@ -149,9 +151,11 @@ fn rule(row: &Row) -> Rule {
     match row.name {
         _ if matches!(row.kind, Kind::Enumeration(_)) => Rule::Finite,
         "frame.inertia.xz" | "fork.inertia.xz" | "head.x" | "initial.heading" | "fork.centre.x" => Rule::Finite,
-        "steer.damping" | "drive.engineBraking" | "brake.forceLimit" | "brake.frontShare" | "tyre.rollingResistance" => {
-            Rule::NotNegative
-        }
+        "steer.damping"
+        | "drive.engineBraking"
+        | "brake.forceLimit"
+        | "brake.frontShare"
+        | "tyre.rollingResistance" => Rule::NotNegative,
         "wheelLift.reserve" | "aero.height" | "rider.torsoMass" | "rider.torsoCentre" | "rider.torsoInertia" => {
             Rule::NotNegative
         }

@@ -170,12 +170,7 @@ impl Lateral {
 
         let torso = design.torso;
         let moment = torso.mass * torso.arm;
-        let torso_coupling = Vector4::new(
-            moment,
-            moment * torso.x,
-            moment * torso.height + torso.inertia,
-            0.0,
-        );
+        let torso_coupling = Vector4::new(moment, moment * torso.x, moment * torso.height + torso.inertia, 0.0);
         let torso_weight = Vector4::new(0.0, 0.0, moment * design.gravity, 0.0);
         let wind = Vector4::new(1.0, design.wind_x, design.wind_height, 0.0);
 

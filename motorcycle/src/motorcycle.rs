@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::check::{check, ridden};
 use crate::interface::{Input, Output, Parameters};
 use crate::lateral::{self, Actions, Lateral, Wheels, feet_share, place};
-use crate::longitudinal::{self, Longitudinal, Situation};
+use crate::longitudinal::{Accelerations, Forces, Longitudinal, Situation};
 use crate::output_rate::{mean_rate, rest_rate};
 use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
@@ -39,7 +39,8 @@ pub struct Motorcycle {
 /// A state's derivative, with what was computed on the way.
 struct Dynamics {
     derivative: State,
-    longitudinal: longitudinal::Outcome,
+    forces: Forces,
+    accelerations: Accelerations,
     loads: Wheels,
     torque: f64,
     feet: f64,
@@ -138,11 +139,7 @@ impl Motorcycle {
         let k2 = self.motion(&state.plus(&k1, 0.5 * size), &middle).derivative;
         let k3 = self.motion(&state.plus(&k2, 0.5 * size), &middle).derivative;
         let k4 = self.motion(&state.plus(&k3, size), &end).derivative;
-        self.state = state
-            .plus(&k1, size / 6.0)
-            .plus(&k2, size / 3.0)
-            .plus(&k3, size / 3.0)
-            .plus(&k4, size / 6.0);
+        self.state = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
         self.state.speed = self.state.speed.max(0.0);
     }
 
@@ -156,17 +153,13 @@ impl Motorcycle {
         let rider = self.rider.derivative(&state.rider, &state.lateral, &skill, feet, command);
 
         let torque = self.rider.torque(&state.rider, &state.lateral, &skill, feet);
-        let actions = Actions {
-            torque,
-            torso: state.rider.torso,
-            torso_acceleration: rider.torso_rate,
-            wind: -input.wind.y,
-        };
+        let actions =
+            Actions { torque, torso: state.rider.torso, torso_acceleration: rider.torso_rate, wind: -input.wind.y };
         let lateral = self.lateral.derivative(&state.lateral, speed, feet, &actions);
 
         let extra_weight = self.extra_weight(&state.lateral, &lateral, speed);
         let loads = self.suspension.loads(&state.suspension, extra_weight);
-        let longitudinal = self.longitudinal.motion(&Situation {
+        let forces = self.longitudinal.forces(&Situation {
             speed,
             throttle: state.throttle,
             brake: state.brake,
@@ -174,31 +167,25 @@ impl Motorcycle {
             loads,
             lateral: Wheels { front: state.lateral[place::FRONT_FORCE], rear: state.lateral[place::REAR_FORCE] },
         });
-        let suspension = suspension::State {
-            position: state.suspension.velocity,
-            velocity: self.suspension.acceleration(
-                &state.suspension,
-                &suspension::Actions {
-                    pitching_moment: longitudinal.pitching_moment,
-                    extra_weight,
-                    wind: input.wind.z,
-                },
-            ),
-        };
+        let (heave, moment) = self.suspension.push(&state.suspension, extra_weight, input.wind.z);
+        let accelerations = self.longitudinal.accelerations(&forces, moment);
 
         let (sin, cos) = libm::sincos(state.heading);
         let to_left = -state.lateral[place::VELOCITY];
         let derivative = State {
             position: Vector2::new(speed * cos - to_left * sin, speed * sin + to_left * cos),
             heading: -state.lateral[place::YAW_RATE],
-            speed: longitudinal.acceleration,
+            speed: accelerations.speed,
             lateral,
-            suspension,
+            suspension: suspension::State {
+                position: state.suspension.velocity,
+                velocity: Vector2::new(heave, accelerations.pitch),
+            },
             rider,
             throttle: (input.throttle - state.throttle) / p.longitudinal.drive_time,
             brake: (input.brake - state.brake) / p.longitudinal.brake_time,
         };
-        Dynamics { derivative, longitudinal, loads, torque, feet }
+        Dynamics { derivative, forces, accelerations, loads, torque, feet }
     }
 
     /// What leaning and cornering add to gravity along the vertical of the motorcycle's plane \[m/s2\].
@@ -241,14 +228,14 @@ impl Motorcycle {
             brake: state.brake,
             front_load: motion.loads.front,
             rear_load: motion.loads.rear,
-            front_longitudinal: motion.longitudinal.forces.front,
-            rear_longitudinal: motion.longitudinal.forces.rear,
+            front_longitudinal: motion.accelerations.tyres.front,
+            rear_longitudinal: motion.accelerations.tyres.rear,
             front_lateral: -lateral[place::FRONT_FORCE],
             rear_lateral: -lateral[place::REAR_FORCE],
             front_travel: travel.front,
             rear_travel: travel.rear,
-            friction_limited: motion.longitudinal.friction_limited,
-            wheel_lift_limited: motion.longitudinal.lift_limited,
+            friction_limited: motion.forces.friction_limited,
+            wheel_lift_limited: motion.forces.lift_limited,
         }
     }
 

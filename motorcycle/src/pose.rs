@@ -2,9 +2,9 @@
 //!
 //! Axes as everywhere outside [`crate::lateral`]: x forward, y left, z up; roll, pitch (nose down) and yaw of
 //! R = Rz(yaw) Ry(pitch) Rx(roll). The motorcycle's plane rolls about the line through the rear contact along the
-//! heading; in that plane the sprung mass heaves; about the centre of mass it pitches:
+//! heading; in that plane the machine heaves; and it pitches about the point of the road under its centre of mass:
 //!
-//! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, h_c + heave) + R (head - centre), and the head's own axes are
+//! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, heave) + R (head - (x_c, 0, 0)), and the head's own axes are
 //! R Rx(torso's lean).
 
 use moris_washout::governor::Motion;
@@ -15,10 +15,12 @@ use serde::{Deserialize, Serialize};
 use crate::interface::Parameters;
 use crate::lateral::bicycle;
 
-/// The places of centre of mass and head.
+/// The places of pitch axis and head.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Geometry {
-    centre: Vector3<f64>,
+    /// The point of the road under the centre of mass.
+    pitch_axis: Vector3<f64>,
+    centre_height: f64,
     head_x: f64,
     head_height: f64,
     torso_length: f64,
@@ -62,7 +64,8 @@ impl Geometry {
         let t = bicycle(&parameters.machine).totals();
         let rider = &parameters.rider;
         Geometry {
-            centre: Vector3::new(t.x_t, 0.0, -t.z_t),
+            pitch_axis: Vector3::new(t.x_t, 0.0, 0.0),
+            centre_height: -t.z_t,
             head_x: rider.head_x,
             head_height: rider.head_height,
             torso_length: rider.torso_length,
@@ -72,7 +75,7 @@ impl Geometry {
 
     /// Height of the centre of mass at rest \[m\].
     pub fn centre_height(&self) -> f64 {
-        self.centre.z
+        self.centre_height
     }
 
     /// The head's motion: f^H = R_H' (p_head'' - g).
@@ -80,28 +83,31 @@ impl Geometry {
         let plane = Turning::new([moving.roll, Motion::at_rest(0.0), moving.yaw]);
         let chassis = Turning::new([moving.roll, moving.pitch, moving.yaw]);
         let heave = moving.heave;
-        let centre = Point {
-            position: self.centre + Vector3::z() * heave.position,
+        let axis = Point {
+            position: self.pitch_axis + Vector3::z() * heave.position,
             velocity: Vector3::z() * heave.velocity,
             acceleration: Vector3::z() * heave.acceleration,
         };
-        let point = moving.contact + carried(&plane, &centre) + carried(&chassis, &self.head_from_centre(moving.torso));
+        let point = moving.contact + carried(&plane, &axis) + carried(&chassis, &self.head_from_axis(moving.torso));
         let felt = point.acceleration + Vector3::z() * self.gravity;
         let in_chassis = chassis.orientation.rotation.transpose() * felt;
         let (sin, cos) = libm::sincos(moving.torso.position);
-        let specific_force =
-            Vector3::new(in_chassis.x, cos * in_chassis.y + sin * in_chassis.z, cos * in_chassis.z - sin * in_chassis.y);
+        let specific_force = Vector3::new(
+            in_chassis.x,
+            cos * in_chassis.y + sin * in_chassis.z,
+            cos * in_chassis.z - sin * in_chassis.y,
+        );
         Head { point, specific_force, orientation: chassis.orientation, angular_velocity: chassis.velocity }
     }
 
-    /// The head relative to the centre of mass in the chassis: eq. (4) of the paper, the torso turning about the seat.
-    fn head_from_centre(&self, torso: Motion) -> Point {
+    /// The head relative to the pitch axis in the chassis: eq. (4) of the paper, the torso turning about the seat.
+    fn head_from_axis(&self, torso: Motion) -> Point {
         let (sin, cos) = libm::sincos(torso.position);
         let along = Vector3::new(0.0, -sin, cos) * self.torso_length;
         let across = Vector3::new(0.0, -cos, -sin) * self.torso_length;
         let seat = Vector3::new(self.head_x, 0.0, self.head_height - self.torso_length);
         Point {
-            position: seat + along - self.centre,
+            position: seat + along - self.pitch_axis,
             velocity: across * torso.velocity,
             acceleration: across * torso.acceleration - along * (torso.velocity * torso.velocity),
         }

@@ -30,6 +30,9 @@ pub fn lqr_gain<const N: usize>(
         g = symmetric(g + e * solve * g * e.transpose());
         h += change;
         e = e * solve * e;
+        if !h.norm().is_finite() {
+            return None;
+        }
         if change.norm() <= 1e-14 * h.norm() {
             return Some(h * b * ease);
         }

@@ -1,8 +1,9 @@
-//! Heave and pitch: the sprung mass on two upright springs and dampers, in the motorcycle's leaning plane.
+//! Springs, dampers, heave and the tyres' loads, in the motorcycle's leaning plane.
 //!
-//! m h'' = F_f + F_r + W_z - m n, I p'' = -M - l_f F_f + l_r F_r - x_w W_z, with heave h upwards and pitch p nose down
-//! from rest, F the springs' and dampers' change since rest, n what gravity and motion add to the specific force in the plane, and M
-//! the moment of drive, brakes and drag.
+//! The sprung mass rests on two upright springs and dampers. With heave u upwards and pitch p nose down from rest, and F
+//! what springs and dampers push upwards more than at rest: m u'' = F_f + F_r + W_z - m n, where n is what leaning and
+//! cornering add to gravity along the plane; their moment about the centre of mass is l_r F_r - l_f F_f. The pitch
+//! itself goes with the speed: [`crate::longitudinal`].
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -14,9 +15,10 @@ use crate::lateral::{Wheels, bicycle, static_loads};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Suspension {
     parameters: crate::interface::Suspension,
-    /// Sprung mass \[kg\] and its moment of inertia of pitch \[kg m2\].
+    /// Sprung mass \[kg\].
     mass: f64,
-    inertia: f64,
+    /// Moment of inertia of pitch about the centre of mass \[kg m2\], to bound the poles.
+    pitch_inertia: f64,
     /// Unsprung masses \[kg\].
     wheels: Wheels,
     static_loads: Wheels,
@@ -33,29 +35,16 @@ pub struct State {
     pub velocity: Vector2<f64>,
 }
 
-/// What acts on the sprung mass.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Actions {
-    /// See [`crate::longitudinal::Outcome::pitching_moment`] \[N m\].
-    pub pitching_moment: f64,
-    /// Specific force along the plane's vertical, less gravity: what leaning and cornering add \[m/s2\].
-    pub extra_weight: f64,
-    /// Upward force of the wind \[N\].
-    pub wind: f64,
-}
-
 impl Suspension {
     /// From the parameters.
     pub fn new(parameters: &Parameters) -> Self {
         let machine = &parameters.machine;
         let bicycle = bicycle(machine);
         let t = bicycle.totals();
-        let (frame, fork) = (bicycle.b, bicycle.h);
-        let about_centre = |x: f64, z: f64, mass: f64| mass * ((x - t.x_t) * (x - t.x_t) + (z - t.z_t) * (z - t.z_t));
         Suspension {
             parameters: parameters.suspension,
-            mass: frame.m + fork.m,
-            inertia: machine.frame_yy + about_centre(frame.x, frame.z, frame.m) + about_centre(fork.x, fork.z, fork.m),
+            mass: bicycle.b.m + bicycle.h.m,
+            pitch_inertia: machine.frame_yy,
             wheels: Wheels { front: bicycle.f.m, rear: bicycle.r.m },
             static_loads: static_loads(&bicycle, parameters.run.gravity),
             arms: Wheels { front: bicycle.w - t.x_t, rear: t.x_t },
@@ -92,17 +81,30 @@ impl Suspension {
         }
     }
 
-    /// Accelerations of heave and pitch.
-    pub fn acceleration(&self, state: &State, actions: &Actions) -> Vector2<f64> {
-        let forces = self.forces(state, actions.extra_weight);
-        Vector2::new(
-            (forces.front + forces.rear + actions.wind) / self.mass - actions.extra_weight,
-            (self.arms.rear * forces.rear
-                - self.arms.front * forces.front
-                - actions.pitching_moment
-                - self.wind_arm * actions.wind)
-                / self.inertia,
+    /// Acceleration of heave, and the moment about the centre of mass, nose down \[N m\]. `extra_weight` is what leaning
+    /// and cornering add to gravity along the plane \[m/s2\], `wind` the wind's upward force \[N\].
+    pub fn push(&self, state: &State, extra_weight: f64, wind: f64) -> (f64, f64) {
+        let forces = self.forces(state, extra_weight);
+        (
+            (forces.front + forces.rear + wind) / self.mass - extra_weight,
+            self.arms.rear * forces.rear - self.arms.front * forces.front - self.wind_arm * wind,
         )
+    }
+
+    /// Energy in springs and in heaving \[J\].
+    pub fn energy(&self, state: &State) -> f64 {
+        let p = &self.parameters;
+        let travel = self.travel(&state.position);
+        0.5 * (p.front_stiffness * travel.front * travel.front
+            + p.rear_stiffness * travel.rear * travel.rear
+            + self.mass * state.velocity.x * state.velocity.x)
+    }
+
+    /// Power that the dampers take \[W\].
+    pub fn damping_power(&self, state: &State) -> f64 {
+        let p = &self.parameters;
+        let rate = self.travel(&state.velocity);
+        p.front_damping * rate.front * rate.front + p.rear_damping * rate.rear * rate.rear
     }
 
     /// The largest magnitude of the free motion's poles \[rad/s\], or an upper bound of it.
@@ -110,7 +112,7 @@ impl Suspension {
         let p = &self.parameters;
         // Each axle alone, carrying no more than its share of mass and inertia lets it feel.
         let axle = |stiffness: f64, damping: f64, arm: f64| {
-            let compliance = 1.0 / self.mass + arm * arm / self.inertia;
+            let compliance = 1.0 / self.mass + arm * arm / self.pitch_inertia;
             libm::sqrt(stiffness * compliance) + damping * compliance
         };
         axle(p.front_stiffness, p.front_damping, self.arms.front)

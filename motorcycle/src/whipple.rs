@@ -109,12 +109,7 @@ impl Bicycle {
         let m_lean_steer = t.a_lx + t.mu * t.t_xz;
         let c1_lean_steer = t.mu * s_t + t.s_f * cos + t.t_xz * cos_w - t.mu * t.m_t * t.z_t;
         Equations {
-            m: Matrix2::new(
-                t.t_xx,
-                m_lean_steer,
-                m_lean_steer,
-                t.a_ll + 2.0 * t.mu * t.a_lz + t.mu * t.mu * t.t_zz,
-            ),
+            m: Matrix2::new(t.t_xx, m_lean_steer, m_lean_steer, t.a_ll + 2.0 * t.mu * t.a_lz + t.mu * t.mu * t.t_zz),
             c1: Matrix2::new(
                 0.0,
                 c1_lean_steer,

@@ -60,7 +60,7 @@ interface! {
 interface! {
     /// What the platform is told, and what the rider does on it.
     pub struct Input: Input, Continuous {
-        /// Commanded length of the actuator, from base joint to platform joint.
+        /// Commanded length of the actuator, from base joint to platform joint; one outside its stroke is refused.
         "command[#].length" length: [f64; 6] [M] = neutral_lengths(&Rig::default());
         /// Commanded rate of the actuator's length: by it the command goes on during a communication step. It may stay 0; the command is then held.
         "command[#].velocity" velocity: [f64; 6] [M_PER_S] = [0.0; 6];
@@ -100,6 +100,8 @@ interface! {
         "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::zeros();
         /// Angular velocity that the rider feels on the real motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        /// Whether, during the last communication step, a commanded length was one that no actuator can have; the one before it stayed.
+        "status.commandRefused" command_refused: bool = false;
         /// Whether, during the last communication step, a drive kept its actuator to its speed or acceleration limit, or braked it ahead of an end of its stroke.
         "status.driveLimited" drive_limited: bool = false;
         /// Whether, during the last communication step, a drive had not the force to follow its command.

@@ -47,7 +47,7 @@ pub struct StewartPlatform {
     body: Body,
     /// Commands that the drives have not seen yet.
     commands: DelayLine,
-    /// The last command \[m\]: what is not a number counts as that.
+    /// The last commands that actuators can follow \[m\].
     last_command: [f64; 6],
     /// Lean of the rider \[rad\].
     lean: f64,
@@ -72,6 +72,7 @@ struct Instant {
 /// What was limited in any internal step of the last communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Limited {
+    command: bool,
     drive: bool,
     force: bool,
     stop: bool,
@@ -112,8 +113,8 @@ impl StewartPlatform {
 
     /// Advances by `step` seconds while the commands go on at the commanded rates.
     ///
-    /// Any input is safe: a length that is not a number counts as the one before it. A step shorter than
-    /// [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
+    /// Any input is safe: a length that no actuator can have is not followed, and the one before it stays. A step shorter
+    /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i]);
         self.step_between(input, &Input { length: end, ..*input }, step);
@@ -126,11 +127,11 @@ impl StewartPlatform {
             return;
         }
         let step = step.min(MOST_INTERNAL_STEPS * self.parameters.setting.max_step);
-        let from = self.made_finite(&start.length);
-        let to = self.made_finite(&end.length);
+        self.limited = Limited::default();
+        let from = self.possible(&start.length);
+        let to = self.possible(&end.length);
         self.commands.push(&Ramp { duration: step, from, to });
         self.lean = finite_or(end.lean, self.lean);
-        self.limited = Limited::default();
         let mut left = step;
         while left >= SHORTEST_STEP {
             let ramp = self.commands.pop(left.min(self.parameters.setting.max_step));
@@ -139,9 +140,16 @@ impl StewartPlatform {
         }
     }
 
-    /// Commands that are numbers, and the last ones that were.
-    fn made_finite(&mut self, lengths: &[f64; 6]) -> [f64; 6] {
-        self.last_command = std::array::from_fn(|i| finite_or(lengths[i], self.last_command[i]));
+    /// Commands inside the stroke, and the last ones that were; drives refuse others, and go on with what they have.
+    fn possible(&mut self, lengths: &[f64; 6]) -> [f64; 6] {
+        let stroke = self.parameters.rig.min_length..=self.parameters.rig.max_length;
+        for (last, length) in self.last_command.iter_mut().zip(lengths) {
+            if stroke.contains(length) {
+                *last = *length;
+            } else {
+                self.limited.command = true;
+            }
+        }
         self.last_command
     }
 
@@ -239,6 +247,7 @@ impl StewartPlatform {
     pub fn output(&self) -> Output {
         let output = self.output_at(&self.now);
         Output {
+            command_refused: self.limited.command,
             drive_limited: self.limited.drive,
             force_limited: self.limited.force,
             at_stop: self.limited.stop,
@@ -267,6 +276,7 @@ impl StewartPlatform {
             total_power: (now.total_power - before.total_power) * per_second,
             felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
             felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
+            command_refused: false,
             drive_limited: false,
             force_limited: false,
             at_stop: false,
@@ -294,6 +304,7 @@ impl StewartPlatform {
             total_power: drive.dot(&Vector6::from(legs.velocity)),
             felt_specific_force: specific_force,
             felt_angular_velocity: angular_velocity,
+            command_refused: false,
             drive_limited: false,
             force_limited: false,
             at_stop: false,

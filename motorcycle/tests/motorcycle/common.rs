@@ -1,6 +1,7 @@
 //! What several tests need.
 
 use moris_motorcycle::whipple::{Bicycle, Body, Wheel};
+use moris_motorcycle::{Input, Motorcycle, Parameters};
 
 /// The benchmark bicycle of Meijaard et al. (2007), table 1.
 pub fn benchmark() -> Bicycle {
@@ -23,4 +24,24 @@ pub const GRAVITY: f64 = 9.81;
 pub fn assert_near(number: f64, expected: f64, tolerance: f64, what: &str) {
     let off = (number - expected).abs() / expected.abs().max(1.0);
     assert!(off <= tolerance, "{what}: {number} instead of {expected}, off by {off:e}");
+}
+
+/// A motorcycle with these parameters, ready to go.
+pub fn motorcycle(parameters: &Parameters) -> Motorcycle {
+    Motorcycle::new(parameters, &Input::default()).unwrap()
+}
+
+/// The default motorcycle, rolling at a speed \[m/s\].
+pub fn at_speed(speed: f64) -> Parameters {
+    let mut parameters = Parameters::default();
+    parameters.run.initial_speed = speed;
+    parameters
+}
+
+/// The throttle that brings a motorcycle to a speed \[m/s\] and keeps it there.
+pub fn cruise(motorcycle: &Motorcycle, speed: f64) -> f64 {
+    let p = motorcycle.parameters().longitudinal;
+    let needed = 0.5 * p.air_density * p.drag_area * speed * speed + 50.0;
+    let available = p.drive_force.min(p.power / speed.max(1.0));
+    (needed + 500.0 * (speed - motorcycle.output().speed)) / available
 }

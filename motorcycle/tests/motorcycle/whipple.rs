@@ -49,7 +49,9 @@ fn the_eigenvalues_at_5_m_per_s_are_the_published_ones() {
 #[test]
 fn the_eigenvalues_at_rest_are_the_published_ones() {
     let standing = eigenvalues(0.0);
-    for (value, expected) in standing.iter().zip([-5.53094371765393, -3.13164324790656, 3.13164324790656, 5.53094371765393]) {
+    for (value, expected) in
+        standing.iter().zip([-5.53094371765393, -3.13164324790656, 3.13164324790656, 5.53094371765393])
+    {
         assert_near(value.0, expected, TOLERANCE, "standing");
         assert_near(value.1, 0.0, TOLERANCE, "standing");
     }
