@@ -22,7 +22,11 @@ pub fn contents(model: &Model, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8
     contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi).into_bytes());
     // The tables' columns are scalar variables.
     if fmi == FmiVersion::Fmi2 {
-        contents.extend(reference::files(model.name, &Stimuli::new(model.reference_input), model.reference_output));
+        contents.extend(reference::files(
+            model.name,
+            &Stimuli::new(model.reference_input),
+            model.made.reference_output,
+        ));
     }
     for (platform, bytes) in libraries {
         let path = format!("binaries/{}/{}", platform.directory(fmi), platform.packed_library(model.name));

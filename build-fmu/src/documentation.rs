@@ -19,8 +19,8 @@ const STYLE: &str = include_str!("../documentation/style.css");
 
 /// `documentation/index.html`: the model's sections, then its tables of variables.
 pub fn page(model: &Model, fmi: FmiVersion) -> String {
-    let variables = (model.variables)(fmi);
-    let description = (model.description)();
+    let variables = model.variables(fmi);
+    let description = (model.made.description)();
     let sections = || {
         let written = model.sections.iter().map(|section| (section.anchor, section.heading, section.html));
         written.chain([("variables", "Variables", variables.as_str())])

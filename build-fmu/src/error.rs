@@ -27,6 +27,9 @@ pub enum Error {
     /// A file that should be there cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },
+    /// The parameters of a system name what there is not.
+    #[error("the system's parameters cannot be used: {reason}")]
+    Parameters { reason: String },
     /// The archive cannot be made.
     #[error("cannot pack the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

@@ -9,8 +9,10 @@
 mod check;
 mod data;
 mod encode;
+mod events;
 mod page;
 
 pub use check::{Unusable, check};
 pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight};
+pub use events::{Event, Kind, events};
 pub use page::html;
