@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use build_fmu::model::WASHOUT;
 use build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, workspace};
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
-use model_interface::Row;
 use washout_setup::{NamedValues, load_rig, load_set};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and documentation.
@@ -35,8 +35,8 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     rig: Option<PathBuf>,
 
-    /// Parameter file, or shipped set (wake), whose values the FMUs start with, each with those that it has parameters for.
-    /// May be given several times: later ones stand over earlier ones, and all over the rig
+    /// Parameter file, or shipped set (wake), whose values the washout's FMU starts with; another model's if --model names
+    /// that one alone. May be given several times: later ones stand over earlier ones, and all over the rig
     #[arg(long, value_name = "FILE|NAME")]
     parameters: Vec<String>,
 
@@ -59,9 +59,9 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let output = arguments.output.clone().unwrap_or_else(workspace::default_output);
     let chosen = |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
     let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
-    let values = start_values(arguments, &models)?;
     // Before anything is compiled.
-    let starts = models.iter().map(|model| Start::with(model, &values)).collect::<Result<Vec<_>, _>>()?;
+    let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
+    let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
     for (model, start) in models.iter().zip(&starts) {
         if !start.is_the_model_s_own() {
             println!("{}: starts with {} values in place of its own", model.name, start.count());
@@ -73,16 +73,18 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// What is to stand in place of the models' own start values: the rig, and over it the parameters, each of which one of the
-/// models at least must have.
-fn start_values(arguments: &Arguments, models: &[&Model]) -> Result<NamedValues, Error> {
-    let rows: Vec<Row> = models.iter().flat_map(|model| model.made.identity.rows).copied().collect();
+/// What is to stand in place of a model's own start values: the rig where it has one, and over it the parameters where they
+/// are its own.
+fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Error> {
     let mut values = NamedValues::new();
-    if let Some(file) = &arguments.rig {
+    if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {
         values.extend(load_rig(file)?.values());
     }
-    for set in &arguments.parameters {
-        values.extend(load_set(set, &rows)?);
+    let is_chosen_alone = arguments.model.len() == 1;
+    if is_chosen_alone || model.name == WASHOUT.name {
+        for set in &arguments.parameters {
+            values.extend(load_set(set, model.made.identity.rows)?);
+        }
     }
     Ok(values)
 }

@@ -91,6 +91,11 @@ impl Model {
         fmi.choose(self.libraries[0], self.libraries[1])
     }
 
+    /// Whether it is a model of a platform, with the joints of one.
+    pub fn has_rig(&self) -> bool {
+        self.made.identity.slot("rig.neutralHeight").is_some()
+    }
+
     /// The model description of FMI 2.0 with the model's own start values.
     pub fn description(&self) -> ModelDescription {
         (self.made.description)(Start::own(self).slots())
