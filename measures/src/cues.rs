@@ -34,3 +34,23 @@ pub fn cues(desired: &[f64], felt: &[f64], threshold: f64) -> Cues {
         missing_cues: share(|desired, felt| desired != 0.0 && felt == 0.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cue_is_false_where_nothing_or_the_opposite_is_desired_and_missing_where_nothing_is_felt() {
+        let desired = [0.0, 0.0, 0.1, 0.5, 0.5, 0.5, -0.5, -0.5];
+        let felt = [0.0, 0.3, -0.3, 0.3, -0.3, 0.1, -0.2, 0.0];
+        let found = cues(&desired, &felt, 0.2);
+        assert_eq!(found, Cues { desired: 5.0 / 8.0, false_cues: 3.0 / 8.0, missing_cues: 2.0 / 8.0 });
+    }
+
+    #[test]
+    fn the_same_motion_has_neither_false_nor_missing_cues() {
+        let signal: Vec<f64> = (0..100).map(|k| (0.1 * f64::from(k)).sin()).collect();
+        let found = cues(&signal, &signal, 0.17);
+        assert!(found.desired > 0.5 && found.false_cues == 0.0 && found.missing_cues == 0.0);
+    }
+}

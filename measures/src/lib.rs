@@ -10,11 +10,13 @@
 //! | [`vestibular`] | what the semicircular canals and the otoliths make of a signal |
 //! | [`cues`] | time above the perception thresholds: false cues, missing cues |
 //! | [`effort`](mod@effort) | stroke used, time limited |
+//! | [`bound`](mod@bound) | the least RMS error that any controller could reach |
 //!
 //! Frames and signs are those of the washout: x forward, y left, z up; all quantities are in SI units.
 
 #![forbid(unsafe_code)]
 
+pub mod bound;
 pub mod cues;
 pub mod effort;
 pub mod fidelity;
@@ -23,6 +25,6 @@ mod measures;
 mod run;
 pub mod vestibular;
 
-pub use listing::Row;
+pub use listing::{Row, bound_rows};
 pub use measures::{Axes, Measures};
 pub use run::{Limited, Platform, Run, Unusable};

@@ -1,5 +1,6 @@
 //! The measures as a list for people.
 
+use crate::bound::Bound;
 use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
@@ -30,6 +31,7 @@ const AXES: Axes<&str> = ["x", "y", "z"];
 const COMMON: &str = "common usage";
 const VESTIBULAR: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
     Approaches, NASA/CR-2005-213747";
+const BOUND: &str = "docs/measures.md, the bound; solved with Clarabel (Goulart, Chen 2024)";
 const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
 
@@ -150,6 +152,47 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
     ]
 }
 
+/// The bound of one axis, `x`, `y` or `z`, beside what was felt there.
+///
+/// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the RMS error that was felt.
+pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4] {
+    let row = |name, value, unit, decimals, definition| Row {
+        subject: format!("specific force {axis}"),
+        name,
+        value,
+        unit,
+        decimals,
+        definition,
+        source: BOUND,
+    };
+    let share = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
+    [
+        row(
+            "bound",
+            Some(bound.rms_error),
+            "m/s²",
+            3,
+            "The smallest RMS error that any controller could reach, even one that knows the whole ride beforehand, on the \
+             linearised axis under the same limits of tilt, tilt rate, travel, speed and acceleration.",
+        ),
+        row(
+            "left on the table",
+            Some((felt - bound.rms_error).max(0.0)),
+            "m/s²",
+            3,
+            "RMS error beyond the bound: what a better controller could gain at most.",
+        ),
+        row(
+            "error, of what is desired",
+            share(felt),
+            "%",
+            1,
+            "RMS error as a share of the RMS of the desired specific force without gravity: 100 % is to stand still.",
+        ),
+        row("bound, of what is desired", share(bound.rms_error), "%", 1, "The bound as the same share."),
+    ]
+}
+
 fn effort_rows(effort: &Effort) -> [Row; 7] {
     let row = |name, value, unit, decimals, definition| Row {
         subject: "platform".to_string(),
@@ -211,4 +254,56 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
             "Distance of the platform from neutral at the end.",
         ),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{Limited, Platform, Run};
+
+    const COUNT: usize = 500;
+
+    /// The rows of a run on which half of the surge and all of the rest is felt.
+    fn rows_of(force: impl Fn(f64) -> [f64; 3]) -> Vec<Row> {
+        let desired: Vec<[f64; 3]> = (0..COUNT).map(|k| force(0.01 * k as f64)).collect();
+        let felt: Vec<[f64; 3]> = desired.iter().map(|[x, y, z]| [0.5 * x, *y, *z]).collect();
+        let run = Run {
+            step: 0.01,
+            desired_force: &desired,
+            felt_force: &felt,
+            desired_rate: &[[0.0; 3]; COUNT],
+            felt_rate: &[[0.0; 3]; COUNT],
+            platform: Platform {
+                legs: &[[1.3; 6]; COUNT],
+                stroke: [1.0, 1.6],
+                displacement: &[[0.0; 3]; COUNT],
+                tilt_rate: &[[0.0; 2]; COUNT],
+                limited: &[Limited::default(); COUNT],
+            },
+        };
+        Measures::of(&run).unwrap().rows()
+    }
+
+    #[test]
+    fn an_axis_on_which_nothing_happens_has_no_rows() {
+        let rows = rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]);
+        assert!(rows.iter().any(|row| row.subject == "specific force x"));
+        assert!(rows.iter().all(|row| !row.subject.ends_with('y') && !row.subject.ends_with('z')));
+        assert!(rows.iter().any(|row| row.subject == "platform"));
+    }
+
+    #[test]
+    fn half_of_what_is_desired_is_an_error_of_half_its_size_however_it_correlates() {
+        let rows = rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]);
+        let value = |name| rows.iter().find(|row| row.name == name && row.subject == "specific force x").unwrap().value;
+        let rms = ((0..COUNT).map(|k| (0.02 * k as f64).sin().powi(2)).sum::<f64>() / COUNT as f64).sqrt();
+        assert!((value("RMS error").unwrap() - 0.5 * rms).abs() < 1e-12);
+        assert!((value("correlation").unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn every_row_says_what_it_is_and_where_from() {
+        let rows = rows_of(|t| [t.sin(), t.cos(), 9.80665 + 0.3 * t.sin()]);
+        assert!(rows.iter().all(|row| row.definition.ends_with('.') && !row.source.is_empty()));
+    }
 }

@@ -2,6 +2,8 @@
 
 /// How much a right name must look like the wrong one to be proposed, from 0 to 1.
 const ALIKE: f64 = 0.6;
+/// How much less than the best a further one may.
+const ALMOST_AS_ALIKE: f64 = 0.15;
 /// No more than this many are proposed.
 const MOST: usize = 3;
 
@@ -14,7 +16,9 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter(|(likeness, _)| *likeness >= ALIKE)
         .collect();
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
-    scored.into_iter().take(MOST).map(|(_, candidate)| candidate).collect()
+    let best = scored.first().map_or(0.0, |(likeness, _)| *likeness);
+    let close = scored.into_iter().take_while(|(likeness, _)| best - likeness <= ALMOST_AS_ALIKE);
+    close.take(MOST).map(|(_, candidate)| candidate).collect()
 }
 
 /// The end of a message about a wrong name: ": did you mean a, b or c?", or what to do when nothing looks like it.

@@ -15,7 +15,7 @@
 //! minLength = 1.0                    # m, from joint to joint
 //! maxLength = 1.6
 //! velocityLimit = 1.0                # m/s
-//! accelerationLimit = 10.0           # m/s2
+//! accelerationLimit = 15.0           # m/s2
 //!
 //! [head]                             # optional: the rider's
 //! height = 1.2                       # m above the platform

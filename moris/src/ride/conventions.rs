@@ -261,7 +261,7 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "SECONDS")]
     pub fade_in: Option<f64>,
 
-    /// TOML file that says the same in the same words (force-unit = "g"), names of columns in a table [columns]
+    /// TOML file that says the same in the same words (force-unit = "g"), the names of columns under columns
     #[arg(long, value_name = "FILE")]
     #[serde(skip)]
     pub conventions: Option<PathBuf>,

@@ -45,41 +45,43 @@ fn check_order(table: &Table) -> Result<(), RideError> {
     Ok(())
 }
 
-fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RideError> {
+/// The median step: what is usual, whatever is missing or odd \[s\].
+fn usual_step(table: &Table) -> f64 {
     let mut steps: Vec<f64> = table.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
-    let typical = steps[steps.len() / 2];
+    steps[steps.len() / 2]
+}
+
+fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RideError> {
+    let usual = usual_step(table);
     let unit = conventions.time_unit.word();
-    let reason = if typical > COARSEST {
+    let reason = if usual > COARSEST {
         "too coarse for a washout; if time is in ms or another unit, say so with --time-unit"
-    } else if typical < FINEST {
+    } else if usual < FINEST {
         "finer than any recording; say in which unit time is with --time-unit"
     } else {
         return Ok(());
     };
-    let reason = format!("samples come every {typical} s if time is in {unit}: {reason}");
+    let reason = format!("samples come every {usual} s if time is in {unit}: {reason}");
     Err(RideError::Whole { file: table.file.clone(), reason })
 }
 
 fn check_equal(table: &Table) -> Result<(), RideError> {
-    let step = table.step();
+    let (step, usual) = (table.step(), usual_step(table));
     let expected = |k: usize| table.time[0] + k as f64 * step;
-    let odd = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step);
-    let Some(odd) = odd else { return Ok(()) };
-    // The sample that is off the grid is rarely where the step was odd: say where the longest step is.
-    let longest = (1..table.time.len()).max_by(|&i, &j| {
-        let step_to = |k: usize| table.time[k] - table.time[k - 1];
-        step_to(i).total_cmp(&step_to(j))
-    });
-    let longest = longest.unwrap_or(odd);
-    let gap = table.time[longest] - table.time[longest - 1];
+    let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
+        return Ok(());
+    };
+    // The sample that is off is rarely where the step was odd: say where the first odd step is.
+    let step_to = |k: usize| table.time[k] - table.time[k - 1];
+    let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
     let reason = format!(
-        "the samples do not come at equal steps: here {:.4} s after the one before, {step:.4} s on average; \
+        "the samples do not come at equal steps: here {:.4} s after the one before, otherwise {usual:.4} s; \
          --resample {:.0} interpolates them",
-        gap,
-        1.0 / step
+        step_to(odd),
+        1.0 / usual
     );
-    Err(line_error(table, longest, reason))
+    Err(line_error(table, odd, reason))
 }
 
 /// Linear interpolation at `rate` samples a second.

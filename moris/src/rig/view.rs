@@ -34,8 +34,7 @@ pub fn view(parameters: &Parameters) -> String {
     let window = Window::around(low, high);
     let at = |point: &Vector3<f64>| window.pixel(projected(point));
     let polygon = |joints: &[Vector3<f64>; 6], class: &str| {
-        let points: Vec<String> =
-            around(joints).iter().map(|joint| at(joint)).map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        let points: Vec<String> = around(joints).iter().map(&at).map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
         format!(r#"<polygon points="{}" class="{class}"/>"#, points.join(" "))
     };
     let line = |from: &Vector3<f64>, to: &Vector3<f64>, class: &str| {
@@ -50,12 +49,12 @@ pub fn view(parameters: &Parameters) -> String {
         write!(text, r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{name}</text>"#, y + 4.0)
             .expect("a string takes it");
     }
-    for leg in 0..6 {
-        text += &line(&rig.base[leg], &platform[leg], "leg");
+    for (from, to) in rig.base.iter().zip(&platform) {
+        text += &line(from, to, "leg");
     }
     text += &polygon(&platform, "platform");
-    for leg in 0..6 {
-        let [x, y] = at(&(rig.base[leg] + 0.35 * (platform[leg] - rig.base[leg])));
+    for (leg, (from, to)) in rig.base.iter().zip(&platform).enumerate() {
+        let [x, y] = at(&(from + 0.35 * (to - from)));
         write!(
             text,
             r#"<circle cx="{x:.1}" cy="{y:.1}" r="9" class="number"/><text x="{x:.1}" y="{:.1}" text-anchor="middle">{}</text>"#,

@@ -121,9 +121,17 @@ fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Ve
         output_table::write(&file, &outcome.recording)?;
         written.push(file);
     }
+    written.push(write_page(directory, ride, outcomes)?);
+    Ok(written)
+}
+
+/// Writes the page of a ride; returns its name.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_page(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
     let file = directory.join(format!("{}.html", ride.name));
     let html = ride_report::html(&page::report(ride, outcomes)).context("the report does not fit together")?;
     fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
-    written.push(file);
-    Ok(written)
+    Ok(file)
 }

@@ -1,0 +1,163 @@
+//! What is searched: break frequencies, dampings and scales, by their logarithms.
+
+use moris_washout::Parameters;
+use moris_washout::nalgebra::{DVector, Vector3};
+use moris_washout::orientation::RollPitchYaw;
+
+/// A group of parameters that may be tuned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Group {
+    /// The splitter's break frequencies and dampings, twelve in all
+    Splitter,
+    /// The angular channel's, twelve in all
+    Angular,
+    /// The scales of specific force and angular velocity, six in all
+    Scale,
+}
+
+impl Group {
+    /// All of them.
+    pub const ALL: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+}
+
+/// How far a parameter may go: where filters make sense as a washout.
+const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
+const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
+/// Nobody wants more than the vehicle does.
+const SCALES: Range = Range { min: 0.01, max: 1.0 };
+
+#[derive(Clone, Copy)]
+struct Range {
+    min: f64,
+    max: f64,
+}
+
+/// The parameters that are tuned, as a box of logarithms about those that the search starts from.
+///
+/// A point of the space is a vector of logarithms of the ratios to the start: 0 is the start itself.
+#[derive(Clone, Debug)]
+pub struct Space {
+    start: Parameters,
+    groups: Vec<Group>,
+    lower: DVector<f64>,
+    upper: DVector<f64>,
+}
+
+impl Space {
+    /// The space about these parameters. Where they are outside the usual ranges, the ranges reach to them.
+    pub fn new(start: &Parameters, groups: &[Group]) -> Self {
+        let mut start = *start;
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        visit(&mut start, groups, &mut |value, range| {
+            // A scale of 0 has no logarithm: it is where the search begins, just inside its range.
+            *value = value.max(range.min.min(SCALES.min));
+            lower.push((range.min.min(*value) / *value).ln());
+            upper.push((range.max.max(*value) / *value).ln());
+        });
+        Space { start, groups: groups.to_vec(), lower: lower.into(), upper: upper.into() }
+    }
+
+    /// How many parameters are tuned.
+    pub fn dimension(&self) -> usize {
+        self.lower.len()
+    }
+
+    /// The point of the box that is nearest to this one, and how far away it is.
+    pub fn clamped(&self, point: &DVector<f64>) -> (DVector<f64>, f64) {
+        let inside = point.sup(&self.lower).inf(&self.upper);
+        let distance = (point - &inside).norm();
+        (inside, distance)
+    }
+
+    /// The parameters at a point.
+    pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
+        let mut parameters = self.start;
+        let mut factors = point.iter();
+        visit(&mut parameters, &self.groups, &mut |value, _| {
+            *value *= factors.next().map_or(1.0, |logarithm| logarithm.exp());
+        });
+        parameters
+    }
+}
+
+/// Visits every parameter that is tuned, always in the same order.
+fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range)) {
+    let Parameters { splitter, angular, conditioning, .. } = parameters;
+    let mut vector = |values: &mut Vector3<f64>, range| values.iter_mut().for_each(|value| act(value, range));
+    if groups.contains(&Group::Splitter) {
+        vector(&mut splitter.omega1, FREQUENCIES);
+        vector(&mut splitter.zeta1, DAMPINGS);
+        vector(&mut splitter.omega2, FREQUENCIES);
+        vector(&mut splitter.zeta2, DAMPINGS);
+    }
+    if groups.contains(&Group::Scale) {
+        vector(&mut conditioning.force_scale, SCALES);
+        vector(&mut conditioning.rate_scale, SCALES);
+    }
+    let mut angles = |values: &mut RollPitchYaw, range| {
+        for value in [&mut values.roll, &mut values.pitch, &mut values.yaw] {
+            act(value, range);
+        }
+    };
+    if groups.contains(&Group::Angular) {
+        angles(&mut angular.omega1, FREQUENCIES);
+        angles(&mut angular.zeta1, DAMPINGS);
+        angles(&mut angular.omega2, FREQUENCIES);
+        angles(&mut angular.zeta2, DAMPINGS);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_origin_is_the_start() {
+        let start = Parameters::default();
+        let space = Space::new(&start, &Group::ALL);
+        assert_eq!(space.dimension(), 30);
+        assert_eq!(space.parameters(&DVector::zeros(30)), start);
+    }
+
+    #[test]
+    fn every_coordinate_moves_one_parameter_and_no_two_the_same() {
+        let start = Parameters::default();
+        let space = Space::new(&start, &Group::ALL);
+        let before = washout_setup::all(&start);
+        let mut moved = Vec::new();
+        for k in 0..space.dimension() {
+            let mut point = DVector::zeros(space.dimension());
+            point[k] = -0.5;
+            let after = washout_setup::all(&space.parameters(&point));
+            let changed: Vec<&str> =
+                before.iter().zip(&after).filter(|(b, a)| b.1 != a.1).map(|(b, _)| b.0.as_str()).collect();
+            assert_eq!(changed.len(), 1, "{changed:?}");
+            moved.push(changed[0].to_owned());
+        }
+        moved.sort();
+        moved.dedup();
+        assert_eq!(moved.len(), 30);
+        assert!(moved.iter().all(|name| ["splitter", "angular", "scale"].contains(&name.split('.').next().unwrap())));
+    }
+
+    #[test]
+    fn a_point_outside_comes_back_to_the_edge_where_scales_are_1_and_frequencies_can_be_used() {
+        let space = Space::new(&Parameters::default(), &Group::ALL);
+        for sign in [-1.0, 1.0] {
+            let (inside, distance) = space.clamped(&DVector::from_element(30, 100.0 * sign));
+            assert!(distance > 100.0);
+            let parameters = space.parameters(&inside);
+            assert!(moris_washout::check(&parameters).is_ok());
+            assert!(parameters.conditioning.force_scale.max() <= 1.0 + 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_scale_of_nothing_is_begun_at_next_to_nothing() {
+        let mut start = Parameters::default();
+        start.conditioning.rate_scale.x = 0.0;
+        let space = Space::new(&start, &[Group::Scale]);
+        assert_eq!(space.dimension(), 6);
+        assert_eq!(space.parameters(&DVector::zeros(6)).conditioning.rate_scale.x, 0.01);
+    }
+}

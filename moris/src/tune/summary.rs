@@ -1,0 +1,168 @@
+//! What a tuning came to, as Markdown.
+
+use std::fmt::Write;
+
+use washout_setup::{Setup, all};
+
+use super::cost::{Channels, Cost};
+
+/// A ride before and after.
+#[derive(Clone, Debug)]
+pub struct RideResult {
+    /// The ride's name.
+    pub name: String,
+    /// RMS of each channel as it is desired, in thresholds.
+    pub desired: Channels<f64>,
+    /// With the parameters that the search started from.
+    pub before: Cost,
+    /// With the tuned parameters; none for a ride that was not tuned on.
+    pub tuned: Option<Cost>,
+    /// With parameters that were tuned without this ride.
+    pub unseen: Option<Cost>,
+}
+
+/// The channels' names.
+const CHANNELS: [&str; 6] = ["force x", "force y", "force z", "rate x", "rate y", "rate z"];
+
+/// The whole summary.
+pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], interrupted: bool) -> String {
+    let mut text = format!("# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name);
+    if interrupted {
+        text.push_str("The search was broken off: this is the best that it had found.\n\n");
+    }
+    text.push_str(&verdict(results, &before.parameters_name));
+    text.push_str("\n\n");
+    text.push_str(&errors(results));
+    text.push('\n');
+    text.push_str(&channels(results));
+    text.push('\n');
+    text.push_str(&parameters(before, tuned));
+    text
+}
+
+/// In a few sentences: is it better, and is it better on rides that it was not tuned on?
+fn verdict(results: &[RideResult], before_name: &str) -> String {
+    let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
+    let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
+    let mut text = String::new();
+    if let Some(tuned) = tuned {
+        write!(
+            text,
+            "On the rides that it was tuned on, the mean error goes from {:.3} to {:.3}",
+            tuned.before, tuned.after
+        )
+        .expect("a string takes whatever is written");
+        match tuned.limited_before {
+            0 => text.push_str("."),
+            count => write!(
+                text,
+                "; {before_name} let the platform's limits act, or the reserve be touched, on {count} of {}, tuned on none.",
+                tuned.rides
+            )
+            .expect("a string takes whatever is written"),
+        }
+    }
+    let Some(unseen) = unseen else {
+        text.push_str(" No ride was held out: nothing is known of other rides.");
+        return text;
+    };
+    let Comparison { rides, before, after, better, limited_after, .. } = unseen;
+    let beats = after < before && 2 * better > rides && limited_after == 0;
+    write!(
+        text,
+        "\n\nOn rides that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {rides}."
+    )
+    .expect("a string takes whatever is written");
+    if limited_after > 0 {
+        write!(text, " On {limited_after} of them the platform's limits act, or the reserve of stroke is touched.")
+            .expect("a string takes whatever is written");
+    }
+    text.push_str(if beats {
+        " **It beats the parameters that it started from.**"
+    } else {
+        " **It does not clearly beat the parameters that it started from**: these rides have too little in common, or are too few."
+    });
+    text
+}
+
+/// Errors before and after over some rides.
+struct Comparison {
+    rides: usize,
+    before: f64,
+    after: f64,
+    better: usize,
+    limited_before: usize,
+    limited_after: usize,
+}
+
+impl Comparison {
+    fn of(pairs: impl Iterator<Item = (Cost, Cost)>) -> Option<Self> {
+        let pairs: Vec<(Cost, Cost)> = pairs.collect();
+        let mean = |error: fn(&(Cost, Cost)) -> f64| pairs.iter().map(error).sum::<f64>() / pairs.len() as f64;
+        let count = |holds: fn(&(Cost, Cost)) -> bool| pairs.iter().filter(|pair| holds(pair)).count();
+        (!pairs.is_empty()).then(|| Comparison {
+            rides: pairs.len(),
+            before: mean(|pair| pair.0.error),
+            after: mean(|pair| pair.1.error),
+            better: count(|pair| pair.1.error < pair.0.error),
+            limited_before: count(|pair| !pair.0.is_feasible()),
+            limited_after: count(|pair| !pair.1.is_feasible()),
+        })
+    }
+}
+
+fn errors(results: &[RideResult]) -> String {
+    let cell = |cost: &Option<Cost>| cost.map_or_else(|| "–".to_owned(), |cost| with_limits(&cost));
+    let rows = results
+        .iter()
+        .map(|result| [result.name.clone(), with_limits(&result.before), cell(&result.tuned), cell(&result.unseen)]);
+    table(["ride", "before", "tuned", "tuned without it"], rows)
+}
+
+/// The error, and what share of the time limits were at work.
+fn with_limits(cost: &Cost) -> String {
+    match cost.violated {
+        0.0 => format!("{:.3}", cost.error),
+        share => format!("{:.3} (limits {:.2} %)", cost.error, 100.0 * share),
+    }
+}
+
+fn channels(results: &[RideResult]) -> String {
+    let row = |result: &RideResult| {
+        let after = result.tuned.or(result.unseen).unwrap_or(result.before);
+        let cell =
+            |k: usize| format!("{:.2}: {:.2} → {:.2}", result.desired[k], result.before.channels[k], after.channels[k]);
+        let [x, y, z, p, q, r] = std::array::from_fn(cell);
+        [result.name.clone(), x, y, z, p, q, r]
+    };
+    let [x, y, z, p, q, r] = CHANNELS;
+    table(["thresholds, desired: error before → after", x, y, z, p, q, r], results.iter().map(row))
+}
+
+fn parameters(before: &Setup, tuned: &Setup) -> String {
+    let pairs = all(&before.parameters).into_iter().zip(all(&tuned.parameters));
+    let changed = pairs.filter(|(old, new)| old.1 != new.1);
+    let row =
+        |((name, old), (_, new)): ((String, f64), (String, f64))| [name, format!("{old:.3}"), format!("{new:.3}")];
+    table(["parameter", "before", "tuned"], changed.map(row))
+}
+
+/// A Markdown table whose columns are aligned for those who read it as text.
+fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let mut all = vec![header.map(str::to_owned)];
+    all.extend(rows);
+    let widths: [usize; N] =
+        std::array::from_fn(|k| all.iter().map(|row| row[k].chars().count()).max().unwrap_or(0).max(3));
+    let mut text = String::new();
+    for (index, row) in all.iter().enumerate() {
+        for (cell, &width) in row.iter().zip(&widths) {
+            write!(text, "| {cell:<width$} ").expect("a string takes whatever is written");
+        }
+        text.push_str("|\n");
+        if index == 0 {
+            widths.iter().for_each(|width| text.push_str(&format!("|{}", "-".repeat(width + 2))));
+            text.push_str("|\n");
+        }
+    }
+    text
+}

@@ -1,0 +1,96 @@
+//! One tuning: search, and see whether what was found holds in the steps that it will be used with.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Result, bail};
+use indicatif::ProgressBar;
+use rayon::prelude::*;
+use washout_setup::Setup;
+
+use super::cost::{Cost, Judge};
+use super::search::{Budget, search};
+use super::space::Space;
+use super::summary::RideResult;
+use crate::run::Recording;
+
+/// Tunes on rides, as often as asked.
+pub struct Tuner<'a> {
+    /// The rig, and the parameters before.
+    pub setup: &'a Setup,
+    /// What may change.
+    pub space: Space,
+    /// How long each search may be.
+    pub budget: Budget,
+    /// Set when the user wants it to end.
+    pub interrupted: Arc<AtomicBool>,
+    /// Counts parameter sets.
+    pub bar: ProgressBar,
+}
+
+impl Tuner<'_> {
+    /// Whether the user wanted it to end.
+    pub fn was_interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// The best parameters for these rides that keep all constraints, also in the internal steps that they will be used with.
+    ///
+    /// # Errors
+    /// None were found, or parameters cannot be used.
+    pub fn tune(&self, judges: &[&Judge], what: &str) -> Result<Setup> {
+        let begin = self.bar.position();
+        let best = search(judges, &self.space, self.budget, |tried, least| {
+            self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
+            let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
+            self.bar.set_message(format!("{what}: {error}"));
+            !self.was_interrupted()
+        })?;
+        self.bar.set_position(begin + self.budget.evaluations as u64);
+        for found in &best {
+            let tuned =
+                Setup { parameters: found.parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
+            let costs: Result<Vec<Cost>> = judges.par_iter().map(|judge| full_cost(judge, &tuned)).collect();
+            if costs?.iter().all(Cost::is_feasible) {
+                return Ok(tuned);
+            }
+        }
+        bail!(
+            "no parameters were found with which every ride stays clear of the safety units and the actuators' limits; try more \
+             --evaluations, less --stroke-reserve, a start with lower scale.specificForce or an input.cutoff, or leave out the ride \
+             that asks for too much"
+        )
+    }
+
+    /// Tunes without these rides and adds to their results what they come to then. Does nothing once the user wants it to end:
+    /// a search that was broken off says nothing.
+    ///
+    /// # Errors
+    /// Parameters cannot be used.
+    pub fn leave_out(&self, judges: &[&Judge], fold: &[usize], results: &mut [RideResult]) -> Result<()> {
+        let others: Vec<&Judge> =
+            judges.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, judge)| *judge).collect();
+        let names: Vec<&str> = fold.iter().map(|&k| judges[k].name()).collect();
+        if self.was_interrupted() {
+            return Ok(());
+        }
+        let tuned = self.tune(&others, &format!("without {}", names.join(", ")));
+        if self.was_interrupted() {
+            return Ok(());
+        }
+        let tuned = tuned?;
+        for &k in fold {
+            results[k].unseen = Some(full_cost(judges[k], &tuned)?);
+        }
+        Ok(())
+    }
+}
+
+/// What a ride comes to with these parameters, in the internal steps that they say.
+///
+/// # Errors
+/// The parameters cannot be used.
+pub fn full_cost(judge: &Judge, setup: &Setup) -> Result<Cost> {
+    let parameters = judge.ride().parameters(&setup.parameters);
+    Ok(judge.cost(&Recording::of(judge.ride(), &parameters, || ())?))
+}
