@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Runs every test: the FMU is built, Rust's tests run, then Python's in a virtual environment made for them; then the FMU
-goes through other people's importers and, where there are Wine and qemu, through the libraries for other platforms.
+goes through other people's importers and, where there are Wine and qemu, through the libraries for other platforms; where
+there is Chromium, the report's pages are opened in it.
 
     python3 tests/run.py
 """
@@ -40,6 +41,7 @@ def main():
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(sys.executable, "tests/importers/run.py")
     run(sys.executable, "tests/platforms/run.py")
+    run(sys.executable, "tests/report/run.py")
     print("No test has failed. What is missing above has not been run.")
 
 

@@ -18,6 +18,7 @@ pub mod model;
 pub mod platform;
 pub mod reference;
 pub mod ssp;
+mod start;
 mod tools;
 pub mod workspace;
 
@@ -28,6 +29,7 @@ pub use error::Error;
 pub use fmi_version::FmiVersion;
 pub use model::{MODELS, Model};
 pub use platform::Platform;
+pub use start::Start;
 
 /// An FMU that has been written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,7 +53,22 @@ pub fn build(
     output: &Path,
     report: impl FnMut(&str),
 ) -> Result<Built, Error> {
-    let archive = fmu(model, fmi, platforms, report)?;
+    build_with(model, &Start::own(model), fmi, platforms, output, report)
+}
+
+/// Builds a model's FMU that starts with these values; otherwise as [`build`].
+///
+/// # Errors
+/// As [`build`].
+pub fn build_with(
+    model: &Model,
+    start: &Start,
+    fmi: FmiVersion,
+    platforms: &[Platform],
+    output: &Path,
+    report: impl FnMut(&str),
+) -> Result<Built, Error> {
+    let archive = fmu_with(model, start, fmi, platforms, report)?;
     let file = output.join(fmi.fmu_file(model.name));
     write_whole(&file, &archive)?;
     Ok(Built { file, size: archive.len() })
@@ -61,8 +78,14 @@ pub fn build(
 ///
 /// # Errors
 /// As [`build`].
-pub fn fmu(
+pub fn fmu(model: &Model, fmi: FmiVersion, platforms: &[Platform], report: impl FnMut(&str)) -> Result<Vec<u8>, Error> {
+    fmu_with(model, &Start::own(model), fmi, platforms, report)
+}
+
+/// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as [`build`].
+fn fmu_with(
     model: &Model,
+    start: &Start,
     fmi: FmiVersion,
     platforms: &[Platform],
     mut report: impl FnMut(&str),
@@ -71,13 +94,13 @@ pub fn fmu(
     let mut libraries = Vec::new();
     for plan in &plans {
         report(&format!("{}: {plan}", plan.platform));
-        let bytes = compile::compile(model, fmi, plan)?;
+        let bytes = compile::compile(model, start, fmi, plan)?;
         let facts = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
             .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
         report(&format!("{}: {facts}", plan.platform));
         libraries.push((plan.platform, bytes));
     }
-    archive::pack(&contents::contents(model, fmi, libraries))
+    archive::pack(&contents::contents(model, start, fmi, libraries))
 }
 
 /// Writes a file that others never see half written.

@@ -5,14 +5,14 @@ use std::io::{Cursor, Read};
 use build_fmu::archive::{Contents, pack};
 use build_fmu::contents::contents;
 use build_fmu::model::WASHOUT;
-use build_fmu::{FmiVersion, MODELS, Model, Platform, workspace};
+use build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
 use clap::ValueEnum;
 use model_description::scalar_variable::{ScalarVariable, Values};
 use zip::ZipArchive;
 
 fn with_every_platform(model: &Model, fmi: FmiVersion) -> Contents {
     let library = |&platform: &Platform| (platform, format!("library for {platform}").into_bytes());
-    contents(model, fmi, Platform::value_variants().iter().map(library).collect())
+    contents(model, &Start::own(model), fmi, Platform::value_variants().iter().map(library).collect())
 }
 
 fn washout_with_every_platform() -> Contents {
@@ -93,10 +93,10 @@ fn every_model_description_is_the_checked_in_one() {
 #[test]
 fn names_agree() {
     for model in MODELS {
-        let description = (model.made.description)();
+        let description = model.description();
         assert_eq!(description.model_name, model.name);
         assert_eq!(description.co_simulation.model_identifier, model.name);
-        let description = (model.made.fmi3_description)();
+        let description = (model.made.fmi3_description)(Start::own(model).slots());
         assert_eq!(description.model_name, model.name);
         assert_eq!(description.co_simulation.model_identifier, model.name);
     }
@@ -143,7 +143,7 @@ fn check_page(model: &Model, page: &str) {
     for anchor in page.split("href=\"#").skip(1).map(|rest| rest.split('"').next().unwrap()) {
         assert!(page.contains(&format!("id=\"{anchor}\"")), "there is no #{anchor}");
     }
-    let described = (model.made.description)().model_variables.variables;
+    let described = model.description().model_variables.variables;
     for variable in described.iter().filter(|variable| variable.name != "time") {
         let text = variable.description.replace('<', "&lt;").replace('>', "&gt;");
         assert!(page.contains(&text), "{}", variable.name);
@@ -242,7 +242,7 @@ fn a_reference_ride_is_there_and_has_every_real_output() {
         assert!(rows.iter().all(|row| row.len() == names.len() && row.iter().all(|value| value.is_finite())));
         assert_eq!(rows.first().unwrap()[0], 0.0);
         assert_eq!(rows.last().unwrap()[0], inputs.last().unwrap()[0]);
-        let described = (model.made.description)().model_variables.variables;
+        let described = model.description().model_variables.variables;
         let is_recorded =
             |variable: &&ScalarVariable| variable.initial.is_some() && matches!(variable.values, Values::Real { .. });
         let expected: Vec<&str> = described.iter().filter(is_recorded).map(|variable| &*variable.name).collect();

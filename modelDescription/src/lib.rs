@@ -19,7 +19,7 @@ pub mod units;
 mod variables_html;
 mod xml;
 
-pub use describe::describe;
+pub use describe::{describe, describe_with};
 pub use model_description::ModelDescription;
 pub use variables_html::variables_html;
 pub use xml::to_xml;

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moris::{parameters, rig, run, tune};
+use moris::{parameters, respond, rig, run, tune};
 
 /// The washout's workbench: does this ride fit my rig, how good are the cues, what limits them, which parameters are better?
 #[derive(Parser)]
@@ -20,6 +20,7 @@ enum Command {
     Rig(rig::Command),
     Run(run::Options),
     Tune(tune::Options),
+    Respond(respond::Options),
     Parameters(parameters::Options),
 }
 
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
         Command::Rig(command) => rig::main(&command, out),
         Command::Run(options) => run::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
+        Command::Respond(options) => respond::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),
     };
     match result.and_then(|code| Ok(out.flush().map(|()| code)?)) {

@@ -3,7 +3,10 @@
 const page = JSON.parse(document.getElementById("data").textContent);
 
 function bytes(text) {
-  return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const letters = atob(text);
+  const decoded = new Uint8Array(letters.length);
+  for (let i = 0; i < letters.length; i += 1) decoded[i] = letters.charCodeAt(i);
+  return decoded;
 }
 
 const numbers32 = (text) => new Float32Array(bytes(text).buffer);

@@ -30,7 +30,8 @@ function cuePanels(quantity, names, unitText, convert, selected, options) {
   const still = [];
   names.forEach((title, axis) => {
     const lines = cueLines(quantity, axis, selected, convert);
-    const varies = lines.some(({ times: at, values }) => {
+    const varies = lines.some(({ times: at, values, aside }) => {
+      if (aside) return false;
       const [low, high] = extent(at, values, at[0], at[at.length - 1]) || [0, 0];
       return high - low > STILL[quantity];
     });

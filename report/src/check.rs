@@ -92,3 +92,72 @@ fn series_of(run: &Run) -> Vec<(String, usize)> {
     }
     lengths
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::data::{Chart, Cues, Limited, Line, Rig};
+
+    /// The smallest report that there can be: two samples of one run.
+    pub(crate) fn smallest() -> Report {
+        fn zeros<const N: usize>() -> [Vec<f64>; N] {
+            std::array::from_fn(|_| vec![0.0; 2])
+        }
+        let cues = || Cues { specific_force: zeros(), angular_velocity: zeros() };
+        let run = Run {
+            name: "default".into(),
+            times: vec![0.0, 0.1],
+            desired: cues(),
+            felt: cues(),
+            position: zeros(),
+            orientation: zeros(),
+            legs: zeros(),
+            tilt: zeros(),
+            tilt_rate: zeros(),
+            limited: Limited { tilt: vec![false; 2], safety: vec![false; 2], actuator: vec![false; 2] },
+            ..Run::default()
+        };
+        Report { rig: Rig { stroke: [1.0, 1.6], ..Rig::default() }, runs: vec![run], ..Report::default() }
+    }
+
+    /// What is said of the smallest report after a change.
+    fn said(change: impl Fn(&mut Report)) -> String {
+        let mut report = smallest();
+        change(&mut report);
+        check(&report).map_or_else(|error| error.to_string(), |()| "nothing".into())
+    }
+
+    #[test]
+    fn the_smallest_report_is_good() {
+        assert_eq!(said(|_| ()), "nothing");
+    }
+
+    #[test]
+    fn what_does_not_fit_is_named() {
+        assert!(said(|report| report.runs.clear()).contains("no runs"));
+        assert!(said(|report| report.selected = 1).contains("run 1 is selected but there are 1"));
+        assert!(said(|report| report.rig.stroke = [1.6, 1.0]).contains("stroke"));
+        assert!(said(|report| report.rig.stroke = [f64::NAN, 1.0]).contains("stroke"));
+        assert!(said(|report| report.runs[0].times.truncate(1)).contains("\"default\" has 1 samples"));
+        assert!(said(|report| report.runs[0].times[1] = 0.0).contains("time 1"));
+        assert!(said(|report| report.runs[0].times[1] = f64::NAN).contains("time 1"));
+        assert!(said(|report| report.runs[0].legs[4].push(1.0)).contains("leg[4] has 3 values, but there are 2 times"));
+        assert!(said(|report| report.runs[0].lean.push(0.1)).contains("lean has 1"));
+        assert!(said(|report| report.runs[0].limited.safety.clear()).contains("limited.safety has 0"));
+    }
+
+    #[test]
+    fn a_chart_has_as_many_values_as_times_of_its_own_or_of_the_run() {
+        let chart = |times: &[f64], values: &[f64]| Chart {
+            title: "bound".into(),
+            times: times.into(),
+            lines: vec![Line { label: "best".into(), values: values.into() }],
+            ..Chart::default()
+        };
+        let with = |one: &Chart| said(|report| report.runs[0].charts.push(one.clone()));
+        assert_eq!(with(&chart(&[], &[1.0, 2.0])), "nothing");
+        assert_eq!(with(&chart(&[0.0, 0.5, 1.0], &[1.0, f64::NAN, 2.0])), "nothing");
+        assert!(with(&chart(&[], &[1.0])).contains("the line \"best\" of the chart \"bound\" has 1 values"));
+        assert!(with(&chart(&[1.0, 0.5], &[1.0, 2.0])).contains("time 1"));
+    }
+}

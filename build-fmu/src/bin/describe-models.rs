@@ -6,14 +6,14 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use build_fmu::{FmiVersion, MODELS, workspace};
+use build_fmu::{FmiVersion, MODELS, Start, workspace};
 use clap::ValueEnum;
 
 fn main() -> ExitCode {
     for model in MODELS {
         for &fmi in FmiVersion::value_variants() {
             let file = workspace::root().join(model.checked_in_description(fmi));
-            if let Err(error) = write(&file, &model.model_description(fmi)) {
+            if let Err(error) = write(&file, &model.model_description(fmi, &Start::own(model))) {
                 eprintln!("cannot write {}: {error}", file.display());
                 return ExitCode::FAILURE;
             }

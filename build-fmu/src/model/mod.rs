@@ -6,12 +6,14 @@ mod washout;
 
 use std::path::PathBuf;
 
-use model_description::{ModelDescription, describe, fmi3, to_xml, variables_html};
-use model_interface::{Identity, Model as Interface};
+use model_description::{ModelDescription, describe_with, fmi3, to_xml, variables_html};
+use model_interface::{Identity, Model as Interface, Refusal, start_values};
 
-use crate::FmiVersion;
+use washout_setup::NamedValues;
+
 use crate::documentation::Section;
 use crate::reference::{self, Stimuli};
+use crate::{FmiVersion, Start};
 
 pub use motorcycle::MOTORCYCLE;
 pub use stewart_platform::STEWART_PLATFORM;
@@ -32,6 +34,8 @@ pub struct Model {
     pub title: &'static str,
     /// What follows from the model's table of variables and from its step.
     pub made: Made,
+    /// Start values of inputs that follow from those of parameters, by name, given all start values.
+    pub following: fn(start: &[f64]) -> NamedValues,
     /// The documentation's hand-written sections, in order; the variables follow them.
     pub sections: &'static [Section],
     /// What the sections say differently: a place in them, what stands there for FMI 2.0, and what for FMI 3.0. Further
@@ -43,18 +47,22 @@ pub struct Model {
     pub reference_input: &'static str,
 }
 
-/// What is made from a model itself.
+/// What is made from a model itself. `start` has the start value of each slot.
 pub struct Made {
     /// Who it is and what its variables are.
     pub identity: Identity,
+    /// The start values with others, by slot, laid over the model's own.
+    pub start: fn(others: &[(usize, f64)]) -> Vec<f64>,
+    /// Whether the model can start with these values.
+    pub check: fn(start: &[f64]) -> Result<(), Refusal>,
     /// The model description of FMI 2.0.
-    pub description: fn() -> ModelDescription,
+    pub description: fn(start: &[f64]) -> ModelDescription,
     /// That of FMI 3.0.
-    pub fmi3_description: fn() -> fmi3::ModelDescription,
+    pub fmi3_description: fn(start: &[f64]) -> fmi3::ModelDescription,
     /// The documentation's tables of variables for FMI 2.0 and for FMI 3.0.
-    pub variables: [fn() -> String; 2],
+    pub variables: [fn(start: &[f64]) -> String; 2],
     /// The output that belongs to a reference ride's input.
-    pub reference_output: fn(&Stimuli) -> String,
+    pub reference_output: fn(input: &Stimuli, start: &[f64]) -> String,
 }
 
 impl Made {
@@ -62,8 +70,10 @@ impl Made {
     const fn from<M: Interface>() -> Self {
         Made {
             identity: M::IDENTITY,
-            description: describe::<M>,
-            fmi3_description: fmi3::describe::<M>,
+            start: start_values::<M>,
+            check: |start| M::new(start).map(drop),
+            description: describe_with::<M>,
+            fmi3_description: fmi3::describe_with::<M>,
             variables: [variables_html::<M>, fmi3::variables_html::<M>],
             reference_output: reference::output::<M>,
         }
@@ -81,11 +91,21 @@ impl Model {
         fmi.choose(self.libraries[0], self.libraries[1])
     }
 
+    /// Whether it is a model of a platform, with the joints of one.
+    pub fn has_rig(&self) -> bool {
+        self.made.identity.slot("rig.neutralHeight").is_some()
+    }
+
+    /// The model description of FMI 2.0 with the model's own start values.
+    pub fn description(&self) -> ModelDescription {
+        (self.made.description)(Start::own(self).slots())
+    }
+
     /// The text of `modelDescription.xml`.
-    pub fn model_description(&self, fmi: FmiVersion) -> String {
+    pub fn model_description(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
-            FmiVersion::Fmi2 => to_xml(&(self.made.description)()),
-            FmiVersion::Fmi3 => to_xml(&(self.made.fmi3_description)()),
+            FmiVersion::Fmi2 => to_xml(&(self.made.description)(start.slots())),
+            FmiVersion::Fmi3 => to_xml(&(self.made.fmi3_description)(start.slots())),
         }
     }
 
@@ -96,8 +116,8 @@ impl Model {
     }
 
     /// The documentation's tables of variables.
-    pub fn variables(&self, fmi: FmiVersion) -> String {
+    pub fn variables(&self, fmi: FmiVersion, start: &Start) -> String {
         let [fmi2, fmi3] = self.made.variables;
-        fmi.choose(fmi2, fmi3)()
+        fmi.choose(fmi2, fmi3)(start.slots())
     }
 }

@@ -2,6 +2,8 @@
 
 use moris_motorcycle::Motorcycle;
 
+use washout_setup::NamedValues;
+
 use super::{Made, Model};
 use crate::documentation::Section;
 use crate::icon;
@@ -13,6 +15,7 @@ pub const MOTORCYCLE: Model = Model {
     libraries: ["Motorcycle", "Motorcycle_fmi3"],
     title: "Motorcycle: a vehicle and its rider",
     made: Made::from::<Motorcycle>(),
+    following: |_| NamedValues::new(),
     sections: &[
         Section {
             anchor: "what",

@@ -1,6 +1,9 @@
 //! The Stewart platform with dynamics.
 
 use moris_stewart_platform::StewartPlatform;
+use moris_stewart_platform::interface::neutral_lengths;
+use moris_washout::Rig;
+use washout_setup::{NamedValues, overlaid, values_of};
 
 use super::{Made, Model};
 use crate::documentation::Section;
@@ -13,6 +16,7 @@ pub const STEWART_PLATFORM: Model = Model {
     libraries: ["StewartPlatform", "StewartPlatform_fmi3"],
     title: "Stewart platform: a motion base with dynamics",
     made: Made::from::<StewartPlatform>(),
+    following: commands_at_neutral,
     sections: &[
         Section {
             anchor: "what",
@@ -60,3 +64,9 @@ pub const STEWART_PLATFORM: Model = Model {
     icon: icon::stewart_platform,
     reference_input: include_str!("../../reference/StewartPlatform_in.csv"),
 };
+
+/// The platform starts at neutral, and is told to be there.
+fn commands_at_neutral(start: &[f64]) -> NamedValues {
+    let rig = overlaid(&Rig::default(), &values_of(&STEWART_PLATFORM.made.identity, start));
+    (1..).zip(neutral_lengths(&rig)).map(|(leg, length)| (format!("command[{leg}].length"), length)).collect()
+}

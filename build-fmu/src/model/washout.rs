@@ -2,6 +2,8 @@
 
 use moris_washout::Washout;
 
+use washout_setup::NamedValues;
+
 use super::{Made, Model};
 use crate::documentation::Section;
 use crate::icon;
@@ -13,6 +15,7 @@ pub const WASHOUT: Model = Model {
     libraries: ["MorisWashout", "MorisWashout_fmi3"],
     title: "MORIS washout: motion cueing for a motorcycle simulator",
     made: Made::from::<Washout>(),
+    following: |_| NamedValues::new(),
     sections: &[
         Section {
             anchor: "what",

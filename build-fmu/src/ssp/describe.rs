@@ -81,7 +81,7 @@ pub fn to_xml(root: &impl Serialize) -> Vec<u8> {
 
 /// Who made the first of the components has made the system.
 fn origin(system: &System) -> ModelDescription {
-    (system.components[0].model.made.description)()
+    system.components[0].model.description()
 }
 
 /// The system's own connectors, each as the component's variable of that name.
