@@ -10,6 +10,7 @@
 
 #![forbid(unsafe_code)]
 
+mod contradiction;
 mod error;
 mod named_values;
 mod names;
@@ -19,8 +20,9 @@ pub mod ranges;
 pub mod rig_file;
 mod setup;
 
+pub use contradiction::contradiction;
 pub use error::Error;
-pub use named_values::{NamedValues, all, changed, overlaid};
+pub use named_values::{NamedValues, all, changed, overlaid, values_of};
 pub use names::nearest;
 pub use parameter_sets::SETS;
 pub use setup::{Setup, load_rig, load_set};

@@ -1,6 +1,6 @@
 //! Values by the names of variables: what files come down to.
 
-use model_interface::{Group, Reader, Row, Writer, slot_count};
+use model_interface::{Group, Identity, Reader, Row, Writer, slot_count};
 
 /// Names of variables with their values, as they lie in slots: enumerations counted from 1, booleans as 0 and 1. A later
 /// value of the same name stands over an earlier one.
@@ -33,6 +33,11 @@ pub fn changed<G: Group>(group: &G) -> NamedValues {
         .filter(|(mine, default)| mine.1 != default.1)
         .map(|(mine, _)| mine)
         .collect()
+}
+
+/// The values in a model's slots, by name.
+pub fn values_of(identity: &Identity, slots: &[f64]) -> NamedValues {
+    variable_names(identity.rows).zip(slots.iter().copied()).collect()
 }
 
 /// The names of all scalar variables of these rows, in the order of the slots.

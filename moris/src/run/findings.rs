@@ -89,10 +89,18 @@ fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
         (Weight::Warning, "is felt wrongly, and a platform at rest would be nearer to it")
     };
     let correlation = correlation.map_or(String::new(), |correlation| format!("correlation {correlation:.2}, "));
+    let bound = outcome.bounds[axis].as_ref().map_or_else(String::new, |bound| {
+        let least = bound.bound.rms_error;
+        if least < FAITHFUL * rms_error {
+            format!(" A controller that knew the ride beforehand might get down to {least:.2} m/s² on this rig.")
+        } else {
+            format!(" No controller could get below {least:.2} m/s² on this rig.")
+        }
+    });
     Some(finding(
         weight,
         format!(
-            "{name} {verdict}: {correlation}an RMS error of {rms_error:.2} m/s², {:.0} % of what is desired.",
+            "{name} {verdict}: {correlation}an RMS error of {rms_error:.2} m/s², {:.0} % of what is desired.{bound}",
             100.0 * share
         ),
     ))

@@ -1,8 +1,9 @@
 //! `moris run`: rides a recording on a rig, and says how well it is felt.
 //!
 //! [`recording`] steps the washout; everything else looks at what came of it: [`output_table`] writes it down,
-//! [`measured`] measures it, [`summary`] prints it, [`findings`] puts it in words, [`page`] makes the report.
+//! [`measured`] measures it, [`bounds`] says how much better it could have been, [`summary`] prints it, [`findings`] puts it in words, [`page`] makes the report.
 
+pub mod bounds;
 pub mod findings;
 pub mod measured;
 pub mod output_table;
@@ -16,12 +17,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use cue_measures::Measures;
+use cue_measures::{Axes, Measures};
 use indicatif::{ProgressBar, ProgressStyle};
 use washout_setup::Setup;
 
 use crate::ride::{ConventionOptions, Ride};
 use crate::setup_options::SetupOptions;
+pub use bounds::AxisBound;
 pub use recording::Recording;
 
 /// Ride recordings on a rig and report how well they are felt
@@ -47,6 +49,10 @@ pub struct Options {
     #[arg(long, value_name = "DIRECTORY", default_value = "report")]
     report: PathBuf,
 
+    /// Do not compute the bound, the least error that any controller could reach; it takes some seconds a ride
+    #[arg(long)]
+    no_bound: bool,
+
     #[command(flatten)]
     conventions: ConventionOptions,
 }
@@ -60,6 +66,8 @@ pub struct Outcome {
     pub recording: Recording,
     /// How well it was felt.
     pub measures: Measures,
+    /// How well it could have been felt at best, axis by axis; none where nothing is desired or nobody asked.
+    pub bounds: Axes<Option<AxisBound>>,
 }
 
 impl Outcome {
@@ -71,7 +79,18 @@ impl Outcome {
         let parameters = ride.parameters(&setup.parameters);
         let recording = Recording::of(ride, &parameters, progress)?;
         let measures = measured::measures(&recording)?;
-        Ok(Outcome { setup: Setup { parameters, ..setup.clone() }, recording, measures })
+        let bounds = [const { None }; 3];
+        Ok(Outcome { setup: Setup { parameters, ..setup.clone() }, recording, measures, bounds })
+    }
+
+    /// The same with its bounds.
+    ///
+    /// # Errors
+    /// There are none: the ride is too short, or the solver fails.
+    pub fn with_bounds(mut self) -> Result<Self> {
+        self.bounds =
+            bounds::bounds(&self.recording).context("cannot compute the bound; --no-bound does without it")?;
+        Ok(self)
     }
 }
 
@@ -88,7 +107,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     for file in &options.rides {
         let ride = Ride::read(file, &conventions)?;
-        let outcomes = outcomes(&ride, &setups)?;
+        let outcomes = outcomes(&ride, &setups, !options.no_bound)?;
         write!(out, "{}", summary::text(&ride, &outcomes))?;
         for file in write_files(&options.report, &ride, &outcomes)? {
             writeln!(out, "wrote {}", file.display())?;
@@ -99,11 +118,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 }
 
 /// Rides with each of the setups, under a progress bar where somebody is watching.
-fn outcomes(ride: &Ride, setups: &[Setup]) -> Result<Vec<Outcome>> {
+fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool) -> Result<Vec<Outcome>> {
     let bar = ProgressBar::new((ride.inputs().len() * setups.len()) as u64);
     bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %")?);
     bar.set_message(ride.name.clone());
-    let outcomes = setups.iter().map(|setup| Outcome::of(ride, setup, || bar.inc(1))).collect();
+    let ridden = setups.iter().map(|setup| Outcome::of(ride, setup, || bar.inc(1)));
+    let outcomes = if with_bounds { ridden.map(|outcome| outcome?.with_bounds()).collect() } else { ridden.collect() };
     bar.finish_and_clear();
     outcomes
 }

@@ -1,9 +1,10 @@
 //! The report's data.
 
 use cue_measures::Row;
+use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, Parameters};
-use ride_report::{Better, Cues, Finding, Limited, Limits, Measure, Report, Rig, Run, Weight};
+use ride_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
 
 use super::{Outcome, Recording, findings};
 use crate::ride::Ride;
@@ -54,7 +55,7 @@ fn rig(parameters: &Parameters) -> Rig {
 }
 
 fn run(outcome: &Outcome) -> Run {
-    let Outcome { setup, recording, measures } = outcome;
+    let Outcome { setup, recording, measures, .. } = outcome;
     let outputs = |value: fn(&Output) -> f64| recording.outputs.iter().map(value).collect::<Vec<f64>>();
     let flags = |value: fn(&Output) -> bool| recording.outputs.iter().map(value).collect::<Vec<bool>>();
     let leans = recording.inputs.iter().any(|input| input.lean != 0.0);
@@ -81,9 +82,42 @@ fn run(outcome: &Outcome) -> Run {
             actuator: flags(|output| output.actuator_limited),
         },
         limits: limits(recording),
-        measures: measures.rows().into_iter().map(measure).collect(),
-        charts: Vec::new(),
+        measures: measures.rows().into_iter().chain(bound_rows(outcome)).map(measure).collect(),
+        charts: bound_charts(outcome),
     }
+}
+
+/// The bounds' rows, beside what was felt.
+fn bound_rows(outcome: &Outcome) -> Vec<Row> {
+    let on_axis = |axis: usize| {
+        let bound = outcome.bounds[axis].as_ref()?;
+        let felt = outcome.measures.force[axis]?.rms_error;
+        Some(cue_measures::bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
+    };
+    (0..3).filter_map(on_axis).flatten().collect()
+}
+
+/// What could be felt at best, axis by axis.
+fn bound_charts(outcome: &Outcome) -> Vec<Chart> {
+    let times = outcome.recording.times();
+    let chart = |axis: usize| {
+        let bound = outcome.bounds[axis].as_ref()?;
+        let felt = outcome.recording.outputs.iter().map(|output| output.felt_specific_force[axis]);
+        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
+        let line = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), values };
+        Some(Chart {
+            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
+            quantity: "specific force without gravity [m/s²]".to_owned(),
+            times: Vec::new(),
+            lines: vec![
+                line("desired", bound.desired.clone()),
+                line("felt", felt.map(|force| force - rest).collect()),
+                line("best possible", times.iter().map(|&time| bound.bound.trajectory.felt(time)).collect()),
+            ],
+            limits: Vec::new(),
+        })
+    };
+    (0..3).filter_map(chart).collect()
 }
 
 fn by_axis(vectors: impl Iterator<Item = Vector3<f64>>) -> [Vec<f64>; 3] {

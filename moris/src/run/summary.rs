@@ -2,7 +2,6 @@
 
 use std::fmt::Write;
 
-use cue_measures::Measures;
 use cue_measures::cues::Cues;
 use cue_measures::fidelity::Fidelity;
 
@@ -26,16 +25,18 @@ pub fn text(ride: &Ride, outcomes: &[Outcome]) -> String {
         for finding in findings::of(outcome) {
             writeln!(text, "  {}", finding.text).expect("a string takes whatever is written");
         }
-        write!(text, "\n{}", table(&outcome.measures)).expect("a string takes whatever is written");
+        write!(text, "\n{}", table(outcome)).expect("a string takes whatever is written");
     }
     text
 }
 
 /// The measures of the cues, axis by axis; axes on which nothing happens are left out.
-fn table(measures: &Measures) -> TextTable {
+fn table(outcome: &Outcome) -> TextTable {
+    let measures = &outcome.measures;
     let header = [
         "felt against desired",
         "RMS error",
+        "bound",
         "peak error",
         "correlation",
         "delay",
@@ -51,7 +52,9 @@ fn table(measures: &Measures) -> TextTable {
     for (kind, unit, factor, raw, sensed, cues) in kinds {
         for (axis, name) in ["x", "y", "z"].iter().enumerate() {
             if let Some(fidelity) = &raw[axis] {
-                let row = row(fidelity, sensed[axis].as_ref(), &cues[axis], unit, factor);
+                let bound =
+                    outcome.bounds[axis].as_ref().filter(|_| kind == "force").map(|bound| bound.bound.rms_error);
+                let row = row(fidelity, bound, sensed[axis].as_ref(), &cues[axis], unit, factor);
                 table.push([format!("{kind} {name}")].into_iter().chain(row).collect());
             }
         }
@@ -59,11 +62,19 @@ fn table(measures: &Measures) -> TextTable {
     table
 }
 
-fn row(raw: &Fidelity, sensed: Option<&Fidelity>, cues: &Cues, unit: &str, factor: f64) -> [String; 7] {
+fn row(
+    raw: &Fidelity,
+    bound: Option<f64>,
+    sensed: Option<&Fidelity>,
+    cues: &Cues,
+    unit: &str,
+    factor: f64,
+) -> [String; 8] {
     let number = |value: f64| format!("{:.2} {unit}", factor * value);
     let or_undefined = |text: Option<String>| text.unwrap_or_else(|| UNDEFINED.to_owned());
     [
         number(raw.rms_error),
+        or_undefined(bound.map(number)),
         number(raw.peak_error),
         or_undefined(raw.correlation.map(|correlation| format!("{correlation:.3}"))),
         or_undefined(raw.delay.map(|delay| format!("{:.0} ms", (1000.0 * delay).round() + 0.0))),

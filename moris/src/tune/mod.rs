@@ -33,6 +33,10 @@ use space::Space;
 use summary::RideResult;
 use tuner::Tuner;
 
+/// A recording that is cut out of a longer ride begins in motion, and the platform at rest: no parameters could keep the limits
+/// at such a jump. It is led in from rest over this time unless another is said \[s\].
+const LEAD_IN: f64 = 1.0;
+
 /// Does what the command says.
 ///
 /// # Errors
@@ -78,7 +82,10 @@ fn number_of_folds(options: &Options) -> usize {
 }
 
 fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Judge>> {
-    let conventions = options.conventions.load()?;
+    let mut conventions = options.conventions.load()?;
+    if conventions.fade_in == 0.0 {
+        conventions.fade_in = LEAD_IN;
+    }
     let judge = |file: &PathBuf| {
         let ride = Ride::read(file, &conventions)?;
         Ok(Judge::new(ride, &setup.parameters, &options.weights, options.constraints())?)

@@ -15,7 +15,7 @@ use crate::setup_options::SetupOptions;
 /// in perception thresholds and added in quadrature over specific force and angular velocity along x, y, z; over the same of what is
 /// desired. 0 is perfect, and a platform at rest scores 1.
 ///
-/// The search starts from the parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result, however
+/// Rides are led in from rest over 1 s unless --fade-in says otherwise. The search starts from the parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result, however
 /// many cores there are.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {

@@ -47,8 +47,16 @@ pub struct Found {
     point: Vec<f64>,
 }
 
-/// Searches for parameters with the smallest mean error over these rides that keep all constraints; returns the best, the very
-/// best first, or none where nothing kept them.
+/// What a search came to.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// Sets that kept all constraints on every ride, the best first; the first ten.
+    pub best: Vec<Found>,
+    /// The set of the least cost, constraints kept or not.
+    pub nearest: Parameters,
+}
+
+/// Searches for parameters with the smallest mean error over these rides that keep all constraints.
 ///
 /// `progress` is told after each generation how many sets have been tried and what the least error is so far, and says whether
 /// to go on.
@@ -60,7 +68,7 @@ pub fn search(
     space: &Space,
     budget: Budget,
     mut progress: impl FnMut(usize, Option<f64>) -> bool,
-) -> Result<Vec<Found>> {
+) -> Result<Searched> {
     let best = Mutex::new(Best::default());
     let cost = |point: &DVector<f64>| price(judges, space, point.as_slice(), &best);
     let start = vec![0.0; space.dimension()];
@@ -79,13 +87,20 @@ pub fn search(
             break;
         }
     }
+    let nearest = search.overall_best_individual().map(|best| at(space, best.point.as_slice()));
     drop(search);
     let mut best = best.into_inner().expect("no evaluation panics").0;
     if let Some(first) = best.first() {
         let tidied = tidied(judges, space, first);
         best.insert(0, tidied);
     }
-    Ok(best)
+    Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
+}
+
+/// The parameters at the point of the space that is nearest to this one.
+fn at(space: &Space, point: &[f64]) -> Parameters {
+    let (inside, _) = space.clamped(&nalgebra::DVector::from_column_slice(point));
+    space.parameters(&inside)
 }
 
 /// Error that may be given up to have one parameter back where it was.

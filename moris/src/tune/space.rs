@@ -13,23 +13,27 @@ pub enum Group {
     Angular,
     /// The scales of specific force and angular velocity, six in all
     Scale,
-}
-
-impl Group {
-    /// All of them.
-    pub const ALL: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+    /// The low-pass on the input, for recordings that are full of vibration
+    Cutoff,
 }
 
 /// How far a parameter may go: where filters make sense as a washout.
 const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
 const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
+const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
 /// Nobody wants more than the vehicle does.
 const SCALES: Range = Range { min: 0.01, max: 1.0 };
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 struct Range {
     min: f64,
     max: f64,
+}
+
+/// Where the search begins for a parameter that is 0, which has no logarithm: a scale at next to nothing, a low-pass that is off
+/// at its highest frequency.
+fn instead_of_none(range: Range) -> f64 {
+    if range == CUTOFFS { range.max } else { range.min }
 }
 
 /// The parameters that are tuned, as a box of logarithms about those that the search starts from.
@@ -49,8 +53,9 @@ impl Space {
         let mut start = *start;
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
         visit(&mut start, groups, &mut |value, range| {
-            // A scale of 0 has no logarithm: it is where the search begins, just inside its range.
-            *value = value.max(range.min.min(SCALES.min));
+            if *value <= 0.0 {
+                *value = instead_of_none(range);
+            }
             lower.push((range.min.min(*value) / *value).ln());
             upper.push((range.max.max(*value) / *value).ln());
         });
@@ -105,16 +110,21 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
         angles(&mut angular.omega2, FREQUENCIES);
         angles(&mut angular.zeta2, DAMPINGS);
     }
+    if groups.contains(&Group::Cutoff) {
+        act(&mut conditioning.cutoff, CUTOFFS);
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+
     #[test]
     fn the_origin_is_the_start() {
         let start = Parameters::default();
-        let space = Space::new(&start, &Group::ALL);
+        let space = Space::new(&start, &DEFAULT);
         assert_eq!(space.dimension(), 30);
         assert_eq!(space.parameters(&DVector::zeros(30)), start);
     }
@@ -122,7 +132,7 @@ mod tests {
     #[test]
     fn every_coordinate_moves_one_parameter_and_no_two_the_same() {
         let start = Parameters::default();
-        let space = Space::new(&start, &Group::ALL);
+        let space = Space::new(&start, &DEFAULT);
         let before = washout_setup::all(&start);
         let mut moved = Vec::new();
         for k in 0..space.dimension() {
@@ -142,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_point_outside_comes_back_to_the_edge_where_scales_are_1_and_frequencies_can_be_used() {
-        let space = Space::new(&Parameters::default(), &Group::ALL);
+        let space = Space::new(&Parameters::default(), &DEFAULT);
         for sign in [-1.0, 1.0] {
             let (inside, distance) = space.clamped(&DVector::from_element(30, 100.0 * sign));
             assert!(distance > 100.0);
@@ -153,11 +163,12 @@ mod tests {
     }
 
     #[test]
-    fn a_scale_of_nothing_is_begun_at_next_to_nothing() {
+    fn a_scale_of_nothing_is_begun_at_next_to_nothing_and_a_low_pass_that_is_off_far_up() {
         let mut start = Parameters::default();
         start.conditioning.rate_scale.x = 0.0;
-        let space = Space::new(&start, &[Group::Scale]);
-        assert_eq!(space.dimension(), 6);
-        assert_eq!(space.parameters(&DVector::zeros(6)).conditioning.rate_scale.x, 0.01);
+        let space = Space::new(&start, &[Group::Scale, Group::Cutoff]);
+        assert_eq!(space.dimension(), 7);
+        let conditioning = space.parameters(&DVector::zeros(7)).conditioning;
+        assert_eq!((conditioning.rate_scale.x, conditioning.cutoff), (0.01, 200.0));
     }
 }

@@ -53,7 +53,7 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
         )
         .expect("a string takes whatever is written");
         match tuned.limited_before {
-            0 => text.push_str("."),
+            0 => text.push('.'),
             count => write!(
                 text,
                 "; {before_name} let the platform's limits act, or the reserve be touched, on {count} of {}, tuned on none.",

@@ -40,14 +40,14 @@ impl Tuner<'_> {
     /// None were found, or parameters cannot be used.
     pub fn tune(&self, judges: &[&Judge], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
-        let best = search(judges, &self.space, self.budget, |tried, least| {
+        let searched = search(judges, &self.space, self.budget, |tried, least| {
             self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
             let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
             self.bar.set_message(format!("{what}: {error}"));
             !self.was_interrupted()
         })?;
         self.bar.set_position(begin + self.budget.evaluations as u64);
-        for found in &best {
+        for found in &searched.best {
             let tuned =
                 Setup { parameters: found.parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
             let costs: Result<Vec<Cost>> = judges.par_iter().map(|judge| full_cost(judge, &tuned)).collect();
@@ -55,11 +55,25 @@ impl Tuner<'_> {
                 return Ok(tuned);
             }
         }
+        let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         bail!(
-            "no parameters were found with which every ride stays clear of the safety units and the actuators' limits; try more \
-             --evaluations, less --stroke-reserve, a start with lower scale.specificForce or an input.cutoff, or leave out the ride \
-             that asks for too much"
+            "no parameters were found with which every ride stays clear of the safety units and the actuators' limits{}; leave out the ride \
+             that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, where it vibrates, \
+             --tune splitter,angular,scale,cutoff",
+            self.held_up(judges, &nearest)?
         )
+    }
+
+    /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
+    fn held_up(&self, judges: &[&Judge], setup: &Setup) -> Result<String> {
+        let mut told = Vec::new();
+        for judge in judges {
+            let share = full_cost(judge, setup)?.violated;
+            if share > 0.0 {
+                told.push(format!("{} for {:.2} % of its time", judge.name(), 100.0 * share));
+            }
+        }
+        Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
     }
 
     /// Tunes without these rides and adds to their results what they come to then. Does nothing once the user wants it to end:
