@@ -11,6 +11,7 @@ use moris_washout::Parameters;
 use moris_washout::conditioning::cue;
 use moris_washout::interface::{AngularVelocityFrame, GravityRemoval};
 use moris_washout::nalgebra::{Rotation3, Vector3};
+use proptest::prelude::*;
 use tempfile::TempDir;
 
 const GRAVITY: f64 = 9.80665;
@@ -337,4 +338,45 @@ fn a_ride_that_does_not_begin_at_rest_can_be_led_in() {
     let half = 0.5 * (ride.inputs()[50].specific_force + Vector3::new(0.0, 0.0, GRAVITY));
     assert!((led.inputs()[50].specific_force - half).amax() < 1e-12);
     assert_eq!(led.inputs()[100..], ride.inputs()[100..]);
+}
+
+/// Fields that are right, odd and wrong.
+fn field() -> impl Strategy<Value = String> {
+    prop_oneof![
+        8 => (-20.0..20.0f64).prop_map(|value| value.to_string()),
+        1 => any::<f64>().prop_map(|value| value.to_string()),
+        1 => "[-0-9.eE,;\"#nainf ]{0,8}",
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    /// Whatever a file holds, it is a ride of finite numbers at equal steps, or an error that names the file.
+    #[test]
+    fn no_file_is_a_panic(
+        steps in prop::collection::vec(prop_oneof![6 => Just(0.01), 1 => -1.0..1.0f64, 1 => any::<f64>()], 0..30),
+        fields in prop::collection::vec(field(), 0..200),
+        level in any::<bool>(),
+        resample in prop::option::of(1.0..1e5f64),
+    ) {
+        let mut text = format!("{PLAIN},roll,pitch\n");
+        let mut time = 0.0;
+        let mut fields = fields.into_iter();
+        for step in steps {
+            time += step;
+            let mut line = vec![time.to_string()];
+            line.extend(fields.by_ref().take(8));
+            if level && line.len() > 3 {
+                line[1..4].clone_from_slice(&["0".to_owned(), "0".to_owned(), "9.81".to_owned()]);
+            }
+            writeln!(text, "{}", line.join(",")).unwrap();
+        }
+        let (_directory, file) = file(&text);
+        let options = ConventionOptions { resample, ..ConventionOptions::default() };
+        match Ride::read(&file, &options.load().unwrap()) {
+            Ok(ride) => prop_assert!(ride.step() > 0.0 && ride.inputs().iter().all(|input| input.specific_force.x.is_finite())),
+            Err(error) => prop_assert!(error.to_string().contains("ride.csv")),
+        }
+    }
 }

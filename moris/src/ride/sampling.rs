@@ -11,6 +11,8 @@ const JITTER: f64 = 0.2;
 const COARSEST: f64 = 0.25;
 /// A recording finer than this is not in the unit that it is said to be in \[s\].
 const FINEST: f64 = 1e-5;
+/// More samples than this are a mistake: a day at 100 Hz.
+const MOST_SAMPLES: f64 = 1e7;
 /// A gap longer than this is told of when it is interpolated over \[s\].
 const GAP: f64 = 0.2;
 
@@ -24,7 +26,7 @@ pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table,
     check_order(&table)?;
     check_unit(&table, conventions)?;
     match conventions.resample {
-        Some(rate) => Ok(resampled(&table, rate)),
+        Some(rate) => resampled(&table, rate),
         None => check_equal(&table).map(|()| (table, Vec::new())),
     }
 }
@@ -85,9 +87,14 @@ fn check_equal(table: &Table) -> Result<(), RideError> {
 }
 
 /// Linear interpolation at `rate` samples a second.
-fn resampled(table: &Table, rate: f64) -> (Table, Vec<String>) {
+fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RideError> {
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
-    let count = ((last - first) * rate + 1e-6).floor() as usize + 1;
+    let steps = (last - first) * rate + 1e-6;
+    if steps > MOST_SAMPLES {
+        let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);
+        return Err(RideError::Whole { file: table.file.clone(), reason });
+    }
+    let count = steps.floor() as usize + 1;
     let time: Vec<f64> = (0..count.max(2)).map(|k| first + k as f64 / rate).collect();
     let mut after = 1;
     let places: Vec<(usize, f64)> = time
@@ -106,7 +113,7 @@ fn resampled(table: &Table, rate: f64) -> (Table, Vec<String>) {
     let columns = table.columns.iter().map(|(&quantity, values)| (quantity, interpolated(values))).collect();
     let lines = places.iter().map(|&(k, _)| table.lines[k]).collect();
     let remarks = gaps(table);
-    (Table { file: table.file.clone(), time, columns, lines }, remarks)
+    Ok((Table { file: table.file.clone(), time, columns, lines }, remarks))
 }
 
 fn gaps(table: &Table) -> Vec<String> {

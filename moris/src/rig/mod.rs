@@ -41,7 +41,7 @@ pub struct CheckOptions {
     report: PathBuf,
 
     /// Points to try for the workspace's volume
-    #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u32).range(1000..))]
+    #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u32).range(1000..=1_000_000_000))]
     samples: u32,
 }
 

@@ -27,7 +27,8 @@ pub struct Workspace {
     pub level: Volume,
     /// Where the platform can also be tilted by [`TILT`] in each of eight directions.
     pub tilted: Volume,
-    /// Smallest and largest coordinates found with the platform level, in the base frame \[m\].
+    /// Smallest and largest coordinates found with the platform level, and a little around neutral at least, in the base
+    /// frame \[m\].
     pub extent: [Vector3<f64>; 2],
     /// Points that were tried.
     pub samples: u32,
@@ -54,10 +55,12 @@ impl Workspace {
         let found =
             (0..blocks).into_par_iter().map(|block| tried(rig, low, high, block)).reduce(Found::nothing, Found::and);
         let size = (high - low).product();
+        let neutral = Pose::neutral(rig).position;
+        let little = Vector3::repeat(0.1 * (rig.max_length - rig.min_length));
         Workspace {
             level: Volume::of(found.level, samples, size),
             tilted: Volume::of(found.tilted, samples, size),
-            extent: found.extent,
+            extent: [found.extent[0].inf(&(neutral - little)), found.extent[1].sup(&(neutral + little))],
             samples,
         }
     }
