@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -256,20 +257,22 @@ fn ctrl_c_keeps_the_best_so_far() {
     let directory = tempfile::tempdir().unwrap();
     write_ride(directory.path(), &weaving());
     write_ride(directory.path(), &brisk());
-    let child = Command::new(env!("CARGO_BIN_EXE_moris"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
         .args(["tune", "weaving.csv", "brisk.csv", "--evaluations", "10000000"])
         .current_dir(directory.path())
         .stdout(std::process::Stdio::piped())
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    // Long enough to be searching; however much of that time it takes to begin, it is far from the end.
-    std::thread::sleep(std::time::Duration::from_secs(3));
+    let mut told = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    told.read_line(&mut line).unwrap();
+    assert!(line.contains("Ctrl-C"), "{line}");
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{said}");
     assert!(said.contains("broken off") && said.contains("No ride was held out"), "{said}");
     assert!(directory.path().join("tuned.toml").exists());
 }

@@ -65,6 +65,9 @@ pub struct Judge {
 /// which is why the result is ridden again with the internal step that it will be used with.
 const LONGEST_STEP: f64 = 0.02;
 
+/// Share of the acceleration limits that the search's long steps may use: within such a step acceleration varies unseen.
+const RESERVE_OF_ACCELERATION: f64 = 0.85;
+
 impl Judge {
     /// Prepares to judge parameters that have the fixed ones of these on a ride.
     ///
@@ -79,6 +82,7 @@ impl Judge {
         let mut parameters = ride.parameters(parameters);
         let desired = desired(&ride, &parameters);
         parameters.structure.max_step = ride.step().min(LONGEST_STEP).max(parameters.structure.max_step);
+        parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], ride.step()));
         let coarse = Washout::new(&parameters)?;
         Ok(Judge { name: ride.name.clone(), ride, desired, desired_rms, weights: *weights, constraints, coarse })
@@ -112,7 +116,9 @@ impl Judge {
         let inputs = self.ride.inputs();
         let mut washout = self.coarse.clone();
         let mut parameters = self.ride.parameters(parameters);
-        parameters.structure.max_step = washout.parameters().structure.max_step;
+        let Parameters { structure, rig, .. } = washout.parameters();
+        (parameters.structure, parameters.rig) = (*structure, *rig);
+        parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
         washout.retune(&parameters)?;
         let mut washout = washout.starting_with(&inputs[0]);
         let mut tally = Tally::new(self);

@@ -104,6 +104,7 @@ fn listen() -> Result<Arc<AtomicBool>> {
         eprintln!("ending after this generation; press Ctrl-C again to end at once, with nothing kept");
     };
     ctrlc::set_handler(handler).context("cannot listen for Ctrl-C")?;
+    eprintln!("searching; Ctrl-C ends it and keeps the best so far");
     Ok(interrupted)
 }
 

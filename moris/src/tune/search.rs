@@ -24,10 +24,10 @@ pub struct Budget {
 const FIRST_STEP: f64 = 0.4;
 /// The search ends when a generation's costs differ by less.
 const TOLERANCE: f64 = 1e-5;
-/// Cost of limits at work throughout; all errors are about 1.
-const PRICE_OF_LIMITS: f64 = 5.0;
-/// And that of limits at work at all: a little, but never worth it.
-const PRICE_OF_ANY: f64 = 0.02;
+/// Cost of limits at work throughout; all errors are about 1. It goes with the root of the time: a thousandth of it costs 0.06.
+const PRICE_OF_LIMITS: f64 = 2.0;
+/// And that of limits at work at all.
+const PRICE_OF_ANY: f64 = 0.05;
 /// Cost of being outside the space's box by a factor of e in one parameter.
 const PRICE_OF_OUTSIDE: f64 = 0.1;
 /// Cost of being away from the start by a factor of e in every parameter: of two sets that serve the same, the one that is
@@ -71,7 +71,7 @@ pub fn search(
 ) -> Result<Searched> {
     let best = Mutex::new(Best::default());
     let cost = |point: &DVector<f64>| price(judges, space, point.as_slice(), &best);
-    let start = vec![0.0; space.dimension()];
+    let start = start_within_limits(judges, space);
     cost(&DVector::from(start.clone()));
     let mut search = CMAESOptions::new(start, FIRST_STEP)
         .seed(budget.seed)
@@ -95,6 +95,20 @@ pub fn search(
         best.insert(0, tidied);
     }
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
+}
+
+/// How much smaller each try is than the one before, and how many there are: down to a hundredth.
+const SMALLER: f64 = 0.8;
+const TRIES: i32 = 21;
+
+/// Where the search begins: at the start itself, or, where that lets limits act, with all scales made smaller until it does not.
+fn start_within_limits(judges: &[&Judge], space: &Space) -> Vec<f64> {
+    let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
+    let keeps = |point: &nalgebra::DVector<f64>| {
+        means(judges, &space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
+    };
+    let start = tries.into_iter().find(keeps).unwrap_or_else(|| space.scaled_start(1.0));
+    start.as_slice().to_vec()
 }
 
 /// The parameters at the point of the space that is nearest to this one.
@@ -144,7 +158,7 @@ fn price(judges: &[&Judge], space: &Space, point: &[f64], best: &Mutex<Best>) ->
         best.lock().expect("no evaluation panics").add(found);
         cost + PRICE_OF_OUTSIDE * outside
     } else {
-        cost + PRICE_OF_OUTSIDE * outside + PRICE_OF_LIMITS * violated + PRICE_OF_ANY
+        cost + PRICE_OF_OUTSIDE * outside + PRICE_OF_LIMITS * violated.sqrt() + PRICE_OF_ANY
     }
 }
 

@@ -74,6 +74,20 @@ impl Space {
         (inside, distance)
     }
 
+    /// Whether scales are tuned.
+    pub fn has_scales(&self) -> bool {
+        self.groups.contains(&Group::Scale)
+    }
+
+    /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
+    pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
+        let mut logarithms = Vec::new();
+        visit(&mut self.start.clone(), &self.groups, &mut |_, range| {
+            logarithms.push(if range == SCALES { factor.ln() } else { 0.0 });
+        });
+        self.clamped(&logarithms.into()).0
+    }
+
     /// The parameters at a point.
     pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
         let mut parameters = self.start;
@@ -160,6 +174,15 @@ mod tests {
             assert!(moris_washout::check(&parameters).is_ok());
             assert!(parameters.conditioning.force_scale.max() <= 1.0 + 1e-12);
         }
+    }
+
+    #[test]
+    fn a_scaled_start_has_other_scales_and_nothing_else() {
+        let space = Space::new(&Parameters::default(), &DEFAULT);
+        let scaled = space.parameters(&space.scaled_start(0.5));
+        assert!(scaled.conditioning.force_scale.iter().all(|scale| (scale - 0.5).abs() < 1e-12));
+        assert!(scaled.conditioning.rate_scale.iter().all(|scale| (scale - 0.5).abs() < 1e-12));
+        assert_eq!((scaled.splitter, scaled.angular), (Parameters::default().splitter, Parameters::default().angular));
     }
 
     #[test]

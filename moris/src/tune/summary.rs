@@ -66,18 +66,14 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
         text.push_str(" No ride was held out: nothing is known of other rides.");
         return text;
     };
-    let Comparison { rides, before, after, better, limited_after, .. } = unseen;
-    let beats = after < before && 2 * better > rides && limited_after == 0;
+    let Comparison { rides, before, after, better, limited_before, limited_after } = unseen;
     write!(
         text,
-        "\n\nOn rides that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {rides}."
+        "\n\nOn rides that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {rides}. \
+         The platform's limits act, or the reserve of stroke is touched, on {limited_after} of them, with {before_name} on {limited_before}."
     )
     .expect("a string takes whatever is written");
-    if limited_after > 0 {
-        write!(text, " On {limited_after} of them the platform's limits act, or the reserve of stroke is touched.")
-            .expect("a string takes whatever is written");
-    }
-    text.push_str(if beats {
+    text.push_str(if unseen.is_clearly_better() {
         " **It beats the parameters that it started from.**"
     } else {
         " **It does not clearly beat the parameters that it started from**: these rides have too little in common, or are too few."
@@ -96,6 +92,11 @@ struct Comparison {
 }
 
 impl Comparison {
+    /// Better on average and on most rides, and limited on no more.
+    fn is_clearly_better(&self) -> bool {
+        self.after < self.before && 2 * self.better > self.rides && self.limited_after <= self.limited_before
+    }
+
     fn of(pairs: impl Iterator<Item = (Cost, Cost)>) -> Option<Self> {
         let pairs: Vec<(Cost, Cost)> = pairs.collect();
         let mean = |error: fn(&(Cost, Cost)) -> f64| pairs.iter().map(error).sum::<f64>() / pairs.len() as f64;
@@ -165,4 +166,53 @@ fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; 
         }
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cost(error: f64, violated: f64) -> Cost {
+        Cost { channels: [error; 6], error, violated }
+    }
+
+    fn result(before: Cost, unseen: Option<Cost>) -> RideResult {
+        let tuned = Some(cost(0.5, 0.0));
+        RideResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen }
+    }
+
+    const BEATS: &str = "**It beats the parameters that it started from.**";
+
+    #[test]
+    fn better_on_average_and_on_most_rides_beats() {
+        let results = [(0.8, 0.6), (0.9, 0.7), (0.5, 0.6)];
+        let results = results.map(|(before, unseen)| result(cost(before, 0.0), Some(cost(unseen, 0.0))));
+        let text = verdict(&results, "default");
+        assert!(text.contains("goes from 0.733 to 0.633; it is better on 2 of 3") && text.contains(BEATS), "{text}");
+    }
+
+    #[test]
+    fn better_on_average_by_one_ride_alone_or_at_the_price_of_limits_does_not() {
+        let results = [(3.0, 1.0), (0.5, 0.6), (0.5, 0.6)];
+        let results = results.map(|(before, unseen)| result(cost(before, 0.0), Some(cost(unseen, 0.0))));
+        assert!(!verdict(&results, "default").contains(BEATS));
+        let results = [0.0, 0.01].map(|violated| result(cost(0.8, 0.0), Some(cost(0.4, violated))));
+        assert!(!verdict(&results, "default").contains(BEATS));
+    }
+
+    #[test]
+    fn what_was_not_held_out_is_not_claimed() {
+        let text = verdict(&[result(cost(0.8, 0.02), None)], "default");
+        assert!(text.contains("No ride was held out: nothing is known of other rides."), "{text}");
+        assert!(text.contains("default let the platform's limits act, or the reserve be touched, on 1 of 1"), "{text}");
+        assert!(!text.contains(BEATS));
+    }
+
+    #[test]
+    fn a_table_is_markdown_and_aligned() {
+        let text = table(["ride", "x"], [["a".to_owned(), "1 → 2".to_owned()]].into_iter());
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[1], "|------|-------|");
+        assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()));
+    }
 }

@@ -5,11 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Result, bail};
 use indicatif::ProgressBar;
+use moris_washout::Parameters;
 use rayon::prelude::*;
 use washout_setup::Setup;
 
 use super::cost::{Cost, Judge};
-use super::search::{Budget, search};
+use super::search::{Budget, Searched, search};
 use super::space::Space;
 use super::summary::RideResult;
 use crate::run::Recording;
@@ -47,11 +48,9 @@ impl Tuner<'_> {
             !self.was_interrupted()
         })?;
         self.bar.set_position(begin + self.budget.evaluations as u64);
-        for found in &searched.best {
-            let tuned =
-                Setup { parameters: found.parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
-            let costs: Result<Vec<Cost>> = judges.par_iter().map(|judge| full_cost(judge, &tuned)).collect();
-            if costs?.iter().all(Cost::is_feasible) {
+        for parameters in self.candidates(&searched) {
+            let tuned = Setup { parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
+            if keeps_all_constraints(judges, &tuned)? {
                 return Ok(tuned);
             }
         }
@@ -62,6 +61,20 @@ impl Tuner<'_> {
              --tune splitter,angular,scale,cutoff",
             self.held_up(judges, &nearest)?
         )
+    }
+
+    /// What to try in the steps that it will be used with, one after the other: what the search found to be best, and, where none of that
+    /// holds, the best with its scales made smaller and smaller.
+    fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
+        let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
+        let tries = if self.space.has_scales() { TRIES } else { 0 };
+        let smaller = (1..=tries).map(move |k| {
+            let mut parameters = best;
+            parameters.conditioning.force_scale *= SMALLER.powi(k);
+            parameters.conditioning.rate_scale *= SMALLER.powi(k);
+            parameters
+        });
+        searched.best.iter().map(|found| found.parameters).collect::<Vec<_>>().into_iter().chain(smaller)
     }
 
     /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
@@ -98,6 +111,15 @@ impl Tuner<'_> {
         }
         Ok(())
     }
+}
+
+/// How much smaller the scales are made at a time, and how often at most: down to a fifth.
+const SMALLER: f64 = 0.95;
+const TRIES: i32 = 32;
+
+fn keeps_all_constraints(judges: &[&Judge], setup: &Setup) -> Result<bool> {
+    let costs: Result<Vec<Cost>> = judges.par_iter().map(|judge| full_cost(judge, setup)).collect();
+    Ok(costs?.iter().all(Cost::is_feasible))
 }
 
 /// What a ride comes to with these parameters, in the internal steps that they say.
