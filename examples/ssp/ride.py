@@ -86,7 +86,8 @@ def draw(path, result):
     axes[5].set_xlabel("time [s]")
     for axis in axes:
         axis.grid(alpha=0.3)
-        axis.legend(loc="upper right", ncols=3, fontsize="small")
+        axis.margins(y=0.25)
+        axis.legend(loc="upper left", ncols=6, fontsize="small", frameon=False)
     figure.savefig(path, dpi=120, metadata={"Date": None} if Path(path).suffix == ".svg" else None)
 
 

@@ -20,7 +20,8 @@ pub fn parameter_set(system: &System) -> Result<schema::ParameterSet, Error> {
         let identity = component.ok_or_else(|| error(format!("there is no component {name}")))?.model.made.identity;
         let values = values.as_table().ok_or_else(|| error(format!("{name} must be a table of parameters")))?;
         for (variable, value) in values {
-            let value = typed(&identity, variable, value).map_err(|reason| error(format!("{name}.{variable} {reason}")))?;
+            let value =
+                typed(&identity, variable, value).map_err(|reason| error(format!("{name}.{variable} {reason}")))?;
             parameters.push(schema::Parameter { name: format!("{name}.{variable}"), value });
         }
     }

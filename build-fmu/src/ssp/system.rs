@@ -113,8 +113,8 @@ pub fn names(identity: &Identity, causality: Causality) -> Vec<String> {
 impl Component {
     /// Whether an output is to be seen from outside.
     pub fn shows(&self, name: &str) -> bool {
-        self.shown.iter().any(|shown| {
-            name.strip_prefix(shown).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        })
+        self.shown
+            .iter()
+            .any(|shown| name.strip_prefix(shown).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '['])))
     }
 }
