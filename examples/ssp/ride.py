@@ -61,7 +61,7 @@ def draw(path, result):
 
     # The same picture from the same ride, to the byte.
     plt.rcParams |= {"svg.hashsalt": "ride", "svg.fonttype": "none", "font.family": "sans-serif"}
-    result = result[:: max(1, len(result) // 900)]
+    result = result[:: max(1, len(result) // 500)]
     times = result["time"]
     figure, axes = plt.subplots(6, 1, figsize=(9, 13), sharex=True, layout="constrained")
     figure.suptitle("Accelerate, slalom, brake to a stop: motorcycle, washout and platform")
