@@ -241,7 +241,7 @@ interface! {
         /// Moment of inertia of the torso about its centre of mass, about the axis forward.
         "rider.torsoInertia" torso_inertia: f64 [KG_M2] = 1.3;
         /// Speed below which feet on the road and firm hands hold the motorcycle upright, all the more the slower.
-        "feet.speed" feet_speed: f64 [M_PER_S] = 2.5;
+        "feet.speed" feet_speed: f64 [M_PER_S] = 3.0;
         /// Distance of the rider's head ahead of the rear contact.
         "head.x" head_x: f64 [M] = 0.65;
         /// Height of the rider's head above the road.

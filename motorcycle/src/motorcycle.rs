@@ -19,8 +19,8 @@ use crate::suspension::{self, Suspension};
 /// How many internal steps a communication step may take.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
 
-/// Wind beyond this counts as this, along each axis \[N\]: about what 40 m/s from the side make.
-pub const STRONGEST_WIND: f64 = 1000.0;
+/// Wind beyond this counts as this, along each axis \[N\]: about what 30 m/s from the side make.
+pub const STRONGEST_WIND: f64 = 600.0;
 
 /// A motorcycle and its rider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
