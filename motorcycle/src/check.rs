@@ -2,6 +2,8 @@
 
 use model_interface::{Group, Kind, Refusal, Row, Writer, slot_count};
 
+use nalgebra::{Complex, SVector};
+
 use crate::interface::Parameters;
 use crate::lateral::{Design, Lateral, static_loads};
 use crate::longitudinal::Longitudinal;
@@ -85,7 +87,9 @@ pub fn ridden(
     let mut pole = suspension.fastest_pole().max(fastest_lag(parameters));
     for k in 0..=SPEEDS {
         let speed = fastest * f64::from(k) / f64::from(SPEEDS);
-        let poles = rider.closed_loop(&lateral, speed).complex_eigenvalues();
+        let ridden = rider.closed_loop(&lateral, speed);
+        let finite = ridden.iter().all(|number| number.is_finite());
+        let poles = if finite { ridden.complex_eigenvalues() } else { SVector::repeat(Complex::new(0.0, 0.0)) };
         if poles.iter().any(|pole| pole.re >= 0.0) {
             return refuse(
                 "feet.speed",

@@ -19,8 +19,8 @@ use crate::suspension::{self, Suspension};
 /// How many internal steps a communication step may take.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
 
-/// Wind beyond this counts as this, along each axis \[N\]: about what 40 m/s from the side make.
-pub const STRONGEST_WIND: f64 = 1000.0;
+/// Wind beyond this counts as this, along each axis \[N\]: about what 30 m/s from the side make.
+pub const STRONGEST_WIND: f64 = 600.0;
 
 /// A motorcycle and its rider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Motorcycle {
     output_derivative: Output,
 }
 
-/// A state's derivative, with what was computed on the way.
+/// A state's derivative, and what was computed on the way.
 struct Dynamics {
     derivative: State,
     forces: Forces,
@@ -139,7 +139,8 @@ impl Motorcycle {
         let k2 = self.motion(&state.plus(&k1, 0.5 * size), &middle).derivative;
         let k3 = self.motion(&state.plus(&k2, 0.5 * size), &middle).derivative;
         let k4 = self.motion(&state.plus(&k3, size), &end).derivative;
-        self.state = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
+        let end = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
+        self.state = end.without_dust();
         self.state.speed = self.state.speed.max(0.0);
     }
 
