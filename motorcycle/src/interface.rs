@@ -148,7 +148,7 @@ interface! {
         /// Moment of inertia of the front wheel about its axle.
         "frontWheel.inertia.yy" front_wheel_yy: f64 [KG_M2] = 0.6;
         /// Steering damper: torque for a rate of steer.
-        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 1.0;
+        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 7.4;
         /// Largest steer angle that the rider asks for.
         "steer.lock" steer_lock: f64 [RAD] = 0.5;
     }
