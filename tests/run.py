@@ -37,6 +37,7 @@ def main():
     run("cargo", "build-fmu")
     run("cargo", "build-fmu", "--fmi", "3")
     run("cargo", "build-ssp")
+    run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(sys.executable, "tests/importers/run.py")

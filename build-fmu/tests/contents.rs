@@ -5,7 +5,7 @@ use std::io::{Cursor, Read};
 use build_fmu::archive::{Contents, pack};
 use build_fmu::contents::contents;
 use build_fmu::model::WASHOUT;
-use build_fmu::ssp::{self, MOTORCYCLE_SIMULATOR};
+use build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
 use build_fmu::{FmiVersion, MODELS, Model, Platform, workspace};
 use clap::ValueEnum;
 use model_description::scalar_variable::{ScalarVariable, Values};
@@ -266,12 +266,11 @@ fn the_washouts_reference_ride_is_as_expected() {
 
 #[test]
 fn a_systems_description_is_the_same_every_time() {
-    let describe = || pack(&ssp::description(&MOTORCYCLE_SIMULATOR).unwrap()).unwrap();
-    assert!(describe() == describe());
-    let contents = ssp::description(&MOTORCYCLE_SIMULATOR).unwrap();
-    let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
-    assert_eq!(
-        paths,
-        ["SystemStructure.ssd", "documentation/licenses/license.txt", "resources/MotorcycleSimulator.ssv"]
-    );
+    for (form, parameters) in [(Form::Whole, "MotorcycleSimulator"), (Form::Flat, "washout")] {
+        let contents = ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap();
+        let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
+        let parameters = format!("resources/{parameters}.ssv");
+        assert_eq!(paths, ["SystemStructure.ssd", "documentation/licenses/license.txt", &*parameters]);
+        assert!(pack(&contents).unwrap() == pack(&ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap()).unwrap());
+    }
 }

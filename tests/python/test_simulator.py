@@ -54,6 +54,33 @@ def models(ssp, system):
     return found
 
 
+@pytest.fixture(scope="module")
+def flat(ssp):
+    path = ssp.with_suffix(".flat.ssp")
+    assert path.exists(), f"{path} is missing: run `cargo build-ssp --flat`"
+    return path
+
+
+def test_the_flat_one_is_the_same_without_inputs_and_with_a_parameter_set_a_component(system, parameters, flat):
+    root = etree.fromstring(file(flat, "SystemStructure.ssd"))
+    etree.XMLSchema(file=str(SCHEMAS / "SystemStructureDescription.xsd")).assertValid(root)
+    assert not root.xpath("ssd:System/ssd:Connectors", namespaces=NAMESPACES)
+
+    def wires(root):
+        return [dict(w.attrib) for w in root.xpath("//ssd:Connection[@startElement]", namespaces=NAMESPACES)]
+
+    assert wires(root) == wires(system) == [dict(w.attrib) for w in root.xpath("//ssd:Connection", namespaces=NAMESPACES)]
+    values = {}
+    for component in root.xpath("//ssd:Component[ssd:ParameterBindings]", namespaces=NAMESPACES):
+        (source,) = component.xpath("ssd:ParameterBindings/ssd:ParameterBinding/@source", namespaces=NAMESPACES)
+        own = etree.fromstring(file(flat, source))
+        etree.XMLSchema(file=str(SCHEMAS / "SystemStructureParameterValues.xsd")).assertValid(own)
+        for parameter in own.xpath("ssv:Parameters/ssv:Parameter", namespaces=NAMESPACES):
+            values[f"{component.get('name')}.{parameter.get('name')}"] = dict(parameter[0].attrib)
+    whole = parameters.xpath("ssv:Parameters/ssv:Parameter", namespaces=NAMESPACES)
+    assert values == {parameter.get("name"): dict(parameter[0].attrib) for parameter in whole}
+
+
 def test_it_is_valid_against_the_schemas_of_ssp_1_0(system, parameters):
     for root, schema in ((system, "SystemStructureDescription.xsd"), (parameters, "SystemStructureParameterValues.xsd")):
         assert root.get("version") == "1.0"
