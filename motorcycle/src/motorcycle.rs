@@ -47,7 +47,8 @@ struct Dynamics {
 }
 
 impl Motorcycle {
-    /// The motorcycle at its initial speed, upright and straight ahead; throttle and brakes as the input has them.
+    /// The motorcycle at its initial speed, upright and straight ahead, with throttle closed and brakes off; in the wind of
+    /// the input.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
@@ -56,7 +57,6 @@ impl Motorcycle {
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
         let (lateral, rider) = ridden(parameters, &longitudinal, &suspension)?;
-        let input = made_safe(input);
         let state = State {
             position: Vector2::zeros(),
             heading: parameters.run.initial_heading,
@@ -64,8 +64,8 @@ impl Motorcycle {
             lateral: lateral::State::zeros(),
             suspension: suspension::State { position: Vector2::zeros(), velocity: Vector2::zeros() },
             rider: crate::rider::State::default(),
-            throttle: input.throttle,
-            brake: input.brake,
+            throttle: 0.0,
+            brake: 0.0,
         };
         let mut motorcycle = Motorcycle {
             parameters: *parameters,
@@ -78,7 +78,7 @@ impl Motorcycle {
             output: Output::default(),
             output_derivative: rest_rate(),
         };
-        motorcycle.output = motorcycle.output_for(&input);
+        motorcycle.output = motorcycle.output_for(&made_safe(input));
         Ok(motorcycle)
     }
 
