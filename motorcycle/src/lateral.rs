@@ -202,9 +202,9 @@ impl Lateral {
     }
 }
 
-/// Feet and hands when they hold fully: a roll stiffness of twice what gravity topples with, and as much damping as
-/// brings the motorcycle upright without swinging; the same for the bars, which fall to a side by their own weight; and
-/// dampers on both contacts, for a tyre that does not roll is a spring without any damping.
+/// Feet and hands when they hold fully: a stiffness against roll, and as much damping as brings the motorcycle upright
+/// without swinging; the same for the bars, which fall to a side by their own weight; and dampers on both contacts, for
+/// a tyre that does not roll is a spring without any damping.
 fn hold(
     design: &Design,
     inverse: &Matrix4<f64>,
@@ -215,9 +215,11 @@ fn hold(
     let (sin, _) = libm::sincos(design.bicycle.lambda);
     let k0 = t.gravity_stiffness(sin) * design.gravity;
     let mut hold = StateMatrix::zeros();
-    let holds = [(2, LEAN, LEAN_RATE, k0[(0, 0)], t.t_xx), (3, STEER, STEER_RATE, k0[(1, 1)], t.a_ll)];
-    for (row, angle, rate, toppling, inertia) in holds {
-        let stiffness = HOLD_STIFFNESS * toppling.abs();
+    let holds = [
+        (2, LEAN, LEAN_RATE, FEET_STIFFNESS * k0[(0, 0)].abs(), t.t_xx),
+        (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll),
+    ];
+    for (row, angle, rate, stiffness, inertia) in holds {
         let damping = 2.0 * libm::sqrt(stiffness * inertia);
         let force = Vector4::ith(row, 1.0);
         add_column(&mut hold, angle, &(inverse * force * -stiffness));
@@ -233,8 +235,10 @@ fn hold(
     hold
 }
 
-/// How much stiffer than gravity topples feet and hands hold.
-const HOLD_STIFFNESS: f64 = 2.0;
+/// How much stiffer than gravity topples the motorcycle the feet hold it.
+const FEET_STIFFNESS: f64 = 4.0;
+/// How much stiffer than gravity turns the bars the hands hold them.
+const HANDS_STIFFNESS: f64 = 5.0;
 
 /// The feet's share of holding the motorcycle upright: 1 at rest, falling smoothly to 0 at `fastest` \[m/s\].
 pub fn feet_share(speed: f64, fastest: f64) -> f64 {

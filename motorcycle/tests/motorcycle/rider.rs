@@ -90,8 +90,26 @@ fn a_gust_from_the_side_is_held() {
         wind.throttle = cruise(&ridden, 25.0);
         ridden.step(&wind, 0.001);
     }
+    // It has been blown away to the left, and turned there while it leant into the wind.
+    assert!(ridden.output().position.y > 1.0, "{}", ridden.output().position.y);
     // The error's integral brings the lean back to what is commanded, wind or not; then the path is bent by the wind.
     assert!(ridden.output().orientation.roll.abs() < 1e-3);
+}
+
+#[test]
+fn a_torso_that_leans_to_the_right_turns_the_motorcycle_to_the_right_upright() {
+    let mut ridden = motorcycle(&at_speed(15.0));
+    for _ in 0..8000 {
+        let throttle = cruise(&ridden, 15.0);
+        ridden.step(&Input { rider_lean: 0.2, throttle, ..Input::default() }, 0.001);
+    }
+    let output = ridden.output();
+    assert!(output.orientation.roll.abs() < 1e-3, "roll {}", output.orientation.roll);
+    // The weight of the torso out of the plane, against the centripetal force of all masses and the wheels' spin.
+    let static_moment = 221.0 * 0.669 + 22.0 * 0.767 + 12.0 * 0.294 + 15.0 * 0.299;
+    let spin = 0.8 / 0.299 + 0.6 / 0.294;
+    let expected = -44.5 * 0.4 * 0.2 * 9.80665 / ((static_moment + spin) * output.speed);
+    assert_near(output.angular_velocity.z / expected, 1.0, 0.03, "yaw rate");
 }
 
 #[test]
