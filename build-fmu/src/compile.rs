@@ -5,7 +5,7 @@ use std::fmt;
 use std::fs;
 use std::process::Command;
 
-use crate::{Error, FmiVersion, Model, Platform, apple_names, tools, workspace};
+use crate::{Error, FmiVersion, Model, Platform, Start, apple_names, tools, workspace};
 
 /// The oldest glibc on which a library for Linux runs when zig links it: that of RHEL 7, and of what Rust itself needs.
 const OLDEST_GLIBC: &str = "2.17";
@@ -72,14 +72,21 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
     Ok(Plan { platform, linker })
 }
 
-/// Compiles the model's library for a version of FMI and returns it.
+/// The variable that tells `fmi_export`'s macros of start values in place of the model's own.
+const START_VALUES: &str = "FMU_START_VALUES";
+
+/// Compiles the model's library for a version of FMI, with these start values, and returns it.
 ///
 /// # Errors
 /// The compiler cannot be run or fails, or its result cannot be read.
-pub fn compile(model: &Model, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
+pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     let mut command = plan.cargo();
     command.args(["--release", "--package", model.package(fmi), "--target-dir"]).arg(workspace::target_directory());
     command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags(model.library(fmi))?);
+    match start.text() {
+        Some(text) => command.env(START_VALUES, text),
+        None => command.env_remove(START_VALUES),
+    };
     if plan.linker == Linker::Lld {
         command.env("SDKROOT", apple_names::development_kit(plan.platform)?);
     }

@@ -2,7 +2,7 @@
 
 use crate::archive::Contents;
 use crate::reference::{self, Stimuli};
-use crate::{FmiVersion, Model, Platform, documentation};
+use crate::{FmiVersion, Model, Platform, Start, documentation};
 
 /// Under which licences the FMU and its sources are: the choice is the user's.
 pub const LICENCES: &str = concat!(
@@ -13,16 +13,21 @@ pub const LICENCES: &str = concat!(
     include_str!("../../LICENSE-APACHE"),
 );
 
-/// The files of a model's FMU of a version of FMI with these libraries.
-pub fn contents(model: &Model, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
+/// The files of a model's FMU of a version of FMI with these libraries, which start with these values.
+pub fn contents(model: &Model, start: &Start, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
     let mut contents = Contents::new();
-    contents.insert("documentation/index.html".to_owned(), documentation::page(model, fmi).into_bytes());
+    contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());
     contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());
     contents.insert(fmi.icon_file().to_owned(), (model.icon)());
-    contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi).into_bytes());
+    contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi, start).into_bytes());
     // The tables' columns are scalar variables.
     if fmi == FmiVersion::Fmi2 {
-        contents.extend(reference::files(model.name, &Stimuli::new(model.reference_input), model.reference_output));
+        let input = Stimuli::new(model.reference_input);
+        let output = (model.made.reference_output)(&input, start.slots());
+        contents.extend(reference::files(model.name, &input, output));
+    }
+    if !start.is_the_model_s_own() {
+        contents.insert("documentation/start-values.toml".to_owned(), start.file(model).into_bytes());
     }
     for (platform, bytes) in libraries {
         let path = format!("binaries/{}/{}", platform.directory(fmi), platform.packed_library(model.name));

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::{FmiVersion, Model};
+use crate::{FmiVersion, Model, Start};
 
 /// A part of the documentation.
 pub struct Section {
@@ -18,9 +18,9 @@ const PAGE: &str = include_str!("../documentation/page.html");
 const STYLE: &str = include_str!("../documentation/style.css");
 
 /// `documentation/index.html`: the model's sections, then its tables of variables.
-pub fn page(model: &Model, fmi: FmiVersion) -> String {
-    let variables = (model.variables)(fmi);
-    let description = (model.description)();
+pub fn page(model: &Model, start: &Start, fmi: FmiVersion) -> String {
+    let variables = model.variables(fmi, start);
+    let description = (model.made.description)(start.slots());
     let sections = || {
         let written = model.sections.iter().map(|section| (section.anchor, section.heading, section.html));
         written.chain([("variables", "Variables", variables.as_str())])

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use model_interface::Refusal;
+
 use crate::Platform;
 use crate::library::Flaw;
 
@@ -27,6 +29,15 @@ pub enum Error {
     /// A file that should be there cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },
+    /// The parameters of a system name what there is not.
+    #[error("the system's parameters cannot be used: {reason}")]
+    Parameters { reason: String },
+    /// The model cannot start with the values that it was to be given.
+    #[error("{model} cannot start with these values: {refusal}")]
+    Start { model: &'static str, refusal: Refusal },
+    /// A rig or parameter file cannot be used.
+    #[error("{0}")]
+    Setup(#[from] washout_setup::Error),
     /// The archive cannot be made.
     #[error("cannot pack the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

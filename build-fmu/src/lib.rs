@@ -1,7 +1,8 @@
 //! Builds a model's shared library for each platform and packs it, with all that belongs to it, into an FMU.
 //!
 //! `cargo build-fmu` is the command; [`build`] is the same for a program. What an FMU holds is decided in [`contents`],
-//! the models that there are in [`model`], the platforms in [`platform`], the versions of FMI in [`fmi_version`].
+//! the models that there are in [`model`], the platforms in [`platform`], the versions of FMI in [`fmi_version`]. [`ssp`]
+//! packs several FMUs into a system.
 
 mod apple_names;
 pub mod archive;
@@ -16,6 +17,8 @@ pub mod library;
 pub mod model;
 pub mod platform;
 pub mod reference;
+pub mod ssp;
+mod start;
 mod tools;
 pub mod workspace;
 
@@ -26,6 +29,7 @@ pub use error::Error;
 pub use fmi_version::FmiVersion;
 pub use model::{MODELS, Model};
 pub use platform::Platform;
+pub use start::Start;
 
 /// An FMU that has been written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -47,27 +51,61 @@ pub fn build(
     fmi: FmiVersion,
     platforms: &[Platform],
     output: &Path,
-    mut report: impl FnMut(&str),
+    report: impl FnMut(&str),
 ) -> Result<Built, Error> {
-    let plans = compile::plan(platforms)?;
-    let mut libraries = Vec::new();
-    for plan in &plans {
-        report(&format!("{}: {plan}", plan.platform));
-        let bytes = compile::compile(model, fmi, plan)?;
-        let facts = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
-            .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
-        report(&format!("{}: {facts}", plan.platform));
-        libraries.push((plan.platform, bytes));
-    }
-    let archive = archive::pack(&contents::contents(model, fmi, libraries))?;
+    build_with(model, &Start::own(model), fmi, platforms, output, report)
+}
+
+/// Builds a model's FMU that starts with these values; otherwise as [`build`].
+///
+/// # Errors
+/// As [`build`].
+pub fn build_with(
+    model: &Model,
+    start: &Start,
+    fmi: FmiVersion,
+    platforms: &[Platform],
+    output: &Path,
+    report: impl FnMut(&str),
+) -> Result<Built, Error> {
+    let archive = fmu_with(model, start, fmi, platforms, report)?;
     let file = output.join(fmi.fmu_file(model.name));
     write_whole(&file, &archive)?;
     Ok(Built { file, size: archive.len() })
 }
 
+/// Builds a model's FMU and returns its bytes; otherwise as [`build`].
+///
+/// # Errors
+/// As [`build`].
+pub fn fmu(model: &Model, fmi: FmiVersion, platforms: &[Platform], report: impl FnMut(&str)) -> Result<Vec<u8>, Error> {
+    fmu_with(model, &Start::own(model), fmi, platforms, report)
+}
+
+/// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as [`build`].
+fn fmu_with(
+    model: &Model,
+    start: &Start,
+    fmi: FmiVersion,
+    platforms: &[Platform],
+    mut report: impl FnMut(&str),
+) -> Result<Vec<u8>, Error> {
+    let plans = compile::plan(platforms)?;
+    let mut libraries = Vec::new();
+    for plan in &plans {
+        report(&format!("{}: {plan}", plan.platform));
+        let bytes = compile::compile(model, start, fmi, plan)?;
+        let facts = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
+            .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
+        report(&format!("{}: {facts}", plan.platform));
+        libraries.push((plan.platform, bytes));
+    }
+    archive::pack(&contents::contents(model, start, fmi, libraries))
+}
+
 /// Writes a file that others never see half written.
 fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let part = file.with_extension(format!("fmu.{}", std::process::id()));
+    let part = file.with_extension(format!("part.{}", std::process::id()));
     let write = || {
         fs::create_dir_all(file.parent().unwrap_or(Path::new(".")))?;
         fs::write(&part, bytes)?;

@@ -3,40 +3,92 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use build_fmu::{FmiVersion, MODELS, Platform, build, workspace};
+use build_fmu::model::WASHOUT;
+use build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, workspace};
 use clap::Parser;
+use clap::builder::PossibleValuesParser;
+use washout_setup::{NamedValues, load_rig, load_set};
 
-/// Builds the FMU: compiles the shared library and packs it with its model description and documentation.
+/// Builds FMUs: compiles each shared library and packs it with its model description and documentation.
 ///
-/// Without options the FMU is for this machine and lands in target/fmu. Where cargo-zigbuild is installed, a library for
-/// Linux runs on glibc 2.17 and newer; where it is not, on this machine's glibc and newer. Which it is, is said.
+/// Without options every model's FMU is built for this machine and lands in target/fmu. Where cargo-zigbuild is
+/// installed, a library for Linux runs on glibc 2.17 and newer; where it is not, on this machine's glibc and newer. Which
+/// it is, is said.
+///
+/// With --rig and --parameters the FMUs start with a rig and parameters of your own instead of the models'.
 #[derive(Parser)]
 #[command(name = "cargo build-fmu", version)]
 struct Arguments {
+    /// Model to build, or several separated by commas [default: all]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = model_names())]
+    model: Vec<String>,
+
     /// Version of FMI
     #[arg(long, value_name = "VERSION", default_value = "2")]
     fmi: FmiVersion,
 
-    /// Platforms that the FMU shall run on, separated by commas [default: this machine's]
+    /// Platforms that the FMUs shall run on, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
 
-    /// Directory that the FMU is written into [default: target/fmu in the workspace]
+    /// Rig file whose rig the FMUs start with, those that have one
+    #[arg(long, value_name = "FILE")]
+    rig: Option<PathBuf>,
+
+    /// Parameter file, or shipped set (wake), whose values the washout's FMU starts with; another model's if --model names
+    /// that one alone. May be given several times: later ones stand over earlier ones, and all over the rig
+    #[arg(long, value_name = "FILE|NAME")]
+    parameters: Vec<String>,
+
+    /// Directory that the FMUs are written into [default: target/fmu in the workspace]
     #[arg(long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
 }
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let output = arguments.output.unwrap_or_else(workspace::default_output);
-    for model in MODELS {
-        match build(model, arguments.fmi, &arguments.platform, &output, |line| println!("{line}")) {
-            Ok(built) => println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000)),
-            Err(error) => {
-                eprintln!("error: {error}");
-                return ExitCode::FAILURE;
-            }
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
         }
     }
-    ExitCode::SUCCESS
+}
+
+fn run(arguments: &Arguments) -> Result<(), Error> {
+    let output = arguments.output.clone().unwrap_or_else(workspace::default_output);
+    let chosen = |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
+    let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
+    // Before anything is compiled.
+    let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
+    let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
+    for (model, start) in models.iter().zip(&starts) {
+        if !start.is_the_model_s_own() {
+            println!("{}: starts with {} values in place of its own", model.name, start.count());
+        }
+        let report = |line: &str| println!("{line}");
+        let built = build_with(model, start, arguments.fmi, &arguments.platform, &output, report)?;
+        println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
+    }
+    Ok(())
+}
+
+/// What is to stand in place of a model's own start values: the rig where it has one, and over it the parameters where they
+/// are its own.
+fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Error> {
+    let mut values = NamedValues::new();
+    if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {
+        values.extend(load_rig(file)?.values());
+    }
+    let is_chosen_alone = arguments.model.len() == 1;
+    if is_chosen_alone || model.name == WASHOUT.name {
+        for set in &arguments.parameters {
+            values.extend(load_set(set, model.made.identity.rows)?);
+        }
+    }
+    Ok(values)
+}
+
+fn model_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(MODELS.iter().map(|model| model.name))
 }

@@ -21,7 +21,7 @@ const RATE: usize = 100;
 const STEPS_PER_ROW: usize = 20;
 
 /// The files of a model's reference ride: `input` is a table of inputs, `output` what [`output`] makes of it.
-pub fn files(name: &str, input: &Stimuli, output: fn(&Stimuli) -> String) -> Contents {
+pub fn files(name: &str, input: &Stimuli, output: String) -> Contents {
     let fill = |text: &str| {
         text.replace("{{name}}", name)
             .replace("{{stop}}", &input.end().to_string())
@@ -32,7 +32,7 @@ pub fn files(name: &str, input: &Stimuli, output: fn(&Stimuli) -> String) -> Con
         file("fmi-ls-manifest.xml", fill(MANIFEST)),
         file(&format!("{name}.exp"), fill(EXPERIMENTS)),
         file(&format!("{name}_in.csv"), input.text.to_owned()),
-        file(&format!("{name}_ref.csv"), output(input)),
+        file(&format!("{name}_ref.csv"), output),
     ])
 }
 
@@ -70,11 +70,11 @@ impl Stimuli {
     }
 }
 
-/// What the model answers to these inputs: every real output, as a comma-separated table of ten decimals.
+/// What the model answers to these inputs from these start values, one for each slot: every real output, as a comma-separated table of ten decimals.
 ///
 /// # Panics
 /// An input is not one of the model's, or its start values are not usable.
-pub fn output<M: Model>(input: &Stimuli) -> String {
+pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
     let identity = M::IDENTITY;
     let inputs: Vec<usize> =
         input.names[1..].iter().map(|name| identity.slot(name).expect("one of the model's inputs")).collect();
@@ -84,9 +84,8 @@ pub fn output<M: Model>(input: &Stimuli) -> String {
     };
     let outputs: Vec<usize> = (0..identity.slots.len()).filter(is_recorded).collect();
 
-    let mut slots = vec![0.0; identity.slots.len()];
-    let derivatives = slots.clone();
-    M::start(&mut slots);
+    let mut slots = start.to_vec();
+    let derivatives = vec![0.0; slots.len()];
     let set = |slots: &mut [f64], time: f64| {
         for (&slot, value) in inputs.iter().zip(input.at(time).into_iter().skip(1)) {
             slots[slot] = value;

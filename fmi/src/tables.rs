@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use model_interface::{Model, guid};
+use model_interface::{Model, guid_of, read_start_values, start_values};
 
 use crate::variable_check::{Role, VariableCheck, variable_checks};
 
@@ -13,26 +13,29 @@ pub type Guid = [u8; 38];
 pub struct SharedTables<const N: usize> {
     checks: [VariableCheck; N],
     time_slot: Option<usize>,
+    baked: Option<&'static str>,
     start: OnceLock<[f64; N]>,
     guid: OnceLock<Guid>,
 }
 
 impl<const N: usize> SharedTables<N> {
-    /// The tables of the model `M`, which has `N` slots.
-    pub const fn new<M: Model>() -> Self {
+    /// The tables of the model `M`, which has `N` slots. `baked` are start values in place of the model's own, as
+    /// [`write_start_values`](model_interface::write_start_values) gives them.
+    pub const fn new<M: Model>(baked: Option<&'static str>) -> Self {
         assert!(M::IDENTITY.slots.len() == N);
         let checks = variable_checks(&M::IDENTITY);
-        SharedTables { checks, time_slot: time_slot(&checks), start: OnceLock::new(), guid: OnceLock::new() }
+        let time_slot = time_slot(&checks);
+        SharedTables { checks, time_slot, baked, start: OnceLock::new(), guid: OnceLock::new() }
     }
 
     /// The tables, filled on the first call. `M` is the model that they were made for.
     pub fn get<M: Model>(&'static self) -> Tables {
         let start = self.start.get_or_init(|| {
-            let mut start = [0.0; N];
-            M::start(&mut start);
-            start
+            let baked = self.baked.map(read_start_values).unwrap_or_default();
+            start_values::<M>(&baked).try_into().expect("a model has as many start values as slots")
         });
-        let guid = self.guid.get_or_init(|| guid::<M>().as_bytes().try_into().expect("a GUID has 38 characters"));
+        let guid =
+            self.guid.get_or_init(|| guid_of::<M>(start).as_bytes().try_into().expect("a GUID has 38 characters"));
         Tables { checks: &self.checks, time_slot: self.time_slot, start, guid }
     }
 }

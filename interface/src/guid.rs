@@ -1,16 +1,20 @@
 //! The GUID by which a host knows that a model description and a binary belong together.
 
-use crate::{Causality, Identity, Kind, Model};
+use crate::{Causality, Identity, Kind, Model, start_values};
 
-/// The GUID of a model: a hash of its name, version, variables and the start values that a host can set, so that a model
-/// description is refused by every binary whose interface differs from it in anything.
+/// The GUID of a model with its own start values.
+pub fn guid<M: Model>() -> String {
+    guid_of::<M>(&start_values::<M>(&[]))
+}
+
+/// The GUID of a model with these start values, one for each slot: a hash of its name, version, variables and the start
+/// values that a host can set, so that a model description is refused by every binary whose interface differs from it in
+/// anything.
 ///
 /// The outputs' start values are computed, and come out differently where a host has set the processor to round or to
 /// flush small numbers otherwise; they are left out.
-pub fn guid<M: Model>() -> String {
+pub fn guid_of<M: Model>(start: &[f64]) -> String {
     let identity = M::IDENTITY;
-    let mut start = vec![0.0; identity.slots.len()];
-    M::start(&mut start);
     let mut hash = Fnv::new();
     hash_identity(&mut hash, &identity);
     for (slot, value) in start.iter().enumerate() {

@@ -13,16 +13,18 @@ mod guid;
 mod model;
 mod row;
 mod slots;
+mod start;
 mod unit;
 
 #[doc(hidden)] // for the macros
 pub use serde;
 
 pub use field::Field;
-pub use guid::guid;
+pub use guid::{guid, guid_of};
 pub use model::{Identity, Model, Refusal};
 pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, concat_rows, row_count};
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
+pub use start::{read_start_values, start_values, write_start_values};
 pub use unit::{BaseUnit, Unit, units};
 
 /// A struct whose fields are variables of the interface: made by [`interface!`] and [`interface_tree!`].

@@ -24,6 +24,10 @@ pub mod units {
         Unit { name, base: BaseUnit { kg: 0, m, s, rad } }
     }
 
+    const fn unit_with_mass(name: &'static str, kg: i8, m: i8, s: i8, rad: i8) -> Unit {
+        Unit { name, base: BaseUnit { kg, m, s, rad } }
+    }
+
     pub static ONE: Unit = unit("", 0, 0, 0);
     pub static M: Unit = unit("m", 1, 0, 0);
     pub static M_PER_S: Unit = unit("m/s", 1, -1, 0);
@@ -32,4 +36,17 @@ pub mod units {
     pub static RAD_PER_S: Unit = unit("rad/s", 0, -1, 1);
     pub static RAD_PER_S2: Unit = unit("rad/s2", 0, -2, 1);
     pub static S: Unit = unit("s", 0, 1, 0);
+
+    pub static M2: Unit = unit("m2", 2, 0, 0);
+    pub static PER_RAD: Unit = unit("1/rad", 0, 0, -1);
+
+    pub static KG: Unit = unit_with_mass("kg", 1, 0, 0, 0);
+    pub static KG_M2: Unit = unit_with_mass("kg.m2", 1, 2, 0, 0);
+    pub static KG_PER_M3: Unit = unit_with_mass("kg/m3", 1, -3, 0, 0);
+    pub static N: Unit = unit_with_mass("N", 1, 1, -2, 0);
+    pub static N_M: Unit = unit_with_mass("N.m", 1, 2, -2, 0);
+    pub static N_PER_M: Unit = unit_with_mass("N/m", 1, 0, -2, 0);
+    pub static N_S_PER_M: Unit = unit_with_mass("N.s/m", 1, 0, -1, 0);
+    pub static N_M_S_PER_RAD: Unit = unit_with_mass("N.m.s/rad", 1, 2, -1, -1);
+    pub static W: Unit = unit_with_mass("W", 1, 2, -3, 0);
 }

@@ -1,7 +1,7 @@
 //! From a model's rows to its description.
 
 use fmi_export::LOG_CATEGORIES;
-use model_interface::{Causality, Identity, Kind, Model};
+use model_interface::{Causality, Identity, Kind, Model, guid_of, start_values};
 
 use crate::model_description::{
     Category, CoSimulation, DefaultExperiment, LogCategories, ModelDescription, ModelVariables, TypeDefinitions,
@@ -21,17 +21,20 @@ const GENERATION_TOOL: &str = concat!("MORIS washout model-description ", env!("
 /// The date of the interface, not of the build: the same sources give the same file.
 const GENERATION_DATE_AND_TIME: &str = "2026-01-01T00:00:00Z";
 
-/// The model description of a model that is exported for co-simulation.
+/// The model description of a model that is exported for co-simulation, with its own start values.
+pub fn describe<M: Model>() -> ModelDescription {
+    describe_with::<M>(&start_values::<M>(&[]))
+}
+
+/// The model description of a model that is exported for co-simulation with these start values, one for each slot.
 ///
 /// Variables are listed in the order of the slots, and a value reference is a slot's number.
-pub fn describe<M: Model>() -> ModelDescription {
+pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
     let identity = M::IDENTITY;
-    let mut start = vec![0.0; identity.slots.len()];
-    M::start(&mut start);
     ModelDescription {
         fmi_version: "2.0".to_owned(),
         model_name: identity.name.to_owned(),
-        guid: model_interface::guid::<M>(),
+        guid: guid_of::<M>(start),
         description: identity.text.to_owned(),
         author: AUTHOR.to_owned(),
         version: identity.version.to_owned(),

@@ -5,8 +5,9 @@
 //!
 //! [`fmi3`] is the same for FMI 3.0.
 //!
-//! `modelDescription.xml` and `modelDescription.fmi3.xml` beside this crate are the washout's, generated and checked in,
-//! so that every change of the interface shows in a diff. `cargo run -p model-description` writes them anew.
+//! The directories named as a model beside this crate's sources have its `modelDescription.xml` and
+//! `modelDescription.fmi3.xml`, generated and checked in, so that every change of an interface shows in a diff.
+//! `cargo describe-models` writes them anew.
 
 mod describe;
 pub mod fmi3;
@@ -18,7 +19,7 @@ pub mod units;
 mod variables_html;
 mod xml;
 
-pub use describe::describe;
+pub use describe::{describe, describe_with};
 pub use model_description::ModelDescription;
 pub use variables_html::variables_html;
 pub use xml::to_xml;

@@ -7,8 +7,10 @@ use model_interface::{Causality, Identity, Kind, Model, Row, Variability};
 /// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters that can be changed
 /// while the simulation runs, and those that cannot, with a row for each row of the interface. Names and types are those
 /// of FMI 2.0.
-pub fn variables_html<M: Model>() -> String {
-    html::<M>(&Notation { name: name_html, type_name: |row| type_name(row.kind).to_owned() })
+///
+/// `start` has the start value of each slot.
+pub fn variables_html<M: Model>(start: &[f64]) -> String {
+    html(&M::IDENTITY, start, &Notation { name: name_html, type_name: |row| type_name(row.kind).to_owned() })
 }
 
 /// How a version of FMI shows a row of the interface.
@@ -20,13 +22,10 @@ pub(crate) struct Notation {
 }
 
 /// The tables in this notation.
-pub(crate) fn html<M: Model>(notation: &Notation) -> String {
-    let identity = M::IDENTITY;
-    let mut start = vec![0.0; identity.slots.len()];
-    M::start(&mut start);
+pub(crate) fn html(identity: &Identity, start: &[f64], notation: &Notation) -> String {
     let mut html = String::new();
     for section in SECTIONS {
-        html.push_str(&section_html(&identity, &start, section, notation));
+        html.push_str(&section_html(identity, start, section, notation));
     }
     html
 }

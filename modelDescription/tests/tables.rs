@@ -3,6 +3,7 @@
 mod small_model;
 
 use model_description::variables_html;
+use model_interface::start_values;
 use roxmltree::Document;
 use small_model::Small;
 
@@ -20,7 +21,7 @@ fn cells(html: &str, anchor: &str) -> Vec<Vec<String>> {
 
 fn small_tables() -> String {
     // As XML wants it: one root, void elements closed.
-    let html = variables_html::<Small>().replace("<wbr>", "").replace("<br>", "; ");
+    let html = variables_html::<Small>(&start_values::<Small>(&[])).replace("<wbr>", "").replace("<br>", "; ");
     format!("<html>{html}</html>")
 }
 

@@ -5,7 +5,6 @@
 mod chart;
 pub mod figures;
 pub mod manoeuvres;
-pub mod measures;
 pub mod parameter_set;
 pub mod recording;
 pub mod simulate;

@@ -1,5 +1,8 @@
 //! What one run on the FMU leaves behind.
 
+use cue_measures::effort::{Effort, effort};
+use cue_measures::{Limited, Platform};
+
 /// Everything that the tables and figures need of one communication point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
@@ -23,17 +26,6 @@ pub struct Sample {
     pub limited: Limited,
 }
 
-/// Which of the FMU's limits were at work.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Limited {
-    /// Tilt coordination.
-    pub tilt: bool,
-    /// The safety units.
-    pub safety: bool,
-    /// The actuator guard.
-    pub actuator: bool,
-}
-
 /// One run with one set of parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
@@ -53,7 +45,18 @@ pub struct Recording {
 
 impl Recording {
     /// One quantity at all samples.
-    pub fn series(&self, quantity: impl Fn(&Sample) -> f64) -> Vec<f64> {
+    pub fn series<T>(&self, quantity: impl Fn(&Sample) -> T) -> Vec<T> {
         self.samples.iter().map(quantity).collect()
+    }
+
+    /// What the platform did.
+    pub fn effort(&self) -> Effort {
+        effort(&Platform {
+            legs: &self.series(|sample| sample.legs),
+            stroke: self.stroke,
+            displacement: &self.series(|Sample { position: [x, y, z], .. }| [*x, *y, z - self.neutral_height]),
+            tilt_rate: &self.series(|sample| sample.tilt_rate),
+            limited: &self.series(|sample| sample.limited),
+        })
     }
 }

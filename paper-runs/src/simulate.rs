@@ -1,11 +1,12 @@
 //! Steps the FMU through a run as a host does: through its C functions, one value reference at a time.
 
 use anyhow::{Context, Result, ensure};
+use cue_measures::Limited;
 use fmu_host::{Fmu, Instance, Status};
 
 use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;
-use crate::recording::{Limited, Recording, Sample};
+use crate::recording::{Recording, Sample};
 
 const INPUTS: [&str; 8] = [
     "vehicle.specificForce.x",

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::measures::{Fidelity, effort, fidelity};
+use cue_measures::fidelity::{Fidelity, fidelity};
+
 use crate::recording::Recording;
 
 /// Stands where a number is not defined.
@@ -105,8 +106,8 @@ fn fidelity_rows(recording: &Recording, on_axis: impl Fn(usize) -> Option<Fideli
 
 /// What the platform did.
 pub fn platform_table(recordings: &[Recording]) -> Table {
-    let row = |recording| {
-        let effort = effort(recording);
+    let row = |recording: &Recording| {
+        let effort = recording.effort();
         let mut row = labels(recording);
         row.extend([
             number(effort.shortest_leg, 3),

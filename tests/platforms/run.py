@@ -109,7 +109,7 @@ def install():
 def build_library(chosen):
     """Builds the FMU for a platform; returns it and the place of its library, unpacked."""
     directory = WORK / chosen.name
-    done = call(["cargo", "build-fmu", "--platform", chosen.name, "--output", directory])
+    done = call(["cargo", "build-fmu", "--model", MODEL, "--platform", chosen.name, "--output", directory])
     if done.returncode != 0:
         reason = done.stderr.strip().splitlines()[-1].removeprefix("error: ")
         if "is not installed" in reason:

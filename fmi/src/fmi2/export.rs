@@ -6,6 +6,10 @@
 /// ```ignore
 /// fmi_export::export_fmi2!(my_crate::MyModel);
 /// ```
+///
+/// Where the variable `FMU_START_VALUES` is set when the library is compiled, it holds start values in place of the model's
+/// own: see [`SharedTables::new`](crate::SharedTables::new). Whoever sets it has to make sure that the model can start with
+/// them.
 #[macro_export]
 macro_rules! export_fmi2 {
     ($model:ty) => {
@@ -25,7 +29,8 @@ macro_rules! export_fmi2 {
             use super::*;
 
             const SLOTS: usize = $crate::slot_count::<$model>();
-            static TABLES: $crate::SharedTables<SLOTS> = $crate::SharedTables::new::<$model>();
+            static TABLES: $crate::SharedTables<SLOTS> =
+                $crate::SharedTables::new::<$model>(option_env!("FMU_START_VALUES"));
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2GetTypesPlatform() -> fmi2String {

@@ -22,7 +22,8 @@ macro_rules! export_fmi3 {
             use super::*;
 
             const SLOTS: usize = $crate::slot_count::<$model>();
-            static TABLES: $crate::SharedTables<SLOTS> = $crate::SharedTables::new::<$model>();
+            static TABLES: $crate::SharedTables<SLOTS> =
+                $crate::SharedTables::new::<$model>(option_env!("FMU_START_VALUES"));
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi3GetVersion() -> fmi3String {

@@ -1,7 +1,7 @@
 //! From a model's rows to its description.
 
 use fmi_export::fmi3::LOG_CATEGORIES;
-use model_interface::{Causality, Identity, Kind, Model, Row};
+use model_interface::{Causality, Identity, Kind, Model, Row, start_values};
 
 use super::model_description::{CoSimulation, EnumerationType, ModelDescription, ModelVariables, TypeDefinitions};
 use super::model_structure::{ModelStructure, Unknown};
@@ -10,13 +10,18 @@ use crate::model_description::{Category, LogCategories};
 use crate::scalar_variable::Initial;
 use crate::units::display_unit;
 
-/// The model description of a model that is exported for co-simulation.
+/// The model description of a model that is exported for co-simulation, with its own start values.
+pub fn describe<M: Model>() -> ModelDescription {
+    describe_with::<M>(&start_values::<M>(&[]))
+}
+
+/// The model description of a model that is exported for co-simulation with these start values, one for each slot.
 ///
 /// Variables are listed in the order of the rows, and a value reference is the number of a row's first slot.
-pub fn describe<M: Model>() -> ModelDescription {
+pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
     let identity = M::IDENTITY;
     // Who made the FMU and the units are as in FMI 2.0.
-    let fmi2 = crate::describe::<M>();
+    let fmi2 = crate::describe_with::<M>(start);
     ModelDescription {
         fmi_version: "3.0".to_owned(),
         model_name: fmi2.model_name,
@@ -36,7 +41,7 @@ pub fn describe<M: Model>() -> ModelDescription {
         }),
         log_categories: log_categories(),
         default_experiment: fmi2.default_experiment,
-        model_variables: ModelVariables { variables: variables::<M>() },
+        model_variables: ModelVariables { variables: variables(&identity, start) },
         model_structure: model_structure(&identity),
     }
 }
@@ -79,11 +84,8 @@ fn rows(identity: &Identity) -> impl Iterator<Item = (usize, &'static Row)> {
     firsts.map(|slot| (slot, identity.row(slot)))
 }
 
-fn variables<M: Model>() -> Vec<TypedVariable> {
-    let identity = M::IDENTITY;
-    let mut start = vec![0.0; identity.slots.len()];
-    M::start(&mut start);
-    rows(&identity).map(|(slot, row)| typed_variable(row, slot, &start[slot..slot + row.slots()])).collect()
+fn variables(identity: &Identity, start: &[f64]) -> Vec<TypedVariable> {
+    rows(identity).map(|(slot, row)| typed_variable(row, slot, &start[slot..slot + row.slots()])).collect()
 }
 
 fn typed_variable(row: &Row, slot: usize, start: &[f64]) -> TypedVariable {

@@ -9,6 +9,6 @@ pub mod model_structure;
 pub mod variable;
 mod variables_html;
 
-pub use describe::describe;
+pub use describe::{describe, describe_with};
 pub use model_description::ModelDescription;
 pub use variables_html::variables_html;

@@ -7,8 +7,8 @@ use crate::variables_html::{Notation, breakable, html};
 
 /// The tables of a model's variables as HTML, as [`crate::variables_html`] makes them, with the names and types of FMI
 /// 3.0.
-pub fn variables_html<M: Model>() -> String {
-    html::<M>(&Notation { name: name_html, type_name })
+pub fn variables_html<M: Model>(start: &[f64]) -> String {
+    html(&M::IDENTITY, start, &Notation { name: name_html, type_name })
 }
 
 /// The array's name and what its components are: `rig.base (x, y, z)`.

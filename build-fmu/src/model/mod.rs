@@ -1,0 +1,123 @@
+//! The models of which there are FMUs. A new one is a file here and an entry in [`MODELS`].
+
+mod motorcycle;
+mod stewart_platform;
+mod washout;
+
+use std::path::PathBuf;
+
+use model_description::{ModelDescription, describe_with, fmi3, to_xml, variables_html};
+use model_interface::{Identity, Model as Interface, Refusal, start_values};
+
+use washout_setup::NamedValues;
+
+use crate::documentation::Section;
+use crate::reference::{self, Stimuli};
+use crate::{FmiVersion, Start};
+
+pub use motorcycle::MOTORCYCLE;
+pub use stewart_platform::STEWART_PLATFORM;
+pub use washout::WASHOUT;
+
+/// Every model, in the order in which they are built.
+pub const MODELS: &[Model] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
+
+/// What the build needs to know of a model.
+pub struct Model {
+    /// The model's name, which in the FMU is also the shared library's.
+    pub name: &'static str,
+    /// The cargo packages that are the shared libraries for FMI 2.0 and for FMI 3.0.
+    pub packages: [&'static str; 2],
+    /// What cargo calls the shared libraries for FMI 2.0 and for FMI 3.0.
+    pub libraries: [&'static str; 2],
+    /// A line that says what the model is: the documentation's title.
+    pub title: &'static str,
+    /// What follows from the model's table of variables and from its step.
+    pub made: Made,
+    /// Start values of inputs that follow from those of parameters, by name, given all start values.
+    pub following: fn(start: &[f64]) -> NamedValues,
+    /// The documentation's hand-written sections, in order; the variables follow them.
+    pub sections: &'static [Section],
+    /// What the sections say differently: a place in them, what stands there for FMI 2.0, and what for FMI 3.0. Further
+    /// places are `fmi`, the version's name, and `discard`, its status for a value that is not taken.
+    pub wording: &'static [(&'static str, &'static str, &'static str)],
+    /// Draws `model.png`.
+    pub icon: fn() -> Vec<u8>,
+    /// The input of the reference ride: a table for [`Stimuli::new`].
+    pub reference_input: &'static str,
+}
+
+/// What is made from a model itself. `start` has the start value of each slot.
+pub struct Made {
+    /// Who it is and what its variables are.
+    pub identity: Identity,
+    /// The start values with others, by slot, laid over the model's own.
+    pub start: fn(others: &[(usize, f64)]) -> Vec<f64>,
+    /// Whether the model can start with these values.
+    pub check: fn(start: &[f64]) -> Result<(), Refusal>,
+    /// The model description of FMI 2.0.
+    pub description: fn(start: &[f64]) -> ModelDescription,
+    /// That of FMI 3.0.
+    pub fmi3_description: fn(start: &[f64]) -> fmi3::ModelDescription,
+    /// The documentation's tables of variables for FMI 2.0 and for FMI 3.0.
+    pub variables: [fn(start: &[f64]) -> String; 2],
+    /// The output that belongs to a reference ride's input.
+    pub reference_output: fn(input: &Stimuli, start: &[f64]) -> String,
+}
+
+impl Made {
+    /// From the model of this type.
+    const fn from<M: Interface>() -> Self {
+        Made {
+            identity: M::IDENTITY,
+            start: start_values::<M>,
+            check: |start| M::new(start).map(drop),
+            description: describe_with::<M>,
+            fmi3_description: fmi3::describe_with::<M>,
+            variables: [variables_html::<M>, fmi3::variables_html::<M>],
+            reference_output: reference::output::<M>,
+        }
+    }
+}
+
+impl Model {
+    /// The cargo package that is the shared library.
+    pub fn package(&self, fmi: FmiVersion) -> &'static str {
+        fmi.choose(self.packages[0], self.packages[1])
+    }
+
+    /// What cargo calls the shared library.
+    pub fn library(&self, fmi: FmiVersion) -> &'static str {
+        fmi.choose(self.libraries[0], self.libraries[1])
+    }
+
+    /// Whether it is a model of a platform, with the joints of one.
+    pub fn has_rig(&self) -> bool {
+        self.made.identity.slot("rig.neutralHeight").is_some()
+    }
+
+    /// The model description of FMI 2.0 with the model's own start values.
+    pub fn description(&self) -> ModelDescription {
+        (self.made.description)(Start::own(self).slots())
+    }
+
+    /// The text of `modelDescription.xml`.
+    pub fn model_description(&self, fmi: FmiVersion, start: &Start) -> String {
+        match fmi {
+            FmiVersion::Fmi2 => to_xml(&(self.made.description)(start.slots())),
+            FmiVersion::Fmi3 => to_xml(&(self.made.fmi3_description)(start.slots())),
+        }
+    }
+
+    /// Where that text is checked in, in the workspace.
+    pub fn checked_in_description(&self, fmi: FmiVersion) -> PathBuf {
+        let file = fmi.choose("modelDescription.xml", "modelDescription.fmi3.xml");
+        ["modelDescription", self.name, file].iter().collect()
+    }
+
+    /// The documentation's tables of variables.
+    pub fn variables(&self, fmi: FmiVersion, start: &Start) -> String {
+        let [fmi2, fmi3] = self.made.variables;
+        fmi.choose(fmi2, fmi3)(start.slots())
+    }
+}

@@ -1,0 +1,38 @@
+//! The motorcycle with its rider.
+
+use moris_motorcycle::Motorcycle;
+
+use washout_setup::NamedValues;
+
+use super::{Made, Model};
+use crate::documentation::Section;
+use crate::icon;
+
+/// The motorcycle's FMU.
+pub const MOTORCYCLE: Model = Model {
+    name: "Motorcycle",
+    packages: ["moris-motorcycle-fmu", "moris-motorcycle-fmu3"],
+    libraries: ["Motorcycle", "Motorcycle_fmi3"],
+    title: "Motorcycle: a vehicle and its rider",
+    made: Made::from::<Motorcycle>(),
+    following: |_| NamedValues::new(),
+    sections: &[
+        Section {
+            anchor: "what",
+            heading: "What it is",
+            html: include_str!("../../documentation/Motorcycle/what.html"),
+        },
+        Section {
+            anchor: "connect",
+            heading: "Connecting it",
+            html: include_str!("../../documentation/Motorcycle/connect.html"),
+        },
+    ],
+    wording: &[(
+        "example",
+        include_str!("../../documentation/Motorcycle/example.fmi2.html"),
+        include_str!("../../documentation/Motorcycle/example.fmi3.html"),
+    )],
+    icon: icon::motorcycle,
+    reference_input: include_str!("../../reference/Motorcycle_in.csv"),
+};

@@ -1,0 +1,72 @@
+//! The Stewart platform with dynamics.
+
+use moris_stewart_platform::StewartPlatform;
+use moris_stewart_platform::interface::neutral_lengths;
+use moris_washout::Rig;
+use washout_setup::{NamedValues, overlaid, values_of};
+
+use super::{Made, Model};
+use crate::documentation::Section;
+use crate::icon;
+
+/// The platform's FMU.
+pub const STEWART_PLATFORM: Model = Model {
+    name: "StewartPlatform",
+    packages: ["moris-stewart-platform-fmu", "moris-stewart-platform-fmu3"],
+    libraries: ["StewartPlatform", "StewartPlatform_fmi3"],
+    title: "Stewart platform: a motion base with dynamics",
+    made: Made::from::<StewartPlatform>(),
+    following: commands_at_neutral,
+    sections: &[
+        Section {
+            anchor: "what",
+            heading: "What it is",
+            html: include_str!("../../documentation/StewartPlatform/what.html"),
+        },
+        Section {
+            anchor: "connect",
+            heading: "Connecting it",
+            html: include_str!("../../documentation/StewartPlatform/connect.html"),
+        },
+        Section {
+            anchor: "inside",
+            heading: "What happens inside",
+            html: include_str!("../../documentation/StewartPlatform/inside.html"),
+        },
+        Section {
+            anchor: "limits",
+            heading: "Limits",
+            html: include_str!("../../documentation/StewartPlatform/limits.html"),
+        },
+    ],
+    wording: &[
+        (
+            "commands",
+            "<code>command[1].length</code> to <code>command[6].length</code>",
+            "the six elements of <code>command.length</code>",
+        ),
+        (
+            "rates",
+            "<code>command[1].velocity</code> to <code>command[6].velocity</code>",
+            "the six elements of <code>command.velocity</code>",
+        ),
+        (
+            "slopes",
+            " Where the host gives the lengths' derivatives (<code>fmi2SetRealInputDerivatives</code>), those count instead.",
+            "",
+        ),
+        (
+            "example",
+            include_str!("../../documentation/StewartPlatform/example.fmi2.html"),
+            include_str!("../../documentation/StewartPlatform/example.fmi3.html"),
+        ),
+    ],
+    icon: icon::stewart_platform,
+    reference_input: include_str!("../../reference/StewartPlatform_in.csv"),
+};
+
+/// The platform starts at neutral, and is told to be there.
+fn commands_at_neutral(start: &[f64]) -> NamedValues {
+    let rig = overlaid(&Rig::default(), &values_of(&STEWART_PLATFORM.made.identity, start));
+    (1..).zip(neutral_lengths(&rig)).map(|(leg, length)| (format!("command[{leg}].length"), length)).collect()
+}

@@ -1,0 +1,65 @@
+//! The washout filter with the platform's kinematics.
+
+use moris_washout::Washout;
+
+use washout_setup::NamedValues;
+
+use super::{Made, Model};
+use crate::documentation::Section;
+use crate::icon;
+
+/// The washout's FMU.
+pub const WASHOUT: Model = Model {
+    name: "MorisWashout",
+    packages: ["moris-washout-fmu", "moris-washout-fmu3"],
+    libraries: ["MorisWashout", "MorisWashout_fmi3"],
+    title: "MORIS washout: motion cueing for a motorcycle simulator",
+    made: Made::from::<Washout>(),
+    following: |_| NamedValues::new(),
+    sections: &[
+        Section {
+            anchor: "what",
+            heading: "What it is",
+            html: include_str!("../../documentation/MorisWashout/what.html"),
+        },
+        Section {
+            anchor: "connect",
+            heading: "Connecting it",
+            html: include_str!("../../documentation/MorisWashout/connect.html"),
+        },
+        Section {
+            anchor: "blocks",
+            heading: "What happens inside",
+            html: include_str!("../../documentation/MorisWashout/blocks.html"),
+        },
+        Section {
+            anchor: "limits",
+            heading: "Limits",
+            html: include_str!("../../documentation/MorisWashout/limits.html"),
+        },
+        Section {
+            anchor: "errata",
+            heading: "Errata and choices",
+            html: include_str!("../../documentation/MorisWashout/errata.html"),
+        },
+    ],
+    wording: &[
+        (
+            "actuators",
+            "<code>actuator[1].length</code> to <code>actuator[6].length</code>",
+            "the six elements of <code>actuator.length</code>",
+        ),
+        (
+            "slopes",
+            ", or followed linearly where the host gives their derivatives (<code>fmi2SetRealInputDerivatives</code>)",
+            "",
+        ),
+        (
+            "example",
+            include_str!("../../documentation/MorisWashout/example.fmi2.html"),
+            include_str!("../../documentation/MorisWashout/example.fmi3.html"),
+        ),
+    ],
+    icon: icon::motorcycle_on_platform,
+    reference_input: include_str!("../../reference/MorisWashout_in.csv"),
+};

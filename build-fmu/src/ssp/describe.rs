@@ -1,0 +1,205 @@
+//! From a system to its description.
+
+use model_description::ModelDescription;
+use model_interface::{Causality, Identity, Kind};
+use quick_xml::se::Serializer;
+use serde::Serialize;
+
+use super::parameter_set::ByComponent;
+use super::schema;
+use super::system::{Component, Connection, System};
+use super::{Form, fmu_path, parameters_path};
+
+const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
+const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
+const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
+
+/// Size of a component in a drawing, and the room between two.
+const BOX: f64 = 60.0;
+const GAP: f64 = 40.0;
+
+/// The description of a system whose components start with these parameters.
+pub fn describe(system: &System, form: Form, parameters: &ByComponent) -> schema::SystemStructureDescription {
+    let connections = (system.connections)();
+    let own_inputs = if form == Form::Whole { system.inputs } else { &[] };
+    let origin = origin(system);
+    schema::SystemStructureDescription {
+        ssd: SSD,
+        ssc: SSC,
+        version: "1.0",
+        name: system.name.to_owned(),
+        description: system.text.to_owned(),
+        author: origin.author,
+        copyright: origin.copyright,
+        license: origin.license,
+        generation_tool: origin.generation_tool,
+        generation_date_and_time: origin.generation_date_and_time,
+        system: schema::System {
+            name: "simulator".to_owned(),
+            connectors: (!own_inputs.is_empty()).then(|| inputs(system, own_inputs)),
+            parameter_bindings: (form == Form::Whole).then(|| bound_to(system.name)),
+            elements: schema::Elements {
+                components: (0..)
+                    .zip(system.components)
+                    .map(|(number, part)| schema::Component {
+                        parameter_bindings: (form == Form::Flat
+                            && parameters.iter().any(|(name, _)| name == part.name))
+                        .then(|| bound_to(part.name)),
+                        ..component(part, number, &connections, own_inputs)
+                    })
+                    .collect(),
+            },
+            connections: schema::Connections { connections: wires(own_inputs, &connections) },
+        },
+        units: units(system),
+        default_experiment: schema::DefaultExperiment { start_time: 0.0, stop_time: system.stop_time },
+    }
+}
+
+/// A parameter set with these parameters.
+pub fn parameter_set(system: &System, parameters: Vec<schema::Parameter>) -> schema::ParameterSet {
+    let origin = origin(system);
+    schema::ParameterSet {
+        ssv: SSV,
+        ssc: SSC,
+        version: "1.0",
+        name: system.name.to_owned(),
+        author: origin.author,
+        copyright: origin.copyright,
+        license: origin.license,
+        generation_tool: origin.generation_tool,
+        generation_date_and_time: origin.generation_date_and_time,
+        parameters: schema::Parameters { parameters },
+        units: units(system),
+    }
+}
+
+/// The text of a file.
+///
+/// # Panics
+/// A part of it has no XML form. All parts of the schemas have.
+pub fn to_xml(root: &impl Serialize) -> Vec<u8> {
+    let mut text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".to_owned();
+    let mut serializer = Serializer::new(&mut text);
+    serializer.indent(' ', 2);
+    root.serialize(serializer).expect("every part of a system has an XML form");
+    text.push('\n');
+    text.into_bytes()
+}
+
+/// Who made the first of the components has made the system.
+fn origin(system: &System) -> ModelDescription {
+    system.components[0].model.description()
+}
+
+/// A binding to the parameter set of this name.
+fn bound_to(name: &str) -> schema::ParameterBindings {
+    schema::ParameterBindings { bindings: vec![schema::ParameterBinding { source: parameters_path(name) }] }
+}
+
+/// The system's own connectors, each as the component's variable of that name.
+fn inputs(system: &System, inputs: &[(&str, &str)]) -> schema::Connectors {
+    let input = |&(element, name): &(&str, &str)| {
+        let component = system.component(element);
+        connector(&component.model.made.identity, name, schema::ConnectorKind::Input)
+    };
+    schema::Connectors { connectors: inputs.iter().map(input).collect() }
+}
+
+/// A component with the connectors that are connected, to another or to the system's inputs, or shown.
+fn component(
+    component: &Component,
+    number: i32,
+    connections: &[Connection],
+    inputs: &[(&str, &str)],
+) -> schema::Component {
+    let identity = component.model.made.identity;
+    let has_input = |name: &str| {
+        connections.iter().any(|wire| wire.to == (component.name, name.to_owned()))
+            || inputs.contains(&(component.name, name))
+    };
+    let has_output = |name: &str| {
+        connections.iter().any(|wire| wire.from == (component.name, name.to_owned())) || component.shows(name)
+    };
+    let kind = |slot: usize| {
+        let name = identity.variable_name(slot);
+        match identity.row(slot).causality {
+            Causality::Input if has_input(&name) => Some((name, schema::ConnectorKind::Input)),
+            Causality::Output if has_output(&name) => Some((name, schema::ConnectorKind::Output)),
+            _ => None,
+        }
+    };
+    let connectors = (0..identity.slots.len()).filter_map(kind);
+    let left = f64::from(number) * (BOX + GAP);
+    schema::Component {
+        name: component.name.to_owned(),
+        description: component.model.title.to_owned(),
+        type_: "application/x-fmu-sharedlibrary",
+        source: fmu_path(component),
+        implementation: "CoSimulation",
+        connectors: schema::Connectors {
+            connectors: connectors.map(|(name, kind)| connector(&identity, &name, kind)).collect(),
+        },
+        geometry: schema::ElementGeometry { x1: left, y1: 0.0, x2: left + BOX, y2: BOX },
+        parameter_bindings: None,
+    }
+}
+
+/// A connector for a model's variable.
+fn connector(identity: &Identity, name: &str, kind: schema::ConnectorKind) -> schema::Connector {
+    let slot = identity.slot(name).unwrap_or_else(|| panic!("{} has no variable {name}", identity.name));
+    let type_ = match identity.row(slot).kind {
+        Kind::Real(unit) => schema::Type::Real { unit: unit_name(unit) },
+        Kind::Boolean => schema::Type::Boolean {},
+        Kind::Integer | Kind::Enumeration(_) => schema::Type::Integer {},
+    };
+    schema::Connector { name: name.to_owned(), kind, type_ }
+}
+
+/// A unit's name; none for what has none.
+pub fn unit_name(unit: &model_interface::Unit) -> Option<String> {
+    (!unit.name.is_empty()).then(|| unit.name.to_owned())
+}
+
+/// All connections, the system's inputs first.
+fn wires(inputs: &[(&str, &str)], connections: &[Connection]) -> Vec<schema::Connection> {
+    let inputs = inputs.iter().map(|&(element, name)| schema::Connection {
+        start_element: None,
+        start_connector: name.to_owned(),
+        end_element: Some(element.to_owned()),
+        end_connector: name.to_owned(),
+    });
+    let inside = connections.iter().map(|Connection { from, to }| schema::Connection {
+        start_element: Some(from.0.to_owned()),
+        start_connector: from.1.clone(),
+        end_element: Some(to.0.to_owned()),
+        end_connector: to.1.clone(),
+    });
+    inputs.chain(inside).collect()
+}
+
+/// Every unit that the components' variables have, once.
+fn units(system: &System) -> schema::Units {
+    let mut units: Vec<schema::Unit> = Vec::new();
+    for row in system.components.iter().flat_map(|component| component.model.made.identity.rows) {
+        if let Kind::Real(unit) = row.kind
+            && !unit.name.is_empty()
+            && units.iter().all(|known| known.name != unit.name)
+        {
+            let unit = model_description::units::Unit::from(unit);
+            units.push(schema::Unit { name: unit.name, base_unit: unit.base_unit });
+        }
+    }
+    schema::Units { units }
+}
+
+impl System {
+    /// The component of this name.
+    ///
+    /// # Panics
+    /// There is none. Systems belong to the sources.
+    pub(super) fn component(&self, name: &str) -> &Component {
+        let found = self.components.iter().find(|component| component.name == name);
+        found.unwrap_or_else(|| panic!("{} has no component {name}", self.name))
+    }
+}

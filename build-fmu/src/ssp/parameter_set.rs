@@ -1,0 +1,97 @@
+//! From a system's parameters in TOML to a parameter set.
+
+use model_interface::{Causality, Identity, Kind};
+use toml::{Table, Value};
+
+use super::describe::unit_name;
+use super::schema;
+use super::system::System;
+use crate::Error;
+
+/// Parameters by the name of their component.
+pub type ByComponent = Vec<(String, Vec<schema::Parameter>)>;
+
+/// The parameters of a system's components.
+///
+/// # Errors
+/// The text is no TOML, or names a component, a parameter or a value that there is not.
+pub fn read(system: &System) -> Result<ByComponent, Error> {
+    let tables: Table = system.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?;
+    let mut by_component = ByComponent::new();
+    for (name, values) in &tables {
+        let component = system.components.iter().find(|component| component.name == name);
+        let identity = component.ok_or_else(|| error(format!("there is no component {name}")))?.model.made.identity;
+        let values = values.as_table().ok_or_else(|| error(format!("{name} must be a table of parameters")))?;
+        let mut parameters = Vec::new();
+        for (variable, value) in values {
+            let value =
+                typed(&identity, variable, value).map_err(|reason| error(format!("{name}.{variable} {reason}")))?;
+            parameters.push(schema::Parameter { name: variable.clone(), value });
+        }
+        by_component.push((name.clone(), parameters));
+    }
+    Ok(by_component)
+}
+
+/// All parameters, each with its component's name before its own.
+pub fn of_all(parameters: &ByComponent) -> Vec<schema::Parameter> {
+    let named = |component: &str, parameter: &schema::Parameter| schema::Parameter {
+        name: format!("{component}.{}", parameter.name),
+        value: parameter.value.clone(),
+    };
+    parameters.iter().flat_map(|(name, own)| own.iter().map(move |parameter| named(name, parameter))).collect()
+}
+
+fn error(reason: String) -> Error {
+    Error::Parameters { reason }
+}
+
+/// A value as the model's variable has it, or why it cannot be one.
+fn typed(identity: &Identity, variable: &str, value: &Value) -> Result<schema::Value, String> {
+    let slot = identity.slot(variable).ok_or_else(|| format!("is no variable of {}", identity.name))?;
+    let row = identity.row(slot);
+    if !matches!(row.causality, Causality::Parameter | Causality::Input) {
+        return Err("cannot be set".to_owned());
+    }
+    match (row.kind, value) {
+        (Kind::Real(unit), Value::Float(value)) => Ok(schema::Value::Real { value: *value, unit: unit_name(unit) }),
+        (Kind::Integer, Value::Integer(value)) => Ok(schema::Value::Integer { value: *value }),
+        (Kind::Boolean, Value::Boolean(value)) => Ok(schema::Value::Boolean { value: *value }),
+        (Kind::Enumeration(kind), Value::String(item)) if kind.items.iter().any(|known| known.name == item) => {
+            Ok(schema::Value::Enumeration { value: item.clone() })
+        }
+        (Kind::Enumeration(kind), _) => {
+            let items: Vec<&str> = kind.items.iter().map(|item| item.name).collect();
+            Err(format!("is {value}, but must be one of {}", items.join(", ")))
+        }
+        (Kind::Real(_), _) => Err(format!("is {value}, but must be a number with a decimal point")),
+        (Kind::Integer, _) => Err(format!("is {value}, but must be a whole number")),
+        (Kind::Boolean, _) => Err(format!("is {value}, but must be true or false")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ssp::MOTORCYCLE_SIMULATOR;
+
+    fn reason(parameters: &'static str) -> String {
+        read(&System { parameters, ..MOTORCYCLE_SIMULATOR }).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn what_cannot_be_a_parameter_is_named() {
+        for (parameters, named) in [
+            ("[car]\na = 1.0", "there is no component car"),
+            ("[washout]\n\"tilt.rate\" = 1.0", "washout.tilt.rate is no variable of MorisWashout"),
+            ("[washout]\n\"tilt.roll\" = 1.0", "washout.tilt.roll cannot be set"),
+            ("[washout]\n\"tilt.rateLimit\" = 1", "is 1, but must be a number with a decimal point"),
+            ("[washout]\ngravityRemoval = \"some\"", "must be one of head_vertical, full, none"),
+            ("[washout]\n\"splitter.order\" = 2.5", "is 2.5, but must be a whole number"),
+            ("washout = 3", "washout must be a table"),
+            ("[washout", "TOML"),
+        ] {
+            assert!(reason(parameters).contains(named), "{}", reason(parameters));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What an FMU starts with: the model's own values, or others baked into it in their place.
+
+use model_interface::{Causality, write_start_values};
+use moris_washout::Parameters;
+use washout_setup::{NamedValues, contradiction, overlaid, parameter_file, values_of};
+
+use crate::{Error, Model};
+
+/// The start values of a model's FMU.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Those that stand in place of the model's own, by slot, in the order of the slots.
+    others: Vec<(usize, f64)>,
+    /// All of them.
+    slots: Vec<f64>,
+}
+
+impl Start {
+    /// The model's own.
+    pub fn own(model: &Model) -> Self {
+        Start { others: Vec::new(), slots: (model.made.start)(&[]) }
+    }
+
+    /// The model's own with these laid over them; what the model has no parameter of that name for is left out.
+    ///
+    /// # Errors
+    /// The model cannot start with them, or they contradict each other.
+    pub fn with(model: &Model, values: &NamedValues) -> Result<Self, Error> {
+        let identity = &model.made.identity;
+        let own = (model.made.start)(&[]);
+        let mut slots = own.clone();
+        for (name, value) in values {
+            if let Some(slot) = identity.slot(name).filter(|&slot| identity.row(slot).causality == Causality::Parameter)
+            {
+                slots[slot] = *value;
+            }
+        }
+        for (name, value) in (model.following)(&slots) {
+            slots[identity.slot(&name).expect("what follows is the model's")] = value;
+        }
+        let is_set = |slot: usize| matches!(identity.row(slot).causality, Causality::Parameter | Causality::Input);
+        let others: Vec<(usize, f64)> = (0..slots.len())
+            .filter(|&slot| is_set(slot) && slots[slot] != own[slot])
+            .map(|slot| (slot, slots[slot]))
+            .collect();
+        let start = Start { slots: (model.made.start)(&others), others };
+        start.check(model)?;
+        Ok(start)
+    }
+
+    fn check(&self, model: &Model) -> Result<(), Error> {
+        let refused = |refusal| Error::Start { model: model.name, refusal };
+        (model.made.check)(&self.slots).map_err(refused)?;
+        let identity = &model.made.identity;
+        if !self.is_the_model_s_own() && identity.slot("safety.x.positionLimit").is_some() {
+            let parameters = overlaid(&Parameters::default(), &values_of(identity, &self.slots));
+            contradiction(&parameters).map_err(refused)?;
+        }
+        Ok(())
+    }
+
+    /// The start value of each slot.
+    pub fn slots(&self) -> &[f64] {
+        &self.slots
+    }
+
+    /// How many values stand in place of the model's own.
+    pub fn count(&self) -> usize {
+        self.others.len()
+    }
+
+    /// Whether there are no others.
+    pub fn is_the_model_s_own(&self) -> bool {
+        self.others.is_empty()
+    }
+
+    /// The others in the form in which the library takes them in when it is compiled.
+    pub fn text(&self) -> Option<String> {
+        (!self.is_the_model_s_own()).then(|| write_start_values(&self.others))
+    }
+
+    /// The others as a parameter file.
+    pub fn file(&self, model: &Model) -> String {
+        let identity = &model.made.identity;
+        let named: NamedValues =
+            self.others.iter().map(|&(slot, value)| (identity.variable_name(slot), value)).collect();
+        parameter_file::write("Start values in place of the model's own", &named, identity.rows)
+    }
+}

@@ -1,0 +1,32 @@
+//! The bound for a desired specific force that is read from standard input, a number a line, on the default rig's surge:
+//!
+//!     cargo run --release --package cue-measures --example bound -- <seconds between samples> <seconds an interval>
+
+use std::error::Error;
+use std::io::{Read, stdin};
+
+use cue_measures::bound::{AxisLimits, TiltLimits, bound};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let numbers: Vec<f64> = std::env::args().skip(1).map(|number| number.parse()).collect::<Result<_, _>>()?;
+    let [step, interval] = numbers[..] else { return Err("two numbers are needed: step and interval".into()) };
+    let mut text = String::new();
+    stdin().read_to_string(&mut text)?;
+    let desired: Vec<f64> = text.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;
+    let limits = AxisLimits {
+        min: -0.45,
+        max: 0.45,
+        velocity: 1.0,
+        acceleration: 10.0,
+        tilt: Some(TiltLimits {
+            angle: 0.38,
+            rate: 3.0_f64.to_radians(),
+            acceleration: 0.2,
+            head_height: 1.2,
+            gravity: 9.80665,
+        }),
+    };
+    let bound = bound(&desired, step, &limits, interval)?;
+    println!("{} {}", bound.rms_error, bound.attained);
+    Ok(())
+}

@@ -1,0 +1,186 @@
+//! The bound: the smallest RMS error of the felt specific force that any controller, even one that knows the whole ride
+//! beforehand, could reach on one axis under the same limits.
+//!
+//! The axis is linearised: felt = p'' - (h/g) phi'' + phi, where p is the platform's position, phi = g sin(tilt) is what tilting
+//! adds to the force, and h the head's height above the platform, whose tangential acceleration the tilt causes. Surge goes
+//! with pitch, sway with roll, heave goes alone. Position, velocity and acceleration, tilt, its rate and its acceleration keep
+//! their limits; the axis starts at rest at neutral and may end anyhow.
+//!
+//! The best motion is found by a convex quadratic programme over intervals of time. [`Bound::rms_error`] is a lower bound for
+//! every motion in continuous time, not only for those that the intervals can describe: the programme keeps of a motion only
+//! what holds for all of them. It is not the solver's word for it either, but the value of a dual solution, computed here
+//! from the multipliers that the solver found. [`Bound::attained`] is the RMS error of a motion that keeps all limits, so
+//! that the true optimum lies between the two.
+
+mod certificate;
+mod programme;
+mod trajectory;
+
+use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
+
+use programme::{Kind, Programme};
+pub use trajectory::Trajectory;
+
+/// The limits of one axis of the platform.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisLimits {
+    /// Least position relative to neutral, below 0 \[m\].
+    pub min: f64,
+    /// Greatest position relative to neutral, above 0 \[m\].
+    pub max: f64,
+    /// Largest velocity \[m/s\].
+    pub velocity: f64,
+    /// Largest acceleration \[m/s2\].
+    pub acceleration: f64,
+    /// The tilt that goes with the axis; none for heave.
+    pub tilt: Option<TiltLimits>,
+}
+
+/// The limits of tilt coordination, and what it does at the head.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TiltLimits {
+    /// Largest angle \[rad\].
+    pub angle: f64,
+    /// Largest rate \[rad/s\].
+    pub rate: f64,
+    /// Largest acceleration \[rad/s2\].
+    pub acceleration: f64,
+    /// Height of the head above the point that the position is of \[m\].
+    pub head_height: f64,
+    /// Magnitude of gravity \[m/s2\].
+    pub gravity: f64,
+}
+
+/// The least error on one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bound {
+    /// No motion within the limits has a smaller RMS error than this \[m/s2\].
+    pub rms_error: f64,
+    /// RMS error of the best motion found that keeps the limits \[m/s2\].
+    pub attained: f64,
+    /// That motion.
+    pub trajectory: Trajectory,
+}
+
+/// Why there is no bound.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoBound {
+    /// The time between samples is no time.
+    #[error("the time between samples is {0} s; it must be above 0")]
+    Step(f64),
+    /// There is no ride, or it is shorter than one interval.
+    #[error("the ride has {samples} samples; a bound needs at least {needed}")]
+    TooShort {
+        /// How many samples there are.
+        samples: usize,
+        /// How many one interval takes.
+        needed: usize,
+    },
+    /// A sample is not a number.
+    #[error("sample {sample} of the desired specific force is {value}; it must be a finite number")]
+    NotFinite {
+        /// Where it is, from 0.
+        sample: usize,
+        /// What it is.
+        value: f64,
+    },
+    /// A limit allows nothing.
+    #[error("the {name} limit is {value}; it must be {needed}")]
+    Limit {
+        /// Which limit.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        needed: &'static str,
+    },
+    /// The solver stopped without a solution.
+    #[error("the solver found no best motion ({0}); try another interval")]
+    Solver(String),
+}
+
+/// Intervals shorter than this gain nothing on smooth rides and cost time \[s\].
+pub const INTERVAL: f64 = 0.02;
+
+/// The bound for a desired specific force along one axis, as a deviation from rest (gravity taken off in heave), sampled every
+/// `step` seconds and linear in between. `interval` is how finely the motion is divided, [`INTERVAL`] by default; it is rounded
+/// to a number of steps, one at least.
+///
+/// # Errors
+/// The ride or the limits cannot be used, or the solver fails.
+pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> Result<Bound, NoBound> {
+    check_limits(limits)?;
+    if step.is_nan() || step <= 0.0 {
+        return Err(NoBound::Step(step));
+    }
+    if let Some((sample, &value)) = desired.iter().enumerate().find(|(_, value)| !value.is_finite()) {
+        return Err(NoBound::NotFinite { sample, value });
+    }
+    let steps = (interval / step).round().max(1.0) as usize;
+    if desired.len() <= steps {
+        return Err(NoBound::TooShort { samples: desired.len(), needed: steps + 1 });
+    }
+    let means: Vec<f64> = desired.windows(steps + 1).step_by(steps).map(mean_of_line).collect();
+    let interval = steps as f64 * step;
+    let duration = (desired.len() - 1) as f64 * step;
+
+    let relaxed = Programme::new(&means, interval, limits, Kind::Relaxed);
+    let multipliers = solve(&relaxed)?.z;
+    let least = certificate::dual_value(&relaxed, &multipliers);
+    let restricted = Programme::new(&means, interval, limits, Kind::Restricted);
+    let trajectory = restricted.trajectory(&solve(&restricted)?.x);
+    Ok(Bound {
+        rms_error: (2.0 * least * interval / duration).max(0.0).sqrt(),
+        attained: trajectory.rms_error(desired, step),
+        trajectory,
+    })
+}
+
+fn check_limits(limits: &AxisLimits) -> Result<(), NoBound> {
+    let AxisLimits { min, max, velocity, acceleration, tilt } = *limits;
+    let limit = |name, value: f64, holds: bool, needed| {
+        if holds && value.is_finite() { Ok(()) } else { Err(NoBound::Limit { name, value, needed }) }
+    };
+    limit("least position", min, min < 0.0, "below 0")?;
+    limit("greatest position", max, max > 0.0, "above 0")?;
+    limit("velocity", velocity, velocity > 0.0, "above 0")?;
+    limit("acceleration", acceleration, acceleration > 0.0, "above 0")?;
+    let Some(TiltLimits { angle, rate, acceleration, head_height, gravity }) = tilt else { return Ok(()) };
+    limit(
+        "tilt angle",
+        angle,
+        angle > 0.0 && angle <= std::f64::consts::FRAC_PI_2,
+        "above 0 and at most a right angle",
+    )?;
+    limit("tilt rate", rate, rate > 0.0, "above 0")?;
+    limit("tilt acceleration", acceleration, acceleration > 0.0, "above 0")?;
+    limit("head height", head_height, true, "a finite number")?;
+    limit("gravity", gravity, gravity > 0.0, "above 0")
+}
+
+/// The mean of what goes linearly from sample to sample.
+fn mean_of_line(samples: &[f64]) -> f64 {
+    let pairs = samples.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+    pairs.sum::<f64>() / (samples.len() - 1) as f64
+}
+
+/// A solution and its multipliers.
+struct Solution {
+    x: Vec<f64>,
+    z: Vec<f64>,
+}
+
+fn solve(programme: &Programme) -> Result<Solution, NoBound> {
+    let settings = DefaultSettings { verbose: false, max_iter: 200, ..DefaultSettings::default() };
+    let Programme { quadratic, linear, matrix, right, cones, .. } = programme;
+    let mut solver = DefaultSolver::new(quadratic, linear, matrix, right, cones, settings)
+        .map_err(|error| NoBound::Solver(error.to_string()))?;
+    solver.solve();
+    match solver.solution.status {
+        // A solution of less accuracy is one all the same: what it is worth is computed afterwards.
+        SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
+            Ok(Solution { x: solver.solution.x, z: solver.solution.z })
+        }
+        status => Err(NoBound::Solver(status.to_string())),
+    }
+}

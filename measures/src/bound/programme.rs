@@ -1,0 +1,238 @@
+//! The quadratic programme: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities and s >= 0 for the rest.
+//!
+//! Time is divided into intervals of length T. At each of their ends there are position p, velocity v, tilt phi and its rate
+//! rho; of each interval, the mean error e and the mean tilt m. The mean of p'' over an interval is the change of v over T,
+//! whatever the motion in between, so that
+//!
+//! e_k = (v_k+1 - v_k)/T - (h/g)(rho_k+1 - rho_k)/T + m_k - f_k,
+//!
+//! with f_k the mean of the desired force. The integral of the squared error over an interval is at least T e_k^2.
+//!
+//! A motion's way over an interval differs from T (v_k + v_k+1)/2 by the integral of p'' times t (T - t)/2, which is at most
+//! T^3/12 times the limit of |p''|. So does the tilt's, and its mean from (phi_k + phi_k+1)/2 by at most T^2/12 times the limit
+//! of |phi''|. The relaxed programme asks for no more than this. The restricted one has constant accelerations over an interval,
+//! where the first two are zero and the third is known.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, ZeroConeT};
+
+use super::trajectory::{Knot, Trajectory};
+use super::{AxisLimits, TiltLimits};
+
+/// Which motions a programme describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// At least all that keep the limits.
+    Relaxed,
+    /// Some of those that keep the limits: accelerations are constant over each interval.
+    Restricted,
+}
+
+/// The programme in the solver's form.
+pub struct Programme {
+    /// P: 1 on the diagonal for each error, 0 for the rest.
+    pub quadratic: CscMatrix<f64>,
+    /// All zero.
+    pub linear: Vec<f64>,
+    /// A: equalities first.
+    pub matrix: CscMatrix<f64>,
+    /// b.
+    pub right: Vec<f64>,
+    /// How many equalities and how many inequalities.
+    pub cones: [SupportedConeT<f64>; 2],
+    /// What no variable exceeds in any motion within the limits; infinite for the errors.
+    pub largest: Vec<f64>,
+    intervals: usize,
+    interval: f64,
+    arm: f64,
+}
+
+/// Variables of a moment.
+const AT: usize = 4;
+/// Variables of a moment and of the interval that follows it.
+const STRIDE: usize = 6;
+
+/// Where the variables are.
+fn position(k: usize) -> usize {
+    STRIDE * k
+}
+fn velocity(k: usize) -> usize {
+    STRIDE * k + 1
+}
+fn tilt(k: usize) -> usize {
+    STRIDE * k + 2
+}
+fn tilt_rate(k: usize) -> usize {
+    STRIDE * k + 3
+}
+fn error(k: usize) -> usize {
+    STRIDE * k + AT
+}
+fn mean_tilt(k: usize) -> usize {
+    STRIDE * k + AT + 1
+}
+
+/// The limits in the programme's terms: phi = g sin(tilt) and its derivatives.
+struct Box {
+    tilt: f64,
+    tilt_rate: f64,
+    tilt_acceleration: f64,
+    /// h/g \[s2\].
+    arm: f64,
+}
+
+impl Box {
+    /// With s = sin(tilt), |s'| <= |tilt'| and |s''| <= |tilt''| + sin(angle) tilt'^2.
+    fn of(limits: &Option<TiltLimits>) -> Self {
+        match limits {
+            None => Box { tilt: 0.0, tilt_rate: 0.0, tilt_acceleration: 0.0, arm: 0.0 },
+            Some(TiltLimits { angle, rate, acceleration, head_height, gravity }) => Box {
+                tilt: gravity * angle.sin(),
+                tilt_rate: gravity * rate,
+                tilt_acceleration: gravity * (acceleration + angle.sin() * rate * rate),
+                arm: head_height / gravity,
+            },
+        }
+    }
+}
+
+impl Programme {
+    /// The programme for these means of the desired force over each interval.
+    pub fn new(means: &[f64], interval: f64, limits: &AxisLimits, kind: Kind) -> Self {
+        let intervals = means.len();
+        let bounds = Box::of(&limits.tilt);
+        let mut rows = Rows::default();
+        for variable in [position(0), velocity(0), tilt(0), tilt_rate(0)] {
+            rows.equal(&[(variable, 1.0)], 0.0);
+        }
+        let t = interval;
+        for (k, &mean) in means.iter().enumerate() {
+            let (v0, v1, r0, r1) = (velocity(k), velocity(k + 1), tilt_rate(k), tilt_rate(k + 1));
+            let (arm, m) = (bounds.arm, mean_tilt(k));
+            rows.equal(&[(error(k), t), (v1, -1.0), (v0, 1.0), (r1, arm), (r0, -arm), (m, -t)], -t * mean);
+
+            rows.within(&[(v1, 1.0), (v0, -1.0)], t * limits.acceleration);
+            rows.within(&[(v1, 1.0)], limits.velocity);
+            rows.between(&[(position(k + 1), 1.0)], limits.min, limits.max);
+            let way = [(position(k + 1), 1.0), (position(k), -1.0), (v0, -0.5 * t), (v1, -0.5 * t)];
+            let tilting = [(tilt(k + 1), 1.0), (tilt(k), -1.0), (r0, -0.5 * t), (r1, -0.5 * t)];
+            let sag = [(m, 1.0), (tilt(k), -0.5), (tilt(k + 1), -0.5)];
+            let tilts = limits.tilt.is_some();
+            if tilts {
+                rows.within(&[(r1, 1.0), (r0, -1.0)], t * bounds.tilt_acceleration);
+                rows.within(&[(r1, 1.0)], bounds.tilt_rate);
+                rows.within(&[(tilt(k + 1), 1.0)], bounds.tilt);
+            }
+            match kind {
+                Kind::Relaxed if tilts => {
+                    rows.within(&way, t.powi(3) / 12.0 * limits.acceleration);
+                    rows.within(&tilting, t.powi(3) / 12.0 * bounds.tilt_acceleration);
+                    rows.within(&sag, t.powi(2) / 12.0 * bounds.tilt_acceleration);
+                }
+                Kind::Relaxed => rows.within(&way, t.powi(3) / 12.0 * limits.acceleration),
+                Kind::Restricted if tilts => {
+                    rows.equal(&way, 0.0);
+                    rows.equal(&tilting, 0.0);
+                    let [mean, before, after] = sag;
+                    rows.equal(&[mean, before, after, (r1, t / 12.0), (r0, -t / 12.0)], 0.0);
+                }
+                Kind::Restricted => rows.equal(&way, 0.0),
+            }
+            if !tilts {
+                for variable in [tilt(k + 1), tilt_rate(k + 1), m] {
+                    rows.equal(&[(variable, 1.0)], 0.0);
+                }
+            }
+        }
+        let variables = STRIDE * intervals + AT;
+        let farthest = limits.max.max(-limits.min);
+        let largest = [farthest, limits.velocity, bounds.tilt, bounds.tilt_rate, f64::INFINITY, bounds.tilt];
+        let (matrix, right, cones) = rows.assemble(variables);
+        Programme {
+            quadratic: ones_at((0..intervals).map(error), variables),
+            linear: vec![0.0; variables],
+            matrix,
+            right,
+            cones,
+            largest: largest.into_iter().cycle().take(variables).collect(),
+            intervals,
+            interval,
+            arm: bounds.arm,
+        }
+    }
+
+    /// The motion that a solution describes.
+    pub fn trajectory(&self, x: &[f64]) -> Trajectory {
+        let knot = |k| Knot {
+            position: x[position(k)],
+            velocity: x[velocity(k)],
+            tilt_force: x[tilt(k)],
+            tilt_force_rate: x[tilt_rate(k)],
+        };
+        Trajectory { interval: self.interval, arm: self.arm, knots: (0..=self.intervals).map(knot).collect() }
+    }
+}
+
+/// A diagonal matrix with ones at these places.
+fn ones_at(places: impl Iterator<Item = usize>, size: usize) -> CscMatrix<f64> {
+    let places: Vec<usize> = places.collect();
+    let ones = vec![1.0; places.len()];
+    CscMatrix::new_from_triplets(size, size, places.clone(), places, ones)
+}
+
+/// Rows of A and b, as they come.
+#[derive(Default)]
+struct Rows {
+    equalities: Entries,
+    inequalities: Entries,
+}
+
+/// Rows of one cone: entries of A by row, column and value, and b.
+#[derive(Default)]
+struct Entries {
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    values: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Entries {
+    fn push(&mut self, terms: &[(usize, f64)], sign: f64, right: f64) {
+        for &(column, value) in terms {
+            self.rows.push(self.right.len());
+            self.columns.push(column);
+            self.values.push(sign * value);
+        }
+        self.right.push(right);
+    }
+}
+
+impl Rows {
+    /// The sum of the terms is `value`.
+    fn equal(&mut self, terms: &[(usize, f64)], value: f64) {
+        self.equalities.push(terms, 1.0, value);
+    }
+
+    /// The sum of the terms is between `min` and `max`.
+    fn between(&mut self, terms: &[(usize, f64)], min: f64, max: f64) {
+        self.inequalities.push(terms, 1.0, max);
+        self.inequalities.push(terms, -1.0, -min);
+    }
+
+    /// The sum of the terms is at most `limit`, of either sign.
+    fn within(&mut self, terms: &[(usize, f64)], limit: f64) {
+        self.between(terms, -limit, limit);
+    }
+
+    /// A, b and the cones, for so many variables.
+    fn assemble(self, variables: usize) -> (CscMatrix<f64>, Vec<f64>, [SupportedConeT<f64>; 2]) {
+        let Rows { equalities, inequalities } = self;
+        let (equal, unequal) = (equalities.right.len(), inequalities.right.len());
+        let rows = equalities.rows.into_iter().chain(inequalities.rows.into_iter().map(|row| row + equal)).collect();
+        let columns = [equalities.columns, inequalities.columns].concat();
+        let values = [equalities.values, inequalities.values].concat();
+        let matrix = CscMatrix::new_from_triplets(equal + unequal, variables, rows, columns, values);
+        let right = [equalities.right, inequalities.right].concat();
+        (matrix, right, [ZeroConeT(equal), NonnegativeConeT(unequal)])
+    }
+}

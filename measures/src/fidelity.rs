@@ -1,0 +1,200 @@
+//! How well one signal follows another.
+
+/// Longest delay, of either sign, that is looked for \[s\].
+const LONGEST_DELAY: f64 = 2.0;
+
+/// Signals that correlate less than this at any shift are not the same signal, only later.
+const SAME_SIGNAL: f64 = 0.9;
+
+/// A signal whose values differ by less than this is constant: far below what anybody feels \[m/s2 or rad/s\].
+const CONSTANT: f64 = 1e-9;
+
+/// How well a felt signal follows the desired one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fidelity {
+    /// Root mean square of the error \[the signal's unit\].
+    pub rms_error: f64,
+    /// Largest error \[the signal's unit\].
+    pub peak_error: f64,
+    /// Pearson's correlation; none where one of the signals is constant.
+    pub correlation: Option<f64>,
+    /// How much later the felt signal comes \[s\]; see [`delay`].
+    pub delay: Option<f64>,
+}
+
+/// Compares two signals that are sampled every `step` seconds. None where both are constant and equal: there is nothing
+/// to feel and nothing is felt.
+pub fn fidelity(desired: &[f64], felt: &[f64], step: f64) -> Option<Fidelity> {
+    let peak_error = peak_error(desired, felt);
+    if is_constant(desired) && peak_error < CONSTANT {
+        return None;
+    }
+    Some(Fidelity {
+        rms_error: rms_error(desired, felt),
+        peak_error,
+        correlation: correlation(desired, felt),
+        delay: delay(desired, felt, step),
+    })
+}
+
+/// Root mean square of the difference.
+pub fn rms_error(desired: &[f64], felt: &[f64]) -> f64 {
+    let squares: f64 = desired.iter().zip(felt).map(|(d, f)| (f - d).powi(2)).sum();
+    (squares / desired.len() as f64).sqrt()
+}
+
+/// Largest difference.
+pub fn peak_error(desired: &[f64], felt: &[f64]) -> f64 {
+    desired.iter().zip(felt).map(|(d, f)| (f - d).abs()).fold(0.0, f64::max)
+}
+
+/// Pearson's correlation coefficient; none where one of the signals is constant.
+pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
+    if is_constant(a) || is_constant(b) {
+        return None;
+    }
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
+    for (a, b) in a.iter().zip(b) {
+        let (a, b) = (a - mean_a, b - mean_b);
+        aa += a * a;
+        ab += a * b;
+        bb += b * b;
+    }
+    Some(ab / (aa * bb).sqrt())
+}
+
+/// How much later `felt` comes than `desired` \[s\]: the shift that makes them correlate best, found between the samples
+/// by a parabola through the best shift and its neighbours. Each shift is judged on the samples that overlap.
+///
+/// None where a signal is constant, where the signals correlate by less than 0.9 at the best shift, and where that is not
+/// within two seconds: then there is no delay that would mean anything.
+pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
+    let longest = ((LONGEST_DELAY / step).round() as i64).min(desired.len() as i64 / 2);
+    let at_shift: Vec<f64> =
+        (-longest..=longest).map(|shift| correlation_at(desired, felt, shift)).collect::<Option<_>>()?;
+    let best = (0..at_shift.len()).max_by(|&i, &j| at_shift[i].total_cmp(&at_shift[j]))?;
+    if best == 0 || best + 1 == at_shift.len() || at_shift[best] < SAME_SIGNAL {
+        return None;
+    }
+    let vertex = parabola_vertex(at_shift[best - 1], at_shift[best], at_shift[best + 1]);
+    Some((best as f64 - longest as f64 + vertex) * step)
+}
+
+/// The correlation of `desired` with what is felt `shift` samples later.
+fn correlation_at(desired: &[f64], felt: &[f64], shift: i64) -> Option<f64> {
+    let offset = shift.unsigned_abs() as usize;
+    let overlap = desired.len() - offset;
+    if shift < 0 {
+        correlation(&desired[offset..], &felt[..overlap])
+    } else {
+        correlation(&desired[..overlap], &felt[offset..])
+    }
+}
+
+/// Where, between -1 and 1, the parabola through the values at -1, 0 and 1 has its vertex; the middle is the largest.
+fn parabola_vertex(before: f64, middle: f64, after: f64) -> f64 {
+    let curvature = before - 2.0 * middle + after;
+    if curvature == 0.0 { 0.0 } else { 0.5 * (before - after) / curvature }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+fn is_constant(values: &[f64]) -> bool {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    values.is_empty() || most - least < CONSTANT
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_1_SQRT_2, TAU};
+
+    use super::*;
+
+    const STEP: f64 = 0.01;
+
+    fn sampled(signal: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..1000).map(|k| signal(f64::from(k) * STEP)).collect()
+    }
+
+    fn assert_near(value: f64, expected: f64, tolerance: f64) {
+        assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+    }
+
+    #[test]
+    fn the_rms_error_of_a_lost_sine_is_its_amplitude_over_root_two() {
+        let desired = sampled(|t| 3.0 * (TAU * t).sin());
+        let felt = sampled(|_| 0.0);
+        assert_near(rms_error(&desired, &felt), 3.0 * FRAC_1_SQRT_2, 1e-12);
+        assert_near(peak_error(&desired, &felt), 3.0, 1e-12);
+    }
+
+    #[test]
+    fn the_errors_of_an_offset_are_the_offset() {
+        let desired = sampled(|t| t * t);
+        let felt = sampled(|t| t * t - 0.25);
+        assert_near(rms_error(&desired, &felt), 0.25, 1e-12);
+        assert_near(peak_error(&desired, &felt), 0.25, 1e-12);
+    }
+
+    #[test]
+    fn the_correlation_of_sines_over_whole_periods_is_the_cosine_of_the_phase_between_them() {
+        let desired = sampled(|t| (TAU * t).sin());
+        for phase in [0.0, 0.3, 1.0, 2.0, 3.0] {
+            let felt = sampled(|t| 5.0 + 2.0 * (TAU * t - phase).sin());
+            assert_near(correlation(&desired, &felt).unwrap(), phase.cos(), 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_constant_signal_correlates_with_nothing() {
+        let (constant, sine) = (sampled(|_| 9.80665), sampled(|t| t.sin()));
+        assert_eq!(correlation(&constant, &sine), None);
+        assert_eq!(correlation(&sine, &constant), None);
+        assert_eq!(delay(&constant, &sine, STEP), None);
+    }
+
+    #[test]
+    fn a_delayed_pulse_s_delay_is_found_between_the_samples_in_either_direction() {
+        let pulse = |t: f64| (-(t - 5.0).powi(2)).exp();
+        let desired = sampled(pulse);
+        for expected in [-0.5, -0.01234, 0.0, 0.0003, 0.0417, 0.9] {
+            let felt = sampled(|t| 0.8 * pulse(t - expected) + 1.0);
+            assert_near(delay(&desired, &felt, STEP).unwrap(), expected, 0.001 * STEP);
+        }
+    }
+
+    #[test]
+    fn a_delayed_sine_s_delay_is_found() {
+        let desired = sampled(|t| (TAU * 0.4 * t).sin());
+        let felt = sampled(|t| (TAU * 0.4 * (t - 0.1234)).sin());
+        assert_near(delay(&desired, &felt, STEP).unwrap(), 0.1234, 0.001 * STEP);
+    }
+
+    #[test]
+    fn ramps_have_no_delay_in_common() {
+        let desired = sampled(|t| t);
+        let felt = sampled(|t| (t / 10.0).exp());
+        assert_eq!(delay(&desired, &felt, STEP), None);
+    }
+
+    #[test]
+    fn different_signals_have_no_delay_in_common() {
+        let desired = sampled(|t| (TAU * t).sin());
+        let felt = sampled(|t| (TAU * t).sin() + (TAU * 1.7 * t).sin());
+        assert_eq!(delay(&desired, &felt, STEP), None);
+    }
+
+    #[test]
+    fn nothing_desired_and_nothing_felt_is_nothing_to_measure() {
+        let rest = sampled(|_| 9.80665);
+        assert_eq!(fidelity(&rest, &rest, STEP), None);
+        let disturbed = sampled(|t| 9.80665 + 0.1 * t.sin());
+        let fidelity = fidelity(&rest, &disturbed, STEP).unwrap();
+        assert_eq!((fidelity.correlation, fidelity.delay), (None, None));
+        assert_near(fidelity.peak_error, 0.1, 1e-6);
+    }
+}

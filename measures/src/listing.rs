@@ -1,0 +1,309 @@
+//! The measures as a list for people.
+
+use crate::bound::Bound;
+use crate::cues::Cues;
+use crate::effort::Effort;
+use crate::fidelity::Fidelity;
+use crate::measures::{Axes, Measures};
+
+/// One measure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What of: `specific force x`, `sensed angular velocity y`, `platform`, ...
+    pub subject: String,
+    /// What is measured: `RMS error`, `false cues`, ...
+    pub name: &'static str,
+    /// The value in `unit`; none where the measure is not defined for this run.
+    pub value: Option<f64>,
+    /// `m/s²`, `°/s`, `ms`, `%`, ... or empty.
+    pub unit: &'static str,
+    /// Decimals that say something.
+    pub decimals: usize,
+    /// What it is, in a sentence.
+    pub definition: &'static str,
+    /// Where it is from.
+    pub source: &'static str,
+}
+
+const AXES: Axes<&str> = ["x", "y", "z"];
+
+/// What stands beside a measure that needs no source.
+const COMMON: &str = "common usage";
+const VESTIBULAR: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
+    Approaches, NASA/CR-2005-213747";
+const BOUND: &str = "docs/measures.md, the bound; solved with Clarabel (Goulart, Chen 2024)";
+const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
+    1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
+
+impl Measures {
+    /// The measures as rows, in the order in which one reads them. Axes on which nothing is desired and nothing felt are left
+    /// out.
+    pub fn rows(&self) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for (k, axis) in AXES.iter().enumerate() {
+            rows.extend(FORCE.rows(axis, &self.force[k]));
+            rows.extend(SENSED_FORCE.rows(axis, &self.sensed_force[k]));
+            if self.sensed_force[k].is_some() {
+                rows.extend(cue_rows(format!("sensed specific force {axis}"), &self.force_cues[k]));
+            }
+        }
+        for (k, axis) in AXES.iter().enumerate() {
+            rows.extend(RATE.rows(axis, &self.rate[k]));
+            rows.extend(SENSED_RATE.rows(axis, &self.sensed_rate[k]));
+            if self.sensed_rate[k].is_some() {
+                rows.extend(cue_rows(format!("sensed angular velocity {axis}"), &self.rate_cues[k]));
+            }
+        }
+        rows.extend(effort_rows(&self.effort));
+        rows
+    }
+}
+
+/// A signal that is compared: how its errors are written.
+struct Signal {
+    subject: &'static str,
+    unit: &'static str,
+    /// From SI to `unit`.
+    factor: f64,
+    source: &'static str,
+}
+
+const DEGREE: f64 = 180.0 / std::f64::consts::PI;
+const FORCE: Signal = Signal { subject: "specific force", unit: "m/s²", factor: 1.0, source: COMMON };
+const RATE: Signal = Signal { subject: "angular velocity", unit: "°/s", factor: DEGREE, source: COMMON };
+const SENSED_FORCE: Signal =
+    Signal { subject: "sensed specific force", unit: "m/s²", factor: 1.0, source: VESTIBULAR };
+const SENSED_RATE: Signal =
+    Signal { subject: "sensed angular velocity", unit: "°/s", factor: DEGREE, source: VESTIBULAR };
+
+impl Signal {
+    fn rows(&self, axis: &str, fidelity: &Option<Fidelity>) -> Vec<Row> {
+        let Some(fidelity) = fidelity else { return Vec::new() };
+        let row = |name, value, unit, decimals, definition| Row {
+            subject: format!("{} {axis}", self.subject),
+            name,
+            value,
+            unit,
+            decimals,
+            definition,
+            source: self.source,
+        };
+        vec![
+            row(
+                "RMS error",
+                Some(self.factor * fidelity.rms_error),
+                self.unit,
+                3,
+                "Root mean square over the run of felt minus desired.",
+            ),
+            row(
+                "peak error",
+                Some(self.factor * fidelity.peak_error),
+                self.unit,
+                3,
+                "Largest absolute value of felt minus desired.",
+            ),
+            row(
+                "correlation",
+                fidelity.correlation,
+                "",
+                3,
+                "Pearson's correlation of felt and desired, which no scale changes; undefined where one of them is constant.",
+            ),
+            row(
+                "delay",
+                fidelity.delay.map(|delay| 1000.0 * delay),
+                "ms",
+                0,
+                "How much later felt comes: the shift, within 2 s, at which the two correlate best; undefined where they \
+                 correlate by less than 0.9 there.",
+            ),
+        ]
+    }
+}
+
+fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
+    let row = |name, share: f64, definition| Row {
+        subject: subject.clone(),
+        name,
+        value: Some(100.0 * share),
+        unit: "%",
+        decimals: 1,
+        definition,
+        source: THRESHOLDS,
+    };
+    [
+        row(
+            "sensed in the vehicle",
+            cues.desired,
+            "Share of the run in which the vehicle's motion is above the threshold.",
+        ),
+        row(
+            "false cues",
+            cues.false_cues,
+            "Share of the run in which the platform's motion is above the threshold and the vehicle's is not, or has the \
+             opposite sign.",
+        ),
+        row(
+            "missing cues",
+            cues.missing_cues,
+            "Share of the run in which the vehicle's motion is above the threshold and the platform's is not.",
+        ),
+    ]
+}
+
+/// The bound of one axis, `x`, `y` or `z`, beside what was felt there.
+///
+/// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the RMS error that was felt.
+pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4] {
+    let row = |name, value, unit, decimals, definition| Row {
+        subject: format!("specific force {axis}"),
+        name,
+        value,
+        unit,
+        decimals,
+        definition,
+        source: BOUND,
+    };
+    let share = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
+    [
+        row(
+            "bound",
+            Some(bound.rms_error),
+            "m/s²",
+            3,
+            "The smallest RMS error that any controller could reach, even one that knows the whole ride beforehand, on the \
+             linearised axis under the same limits of tilt, tilt rate, travel, speed and acceleration.",
+        ),
+        row(
+            "left on the table",
+            Some((felt - bound.rms_error).max(0.0)),
+            "m/s²",
+            3,
+            "RMS error beyond the bound: what a better controller could gain at most.",
+        ),
+        row(
+            "error, of what is desired",
+            share(felt),
+            "%",
+            1,
+            "RMS error as a share of the RMS of the desired specific force without gravity: 100 % is to stand still.",
+        ),
+        row("bound, of what is desired", share(bound.rms_error), "%", 1, "The bound as the same share."),
+    ]
+}
+
+fn effort_rows(effort: &Effort) -> [Row; 7] {
+    let row = |name, value, unit, decimals, definition| Row {
+        subject: "platform".to_string(),
+        name,
+        value: Some(value),
+        unit,
+        decimals,
+        definition,
+        source: COMMON,
+    };
+    [
+        row(
+            "stroke used",
+            100.0 * effort.stroke_used,
+            "%",
+            1,
+            "Span from the shortest to the longest length of any actuator, as a share of the stroke.",
+        ),
+        row(
+            "smallest stroke margin",
+            effort.smallest_margin,
+            "m",
+            3,
+            "Smallest distance of any actuator from either end of its stroke.",
+        ),
+        row(
+            "largest tilt rate",
+            effort.largest_tilt_rate.to_degrees(),
+            "°/s",
+            2,
+            "Largest rate of tilt coordination in roll or pitch.",
+        ),
+        row(
+            "tilt limited",
+            100.0 * effort.tilt_limited,
+            "%",
+            1,
+            "Share of the steps in which tilt coordination lagged behind its target because of a limit.",
+        ),
+        row(
+            "safety units active",
+            100.0 * effort.safety_active,
+            "%",
+            1,
+            "Share of the steps in which a safety unit held the platform back.",
+        ),
+        row(
+            "actuators limited",
+            100.0 * effort.actuator_limited,
+            "%",
+            1,
+            "Share of the steps in which the actuator guard held an actuator back.",
+        ),
+        row(
+            "from neutral at the end",
+            effort.final_distance,
+            "m",
+            3,
+            "Distance of the platform from neutral at the end.",
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{Limited, Platform, Run};
+
+    const COUNT: usize = 500;
+
+    /// The rows of a run on which half of the surge and all of the rest is felt.
+    fn rows_of(force: impl Fn(f64) -> [f64; 3]) -> Vec<Row> {
+        let desired: Vec<[f64; 3]> = (0..COUNT).map(|k| force(0.01 * k as f64)).collect();
+        let felt: Vec<[f64; 3]> = desired.iter().map(|[x, y, z]| [0.5 * x, *y, *z]).collect();
+        let run = Run {
+            step: 0.01,
+            desired_force: &desired,
+            felt_force: &felt,
+            desired_rate: &[[0.0; 3]; COUNT],
+            felt_rate: &[[0.0; 3]; COUNT],
+            platform: Platform {
+                legs: &[[1.3; 6]; COUNT],
+                stroke: [1.0, 1.6],
+                displacement: &[[0.0; 3]; COUNT],
+                tilt_rate: &[[0.0; 2]; COUNT],
+                limited: &[Limited::default(); COUNT],
+            },
+        };
+        Measures::of(&run).unwrap().rows()
+    }
+
+    #[test]
+    fn an_axis_on_which_nothing_happens_has_no_rows() {
+        let rows = rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]);
+        assert!(rows.iter().any(|row| row.subject == "specific force x"));
+        assert!(rows.iter().all(|row| !row.subject.ends_with('y') && !row.subject.ends_with('z')));
+        assert!(rows.iter().any(|row| row.subject == "platform"));
+    }
+
+    #[test]
+    fn half_of_what_is_desired_is_an_error_of_half_its_size_however_it_correlates() {
+        let rows = rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]);
+        let value = |name| rows.iter().find(|row| row.name == name && row.subject == "specific force x").unwrap().value;
+        let rms = ((0..COUNT).map(|k| (0.02 * k as f64).sin().powi(2)).sum::<f64>() / COUNT as f64).sqrt();
+        assert!((value("RMS error").unwrap() - 0.5 * rms).abs() < 1e-12);
+        assert!((value("correlation").unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn every_row_says_what_it_is_and_where_from() {
+        let rows = rows_of(|t| [t.sin(), t.cos(), 9.80665 + 0.3 * t.sin()]);
+        assert!(rows.iter().all(|row| row.definition.ends_with('.') && !row.source.is_empty()));
+    }
+}

@@ -1,0 +1,87 @@
+//! All measures of a run.
+
+use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
+use crate::effort::{Effort, effort};
+use crate::fidelity::{Fidelity, fidelity};
+use crate::run::{Run, Unusable, axis};
+use crate::vestibular::{CANALS, OTOLITHS, Organ, sensed};
+
+/// Standard gravity, at which the otoliths are at rest \[m/s2\].
+const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// Something of each axis x, y, z.
+pub type Axes<T> = [T; 3];
+
+/// How well a run went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measures {
+    /// Specific force, felt against desired; none on an axis on which nothing is desired and nothing felt.
+    pub force: Axes<Option<Fidelity>>,
+    /// Angular velocity, felt against desired.
+    pub rate: Axes<Option<Fidelity>>,
+    /// The same of the specific force that the otoliths sense.
+    pub sensed_force: Axes<Option<Fidelity>>,
+    /// The same of the angular velocity that the semicircular canals sense.
+    pub sensed_rate: Axes<Option<Fidelity>>,
+    /// False and missing cues of specific force.
+    pub force_cues: Axes<Cues>,
+    /// False and missing cues of angular velocity.
+    pub rate_cues: Axes<Cues>,
+    /// What the platform did.
+    pub effort: Effort,
+}
+
+impl Measures {
+    /// Measures a run.
+    ///
+    /// # Errors
+    /// The run's series do not fit together or hold something that is no number.
+    pub fn of(run: &Run) -> Result<Self, Unusable> {
+        run.check()?;
+        let upright = [0.0, 0.0, STANDARD_GRAVITY];
+        let force = Channel { organ: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
+        let rate = Channel { organ: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
+        let [force_x, force_y, force_z] = force.compare(run.desired_force, run.felt_force);
+        let [rate_x, rate_y, rate_z] = rate.compare(run.desired_rate, run.felt_rate);
+        Ok(Measures {
+            force: [force_x.raw, force_y.raw, force_z.raw],
+            rate: [rate_x.raw, rate_y.raw, rate_z.raw],
+            sensed_force: [force_x.sensed, force_y.sensed, force_z.sensed],
+            sensed_rate: [rate_x.sensed, rate_y.sensed, rate_z.sensed],
+            force_cues: [force_x.cues, force_y.cues, force_z.cues],
+            rate_cues: [rate_x.cues, rate_y.cues, rate_z.cues],
+            effort: effort(&run.platform),
+        })
+    }
+}
+
+/// How a vector signal is sensed.
+struct Channel<'a> {
+    organ: &'a Organ,
+    rest: [f64; 3],
+    thresholds: [f64; 3],
+    step: f64,
+}
+
+/// One axis, felt against desired.
+struct Comparison {
+    raw: Option<Fidelity>,
+    sensed: Option<Fidelity>,
+    cues: Cues,
+}
+
+impl Channel<'_> {
+    fn compare(&self, desired: &[[f64; 3]], felt: &[[f64; 3]]) -> [Comparison; 3] {
+        std::array::from_fn(|k| self.compare_axis(k, &axis(desired, k), &axis(felt, k)))
+    }
+
+    fn compare_axis(&self, k: usize, desired: &[f64], felt: &[f64]) -> Comparison {
+        let sense = |signal| sensed(self.organ, signal, self.rest[k], self.step);
+        let (sensed_desired, sensed_felt) = (sense(desired), sense(felt));
+        Comparison {
+            raw: fidelity(desired, felt, self.step),
+            sensed: fidelity(&sensed_desired, &sensed_felt, self.step),
+            cues: cues(&sensed_desired, &sensed_felt, self.thresholds[k]),
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! What the measures are taken from.
+
+/// One ride with one set of parameters: series of equal length, sampled every `step` seconds. The first sample is the one
+/// before the first step.
+#[derive(Clone, Copy, Debug)]
+pub struct Run<'a> {
+    /// Time from one sample to the next \[s\].
+    pub step: f64,
+    /// Specific force that the vehicle's rider would feel, in head axes, gravity's reaction included \[m/s2\].
+    pub desired_force: &'a [[f64; 3]],
+    /// Specific force that the rider on the platform feels, in head axes, gravity's reaction included \[m/s2\].
+    pub felt_force: &'a [[f64; 3]],
+    /// Angular velocity that the vehicle's rider would feel, in head axes \[rad/s\].
+    pub desired_rate: &'a [[f64; 3]],
+    /// Angular velocity that the rider on the platform feels, in head axes \[rad/s\].
+    pub felt_rate: &'a [[f64; 3]],
+    /// What the platform did.
+    pub platform: Platform<'a>,
+}
+
+/// What the platform did, sampled as the [`Run`] is.
+#[derive(Clone, Copy, Debug)]
+pub struct Platform<'a> {
+    /// Lengths of the actuators \[m\].
+    pub legs: &'a [[f64; 6]],
+    /// Shortest and longest length that an actuator may have \[m\].
+    pub stroke: [f64; 2],
+    /// Position of the platform relative to neutral, in the base frame \[m\].
+    pub displacement: &'a [[f64; 3]],
+    /// Rates of tilt coordination's roll and pitch \[rad/s\].
+    pub tilt_rate: &'a [[f64; 2]],
+    /// What was limited during the step that led to each sample.
+    pub limited: &'a [Limited],
+}
+
+/// Which of the washout's limits were at work.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Limited {
+    /// Tilt coordination.
+    pub tilt: bool,
+    /// The safety units.
+    pub safety: bool,
+    /// The actuator guard.
+    pub actuator: bool,
+}
+
+/// Why nothing can be measured of a run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unusable {
+    /// The time between samples is no time.
+    #[error("the time between samples is {0} s; it must be above 0")]
+    Step(f64),
+    /// There is nothing to compare.
+    #[error("the run has {0} samples; at least 2 are needed")]
+    TooShort(usize),
+    /// A series does not belong to the others.
+    #[error(
+        "the series of {series} has {found} samples, that of the desired specific force {expected}; give each series a value for every sample"
+    )]
+    Length {
+        /// What the series holds.
+        series: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that it must have.
+        expected: usize,
+    },
+    /// A value is not a number.
+    #[error("the {series} of sample {sample} is {value}; every value must be a finite number")]
+    NotFinite {
+        /// What the series holds.
+        series: &'static str,
+        /// Where the value is, from 0.
+        sample: usize,
+        /// The value.
+        value: f64,
+    },
+}
+
+impl Run<'_> {
+    /// Whether the run can be measured.
+    ///
+    /// # Errors
+    /// The first thing found that is wrong with the series.
+    pub fn check(&self) -> Result<(), Unusable> {
+        if self.step.is_nan() || self.step <= 0.0 {
+            return Err(Unusable::Step(self.step));
+        }
+        let expected = self.desired_force.len();
+        if expected < 2 {
+            return Err(Unusable::TooShort(expected));
+        }
+        check_series("desired specific force", self.desired_force, expected)?;
+        check_series("felt specific force", self.felt_force, expected)?;
+        check_series("desired angular velocity", self.desired_rate, expected)?;
+        check_series("felt angular velocity", self.felt_rate, expected)?;
+        check_series("actuator lengths", self.platform.legs, expected)?;
+        check_series("displacement", self.platform.displacement, expected)?;
+        check_series("tilt rate", self.platform.tilt_rate, expected)?;
+        check_length("limits at work", self.platform.limited.len(), expected)
+    }
+}
+
+fn check_series<const N: usize>(series: &'static str, values: &[[f64; N]], expected: usize) -> Result<(), Unusable> {
+    check_length(series, values.len(), expected)?;
+    let bad = |value: &f64| !value.is_finite();
+    match values.iter().position(|sample| sample.iter().any(bad)) {
+        None => Ok(()),
+        Some(sample) => {
+            let value = values[sample].into_iter().find(|value| !value.is_finite()).unwrap_or(f64::NAN);
+            Err(Unusable::NotFinite { series, sample, value })
+        }
+    }
+}
+
+fn check_length(series: &'static str, found: usize, expected: usize) -> Result<(), Unusable> {
+    if found == expected { Ok(()) } else { Err(Unusable::Length { series, found, expected }) }
+}
+
+/// One axis of a series of vectors.
+pub(crate) fn axis<const N: usize>(series: &[[f64; N]], axis: usize) -> Vec<f64> {
+    series.iter().map(|sample| sample[axis]).collect()
+}

@@ -1,0 +1,49 @@
+//! `moris`, the command.
+
+use std::io::{ErrorKind, Write, stdout};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use moris::{parameters, respond, rig, run, tune};
+
+/// The washout's workbench: does this ride fit my rig, how good are the cues, what limits them, which parameters are better?
+#[derive(Parser)]
+#[command(name = "moris", version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    #[command(subcommand)]
+    Rig(rig::Command),
+    Run(run::Options),
+    Tune(tune::Options),
+    Respond(respond::Options),
+    Parameters(parameters::Options),
+}
+
+fn main() -> ExitCode {
+    let out = &mut stdout();
+    let result = match Arguments::parse().command {
+        Command::Rig(command) => rig::main(&command, out),
+        Command::Run(options) => run::main(&options, out),
+        Command::Tune(options) => tune::main(&options, out),
+        Command::Respond(options) => respond::main(&options, out),
+        Command::Parameters(options) => parameters::main(&options, out),
+    };
+    match result.and_then(|code| Ok(out.flush().map(|()| code)?)) {
+        Ok(code) => code,
+        Err(error) if nobody_reads_on(&error) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Whether whoever read the output, such as `head`, has had enough.
+fn nobody_reads_on(error: &anyhow::Error) -> bool {
+    error.downcast_ref::<std::io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
+}

@@ -1,0 +1,164 @@
+//! Steps the washout through a sine until it has settled, and reads off what is felt of it.
+
+use std::f64::consts::TAU;
+
+use moris_washout::nalgebra::Complex;
+use moris_washout::{Parameters, Refusal, Washout};
+
+use super::channel::{ALL, CHANNELS, Channel, felt};
+use super::excitation::Sine;
+
+/// What came out of one test: one channel in, at one frequency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    pub input: Channel,
+    /// \[rad/s\]
+    pub frequency: f64,
+    /// Of the input \[m/s2 or rad/s\].
+    pub amplitude: f64,
+    /// What is felt on each channel over what went in, in SI units.
+    pub ratios: [Complex<f64>; CHANNELS],
+    /// Of each channel: what it holds beside the input's frequency and its mean, as a share of what it holds at that
+    /// frequency (root mean squares). A linear filter has none.
+    pub distortion: [f64; CHANNELS],
+    /// Share of time in which the tilt, a safety unit, the actuator guard limited.
+    pub limited: [f64; 3],
+    /// Whether two blocks of periods, one after the other, gave the same to 1 %.
+    pub settled: bool,
+}
+
+/// Longest time between samples \[s\].
+const LONGEST_STEP: f64 = 0.001;
+/// A block of whole periods is at least so long \[s\].
+const SHORTEST_BLOCK: f64 = 10.0;
+/// After so long it is not waited for any more, but for at least [`FEWEST_BLOCKS`] \[s\].
+const LONGEST_WAIT: f64 = 300.0;
+const FEWEST_BLOCKS: usize = 4;
+/// No further block is needed when the last two differ in what is felt by less than this share of the input, 1 °/s counting
+/// as much as 1 m/s2.
+const AGREEMENT: f64 = 1e-4;
+/// A filter at its limits need not repeat itself from period to period. Up to this share of the input that is no matter.
+const SETTLED: f64 = 1e-2;
+
+/// Measures the response to a channel at a frequency, from rest at neutral.
+///
+/// # Errors
+/// The parameters cannot be used: which, and why.
+pub fn response(
+    parameters: &Parameters,
+    channel: Channel,
+    frequency: f64,
+    amplitude: f64,
+    gravity_turns: bool,
+) -> Result<Response, Refusal> {
+    let period = TAU / frequency;
+    let periods = (SHORTEST_BLOCK / period).ceil();
+    let fade = periods * period;
+    let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters };
+    let mut walk = Walk::new(sine, periods)?;
+    walk.block(); // It fades in.
+    let mut last = walk.block();
+    let blocks = ((LONGEST_WAIT / fade) as usize).max(FEWEST_BLOCKS);
+    let mut change = f64::INFINITY;
+    for _ in 0..blocks {
+        let block = walk.block();
+        change = block.difference(&last) / (amplitude / channel.unit_in_si());
+        last = block;
+        if change <= AGREEMENT {
+            break;
+        }
+    }
+    Ok(last.response(&sine, change <= SETTLED))
+}
+
+/// The washout on its way through the sine.
+struct Walk<'a> {
+    sine: Sine<'a>,
+    washout: Washout,
+    /// Samples in a block, and the time between them.
+    samples: usize,
+    step: f64,
+    /// Steps made.
+    made: usize,
+}
+
+impl<'a> Walk<'a> {
+    fn new(sine: Sine<'a>, periods: f64) -> Result<Self, Refusal> {
+        let block = periods * TAU / sine.frequency;
+        let samples = (block / LONGEST_STEP).ceil();
+        let washout = Washout::new(sine.parameters)?.starting_with(&sine.input(0.0));
+        Ok(Walk { sine, washout, samples: samples as usize, step: block / samples, made: 0 })
+    }
+
+    /// Goes on for a block of whole periods.
+    fn block(&mut self) -> Block {
+        let mut block = Block::default();
+        let mut before = self.sine.input(self.made as f64 * self.step);
+        for _ in 0..self.samples {
+            self.made += 1;
+            let time = self.made as f64 * self.step;
+            let input = self.sine.input(time);
+            self.washout.step_between(&before, &input, self.step);
+            before = input;
+            let output = self.washout.output();
+            let flags = [output.tilt_limited, output.safety_active, output.actuator_limited];
+            let turn = Complex::from_polar(1.0, -self.sine.frequency * time);
+            block.add(turn, self.sine.value(time), felt(&output), flags);
+        }
+        block
+    }
+}
+
+/// Sums over a block, from which its Fourier coefficients come.
+#[derive(Clone, Debug, Default)]
+struct Block {
+    samples: f64,
+    input: Complex<f64>,
+    outputs: [Complex<f64>; CHANNELS],
+    sums: [f64; CHANNELS],
+    squares: [f64; CHANNELS],
+    limited: [f64; 3],
+}
+
+impl Block {
+    fn add(&mut self, turn: Complex<f64>, input: f64, outputs: [f64; CHANNELS], flags: [bool; 3]) {
+        self.samples += 1.0;
+        self.input += turn * input;
+        for (i, value) in outputs.into_iter().enumerate() {
+            self.outputs[i] += turn * value;
+            self.sums[i] += value;
+            self.squares[i] += value * value;
+        }
+        for (count, flag) in self.limited.iter_mut().zip(flags) {
+            *count += f64::from(flag);
+        }
+    }
+
+    /// The largest difference between an output's amplitude here and in another block, in the channel's own unit.
+    fn difference(&self, other: &Block) -> f64 {
+        let of = |channel: &Channel| {
+            let i = channel.index();
+            2.0 * (self.outputs[i] - other.outputs[i]).norm() / self.samples / channel.unit_in_si()
+        };
+        ALL.iter().map(of).fold(0.0, f64::max)
+    }
+
+    fn response(&self, sine: &Sine, settled: bool) -> Response {
+        Response {
+            input: sine.channel,
+            frequency: sine.frequency,
+            amplitude: sine.amplitude,
+            ratios: self.outputs.map(|output| output / self.input),
+            distortion: std::array::from_fn(|i| self.distortion(i)),
+            limited: self.limited.map(|count| count / self.samples),
+            settled,
+        }
+    }
+
+    fn distortion(&self, i: usize) -> f64 {
+        let mean = self.sums[i] / self.samples;
+        let power = self.squares[i] / self.samples - mean * mean;
+        let fundamental = 2.0 * (self.outputs[i] / self.samples).norm_sqr();
+        ((power - fundamental).max(0.0) / fundamental).sqrt()
+    }
+}

@@ -1,0 +1,134 @@
+//! `moris respond`: the frequency response of the whole washout, from the head in the vehicle to the head on the platform.
+//!
+//! In the manner of the objective motion cueing test of ICAO Doc 9625: sines of twelve frequencies on one channel at a
+//! time, and what is felt of them on every channel. [`excitation`] says what goes in, [`measure`] steps the washout
+//! through it, [`table`] and [`picture`] show what came out.
+
+pub mod channel;
+pub mod excitation;
+pub mod measure;
+pub mod picture;
+pub mod table;
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, ensure};
+use indicatif::{ProgressBar, ProgressStyle};
+use moris_washout::Parameters;
+use rayon::prelude::*;
+
+use crate::setup_options::SetupOptions;
+use channel::{ALL, Channel};
+use excitation::{Amplitudes, frequencies};
+pub use measure::{Response, response};
+
+/// A small signal is so much of the test's: far from every limit.
+const SMALL: f64 = 1e-3;
+
+/// Measure the frequency response of the whole washout
+///
+/// In the manner of ICAO Doc 9625's objective motion cueing test: the vehicle moves on one channel at a time (surge, sway, heave,
+/// roll, pitch, yaw) in sines of twelve frequencies from 0.1 to 15.8 rad/s, and what the rider feels is compared with it, on the
+/// same channel and on those that gravity joins it to. Everything is measured twice: with the amplitudes below, where the tilt's
+/// rate limit takes part, and with a thousandth of them, which is what the filters do by themselves.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    #[command(flatten)]
+    setup: SetupOptions,
+
+    /// Amplitude of the specific force [m/s2]
+    #[arg(long, value_name = "M/S2", default_value_t = 1.0)]
+    force: f64,
+
+    /// Amplitude of the angular velocity [deg/s]; slow turning is bounded by an angle of six times, quick turning by an
+    /// angular acceleration of ten times as much
+    #[arg(long, value_name = "DEG/S", default_value_t = 1.0)]
+    rate: f64,
+
+    /// Let the vehicle's orientation follow its roll and pitch, and gravity with it, as where a vehicle tilts without
+    /// accelerating; otherwise the rates come alone, as on a motorcycle that leans into a balanced turn
+    #[arg(long)]
+    gravity_turns: bool,
+
+    /// Directory for the table (response.csv) and the pictures (direct.svg, cross.svg)
+    #[arg(long, value_name = "DIRECTORY", default_value = "response")]
+    out: PathBuf,
+}
+
+/// Responses on all channels at all frequencies, channel by channel in the order of the frequencies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// With the test's amplitudes.
+    pub test: Vec<Response>,
+    /// With a thousandth of them.
+    pub small: Vec<Response>,
+}
+
+impl Measured {
+    /// Measures on all cores. `progress` is told after each of [`Measured::TESTS`].
+    ///
+    /// # Errors
+    /// The parameters cannot be used: which, and why.
+    pub fn of(
+        parameters: &Parameters,
+        amplitudes: Amplitudes,
+        gravity_turns: bool,
+        progress: impl Fn() + Sync,
+    ) -> Result<Self> {
+        let tests: Vec<(Channel, f64)> =
+            ALL.iter().flat_map(|&channel| frequencies().map(|frequency| (channel, frequency))).collect();
+        let all = |amplitudes: Amplitudes| {
+            tests
+                .par_iter()
+                .map(|&(channel, frequency)| {
+                    let amplitude = amplitudes.of(channel, frequency);
+                    let measured = response(parameters, channel, frequency, amplitude, gravity_turns);
+                    progress();
+                    Ok(measured?)
+                })
+                .collect::<Result<Vec<Response>>>()
+        };
+        Ok(Measured { test: all(amplitudes)?, small: all(amplitudes.scaled(SMALL))? })
+    }
+
+    /// How many tests are made.
+    pub const TESTS: u64 = 2 * 6 * 12;
+}
+
+/// Does what the command says.
+///
+/// # Errors
+/// The rig or the parameters cannot be used, an amplitude is not positive, or a file cannot be written.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    let setup = options.setup.load()?;
+    let amplitudes = options.amplitudes()?;
+    let bar = ProgressBar::new(Measured::TESTS);
+    bar.set_style(ProgressStyle::with_template("frequency response {wide_bar} {pos} of {len} tests")?);
+    let measured = Measured::of(&setup.parameters, amplitudes, options.gravity_turns, || bar.inc(1))?;
+    bar.finish_and_clear();
+
+    writeln!(out, "Frequency response, felt over desired: {}, parameters: {}", setup.rig_name, setup.parameters_name)?;
+    write!(out, "{}", table::text(&measured))?;
+    fs::create_dir_all(&options.out).with_context(|| format!("cannot make {}", options.out.display()))?;
+    let file = |name: &str| options.out.join(name);
+    table::write(&file("response.csv"), &measured)?;
+    picture::direct(&file("direct.svg"), &measured)?;
+    picture::cross(&file("cross.svg"), &measured)?;
+    for name in ["response.csv", "direct.svg", "cross.svg"] {
+        writeln!(out, "wrote {}", file(name).display())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+impl Options {
+    fn amplitudes(&self) -> Result<Amplitudes> {
+        for (name, value) in [("--force", self.force), ("--rate", self.rate)] {
+            ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");
+        }
+        let default = Amplitudes::default();
+        Ok(Amplitudes { force: self.force, ..default.scaled(self.rate) })
+    }
+}

@@ -1,0 +1,188 @@
+//! The responses as pictures: modulus over phase, as in a Bode diagram.
+
+use std::path::Path;
+
+use anyhow::Result;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::Measured;
+use super::channel::{ALL, CROSS, Channel};
+use super::measure::Response;
+use super::table::{modulus, phase};
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Size of one diagram: modulus, and phase below it.
+const SIZE: (u32, u32) = (600, 560);
+const MODULUS_HEIGHT: u32 = 310;
+const HEAD: u32 = 44;
+const FONT: &str = "sans-serif";
+const TEXT: RGBColor = RGBColor(40, 46, 56);
+const GRID: RGBColor = RGBColor(226, 229, 233);
+const TEST: RGBColor = RGBColor(0, 114, 178);
+const SMALL: RGBColor = RGBColor(213, 94, 0);
+const LIMITED: RGBColor = RGBColor(255, 255, 255);
+
+/// The frequencies shown \[rad/s\].
+const FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
+/// A smaller modulus is not drawn: nobody feels it, and its phase means nothing.
+const LEAST: f64 = 1e-3;
+
+/// Draws what is felt of each channel on the same channel.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn direct(file: &Path, measured: &Measured) -> Result<()> {
+    let pairs: Vec<(Channel, Channel)> = ALL.iter().map(|&channel| (channel, channel)).collect();
+    draw(file, measured, &pairs, 3)
+}
+
+/// Draws what is felt on the channels that gravity joins.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn cross(file: &Path, measured: &Measured) -> Result<()> {
+    draw(file, measured, &CROSS, 2)
+}
+
+fn draw(file: &Path, measured: &Measured, pairs: &[(Channel, Channel)], columns: usize) -> Result<()> {
+    let rows = pairs.len().div_ceil(columns);
+    let size = (SIZE.0 * columns as u32, SIZE.1 * rows as u32 + HEAD);
+    let root = SVGBackend::new(file, size).into_drawing_area();
+    root.fill(&WHITE)?;
+    let (head, body) = root.split_vertically(HEAD);
+    draw_key(&head)?;
+    for (area, &pair) in body.split_evenly((rows, columns)).iter().zip(pairs) {
+        draw_pair(area, measured, pair)?;
+    }
+    root.present()?;
+    Ok(())
+}
+
+/// What the lines and dots mean.
+fn draw_key(area: &Area) -> Result<()> {
+    let style = (FONT, 20).into_font().color(&TEXT);
+    let mut x = 70;
+    for (colour, dot, text, width) in [
+        (TEST, Some(TEST), "with the test's amplitude", 300),
+        (TEST, Some(LIMITED), "of these, something limited", 310),
+        (SMALL, None, "small signal", 0),
+    ] {
+        area.draw(&PathElement::new([(x, 26), (x + 40, 26)], colour.stroke_width(3)))?;
+        if let Some(filled) = dot {
+            area.draw(&Circle::new((x + 20, 26), 6, filled.filled()))?;
+            area.draw(&Circle::new((x + 20, 26), 6, colour.stroke_width(2)))?;
+        }
+        area.draw(&Text::new(text, (x + 52, 16), style.clone()))?;
+        x += 52 + width;
+    }
+    Ok(())
+}
+
+fn draw_pair(area: &Area, measured: &Measured, (input, output): (Channel, Channel)) -> Result<()> {
+    let of = |responses: &[Response]| -> Vec<Response> {
+        responses.iter().filter(|response| response.input == input).cloned().collect()
+    };
+    let (test, small) = (of(&measured.test), of(&measured.small));
+    let title = match input == output {
+        true => capitalised(input.name()),
+        false => format!("{} to {}", capitalised(input.name()), output.name()),
+    };
+    let unit = input.unit_to(output);
+    let title = if unit.is_empty() { title } else { format!("{title}, {unit}") };
+    let (above, below) = area.split_vertically(MODULUS_HEIGHT);
+    draw_modulus(&above, &title, &test, &small, output)?;
+    draw_phase(&below, &test, &small, output)
+}
+
+fn draw_modulus(area: &Area, title: &str, test: &[Response], small: &[Response], output: Channel) -> Result<()> {
+    let values = || test.iter().chain(small).map(|response| modulus(response, output).max(LEAST));
+    let low = 10_f64.powf(values().fold(0.1, f64::min).log10().floor());
+    let high = 10_f64.powf(values().fold(1.1, f64::max).log10().ceil());
+    let mut chart = ChartBuilder::on(area)
+        .caption(title, (FONT, 22).into_font().color(&TEXT))
+        .margin_right(24)
+        .x_label_area_size(12)
+        .y_label_area_size(74)
+        .build_cartesian_2d(FREQUENCIES.log_scale(), (low..high).log_scale())?;
+    chart
+        .configure_mesh()
+        .x_label_formatter(&|_| String::new())
+        .y_label_formatter(&|value| number(*value))
+        .y_desc("modulus")
+        .bold_line_style(GRID)
+        .light_line_style(TRANSPARENT)
+        .axis_style(TEXT)
+        .label_style((FONT, 17).into_font().color(&TEXT))
+        .draw()?;
+    draw_curves(&mut chart, test, small, output, |response| modulus(response, output), |_, _| false)
+}
+
+fn draw_phase(area: &Area, test: &[Response], small: &[Response], output: Channel) -> Result<()> {
+    let mut chart = ChartBuilder::on(area)
+        .margin_right(24)
+        .margin_bottom(8)
+        .x_label_area_size(52)
+        .y_label_area_size(74)
+        .build_cartesian_2d(FREQUENCIES.log_scale(), -190.0..190.0)?;
+    chart
+        .configure_mesh()
+        .x_desc("frequency [rad/s]")
+        .y_desc("phase [°]")
+        .x_label_formatter(&|value| number(*value))
+        .y_label_formatter(&|value| format!("{value:.0}").replace('-', "−"))
+        .bold_line_style(GRID)
+        .light_line_style(TRANSPARENT)
+        .axis_style(TEXT)
+        .label_style((FONT, 17).into_font().color(&TEXT))
+        .draw()?;
+    // Between two neighbours that seem to be more than half a turn apart, the phase has passed 180 degrees.
+    draw_curves(&mut chart, test, small, output, |response| phase(response, output), |a, b| (a - b).abs() > 180.0)
+}
+
+/// The small signals as a line, the test's as a line with dots; no line is drawn over a `gap` between neighbours, and nothing
+/// of what cannot be felt.
+fn draw_curves<'a, C>(
+    chart: &mut ChartContext<'a, SVGBackend<'a>, C>,
+    test: &[Response],
+    small: &[Response],
+    output: Channel,
+    value: impl Fn(&Response) -> f64,
+    gap: impl Fn(f64, f64) -> bool,
+) -> Result<()>
+where
+    C: CoordTranslate<From = (f64, f64)>,
+{
+    let felt = |response: &&Response| modulus(response, output) > LEAST;
+    let point = |response: &Response| (response.frequency, value(response));
+    for (responses, style) in [(small, SMALL.stroke_width(3)), (test, TEST.stroke_width(2))] {
+        let points: Vec<(f64, f64)> = responses.iter().filter(felt).map(point).collect();
+        for part in points.chunk_by(|a, b| !gap(a.1, b.1)) {
+            chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
+        }
+    }
+    chart.draw_series(test.iter().filter(felt).map(|response| dot(point(response), response)))?;
+    chart.draw_series(test.iter().filter(felt).map(|response| ring(point(response))))?;
+    Ok(())
+}
+
+/// A measurement: hollow where something limited.
+fn dot(point: (f64, f64), response: &Response) -> Circle<(f64, f64), i32> {
+    let limited = response.limited.iter().any(|&share| share > 0.0);
+    Circle::new(point, 5, if limited { LIMITED } else { TEST }.filled())
+}
+
+fn ring(point: (f64, f64)) -> Circle<(f64, f64), i32> {
+    Circle::new(point, 5, TEST.stroke_width(2))
+}
+
+fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

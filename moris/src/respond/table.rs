@@ -1,0 +1,163 @@
+//! The responses as tables: all of them in a file, the most telling on the terminal.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+
+use super::channel::{ALL, CROSS, Channel};
+use super::measure::Response;
+use super::{Measured, frequencies};
+use crate::text_table::TextTable;
+
+/// A smaller modulus is rounding.
+const NOTHING: f64 = 1e-9;
+
+const HEADER: [&str; 16] = [
+    "signal",
+    "input",
+    "output",
+    "kind",
+    "frequency_rad_per_s",
+    "frequency_hz",
+    "amplitude",
+    "amplitude_unit",
+    "modulus",
+    "modulus_unit",
+    "phase_deg",
+    "distortion",
+    "tilt_limited_share",
+    "safety_active_share",
+    "actuator_limited_share",
+    "settled",
+];
+
+/// Writes every response from every channel to every channel.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write(file: &Path, measured: &Measured) -> Result<()> {
+    let save = || -> csv::Result<()> {
+        let mut table = csv::Writer::from_path(file)?;
+        table.write_record(HEADER)?;
+        for (signal, responses) in [("test", &measured.test), ("small", &measured.small)] {
+            for response in responses {
+                for output in ALL {
+                    table.write_record(record(signal, response, output))?;
+                }
+            }
+        }
+        Ok(table.flush()?)
+    };
+    save().with_context(|| format!("cannot write {}", file.display()))
+}
+
+fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
+    let input = response.input;
+    // What is not felt has neither phase nor distortion.
+    let felt = modulus(response, output) > NOTHING;
+    let [tilt, safety, actuator] = response.limited.map(|share| format!("{share:.4}"));
+    [
+        signal.into(),
+        input.name().into(),
+        output.name().into(),
+        kind(input, output).into(),
+        format!("{:.4}", response.frequency),
+        format!("{:.5}", response.frequency / std::f64::consts::TAU),
+        format!("{:.6}", response.amplitude / input.unit_in_si()),
+        input.unit().into(),
+        format!("{:.6}", modulus(response, output)),
+        input.unit_to(output).into(),
+        if felt { format!("{:.3}", phase(response, output)) } else { String::new() },
+        if felt { format!("{:.5}", response.distortion[output.index()]) } else { String::new() },
+        tilt,
+        safety,
+        actuator,
+        response.settled.to_string(),
+    ]
+}
+
+/// Whether a pair of channels is one of the test's.
+fn kind(input: Channel, output: Channel) -> &'static str {
+    if input == output {
+        "direct"
+    } else if CROSS.contains(&(input, output)) {
+        "cross"
+    } else {
+        "other"
+    }
+}
+
+/// The modulus, in the units that people read.
+pub fn modulus(response: &Response, output: Channel) -> f64 {
+    response.ratios[output.index()].norm() * response.input.unit_in_si() / output.unit_in_si()
+}
+
+/// The phase by which what is felt leads, -180 to 180 \[deg\].
+pub fn phase(response: &Response, output: Channel) -> f64 {
+    // A phase of -0.0 would be written as such.
+    response.ratios[output.index()].arg().to_degrees() + 0.0
+}
+
+/// Modulus and phase of the direct and the cross channels with the test's amplitudes, and what limited them.
+pub fn text(measured: &Measured) -> String {
+    let direct: Vec<_> = ALL.iter().map(|&channel| (channel, channel)).collect();
+    let mut text = String::new();
+    let _ = writeln!(text, "\ndirect channels: modulus, phase [deg]\n{}", pairs(measured, &direct));
+    let _ = writeln!(
+        text,
+        "cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}",
+        pairs(measured, &CROSS)
+    );
+    for remark in remarks(&measured.test) {
+        let _ = writeln!(text, "{remark}");
+    }
+    text
+}
+
+/// A row for each frequency, a column for each pair of input and output.
+fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
+    let title = |&(input, output): &(Channel, Channel)| {
+        if input == output { input.name().to_owned() } else { format!("{} to {}", input.name(), output.name()) }
+    };
+    let titles: Vec<String> = std::iter::once("rad/s".to_owned()).chain(pairs.iter().map(title)).collect();
+    let mut table = TextTable::new(titles.iter().map(String::as_str));
+    for (k, frequency) in frequencies().into_iter().enumerate() {
+        let cell = |&(input, output): &(Channel, Channel)| {
+            let response = &measured.test[input.index() * frequencies().len() + k];
+            let mark = if response.settled { "" } else { "?" };
+            format!("{:.3} {:>4.0}{mark}", modulus(response, output), phase(response, output).round() + 0.0)
+        };
+        table.push(std::iter::once(format!("{frequency:.3}")).chain(pairs.iter().map(cell)).collect());
+    }
+    table
+}
+
+/// What the reader should know about the tests.
+fn remarks(responses: &[Response]) -> Vec<String> {
+    let limits = ["tilt coordination", "a safety unit", "the actuator guard"];
+    let mut remarks: Vec<String> = limits
+        .iter()
+        .enumerate()
+        .filter_map(|(i, name)| {
+            let where_limited: Vec<&Response> = responses.iter().filter(|one| one.limited[i] > 0.0).collect();
+            (!where_limited.is_empty()).then(|| format!("limited by {name}: {}", places(&where_limited)))
+        })
+        .collect();
+    let unsettled: Vec<&Response> = responses.iter().filter(|one| !one.settled).collect();
+    if !unsettled.is_empty() {
+        remarks.push(format!("never settled, marked with ?: {}", places(&unsettled)));
+    }
+    remarks
+}
+
+/// Where responses are: channels, each with its frequencies.
+fn places(responses: &[&Response]) -> String {
+    let by_channel = responses.chunk_by(|a, b| a.input == b.input);
+    let places = by_channel.map(|chunk| {
+        let (first, last) = (chunk[0].frequency, chunk[chunk.len() - 1].frequency);
+        let span = if chunk.len() == 1 { format!("{first:.2}") } else { format!("{first:.2} to {last:.2}") };
+        format!("{} at {span} rad/s", chunk[0].input.name())
+    });
+    places.collect::<Vec<_>>().join("; ")
+}

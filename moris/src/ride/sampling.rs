@@ -1,0 +1,130 @@
+//! Equal steps: the washout's own filters do not need them, but measures and comparisons do.
+
+use super::RideError;
+use super::conventions::{Conventions, Quantity};
+use super::table::Table;
+
+/// How far a sample may be from where equal steps would put it \[shares of a step\]: clocks that are written with few
+/// digits are off by that.
+const JITTER: f64 = 0.2;
+/// A recording coarser than this says too little of what was felt \[s\].
+const COARSEST: f64 = 0.25;
+/// A recording finer than this is not in the unit that it is said to be in \[s\].
+const FINEST: f64 = 1e-5;
+/// More samples than this are a mistake: a day at 100 Hz.
+const MOST_SAMPLES: f64 = 1e7;
+/// A gap longer than this is told of when it is interpolated over \[s\].
+const GAP: f64 = 0.2;
+
+/// The recording at equal steps, and what is to be said about it: unchanged where it is so already, interpolated where
+/// that has been asked for.
+///
+/// # Errors
+/// Time stands still or goes back; the steps are not equal and interpolation has not been asked for; the steps are too
+/// coarse or too fine to be in the unit that they are said to be in.
+pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RideError> {
+    check_order(&table)?;
+    check_unit(&table, conventions)?;
+    match conventions.resample {
+        Some(rate) => resampled(&table, rate),
+        None => check_equal(&table).map(|()| (table, Vec::new())),
+    }
+}
+
+fn line_error(table: &Table, sample: usize, reason: String) -> RideError {
+    let column = Some("time".to_owned());
+    RideError::Line { file: table.file.clone(), line: table.lines[sample], column, reason }
+}
+
+fn check_order(table: &Table) -> Result<(), RideError> {
+    for (k, pair) in table.time.windows(2).enumerate() {
+        let [before, after] = [pair[0], pair[1]];
+        if after <= before {
+            let what = if after < before { "goes back" } else { "stands still" };
+            return Err(line_error(table, k + 1, format!("time {what}: {after} s comes after {before} s")));
+        }
+    }
+    Ok(())
+}
+
+/// The median step: what is usual, whatever is missing or odd \[s\].
+fn usual_step(table: &Table) -> f64 {
+    let mut steps: Vec<f64> = table.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    steps[steps.len() / 2]
+}
+
+fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RideError> {
+    let usual = usual_step(table);
+    let unit = conventions.time_unit.word();
+    let reason = if usual > COARSEST {
+        "too coarse for a washout; if time is in ms or another unit, say so with --time-unit"
+    } else if usual < FINEST {
+        "finer than any recording; say in which unit time is with --time-unit"
+    } else {
+        return Ok(());
+    };
+    let reason = format!("samples come every {usual} s if time is in {unit}: {reason}");
+    Err(RideError::Whole { file: table.file.clone(), reason })
+}
+
+fn check_equal(table: &Table) -> Result<(), RideError> {
+    let (step, usual) = (table.step(), usual_step(table));
+    let expected = |k: usize| table.time[0] + k as f64 * step;
+    let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
+        return Ok(());
+    };
+    // The sample that is off is rarely where the step was odd: say where the first odd step is.
+    let step_to = |k: usize| table.time[k] - table.time[k - 1];
+    let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
+    let reason = format!(
+        "the samples do not come at equal steps: here {:.4} s after the one before, otherwise {usual:.4} s; \
+         --resample {:.0} interpolates them",
+        step_to(odd),
+        1.0 / usual
+    );
+    Err(line_error(table, odd, reason))
+}
+
+/// Linear interpolation at `rate` samples a second.
+fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RideError> {
+    let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
+    let steps = (last - first) * rate + 1e-6;
+    if steps > MOST_SAMPLES {
+        let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);
+        return Err(RideError::Whole { file: table.file.clone(), reason });
+    }
+    let count = steps.floor() as usize + 1;
+    let time: Vec<f64> = (0..count.max(2)).map(|k| first + k as f64 / rate).collect();
+    let mut after = 1;
+    let places: Vec<(usize, f64)> = time
+        .iter()
+        .map(|&t| {
+            while after + 1 < table.time.len() && table.time[after] < t {
+                after += 1;
+            }
+            let (t0, t1) = (table.time[after - 1], table.time[after]);
+            (after, ((t - t0) / (t1 - t0)).clamp(0.0, 1.0))
+        })
+        .collect();
+    let interpolated = |values: &Vec<f64>| {
+        places.iter().map(|&(k, share)| values[k - 1] + share * (values[k] - values[k - 1])).collect::<Vec<f64>>()
+    };
+    let columns = table.columns.iter().map(|(&quantity, values)| (quantity, interpolated(values))).collect();
+    let lines = places.iter().map(|&(k, _)| table.lines[k]).collect();
+    let remarks = gaps(table);
+    Ok((Table { file: table.file.clone(), time, columns, lines }, remarks))
+}
+
+fn gaps(table: &Table) -> Vec<String> {
+    let long = table.time.windows(2).zip(&table.lines).filter(|(pair, _)| pair[1] - pair[0] > GAP);
+    long.map(|(pair, line)| {
+        format!("Nothing was recorded for {:.2} s after line {line}; a straight line stands there.", pair[1] - pair[0])
+    })
+    .collect()
+}
+
+/// The quantities that a table at equal steps has at one sample; zero where it has no such column.
+pub fn at(table: &Table, quantity: Quantity, sample: usize) -> f64 {
+    table.columns.get(&quantity).map_or(0.0, |column| column[sample])
+}

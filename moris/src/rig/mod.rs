@@ -1,0 +1,67 @@
+//! `moris rig`: looks at a platform.
+//!
+//! [`survey`] gathers what there is to know of it, [`workspace`] measures where it can go, [`picture`] draws both.
+
+pub mod picture;
+mod section;
+pub mod survey;
+mod svg;
+mod view;
+pub mod workspace;
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+use washout_setup::load_rig;
+
+use survey::{Singularities, Survey};
+
+/// Look at a rig
+#[derive(Clone, Debug, clap::Subcommand)]
+pub enum Command {
+    /// What a rig reaches, and whether it is free of singularities
+    ///
+    /// Prints how far, how fast and how hard the platform goes along each axis alone, how large its workspace is and how well
+    /// conditioned it is over the whole box of its leg lengths, and draws it. The exit status is not 0 for a rig that cannot
+    /// be used.
+    Check(CheckOptions),
+}
+
+/// Which rig to check.
+#[derive(Clone, Debug, clap::Args)]
+pub struct CheckOptions {
+    /// Rig file; moris/rigs has examples
+    rig: PathBuf,
+
+    /// Directory for the picture
+    #[arg(long, value_name = "DIRECTORY", default_value = "report")]
+    report: PathBuf,
+
+    /// Points to try for the workspace's volume
+    #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u32).range(1000..=1_000_000_000))]
+    samples: u32,
+}
+
+/// Does what the command says.
+///
+/// # Errors
+/// The rig file cannot be used, or the picture cannot be written.
+pub fn main(command: &Command, out: &mut dyn Write) -> Result<ExitCode> {
+    let Command::Check(options) = command;
+    let file = load_rig(&options.rig)?;
+    let survey = Survey::of(&file, options.samples).with_context(|| options.rig.display().to_string())?;
+    write!(out, "{survey}")?;
+
+    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    let stem = options.rig.file_stem().map_or_else(|| "rig".into(), |stem| stem.to_string_lossy());
+    let picture = options.report.join(format!("{stem}.svg"));
+    fs::write(&picture, picture::svg(&survey)).with_context(|| format!("cannot write {}", picture.display()))?;
+    writeln!(out, "\nwrote {}", picture.display())?;
+    Ok(match survey.singularities {
+        Singularities::None(_) => ExitCode::SUCCESS,
+        Singularities::At(_) => ExitCode::FAILURE,
+    })
+}

@@ -1,0 +1,114 @@
+//! Sections through the workspace of the level platform.
+//!
+//! With the platform level, each leg keeps its origin inside a shell: a ball of its longest about the point where its joints
+//! would meet, less a ball of its shortest. A section of a shell is a ring, and so the drawing is exact: six discs clipped by
+//! one another, less six others.
+
+use std::fmt::Write;
+
+use moris_washout::Rig;
+use moris_washout::nalgebra::Vector3;
+
+use super::svg::Window;
+
+/// Margins to the ends of the stroke for which the section is drawn \[m\], and the colours of what is between them.
+pub const MARGINS: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
+
+/// A plane through neutral.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
+    /// Stands above the drawing.
+    pub title: &'static str,
+    /// Coordinates across and upward: 0, 1, 2 for x, y, z.
+    pub axes: [usize; 2],
+    /// What these are called.
+    pub names: [&'static str; 2],
+}
+
+/// From above, from the right and from behind.
+pub const PLANES: [Plane; 3] = [
+    Plane { title: "From above, at neutral height", axes: [0, 1], names: ["x: surge", "y: sway"] },
+    Plane { title: "From the right, through neutral", axes: [0, 2], names: ["x: surge", "z: heave"] },
+    Plane { title: "From the front, through neutral", axes: [1, 2], names: ["y: sway", "z: heave"] },
+];
+
+/// The section, with coordinates from neutral: as far as `extent` goes, and the safety units' box dashed in it.
+pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vector3<f64>) -> String {
+    let neutral = Vector3::new(0.0, 0.0, rig.neutral_height);
+    let flat = |v: Vector3<f64>| plane.axes.map(|axis| v[axis]);
+    let [low, high] = extent.map(|corner| flat((corner - neutral) * 1.08));
+    let window = Window::around(low, high);
+    let mut text = String::new();
+    for (index, (margin, colour)) in MARGINS.into_iter().enumerate() {
+        let name = format!("s{}{}m{index}", plane.axes[0], plane.axes[1]);
+        match rings(rig, plane, neutral, margin) {
+            Some(rings) => text += &shape(&name, &rings, &window, colour),
+            None => continue,
+        }
+    }
+    let [x0, y1] = window.pixel(flat(-safety));
+    let [x1, y0] = window.pixel(flat(safety));
+    let [cx, cy] = window.pixel([0.0, 0.0]);
+    write!(
+        text,
+        r#"<rect x="{x0:.1}" y="{y0:.1}" width="{:.1}" height="{:.1}" class="safety"/><path d="M{:.1} {cy:.1}h12M{cx:.1} {:.1}v12" class="neutral"/>"#,
+        x1 - x0,
+        y1 - y0,
+        cx - 6.0,
+        cy - 6.0
+    )
+    .expect("a string takes it");
+    text + &window.axes(plane.names)
+}
+
+/// A leg's ring in the plane: centre, inner and outer radius \[m\].
+struct Ring {
+    centre: [f64; 2],
+    inner: f64,
+    outer: f64,
+}
+
+/// The six rings, or none where a leg does not reach the plane at all.
+fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option<Vec<Ring>> {
+    let across = 3 - plane.axes[0] - plane.axes[1];
+    let ring = |leg: usize| {
+        let centre = rig.base[leg] - rig.platform[leg] - neutral;
+        let distance = centre[across];
+        let outer = (rig.max_length - margin).powi(2) - distance * distance;
+        let inner = ((rig.min_length + margin).powi(2) - distance * distance).max(0.0).sqrt();
+        (outer > 0.0).then(|| Ring { centre: plane.axes.map(|axis| centre[axis]), inner, outer: outer.sqrt() })
+    };
+    (0..6).map(ring).collect()
+}
+
+/// What is inside all rings, filled. The discs clip one another in a chain; the holes are masked out.
+fn shape(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
+    let circle = |ring: &Ring, radius: f64| {
+        let [x, y] = window.pixel(ring.centre);
+        format!(r#"cx="{x:.2}" cy="{y:.2}" r="{:.2}""#, radius * window.scale())
+    };
+    let mut text = format!(r#"<clipPath id="{name}w"><rect {}/></clipPath>"#, window.area());
+    let mut within = format!("{name}w");
+    for (leg, ring) in rings.iter().enumerate() {
+        let id = format!("{name}c{leg}");
+        write!(
+            text,
+            r#"<clipPath id="{id}" clip-path="url(#{within})"><circle {}/></clipPath>"#,
+            circle(ring, ring.outer)
+        )
+        .expect("a string takes it");
+        within = id;
+    }
+    write!(text, r##"<mask id="{name}h" maskUnits="userSpaceOnUse" {0}><rect {0} fill="#fff"/>"##, window.area())
+        .expect("a string takes it");
+    for ring in rings {
+        write!(text, r##"<circle {} fill="#000"/>"##, circle(ring, ring.inner)).expect("a string takes it");
+    }
+    write!(
+        text,
+        r#"</mask><g mask="url(#{name}h)"><g clip-path="url(#{within})"><rect {} fill="{colour}"/></g></g>"#,
+        window.area()
+    )
+    .expect("a string takes it");
+    text
+}

@@ -1,0 +1,169 @@
+//! All there is to know of a rig.
+
+use std::fmt;
+
+use moris_washout::interface::Parameters;
+use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
+use moris_washout::{Refusal, Rig};
+use washout_setup::ranges::{Axis, Range, single_axis_range, stroke_margin};
+use washout_setup::rig_file::RigFile;
+
+use super::workspace::{TILT, Volume, Workspace};
+use crate::text_table::TextTable;
+
+/// What a rig is and can do.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// What it is called.
+    pub name: String,
+    /// The washout's parameters on it.
+    pub parameters: Parameters,
+    /// What it can do along each axis alone.
+    pub axes: [AxisAlone; 6],
+    /// Where it can go.
+    pub workspace: Workspace,
+    /// Whether it has singularities.
+    pub singularities: Singularities,
+}
+
+/// What the platform can do along one axis alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisAlone {
+    pub axis: Axis,
+    /// How far, from neutral \[m or rad\].
+    pub range: Range,
+    /// How fast through neutral, by the legs' speed \[m/s or rad/s\].
+    pub speed: f64,
+    /// How hard at rest at neutral, by the legs' acceleration \[m/s2 or rad/s2\].
+    pub acceleration: f64,
+}
+
+/// What the survey of the whole box of leg lengths found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Singularities {
+    /// None, and this is how far from one it is.
+    None(platform::Survey),
+    /// One at or near these leg lengths \[m\].
+    At([f64; 6]),
+}
+
+impl Survey {
+    /// Surveys a rig, trying `samples` points for the volume of its workspace.
+    ///
+    /// # Errors
+    /// The rig cannot be surveyed: a value is out of its range, or the legs do not reach neutral. A singular rig can be.
+    pub fn of(file: &RigFile, samples: u32) -> Result<Self, Refusal> {
+        let parameters = file.parameters();
+        let rig = &parameters.rig;
+        let singularities = match (file.check(), platform::survey(rig)) {
+            (Ok(()), Ok(survey)) => Singularities::None(survey),
+            (Err(_), Err(failed)) if can_stand(rig) => Singularities::At(failed.lengths),
+            (Err(refusal), _) => return Err(refusal),
+            (Ok(()), Err(failed)) => Singularities::At(failed.lengths),
+        };
+        Ok(Survey {
+            name: file.name.clone(),
+            axes: Axis::ALL.map(|axis| AxisAlone::of(rig, axis)),
+            workspace: Workspace::of(rig, samples),
+            singularities,
+            parameters,
+        })
+    }
+}
+
+/// Whether the legs reach neutral, so that there is a place to begin.
+fn can_stand(rig: &Rig) -> bool {
+    stroke_margin(rig, &Pose::neutral(rig)) > 0.0
+}
+
+impl AxisAlone {
+    fn of(rig: &Rig, axis: Axis) -> Self {
+        let jacobian = jacobian(&Geometry::from(rig), &Pose::neutral(rig));
+        let fastest_leg = jacobian.column(axis as usize).amax();
+        AxisAlone {
+            axis,
+            range: single_axis_range(rig, axis),
+            speed: rig.velocity_limit / fastest_leg,
+            acceleration: rig.acceleration_limit / fastest_leg,
+        }
+    }
+
+    fn row(&self) -> Vec<String> {
+        let (factor, unit, decimals, rates) =
+            if self.axis.is_rotation() { (1f64.to_degrees(), "°", 1, 0) } else { (1.0, " m", 3, 1) };
+        let signed = |value: f64| format!("{:+.decimals$}{unit}", factor * value);
+        vec![
+            self.axis.name().to_owned(),
+            signed(self.range.min),
+            signed(self.range.max),
+            format!("{:.rates$}{unit}/s", factor * self.speed),
+            format!("{:.rates$}{unit}/s²", factor * self.acceleration),
+        ]
+    }
+}
+
+impl fmt::Display for Survey {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let rig = &self.parameters.rig;
+        writeln!(f, "{}\n", self.name)?;
+        let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig)).map(|length| format!("{length:.3}"));
+        let neutral = if neutral.iter().all(|length| *length == neutral[0]) { &neutral[..1] } else { &neutral };
+        writeln!(
+            f,
+            "legs of {:.3} to {:.3} m, {} m at neutral; {} m/s, {} m/s²\n",
+            rig.min_length,
+            rig.max_length,
+            neutral.join(", "),
+            rig.velocity_limit,
+            rig.acceleration_limit
+        )?;
+        let mut table = TextTable::new(["alone, from neutral", "from", "to", "speed", "acceleration"]);
+        self.axes.iter().for_each(|axis| table.push(axis.row()));
+        writeln!(f, "{table}")?;
+        self.write_workspace(f)?;
+        self.write_safety(f)?;
+        match &self.singularities {
+            Singularities::None(survey) => writeln!(
+                f,
+                "free of singularities over the whole box of leg lengths (4 lengths a leg, 4096 poses):\n  smallest singular \
+                 value {:.2}, worst condition number {:.1}",
+                survey.smallest_singular_value, survey.worst_condition
+            ),
+            Singularities::At(lengths) => writeln!(
+                f,
+                "SINGULAR inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
+                 stroke; the washout refuses this rig.",
+                lengths.map(|length| format!("{length:.3}")).join(", ")
+            ),
+        }
+    }
+}
+
+impl Survey {
+    fn write_workspace(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Workspace { level, tilted, samples, .. } = &self.workspace;
+        let volume = |volume: &Volume| format!("{:.4} m³ ± {:.4}", volume.size, volume.standard_error);
+        writeln!(f, "workspace of the platform's origin ({samples} points tried; ± is the standard error):")?;
+        writeln!(f, "  level                           {}", volume(level))?;
+        writeln!(f, "  tilted by {:.0}° in any direction  {}\n", TILT.to_degrees(), volume(tilted))
+    }
+
+    /// The safety units' limits beside what the rig reaches.
+    fn write_safety(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let limits = self.parameters.safety.position_limit;
+        let texts: Vec<String> =
+            ["x", "y", "z"].iter().enumerate().map(|(i, name)| format!("±{:.3} m in {name}", limits[i])).collect();
+        writeln!(f, "safety units: {}", texts.join(", "))?;
+        for (i, alone) in self.axes.iter().take(3).enumerate() {
+            if limits[i] > alone.range.smaller() {
+                writeln!(
+                    f,
+                    "  beyond the {:.3} m that {} reaches: there the legs' own limits stop the platform",
+                    alone.range.smaller(),
+                    alone.axis.name()
+                )?;
+            }
+        }
+        writeln!(f)
+    }
+}

@@ -1,0 +1,89 @@
+//! The rig at neutral, seen from the front right and above.
+
+use std::fmt::Write;
+
+use moris_washout::head::Head;
+use moris_washout::interface::Parameters;
+use moris_washout::nalgebra::Vector3;
+
+use super::svg::Window;
+
+/// Where it is seen from: turned about the vertical, then from above \[rad\].
+const AZIMUTH: f64 = 0.6;
+const ELEVATION: f64 = 0.35;
+
+/// How large the head is \[m\].
+const HEAD_RADIUS: f64 = 0.12;
+/// Length of the arrows along the base's axes, as a share of its radius.
+const ARROW: f64 = 0.4;
+
+/// The base, the platform, the six legs with their numbers, the rider's head, and the axes of the base.
+pub fn view(parameters: &Parameters) -> String {
+    let rig = &parameters.rig;
+    let raised = |joint: &Vector3<f64>| joint + Vector3::new(0.0, 0.0, rig.neutral_height);
+    let platform = rig.platform.map(|joint| raised(&joint));
+    let head = raised(&Head::new(&parameters.structure, 0.0).point);
+    let seat = head - Vector3::new(0.0, 0.0, parameters.structure.torso_length);
+    let radius = rig.base.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
+    let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW * radius * axis);
+
+    let above = head + Vector3::new(0.0, 0.0, HEAD_RADIUS);
+    let seen: Vec<[f64; 2]> = rig.base.iter().chain(&platform).chain(&arrows).chain([&above]).map(projected).collect();
+    let low = [0, 1].map(|axis| seen.iter().map(|point| point[axis]).fold(f64::INFINITY, f64::min) - 0.1 * radius);
+    let high = [0, 1].map(|axis| seen.iter().map(|point| point[axis]).fold(f64::NEG_INFINITY, f64::max) + 0.1 * radius);
+    let window = Window::around(low, high);
+    let at = |point: &Vector3<f64>| window.pixel(projected(point));
+    let polygon = |joints: &[Vector3<f64>; 6], class: &str| {
+        let points: Vec<String> = around(joints).iter().map(&at).map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+        format!(r#"<polygon points="{}" class="{class}"/>"#, points.join(" "))
+    };
+    let line = |from: &Vector3<f64>, to: &Vector3<f64>, class: &str| {
+        let ([x0, y0], [x1, y1]) = (at(from), at(to));
+        format!(r#"<path d="M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}" class="{class}"/>"#)
+    };
+
+    let mut text = polygon(&rig.base, "base");
+    for (arrow, name) in arrows.iter().zip(["x", "y", "z"]) {
+        let [x, y] = at(&(arrow * 1.12));
+        text += &line(&Vector3::zeros(), arrow, "arrow");
+        write!(text, r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{name}</text>"#, y + 4.0)
+            .expect("a string takes it");
+    }
+    for (from, to) in rig.base.iter().zip(&platform) {
+        text += &line(from, to, "leg");
+    }
+    text += &polygon(&platform, "platform");
+    for (leg, (from, to)) in rig.base.iter().zip(&platform).enumerate() {
+        let [x, y] = at(&(from + 0.35 * (to - from)));
+        write!(
+            text,
+            r#"<circle cx="{x:.1}" cy="{y:.1}" r="9" class="number"/><text x="{x:.1}" y="{:.1}" text-anchor="middle">{}</text>"#,
+            y + 4.0,
+            leg + 1
+        )
+        .expect("a string takes it");
+    }
+    let [x, y] = at(&head);
+    text += &line(&seat, &head, "torso");
+    write!(text, r#"<circle cx="{x:.1}" cy="{y:.1}" r="{:.1}" class="head"/>"#, HEAD_RADIUS * window.scale())
+        .expect("a string takes it");
+    text
+}
+
+/// Across and up in the picture, for someone who looks from afar.
+fn projected(point: &Vector3<f64>) -> [f64; 2] {
+    let (sin, cos) = AZIMUTH.sin_cos();
+    let (nearer, across) = (cos * point.x - sin * point.y, sin * point.x + cos * point.y);
+    [across, ELEVATION.cos() * point.z - ELEVATION.sin() * nearer]
+}
+
+/// The joints in the order in which they go round their centre.
+fn around(joints: &[Vector3<f64>; 6]) -> [Vector3<f64>; 6] {
+    let centre = joints.iter().sum::<Vector3<f64>>() / 6.0;
+    let mut sorted = *joints;
+    sorted.sort_by(|a, b| {
+        let angle = |joint: &Vector3<f64>| (joint.y - centre.y).atan2(joint.x - centre.x);
+        angle(a).total_cmp(&angle(b))
+    });
+    sorted
+}

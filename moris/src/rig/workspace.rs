@@ -1,0 +1,190 @@
+//! Where a platform can go, by trying points.
+
+use std::f64::consts::TAU;
+
+use moris_washout::Rig;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::orientation::{Orientation, RollPitchYaw};
+use moris_washout::platform::{Geometry, Pose, jacobian};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use rayon::prelude::*;
+use washout_setup::ranges::stroke_margin;
+
+/// The tilt for which the workspace is measured beside the level one \[rad\].
+pub const TILT: f64 = 10.0 * TAU / 360.0;
+/// Directions in which it is tilted.
+const DIRECTIONS: u32 = 8;
+/// Points are drawn in blocks of this many, each with a stream of its own: the same points on any number of cores.
+const BLOCK: u32 = 10_000;
+/// Begins the streams of points.
+const SEED: u64 = 1;
+
+/// Where the platform's origin can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Workspace {
+    /// With the platform level.
+    pub level: Volume,
+    /// Where the platform can also be tilted by [`TILT`] in each of eight directions.
+    pub tilted: Volume,
+    /// Smallest and largest coordinates found with the platform level, and a little around neutral at least, in the base
+    /// frame \[m\].
+    pub extent: [Vector3<f64>; 2],
+    /// Points that were tried.
+    pub samples: u32,
+}
+
+/// A volume found by trying points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Volume {
+    /// \[m3\]
+    pub size: f64,
+    /// Standard deviation of `size` over other choices of points \[m3\].
+    pub standard_error: f64,
+}
+
+impl Workspace {
+    /// Tries points evenly distributed over a box that holds the workspace.
+    ///
+    /// A point counts if all legs are inside their stroke there, and the Jacobian's determinant has the sign that it has at
+    /// neutral: the platform's mirror image below the base does not.
+    pub fn of(rig: &Rig, samples: u32) -> Self {
+        let [low, high] = bounds(rig);
+        let blocks = samples.div_ceil(BLOCK);
+        let samples = blocks * BLOCK;
+        let found =
+            (0..blocks).into_par_iter().map(|block| tried(rig, low, high, block)).reduce(Found::nothing, Found::and);
+        let size = (high - low).product();
+        let neutral = Pose::neutral(rig).position;
+        let little = Vector3::repeat(0.1 * (rig.max_length - rig.min_length));
+        Workspace {
+            level: Volume::of(found.level, samples, size),
+            tilted: Volume::of(found.tilted, samples, size),
+            extent: [found.extent[0].inf(&(neutral - little)), found.extent[1].sup(&(neutral + little))],
+            samples,
+        }
+    }
+}
+
+impl Volume {
+    /// Of a box of this size, where so many of the points tried were inside.
+    fn of(inside: u32, samples: u32, size: f64) -> Self {
+        let share = f64::from(inside) / f64::from(samples);
+        Volume { size: share * size, standard_error: size * (share * (1.0 - share) / f64::from(samples)).sqrt() }
+    }
+}
+
+/// A box that holds every level position: each leg lets the origin go no farther than its longest from the point where its
+/// joints would meet.
+fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
+    let reach = Vector3::repeat(rig.max_length);
+    let meeting = (0..6).map(|i| rig.base[i] - rig.platform[i]);
+    meeting.fold([-Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::INFINITY)], |[low, high], point| {
+        [low.sup(&(point - reach)), high.inf(&(point + reach))]
+    })
+}
+
+/// What a block of points found.
+#[derive(Clone, Copy)]
+struct Found {
+    level: u32,
+    tilted: u32,
+    extent: [Vector3<f64>; 2],
+}
+
+impl Found {
+    fn nothing() -> Self {
+        let nowhere = Vector3::repeat(f64::INFINITY);
+        Found { level: 0, tilted: 0, extent: [nowhere, -nowhere] }
+    }
+
+    fn and(self, other: Found) -> Self {
+        let [low, high] = self.extent;
+        Found {
+            level: self.level + other.level,
+            tilted: self.tilted + other.tilted,
+            extent: [low.inf(&other.extent[0]), high.sup(&other.extent[1])],
+        }
+    }
+}
+
+fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Found {
+    let mut random = ChaCha8Rng::seed_from_u64(SEED);
+    random.set_stream(u64::from(block));
+    let geometry = Geometry::from(rig);
+    let sign = |pose: &Pose| jacobian(&geometry, pose).determinant().signum();
+    let neutral = sign(&Pose::neutral(rig));
+    let level = Orientation::new(RollPitchYaw::default());
+    let mut found = Found::nothing();
+    for _ in 0..BLOCK {
+        let share = Vector3::from_fn(|_, _| unit(&mut random));
+        let position = low + share.component_mul(&(high - low));
+        let pose = Pose { position, orientation: level };
+        if stroke_margin(rig, &pose) < 0.0 || sign(&pose) != neutral {
+            continue;
+        }
+        let tilted = tilts().all(|orientation| stroke_margin(rig, &Pose { position, orientation }) >= 0.0);
+        found = found.and(Found { level: 1, tilted: u32::from(tilted), extent: [position, position] });
+    }
+    found
+}
+
+/// A number from 0 to 1.
+fn unit(random: &mut ChaCha8Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+}
+
+/// The platform tilted by [`TILT`] in each direction.
+fn tilts() -> impl Iterator<Item = Orientation> {
+    (0..DIRECTIONS).map(|k| {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(DIRECTIONS)).sin_cos();
+        Orientation::new(RollPitchYaw::new(TILT * cos, TILT * sin, 0.0))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With all joints of a kind in one point and legs that may shrink to nothing, the workspace is a ball. Its Jacobian is
+    /// singular, so the counting is tested without it, on the volume alone.
+    #[test]
+    fn the_share_of_points_inside_gives_the_volume_and_its_error() {
+        let volume = Volume::of(250, 1000, 8.0);
+        assert_eq!(volume.size, 2.0);
+        assert!((volume.standard_error - 8.0 * (0.25f64 * 0.75 / 1000.0).sqrt()).abs() < 1e-12);
+    }
+
+    /// A quadrature of the same volume on a grid, leg by leg, agrees within the errors of both.
+    #[test]
+    fn the_default_workspace_agrees_with_a_grid() {
+        let rig = Rig::default();
+        let [low, high] = bounds(&rig);
+        const N: usize = 120;
+        let at = |axis: usize, k: usize| low[axis] + (k as f64 + 0.5) / N as f64 * (high[axis] - low[axis]);
+        let mut inside = 0u32;
+        for i in 0..N {
+            for j in 0..N {
+                for k in 0..N {
+                    let position = Vector3::new(at(0, i), at(1, j), at(2, k));
+                    let reached = (0..6).all(|leg| {
+                        let length = (position + rig.platform[leg] - rig.base[leg]).norm();
+                        (rig.min_length..=rig.max_length).contains(&length)
+                    });
+                    inside += u32::from(reached && position.z > 0.0);
+                }
+            }
+        }
+        let cell = (high - low).product() / (N * N * N) as f64;
+        let expected = f64::from(inside) * cell;
+        let found = Workspace::of(&rig, 200_000).level;
+        let difference = (found.size - expected).abs();
+        assert!(difference < 4.0 * found.standard_error, "{found:?}, grid {expected}");
+    }
+
+    #[test]
+    fn the_same_points_are_tried_every_time() {
+        let rig = Rig::default();
+        assert_eq!(Workspace::of(&rig, 20_000), Workspace::of(&rig, 20_000));
+    }
+}

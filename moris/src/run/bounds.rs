@@ -1,0 +1,71 @@
+//! The bound on each axis: how well the ride's specific force could be felt at best on this rig.
+
+use cue_measures::Axes;
+use cue_measures::bound::{AxisLimits, Bound, INTERVAL, NoBound, TiltLimits, bound};
+use moris_washout::Parameters;
+use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::nalgebra::Vector3;
+use rayon::prelude::*;
+use washout_setup::ranges::{Axis, single_axis_range};
+
+use super::Recording;
+
+/// The bound on one axis, and the desired signal it belongs to.
+#[derive(Clone, Debug)]
+pub struct AxisBound {
+    /// The bound.
+    pub bound: Bound,
+    /// The desired specific force as a deviation from rest, at each sample \[m/s2\].
+    pub desired: Vec<f64>,
+}
+
+impl AxisBound {
+    /// RMS of the desired specific force as a deviation from rest \[m/s2\].
+    pub fn desired_rms(&self) -> f64 {
+        (self.desired.iter().map(|force| force * force).sum::<f64>() / self.desired.len() as f64).sqrt()
+    }
+}
+
+/// An axis on which less than this is desired has no bound worth computing: RMS \[m/s2\].
+const WORTH_BOUNDING: f64 = 0.01;
+
+/// The bounds of surge, sway and heave, computed beside each other; none where nothing is desired on an axis.
+///
+/// The bound knows an upright rider: his head's height is that of the washout location without lean.
+///
+/// # Errors
+/// The ride is too short for a bound, or the solver fails.
+pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound> {
+    let on_axis = |axis: usize| {
+        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
+        let desired: Vec<f64> = recording.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();
+        let bound = AxisBound {
+            bound: bound(&desired, recording.step, &limits(&recording.parameters, axis), INTERVAL)?,
+            desired,
+        };
+        Ok((bound.desired_rms() >= WORTH_BOUNDING).then_some(bound))
+    };
+    let found: Result<Vec<Option<AxisBound>>, NoBound> = (0..3).into_par_iter().map(on_axis).collect();
+    let mut found = found?.into_iter();
+    Ok(std::array::from_fn(|_| found.next().flatten()))
+}
+
+/// The limits that the washout keeps on an axis: the safety unit's, or the stroke along the axis alone where that is less.
+fn limits(parameters: &Parameters, axis: usize) -> AxisLimits {
+    let Parameters { safety, tilt, structure, rig, .. } = parameters;
+    let reach = single_axis_range(rig, [Axis::Surge, Axis::Sway, Axis::Heave][axis]);
+    let head = moris_washout::head::Head::new(structure, 0.0).point;
+    AxisLimits {
+        min: reach.min.max(-safety.position_limit[axis]),
+        max: reach.max.min(safety.position_limit[axis]),
+        velocity: safety.velocity_limit[axis],
+        acceleration: safety.acceleration_limit[axis],
+        tilt: (axis < 2).then_some(TiltLimits {
+            angle: tilt.angle_limit,
+            rate: tilt.rate_limit,
+            acceleration: tilt.acceleration_limit,
+            head_height: Vector3::z().dot(&head),
+            gravity: structure.gravity,
+        }),
+    }
+}

@@ -1,0 +1,114 @@
+//! What a ride came to, in sentences.
+
+use cue_measures::fidelity::Fidelity;
+use ride_report::{Finding, Weight};
+
+use super::{Outcome, Recording};
+use moris_washout::Output;
+
+/// Less than this of a signal is not worth a sentence: RMS of the desired specific force without its mean \[m/s2\].
+const WORTH_SAYING: f64 = 0.1;
+/// Less error than this share of what is desired, and it is felt as it should be.
+const FAITHFUL: f64 = 0.25;
+/// More than this share, and not cueing at all would be as good: a platform at rest has 1.
+const USELESS: f64 = 1.0;
+
+/// The findings, the most important first: did it fit, what limited it, how well was it felt.
+pub fn of(outcome: &Outcome) -> Vec<Finding> {
+    let mut findings = vec![fits(outcome)];
+    findings.extend(tilt(outcome));
+    findings.extend((0..3).filter_map(|axis| force(outcome, axis)));
+    findings
+}
+
+fn finding(weight: Weight, text: String) -> Finding {
+    Finding { weight, text }
+}
+
+/// Whether the ride fits the rig, and if not, what held it back, how long, and when first.
+fn fits(outcome: &Outcome) -> Finding {
+    let effort = &outcome.measures.effort;
+    let recording = &outcome.recording;
+    let told: Vec<String> = [
+        held("The actuators' limits", recording, |output| output.actuator_limited),
+        held("The safety units", recording, |output| output.safety_active),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let used = format!(
+        "{:.0} % of the stroke is used, and {:.0} mm are left at the least",
+        100.0 * effort.stroke_used,
+        1000.0 * effort.smallest_margin
+    );
+    match told.as_slice() {
+        [] => finding(Weight::Good, format!("The ride fits the rig: {used}.")),
+        told => finding(Weight::Warning, format!("The ride does not fit the rig. {} ({used}.)", told.join(" "))),
+    }
+}
+
+/// What held the platform back, for how long in all, and when first; none where it did not.
+fn held(what: &str, recording: &Recording, holds: impl Fn(&Output) -> bool) -> Option<String> {
+    let time = |samples: usize| samples as f64 * recording.step;
+    let first = recording.outputs.iter().position(&holds)?;
+    let all = recording.outputs.iter().filter(|output| holds(output)).count();
+    Some(format!("{what} held the platform back for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
+}
+
+fn tilt(outcome: &Outcome) -> Option<Finding> {
+    let share = outcome.measures.effort.tilt_limited;
+    let limits = &outcome.setup.parameters.tilt;
+    (share > 0.0).then(|| {
+        finding(
+            Weight::Note,
+            format!(
+                "Tilt coordination lagged behind for {:.0} % of the ride: at {:.1}°/s, {:.1}°/s² or {:.0}° it may go no faster or farther.",
+                100.0 * share,
+                limits.rate_limit.to_degrees(),
+                limits.acceleration_limit.to_degrees(),
+                limits.angle_limit.to_degrees()
+            ),
+        )
+    })
+}
+
+/// How well the specific force is felt on an axis on which there is some.
+fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
+    let name = ["Surge", "Sway", "Heave"][axis];
+    let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;
+    let desired = deviation(outcome.recording.inputs.iter().map(|input| input.specific_force[axis]));
+    if desired < WORTH_SAYING {
+        return None;
+    }
+    let share = rms_error / desired;
+    let (weight, verdict) = if share <= FAITHFUL {
+        (Weight::Good, "is felt as it should be")
+    } else if share < USELESS {
+        (Weight::Note, "is felt in part")
+    } else {
+        (Weight::Warning, "is felt wrongly, and a platform at rest would be nearer to it")
+    };
+    let correlation = correlation.map_or(String::new(), |correlation| format!("correlation {correlation:.2}, "));
+    let bound = outcome.bounds[axis].as_ref().map_or_else(String::new, |bound| {
+        let least = bound.bound.rms_error;
+        if least < FAITHFUL * rms_error {
+            format!(" A controller that knew the ride beforehand might get down to {least:.2} m/s² on this rig.")
+        } else {
+            format!(" No controller could get below {least:.2} m/s² on this rig.")
+        }
+    });
+    Some(finding(
+        weight,
+        format!(
+            "{name} {verdict}: {correlation}an RMS error of {rms_error:.2} m/s², {:.0} % of what is desired.{bound}",
+            100.0 * share
+        ),
+    ))
+}
+
+/// Standard deviation.
+fn deviation(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    (values.map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
+}

@@ -1,0 +1,157 @@
+//! `moris run`: rides a recording on a rig, and says how well it is felt.
+//!
+//! [`recording`] steps the washout; everything else looks at what came of it: [`output_table`] writes it down,
+//! [`measured`] measures it, [`bounds`] says how much better it could have been, [`summary`] prints it, [`findings`] puts it in words, [`page`] makes the report.
+
+pub mod bounds;
+pub mod findings;
+pub mod measured;
+pub mod output_table;
+pub mod page;
+pub mod recording;
+pub mod summary;
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+use cue_measures::{Axes, Measures};
+use indicatif::{ProgressBar, ProgressStyle};
+use washout_setup::Setup;
+
+use crate::ride::{ConventionOptions, Ride};
+use crate::setup_options::SetupOptions;
+pub use bounds::AxisBound;
+pub use recording::Recording;
+
+/// Ride recordings on a rig and report how well they are felt
+///
+/// For each ride the measures are printed, and two files are written into the report's directory: RIDE.csv, every input and
+/// output at every sample by the names of the FMU's variables, and RIDE.html, a page with everything drawn, the moving
+/// platform among it, which needs no network and nothing beside it.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    /// Recordings (CSV) with columns time, ax, ay, az (specific force, m/s2) and wx, wy, wz (rad/s) at the rider's head, x
+    /// forward, y left, z up; what is called or measured otherwise is said by the options below
+    #[arg(required = true, value_name = "RIDE")]
+    rides: Vec<PathBuf>,
+
+    #[command(flatten)]
+    setup: SetupOptions,
+
+    /// Other parameters to ride with, too, and to show beside the first: files or shipped sets
+    #[arg(long, value_name = "FILE|NAME")]
+    against: Vec<String>,
+
+    /// Directory for the reports and the tables of outputs
+    #[arg(long, value_name = "DIRECTORY", default_value = "report")]
+    report: PathBuf,
+
+    /// Do not compute the bound, the least error that any controller could reach; it takes some seconds a ride
+    #[arg(long)]
+    no_bound: bool,
+
+    #[command(flatten)]
+    conventions: ConventionOptions,
+}
+
+/// A ride with one set of parameters, and what is to be said of it.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The rig and the parameters.
+    pub setup: Setup,
+    /// Everything that went in and came out.
+    pub recording: Recording,
+    /// How well it was felt.
+    pub measures: Measures,
+    /// How well it could have been felt at best, axis by axis; none where nothing is desired or nobody asked.
+    pub bounds: Axes<Option<AxisBound>>,
+}
+
+impl Outcome {
+    /// Rides and measures. `progress` is told after each sample.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn of(ride: &Ride, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+        let parameters = ride.parameters(&setup.parameters);
+        let recording = Recording::of(ride, &parameters, progress)?;
+        let measures = measured::measures(&recording)?;
+        let bounds = [const { None }; 3];
+        Ok(Outcome { setup: Setup { parameters, ..setup.clone() }, recording, measures, bounds })
+    }
+
+    /// The same with its bounds.
+    ///
+    /// # Errors
+    /// There are none: the ride is too short, or the solver fails.
+    pub fn with_bounds(mut self) -> Result<Self> {
+        self.bounds =
+            bounds::bounds(&self.recording).context("cannot compute the bound; --no-bound does without it")?;
+        Ok(self)
+    }
+}
+
+/// Does what the command says.
+///
+/// # Errors
+/// A ride, a rig or parameters that cannot be used, or a file that cannot be written.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    let mut setups = vec![options.setup.load()?];
+    for other in &options.against {
+        setups.push(Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?);
+    }
+    let conventions = options.conventions.load()?;
+    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    for file in &options.rides {
+        let ride = Ride::read(file, &conventions)?;
+        let outcomes = outcomes(&ride, &setups, !options.no_bound)?;
+        write!(out, "{}", summary::text(&ride, &outcomes))?;
+        for file in write_files(&options.report, &ride, &outcomes)? {
+            writeln!(out, "wrote {}", file.display())?;
+        }
+        writeln!(out)?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Rides with each of the setups, under a progress bar where somebody is watching.
+fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool) -> Result<Vec<Outcome>> {
+    let bar = ProgressBar::new((ride.inputs().len() * setups.len()) as u64);
+    bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %")?);
+    bar.set_message(ride.name.clone());
+    let ridden = setups.iter().map(|setup| Outcome::of(ride, setup, || bar.inc(1)));
+    let outcomes = if with_bounds { ridden.map(|outcome| outcome?.with_bounds()).collect() } else { ridden.collect() };
+    bar.finish_and_clear();
+    outcomes
+}
+
+/// Writes the tables of outputs and the page; returns their names.
+fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
+    let mut written = Vec::new();
+    for (index, outcome) in outcomes.iter().enumerate() {
+        // The first is the ride's; those beside it are told apart by their parameters.
+        let name = match index {
+            0 => format!("{}.csv", ride.name),
+            _ => format!("{}.{}.csv", ride.name, outcome.setup.parameters_name),
+        };
+        let file = directory.join(name);
+        output_table::write(&file, &outcome.recording)?;
+        written.push(file);
+    }
+    written.push(write_page(directory, ride, outcomes)?);
+    Ok(written)
+}
+
+/// Writes the page of a ride; returns its name.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_page(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
+    let file = directory.join(format!("{}.html", ride.name));
+    let html = ride_report::html(&page::report(ride, outcomes)).context("the report does not fit together")?;
+    fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
+    Ok(file)
+}

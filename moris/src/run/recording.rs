@@ -1,0 +1,66 @@
+//! What goes into the washout and comes out of it on a ride.
+
+use moris_washout::head::Head;
+use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::orientation::Orientation;
+use moris_washout::platform::Pose;
+use moris_washout::{Input, Output, Parameters, Refusal, Washout};
+
+use crate::ride::Ride;
+
+/// Every input and output of a ride.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// Time between samples \[s\].
+    pub step: f64,
+    /// What the ride was ridden with.
+    pub parameters: Parameters,
+    /// The input at each sample.
+    pub inputs: Vec<Input>,
+    /// The output at each sample; the first is that before the first step.
+    pub outputs: Vec<Output>,
+}
+
+impl Recording {
+    /// Rides from rest at neutral, the inputs going linearly from sample to sample. `progress` is told after each.
+    ///
+    /// # Errors
+    /// The parameters cannot be used: which, and why.
+    pub fn of(ride: &Ride, parameters: &Parameters, mut progress: impl FnMut()) -> Result<Self, Refusal> {
+        let inputs = ride.inputs();
+        let mut washout = Washout::new(parameters)?.starting_with(&inputs[0]);
+        let mut outputs = vec![washout.output()];
+        progress();
+        for pair in inputs.windows(2) {
+            washout.step_between(&pair[0], &pair[1], ride.step());
+            outputs.push(washout.output());
+            progress();
+        }
+        Ok(Recording { step: ride.step(), parameters: *parameters, inputs: inputs.to_vec(), outputs })
+    }
+
+    /// The time of each sample \[s\].
+    pub fn times(&self) -> Vec<f64> {
+        (0..self.inputs.len()).map(|k| k as f64 * self.step).collect()
+    }
+
+    /// Angular velocity that the vehicle's rider feels, in head axes, at each sample \[rad/s\].
+    pub fn desired_rates(&self) -> Vec<Vector3<f64>> {
+        let frame = self.parameters.conditioning.angular_velocity_frame;
+        let in_body = |input: &Input| match frame {
+            AngularVelocityFrame::Body => input.angular_velocity,
+            AngularVelocityFrame::World => {
+                Orientation::new(input.orientation).rotation.transpose() * input.angular_velocity
+            }
+        };
+        let in_head = |input: &Input| Head::new(&self.parameters.structure, input.lean).to_head_axes(in_body(input));
+        self.inputs.iter().map(in_head).collect()
+    }
+
+    /// The platform's position relative to neutral at each sample, in the base frame \[m\].
+    pub fn displacements(&self) -> Vec<Vector3<f64>> {
+        let neutral = Pose::neutral(&self.parameters.rig).position;
+        self.outputs.iter().map(|output| output.position - neutral).collect()
+    }
+}

@@ -1,0 +1,85 @@
+//! What the terminal shows of a ride.
+
+use std::fmt::Write;
+
+use cue_measures::cues::Cues;
+use cue_measures::fidelity::Fidelity;
+
+use super::{Outcome, findings};
+use crate::ride::Ride;
+use crate::text_table::TextTable;
+
+/// Stands where a number is not defined.
+const UNDEFINED: &str = "–";
+
+/// The ride, what was found, and for each set of parameters a table of measures.
+pub fn text(ride: &Ride, outcomes: &[Outcome]) -> String {
+    let mut text = format!("{}: {:.1} s at {:.0} Hz\n", ride.name, ride.manoeuvre.duration(), 1.0 / ride.step());
+    for remark in &ride.remarks {
+        writeln!(text, "  {remark}").expect("a string takes whatever is written");
+    }
+    for outcome in outcomes {
+        let setup = &outcome.setup;
+        write!(text, "\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name)
+            .expect("a string takes whatever is written");
+        for finding in findings::of(outcome) {
+            writeln!(text, "  {}", finding.text).expect("a string takes whatever is written");
+        }
+        write!(text, "\n{}", table(outcome)).expect("a string takes whatever is written");
+    }
+    text
+}
+
+/// The measures of the cues, axis by axis; axes on which nothing happens are left out.
+fn table(outcome: &Outcome) -> TextTable {
+    let measures = &outcome.measures;
+    let header = [
+        "felt against desired",
+        "RMS error",
+        "bound",
+        "peak error",
+        "correlation",
+        "delay",
+        "sensed: RMS error",
+        "false cues",
+        "missing cues",
+    ];
+    let mut table = TextTable::new(header);
+    let kinds = [
+        ("force", "m/s²", 1.0, &measures.force, &measures.sensed_force, &measures.force_cues),
+        ("rate", "°/s", 1f64.to_degrees(), &measures.rate, &measures.sensed_rate, &measures.rate_cues),
+    ];
+    for (kind, unit, factor, raw, sensed, cues) in kinds {
+        for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+            if let Some(fidelity) = &raw[axis] {
+                let bound =
+                    outcome.bounds[axis].as_ref().filter(|_| kind == "force").map(|bound| bound.bound.rms_error);
+                let row = row(fidelity, bound, sensed[axis].as_ref(), &cues[axis], unit, factor);
+                table.push([format!("{kind} {name}")].into_iter().chain(row).collect());
+            }
+        }
+    }
+    table
+}
+
+fn row(
+    raw: &Fidelity,
+    bound: Option<f64>,
+    sensed: Option<&Fidelity>,
+    cues: &Cues,
+    unit: &str,
+    factor: f64,
+) -> [String; 8] {
+    let number = |value: f64| format!("{:.2} {unit}", factor * value);
+    let or_undefined = |text: Option<String>| text.unwrap_or_else(|| UNDEFINED.to_owned());
+    [
+        number(raw.rms_error),
+        or_undefined(bound.map(number)),
+        number(raw.peak_error),
+        or_undefined(raw.correlation.map(|correlation| format!("{correlation:.3}"))),
+        or_undefined(raw.delay.map(|delay| format!("{:.0} ms", (1000.0 * delay).round() + 0.0))),
+        or_undefined(sensed.map(|sensed| number(sensed.rms_error))),
+        format!("{:.1} %", 100.0 * cues.false_cues),
+        format!("{:.1} %", 100.0 * cues.missing_cues),
+    ]
+}

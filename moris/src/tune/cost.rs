@@ -1,0 +1,201 @@
+//! What is made small: how badly a ride is sensed, and whether the machine's limits had to step in.
+//!
+//! A ride has six channels, specific force and angular velocity along x, y and z. Each is what the vestibular model makes of it,
+//! counted in perception thresholds, so that metres per second squared and degrees per second can be added. With e_k the RMS of
+//! felt minus desired on channel k, d_k that of the desired alone and w_k the channel's weight, the ride's error is
+//!
+//! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2).
+//!
+//! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the ride: to scale everything down to nothing earns
+//! nothing, and false cues on channels on which nothing is desired cost what they are felt.
+
+use cue_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
+use cue_measures::vestibular::{CANALS, OTOLITHS, sensed};
+use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{Output, Parameters, Refusal, Washout};
+
+use crate::ride::Ride;
+use crate::run::Recording;
+
+/// Six channels: specific force x, y, z, angular velocity x, y, z.
+pub type Channels<T> = [T; 6];
+
+/// What the platform may not do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constraints {
+    /// Every actuator stays this far from either end of its stroke \[m\].
+    pub stroke_reserve: f64,
+}
+
+/// What a ride came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// RMS error of each channel, in thresholds.
+    pub channels: Channels<f64>,
+    /// The ride's error: 0 perfect, 1 a platform at rest.
+    pub error: f64,
+    /// Share of the steps in which a safety unit or the actuator guard was at work or the reserve of stroke was touched.
+    pub violated: f64,
+}
+
+impl Cost {
+    /// Whether all constraints were kept throughout.
+    pub fn is_feasible(&self) -> bool {
+        self.violated == 0.0
+    }
+}
+
+/// A ride that parameters are judged on.
+#[derive(Clone, Debug)]
+pub struct Judge {
+    name: String,
+    ride: Ride,
+    desired: Channels<Vec<f64>>,
+    /// RMS of each channel as it is desired, in thresholds.
+    desired_rms: Channels<f64>,
+    weights: Channels<f64>,
+    constraints: Constraints,
+    /// At rest with the fixed parameters, the internal step being as long as the ride's: a new one would have its rig
+    /// surveyed each time.
+    coarse: Washout,
+}
+
+/// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits act a little more coarsely,
+/// which is why the result is ridden again with the internal step that it will be used with.
+const LONGEST_STEP: f64 = 0.02;
+
+/// Share of the acceleration limits that the search's long steps may use: within such a step acceleration varies unseen.
+const RESERVE_OF_ACCELERATION: f64 = 0.85;
+
+impl Judge {
+    /// Prepares to judge parameters that have the fixed ones of these on a ride.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn new(
+        ride: Ride,
+        parameters: &Parameters,
+        weights: &Channels<f64>,
+        constraints: Constraints,
+    ) -> Result<Self, Refusal> {
+        let mut parameters = ride.parameters(parameters);
+        let desired = desired(&ride, &parameters);
+        parameters.structure.max_step = ride.step().min(LONGEST_STEP).max(parameters.structure.max_step);
+        parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
+        let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], ride.step()));
+        let coarse = Washout::new(&parameters)?;
+        Ok(Judge { name: ride.name.clone(), ride, desired, desired_rms, weights: *weights, constraints, coarse })
+    }
+
+    /// The ride's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The ride.
+    pub fn ride(&self) -> &Ride {
+        &self.ride
+    }
+
+    /// RMS of each channel as it is desired, in thresholds.
+    pub fn desired_rms(&self) -> &Channels<f64> {
+        &self.desired_rms
+    }
+
+    /// The norm in which channels are added.
+    fn weighted(&self, channels: &Channels<f64>) -> f64 {
+        channels.iter().zip(&self.weights).map(|(value, weight)| weight * value * value).sum::<f64>().sqrt()
+    }
+
+    /// What the ride comes to with these parameters, in the long steps of a search.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, Refusal> {
+        let inputs = self.ride.inputs();
+        let mut washout = self.coarse.clone();
+        let mut parameters = self.ride.parameters(parameters);
+        let Parameters { structure, rig, .. } = washout.parameters();
+        (parameters.structure, parameters.rig) = (*structure, *rig);
+        parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
+        washout.retune(&parameters)?;
+        let mut washout = washout.starting_with(&inputs[0]);
+        let mut tally = Tally::new(self);
+        tally.add(&washout.output());
+        for pair in inputs.windows(2) {
+            washout.step_between(&pair[0], &pair[1], self.ride.step());
+            tally.add(&washout.output());
+        }
+        Ok(tally.cost())
+    }
+
+    /// What a recording of the ride came to.
+    pub fn cost(&self, recording: &Recording) -> Cost {
+        let mut tally = Tally::new(self);
+        recording.outputs.iter().for_each(|output| tally.add(output));
+        tally.cost()
+    }
+}
+
+/// What has been felt so far.
+struct Tally<'a> {
+    judge: &'a Judge,
+    errors: Channels<Vec<f64>>,
+    violated: usize,
+}
+
+impl<'a> Tally<'a> {
+    fn new(judge: &'a Judge) -> Self {
+        let samples = judge.desired[0].len();
+        Tally { judge, errors: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
+    }
+
+    fn add(&mut self, output: &Output) {
+        let sample = self.errors[0].len();
+        let force = output.felt_specific_force - rest();
+        for (k, felt) in channels(force, output.felt_angular_velocity).into_iter().enumerate() {
+            self.errors[k].push(felt - self.judge.desired[k][sample]);
+        }
+        let touched = output.stroke_margin < self.judge.constraints.stroke_reserve;
+        self.violated += usize::from(output.safety_active || output.actuator_limited || touched);
+    }
+
+    fn cost(self) -> Cost {
+        let Judge { ride, desired_rms, .. } = self.judge;
+        let channels = std::array::from_fn(|k| sensed_rms(k, &self.errors[k], ride.step()));
+        // A ride on which less than a threshold is to be felt is not blown up.
+        let whole = self.judge.weighted(desired_rms).max(1.0);
+        Cost {
+            channels,
+            error: self.judge.weighted(&channels) / whole,
+            violated: self.violated as f64 / self.errors[0].len() as f64,
+        }
+    }
+}
+
+/// The desired channels, as deviations from rest.
+fn desired(ride: &Ride, parameters: &Parameters) -> Channels<Vec<f64>> {
+    let recording =
+        Recording { step: ride.step(), parameters: *parameters, inputs: ride.inputs().to_vec(), outputs: vec![] };
+    let rates = recording.desired_rates();
+    let samples = recording.inputs.iter().zip(rates).map(|(input, rate)| channels(input.specific_force - rest(), rate));
+    let samples: Vec<Channels<f64>> = samples.collect();
+    std::array::from_fn(|k| samples.iter().map(|sample| sample[k]).collect())
+}
+
+/// The specific force at rest.
+fn rest() -> Vector3<f64> {
+    Vector3::new(0.0, 0.0, STANDARD_GRAVITY)
+}
+
+fn channels(force: Vector3<f64>, rate: Vector3<f64>) -> Channels<f64> {
+    [force.x, force.y, force.z, rate.x, rate.y, rate.z]
+}
+
+/// RMS of what is sensed of channel `k`, which is given as a deviation from rest, in thresholds.
+fn sensed_rms(k: usize, signal: &[f64], step: f64) -> f64 {
+    let (organ, threshold) = if k < 3 { (&OTOLITHS, FORCE_THRESHOLDS[k]) } else { (&CANALS, RATE_THRESHOLDS[k - 3]) };
+    let sensed = sensed(organ, signal, 0.0, step);
+    (sensed.iter().map(|value| value * value).sum::<f64>() / sensed.len() as f64).sqrt() / threshold
+}

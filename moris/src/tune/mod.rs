@@ -1,0 +1,159 @@
+//! `moris tune`: finds better parameters for a set of rides.
+//!
+//! [`space`] says what may change, [`cost`] what is made small, [`search`](mod@search) does it, [`tuner`] rides the result with
+//! the steps that it will be used with, and tries on rides that it was not tuned on. [`summary`] says what came of it.
+
+pub mod cost;
+mod folds;
+mod options;
+pub mod search;
+pub mod space;
+pub mod summary;
+pub mod tuner;
+
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{ExitCode, exit};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use model_interface::Group as _;
+use moris_washout::Parameters;
+use rayon::prelude::*;
+use washout_setup::{NamedValues, Setup, all, parameter_file};
+
+use crate::ride::Ride;
+use crate::run::{Outcome, write_page};
+use cost::Judge;
+pub use options::Options;
+use space::Space;
+use summary::RideResult;
+use tuner::Tuner;
+
+/// A recording that is cut out of a longer ride begins in motion, and the platform at rest: no parameters could keep the limits
+/// at such a jump. It is led in from rest over this time unless another is said \[s\].
+const LEAD_IN: f64 = 1.0;
+
+/// Does what the command says.
+///
+/// # Errors
+/// A ride, a rig or parameters that cannot be used, no parameters found that keep the limits, or a file that cannot be
+/// written.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    let before = options.setup.load()?;
+    let tuned_on = judges(options, &options.rides, &before)?;
+    let held_out = judges(options, &options.hold_out, &before)?;
+    let folds = folds::folds(tuned_on.len(), number_of_folds(options));
+
+    let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
+    bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
+    let tuner = Tuner {
+        setup: &before,
+        space: Space::new(&before.parameters, &options.tune),
+        budget: options.budget(),
+        interrupted: listen()?,
+        bar,
+    };
+    let everything: Vec<&Judge> = tuned_on.iter().collect();
+    let tuned = tuner.tune(&everything, "all rides")?;
+    save(options, &before, &tuned)?;
+
+    let mut results = results(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &tuned)?;
+    for fold in &folds {
+        tuner.leave_out(&everything, fold, &mut results)?;
+    }
+    tuner.bar.finish_and_clear();
+
+    let text = summary::text(&before, &tuned, &results, tuner.was_interrupted());
+    write!(out, "{text}")?;
+    writeln!(out, "wrote {}", options.output.display())?;
+    for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[before, tuned])? {
+        writeln!(out, "wrote {}", file.display())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// One for each ride unless another number is wanted, and none where there are rides that are held out anyway.
+fn number_of_folds(options: &Options) -> usize {
+    if options.hold_out.is_empty() { options.folds.unwrap_or(options.rides.len()) } else { 0 }
+}
+
+fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Judge>> {
+    let mut conventions = options.conventions.load()?;
+    if conventions.fade_in == 0.0 {
+        conventions.fade_in = LEAD_IN;
+    }
+    let judge = |file: &PathBuf| {
+        let ride = Ride::read(file, &conventions)?;
+        Ok(Judge::new(ride, &setup.parameters, &options.weights, options.constraints())?)
+    };
+    files.par_iter().map(judge).collect()
+}
+
+/// Whether Ctrl-C has been pressed; the second time ends the program.
+fn listen() -> Result<Arc<AtomicBool>> {
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let pressed = Arc::clone(&interrupted);
+    let handler = move || {
+        if pressed.swap(true, Ordering::Relaxed) {
+            exit(130);
+        }
+        eprintln!("ending after this generation; press Ctrl-C again to end at once, with nothing kept");
+    };
+    ctrlc::set_handler(handler).context("cannot listen for Ctrl-C")?;
+    eprintln!("searching; Ctrl-C ends it and keeps the best so far");
+    Ok(interrupted)
+}
+
+/// Every ride before and after, those that were not tuned on among them.
+fn results(tuner: &Tuner, judges: &[&Judge], held_out: &[&Judge], tuned: &Setup) -> Result<Vec<RideResult>> {
+    let result = |judge: &&Judge, is_held_out: bool| {
+        let after = tuner::full_cost(judge, tuned)?;
+        Ok(RideResult {
+            name: judge.name().to_owned(),
+            desired: *judge.desired_rms(),
+            before: tuner::full_cost(judge, tuner.setup)?,
+            tuned: (!is_held_out).then_some(after),
+            unseen: is_held_out.then_some(after),
+        })
+    };
+    let tuned_on = judges.par_iter().map(|judge| result(judge, false));
+    tuned_on.chain(held_out.par_iter().map(|judge| result(judge, true))).collect()
+}
+
+/// Writes the parameter file: whatever makes, laid over the rig alone, the tuned parameters.
+fn save(options: &Options, before: &Setup, tuned: &Setup) -> Result<()> {
+    let heading = format!(
+        "Tuned by moris on {} for {}, from {}, seed {}",
+        options.rides.iter().map(|ride| ride.display().to_string()).collect::<Vec<_>>().join(", "),
+        before.rig_name,
+        before.parameters_name,
+        options.seed
+    );
+    let rig_alone = all(&Setup::load(options.setup.rig.as_deref(), &[])?.parameters);
+    let differing = all(&tuned.parameters).into_iter().zip(rig_alone).filter(|(mine, rigs)| mine.1 != rigs.1);
+    let values: NamedValues = differing.map(|(mine, _)| mine).collect();
+    let text = parameter_file::write(&heading, &values, Parameters::ROWS);
+    fs::write(&options.output, text).with_context(|| format!("cannot write {}", options.output.display()))
+}
+
+fn write_reports<'a>(
+    options: &Options,
+    text: &str,
+    judges: impl Iterator<Item = &'a Judge>,
+    setups: &[Setup; 2],
+) -> Result<Vec<PathBuf>> {
+    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    let file = options.report.join("tune.md");
+    fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+    let mut written = vec![file];
+    for judge in judges {
+        let outcomes: Result<Vec<Outcome>> =
+            setups.iter().map(|setup| Outcome::of(judge.ride(), setup, || ())).collect();
+        written.push(write_page(&options.report, judge.ride(), &outcomes?)?);
+    }
+    Ok(written)
+}

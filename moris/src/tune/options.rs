@@ -1,0 +1,115 @@
+//! What `moris tune` is told.
+
+use std::path::PathBuf;
+
+use super::cost::{Channels, Constraints};
+use super::search::Budget;
+use super::space::Group;
+use crate::ride::ConventionOptions;
+use crate::setup_options::SetupOptions;
+
+/// Find parameters with which rides are felt better on a rig
+///
+/// Searches for break frequencies, dampings and scales that make the sensed error small on all rides, such that no safety unit and
+/// no actuator limit ever acts. The error of a ride: what the vestibular model makes of felt minus desired, RMS over time, counted
+/// in perception thresholds and added in quadrature over specific force and angular velocity along x, y, z; over the same of what is
+/// desired. 0 is perfect, and a platform at rest scores 1.
+///
+/// Rides are led in from rest over 1 s unless --fade-in says otherwise. The search starts from the parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result, however
+/// many cores there are.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    /// Recordings (CSV) to tune on; see `moris run --help` for their columns
+    #[arg(required = true, value_name = "RIDE")]
+    pub rides: Vec<PathBuf>,
+
+    #[command(flatten)]
+    pub setup: SetupOptions,
+
+    /// Recordings to try the result on, and not to tune on [default: each ride in turn is left out of a tuning of its own]
+    #[arg(long, value_name = "RIDE", num_args = 1..)]
+    pub hold_out: Vec<PathBuf>,
+
+    /// Leave the rides out in so many groups instead of one by one; 0: do not
+    #[arg(long, value_name = "NUMBER", conflicts_with = "hold_out")]
+    pub folds: Option<usize>,
+
+    /// Parameters to tune, separated by commas
+    #[arg(long, value_name = "GROUPS", value_delimiter = ',', default_values = ["splitter", "angular", "scale"])]
+    pub tune: Vec<Group>,
+
+    /// Weights of the errors of specific force x, y, z and angular velocity x, y, z
+    #[arg(long, value_name = "WEIGHTS", value_parser = weights, default_value = "1,1,1,1,1,1")]
+    pub weights: Channels<f64>,
+
+    /// Stroke that every actuator keeps in reserve at either end, in m: rides differ
+    #[arg(long, value_name = "METRES", value_parser = reserve, default_value = "0.01")]
+    pub stroke_reserve: f64,
+
+    /// Parameter sets to try in each search
+    #[arg(long, value_name = "NUMBER", default_value_t = 3000)]
+    pub evaluations: usize,
+
+    /// Where the random numbers begin
+    #[arg(long, value_name = "NUMBER", default_value_t = 1)]
+    pub seed: u64,
+
+    /// The tuned parameters
+    #[arg(long, value_name = "FILE", default_value = "tuned.toml")]
+    pub output: PathBuf,
+
+    /// Directory for the reports of before and after: tune.md and a page for each ride
+    #[arg(long, value_name = "DIRECTORY", default_value = "report")]
+    pub report: PathBuf,
+
+    #[command(flatten)]
+    pub conventions: ConventionOptions,
+}
+
+impl Options {
+    /// How long to search.
+    pub fn budget(&self) -> Budget {
+        Budget { evaluations: self.evaluations, seed: self.seed }
+    }
+
+    /// What the platform may not do.
+    pub fn constraints(&self) -> Constraints {
+        Constraints { stroke_reserve: self.stroke_reserve }
+    }
+}
+
+fn weights(text: &str) -> Result<Channels<f64>, String> {
+    let weights: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    let weights: Option<Channels<f64>> = weights.ok().and_then(|weights| weights.try_into().ok());
+    weights
+        .filter(|weights| {
+            weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0
+        })
+        .ok_or_else(|| "six numbers are needed, none below 0 and not all 0, such as 1,1,1,0.5,0.5,0.5".to_owned())
+}
+
+fn reserve(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|metres: &f64| metres.is_finite() && *metres >= 0.0)
+        .ok_or_else(|| "a length in m is needed, not below 0".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_are_six_numbers_of_which_one_at_least_counts() {
+        assert_eq!(weights("1, 2,3,0,0,0.5"), Ok([1.0, 2.0, 3.0, 0.0, 0.0, 0.5]));
+        for wrong in ["", "1,2,3", "1,1,1,1,1,-1", "0,0,0,0,0,0", "1,1,1,1,1,NaN", "a,b,c,d,e,f"] {
+            assert!(weights(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_reserve_is_a_length() {
+        assert_eq!(reserve("0.02"), Ok(0.02));
+        assert!(reserve("-0.02").is_err() && reserve("inf").is_err() && reserve("much").is_err());
+    }
+}

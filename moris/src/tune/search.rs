@@ -1,0 +1,180 @@
+//! The search: CMA-ES over the space of parameters, on all cores, the same for the same seed whatever their number.
+
+use std::sync::Mutex;
+
+use anyhow::{Result, anyhow};
+use cmaes::{CMAESOptions, DVector};
+use moris_washout::Parameters;
+use moris_washout::nalgebra;
+use rayon::prelude::*;
+
+use super::cost::Judge;
+use super::space::Space;
+
+/// How long and from where to search.
+#[derive(Clone, Copy, Debug)]
+pub struct Budget {
+    /// Parameter sets to try.
+    pub evaluations: usize,
+    /// Where the random numbers begin.
+    pub seed: u64,
+}
+
+/// How wide the search begins, in logarithms: most frequencies within a factor of 1.5 either way.
+const FIRST_STEP: f64 = 0.4;
+/// The search ends when a generation's costs differ by less.
+const TOLERANCE: f64 = 1e-5;
+/// Cost of limits at work throughout; all errors are about 1. It goes with the root of the time: a thousandth of it costs 0.06.
+const PRICE_OF_LIMITS: f64 = 2.0;
+/// And that of limits at work at all.
+const PRICE_OF_ANY: f64 = 0.05;
+/// Cost of being outside the space's box by a factor of e in one parameter.
+const PRICE_OF_OUTSIDE: f64 = 0.1;
+/// Cost of being away from the start by a factor of e in every parameter: of two sets that serve the same, the one that is
+/// more like the start is taken, and what no ride has anything to say about stays where it is.
+const PRICE_OF_DISTANCE: f64 = 2e-3;
+/// How many of the best sets are kept.
+const KEPT: usize = 10;
+
+/// A parameter set that kept all constraints on every ride.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The parameters.
+    pub parameters: Parameters,
+    /// Mean error over the rides, in the search's long steps.
+    pub error: f64,
+    cost: f64,
+    point: Vec<f64>,
+}
+
+/// What a search came to.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// Sets that kept all constraints on every ride, the best first; the first ten.
+    pub best: Vec<Found>,
+    /// The set of the least cost, constraints kept or not.
+    pub nearest: Parameters,
+}
+
+/// Searches for parameters with the smallest mean error over these rides that keep all constraints.
+///
+/// `progress` is told after each generation how many sets have been tried and what the least error is so far, and says whether
+/// to go on.
+///
+/// # Errors
+/// Parameters of the space cannot be used.
+pub fn search(
+    judges: &[&Judge],
+    space: &Space,
+    budget: Budget,
+    mut progress: impl FnMut(usize, Option<f64>) -> bool,
+) -> Result<Searched> {
+    let best = Mutex::new(Best::default());
+    let cost = |point: &DVector<f64>| price(judges, space, point.as_slice(), &best);
+    let start = start_within_limits(judges, space);
+    cost(&DVector::from(start.clone()));
+    let mut search = CMAESOptions::new(start, FIRST_STEP)
+        .seed(budget.seed)
+        .max_function_evals(budget.evaluations)
+        .tol_fun(TOLERANCE)
+        .build(cost)
+        .map_err(|error| anyhow!("the search cannot begin: {error:?}"))?;
+    loop {
+        let ended = search.next_parallel().is_some();
+        let least = best.lock().expect("no evaluation panics").0.first().map(|found| found.error);
+        let go_on = progress(search.function_evals(), least);
+        if ended || !go_on {
+            break;
+        }
+    }
+    let nearest = search.overall_best_individual().map(|best| at(space, best.point.as_slice()));
+    drop(search);
+    let mut best = best.into_inner().expect("no evaluation panics").0;
+    if let Some(first) = best.first() {
+        let tidied = tidied(judges, space, first);
+        best.insert(0, tidied);
+    }
+    Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
+}
+
+/// How much smaller each try is than the one before, and how many there are: down to a hundredth.
+const SMALLER: f64 = 0.8;
+const TRIES: i32 = 21;
+
+/// Where the search begins: at the start itself, or, where that lets limits act, with all scales made smaller until it does not.
+fn start_within_limits(judges: &[&Judge], space: &Space) -> Vec<f64> {
+    let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
+    let keeps = |point: &nalgebra::DVector<f64>| {
+        means(judges, &space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
+    };
+    let start = tries.into_iter().find(keeps).unwrap_or_else(|| space.scaled_start(1.0));
+    start.as_slice().to_vec()
+}
+
+/// The parameters at the point of the space that is nearest to this one.
+fn at(space: &Space, point: &[f64]) -> Parameters {
+    let (inside, _) = space.clamped(&nalgebra::DVector::from_column_slice(point));
+    space.parameters(&inside)
+}
+
+/// Error that may be given up to have one parameter back where it was.
+const WORTH_TIDYING: f64 = 2e-4;
+
+/// The set with every parameter put back to where the search started that hardly matters to these rides.
+fn tidied(judges: &[&Judge], space: &Space, found: &Found) -> Found {
+    let mut tidied = found.clone();
+    for k in 0..found.point.len() {
+        let mut point = tidied.point.clone();
+        point[k] = 0.0;
+        let parameters = space.parameters(&nalgebra::DVector::from_column_slice(&point));
+        let Some((error, violated)) = means(judges, &parameters) else { continue };
+        if violated == 0.0 && error < tidied.error + WORTH_TIDYING {
+            tidied = Found { parameters, error, point, ..tidied };
+        }
+    }
+    tidied
+}
+
+/// Mean error and mean share of time in violation over the rides; none where the parameters cannot be used.
+fn means(judges: &[&Judge], parameters: &Parameters) -> Option<(f64, f64)> {
+    let costs: Result<Vec<_>, _> = judges.par_iter().map(|judge| judge.coarse_cost(parameters)).collect();
+    let costs = costs.ok()?;
+    let count = costs.len() as f64;
+    let error = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
+    let violated = costs.iter().map(|cost| cost.violated).sum::<f64>() / count;
+    Some((error, violated))
+}
+
+/// What a point of the space costs; whatever keeps the constraints is remembered if it is among the best.
+fn price(judges: &[&Judge], space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
+    let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
+    let parameters = space.parameters(&inside);
+    // The box holds nothing that cannot be used; should it, it is worse than anything.
+    let Some((error, violated)) = means(judges, &parameters) else { return f64::MAX };
+    let distance = inside.norm_squared() / inside.len() as f64;
+    let cost = error + PRICE_OF_DISTANCE * distance;
+    if violated == 0.0 {
+        let found = Found { parameters, error, cost, point: inside.as_slice().to_vec() };
+        best.lock().expect("no evaluation panics").add(found);
+        cost + PRICE_OF_OUTSIDE * outside
+    } else {
+        cost + PRICE_OF_OUTSIDE * outside + PRICE_OF_LIMITS * violated.sqrt() + PRICE_OF_ANY
+    }
+}
+
+/// The best sets so far, the best first. Which they are does not depend on the order in which they came.
+#[derive(Default)]
+struct Best(Vec<Found>);
+
+impl Best {
+    fn add(&mut self, found: Found) {
+        let before = |other: &Found| {
+            let by_cost = other.cost.total_cmp(&found.cost);
+            let by_point = || other.point.partial_cmp(&found.point);
+            by_cost.is_lt() || (by_cost.is_eq() && by_point().is_some_and(|order| order.is_le()))
+        };
+        let place = self.0.partition_point(before);
+        self.0.insert(place, found);
+        self.0.truncate(KEPT);
+    }
+}

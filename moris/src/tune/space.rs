@@ -1,0 +1,197 @@
+//! What is searched: break frequencies, dampings and scales, by their logarithms.
+
+use moris_washout::Parameters;
+use moris_washout::nalgebra::{DVector, Vector3};
+use moris_washout::orientation::RollPitchYaw;
+
+/// A group of parameters that may be tuned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Group {
+    /// The splitter's break frequencies and dampings, twelve in all
+    Splitter,
+    /// The angular channel's, twelve in all
+    Angular,
+    /// The scales of specific force and angular velocity, six in all
+    Scale,
+    /// The low-pass on the input, for recordings that are full of vibration
+    Cutoff,
+}
+
+/// How far a parameter may go: where filters make sense as a washout.
+const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
+const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
+const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
+/// Nobody wants more than the vehicle does.
+const SCALES: Range = Range { min: 0.01, max: 1.0 };
+
+#[derive(Clone, Copy, PartialEq)]
+struct Range {
+    min: f64,
+    max: f64,
+}
+
+/// Where the search begins for a parameter that is 0, which has no logarithm: a scale at next to nothing, a low-pass that is off
+/// at its highest frequency.
+fn instead_of_none(range: Range) -> f64 {
+    if range == CUTOFFS { range.max } else { range.min }
+}
+
+/// The parameters that are tuned, as a box of logarithms about those that the search starts from.
+///
+/// A point of the space is a vector of logarithms of the ratios to the start: 0 is the start itself.
+#[derive(Clone, Debug)]
+pub struct Space {
+    start: Parameters,
+    groups: Vec<Group>,
+    lower: DVector<f64>,
+    upper: DVector<f64>,
+}
+
+impl Space {
+    /// The space about these parameters. Where they are outside the usual ranges, the ranges reach to them.
+    pub fn new(start: &Parameters, groups: &[Group]) -> Self {
+        let mut start = *start;
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        visit(&mut start, groups, &mut |value, range| {
+            if *value <= 0.0 {
+                *value = instead_of_none(range);
+            }
+            lower.push((range.min.min(*value) / *value).ln());
+            upper.push((range.max.max(*value) / *value).ln());
+        });
+        Space { start, groups: groups.to_vec(), lower: lower.into(), upper: upper.into() }
+    }
+
+    /// How many parameters are tuned.
+    pub fn dimension(&self) -> usize {
+        self.lower.len()
+    }
+
+    /// The point of the box that is nearest to this one, and how far away it is.
+    pub fn clamped(&self, point: &DVector<f64>) -> (DVector<f64>, f64) {
+        let inside = point.sup(&self.lower).inf(&self.upper);
+        let distance = (point - &inside).norm();
+        (inside, distance)
+    }
+
+    /// Whether scales are tuned.
+    pub fn has_scales(&self) -> bool {
+        self.groups.contains(&Group::Scale)
+    }
+
+    /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
+    pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
+        let mut logarithms = Vec::new();
+        visit(&mut self.start.clone(), &self.groups, &mut |_, range| {
+            logarithms.push(if range == SCALES { factor.ln() } else { 0.0 });
+        });
+        self.clamped(&logarithms.into()).0
+    }
+
+    /// The parameters at a point.
+    pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
+        let mut parameters = self.start;
+        let mut factors = point.iter();
+        visit(&mut parameters, &self.groups, &mut |value, _| {
+            *value *= factors.next().map_or(1.0, |logarithm| logarithm.exp());
+        });
+        parameters
+    }
+}
+
+/// Visits every parameter that is tuned, always in the same order.
+fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range)) {
+    let Parameters { splitter, angular, conditioning, .. } = parameters;
+    let mut vector = |values: &mut Vector3<f64>, range| values.iter_mut().for_each(|value| act(value, range));
+    if groups.contains(&Group::Splitter) {
+        vector(&mut splitter.omega1, FREQUENCIES);
+        vector(&mut splitter.zeta1, DAMPINGS);
+        vector(&mut splitter.omega2, FREQUENCIES);
+        vector(&mut splitter.zeta2, DAMPINGS);
+    }
+    if groups.contains(&Group::Scale) {
+        vector(&mut conditioning.force_scale, SCALES);
+        vector(&mut conditioning.rate_scale, SCALES);
+    }
+    let mut angles = |values: &mut RollPitchYaw, range| {
+        for value in [&mut values.roll, &mut values.pitch, &mut values.yaw] {
+            act(value, range);
+        }
+    };
+    if groups.contains(&Group::Angular) {
+        angles(&mut angular.omega1, FREQUENCIES);
+        angles(&mut angular.zeta1, DAMPINGS);
+        angles(&mut angular.omega2, FREQUENCIES);
+        angles(&mut angular.zeta2, DAMPINGS);
+    }
+    if groups.contains(&Group::Cutoff) {
+        act(&mut conditioning.cutoff, CUTOFFS);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+
+    #[test]
+    fn the_origin_is_the_start() {
+        let start = Parameters::default();
+        let space = Space::new(&start, &DEFAULT);
+        assert_eq!(space.dimension(), 30);
+        assert_eq!(space.parameters(&DVector::zeros(30)), start);
+    }
+
+    #[test]
+    fn every_coordinate_moves_one_parameter_and_no_two_the_same() {
+        let start = Parameters::default();
+        let space = Space::new(&start, &DEFAULT);
+        let before = washout_setup::all(&start);
+        let mut moved = Vec::new();
+        for k in 0..space.dimension() {
+            let mut point = DVector::zeros(space.dimension());
+            point[k] = -0.5;
+            let after = washout_setup::all(&space.parameters(&point));
+            let changed: Vec<&str> =
+                before.iter().zip(&after).filter(|(b, a)| b.1 != a.1).map(|(b, _)| b.0.as_str()).collect();
+            assert_eq!(changed.len(), 1, "{changed:?}");
+            moved.push(changed[0].to_owned());
+        }
+        moved.sort();
+        moved.dedup();
+        assert_eq!(moved.len(), 30);
+        assert!(moved.iter().all(|name| ["splitter", "angular", "scale"].contains(&name.split('.').next().unwrap())));
+    }
+
+    #[test]
+    fn a_point_outside_comes_back_to_the_edge_where_scales_are_1_and_frequencies_can_be_used() {
+        let space = Space::new(&Parameters::default(), &DEFAULT);
+        for sign in [-1.0, 1.0] {
+            let (inside, distance) = space.clamped(&DVector::from_element(30, 100.0 * sign));
+            assert!(distance > 100.0);
+            let parameters = space.parameters(&inside);
+            assert!(moris_washout::check(&parameters).is_ok());
+            assert!(parameters.conditioning.force_scale.max() <= 1.0 + 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_scaled_start_has_other_scales_and_nothing_else() {
+        let space = Space::new(&Parameters::default(), &DEFAULT);
+        let scaled = space.parameters(&space.scaled_start(0.5));
+        assert!(scaled.conditioning.force_scale.iter().all(|scale| (scale - 0.5).abs() < 1e-12));
+        assert!(scaled.conditioning.rate_scale.iter().all(|scale| (scale - 0.5).abs() < 1e-12));
+        assert_eq!((scaled.splitter, scaled.angular), (Parameters::default().splitter, Parameters::default().angular));
+    }
+
+    #[test]
+    fn a_scale_of_nothing_is_begun_at_next_to_nothing_and_a_low_pass_that_is_off_far_up() {
+        let mut start = Parameters::default();
+        start.conditioning.rate_scale.x = 0.0;
+        let space = Space::new(&start, &[Group::Scale, Group::Cutoff]);
+        assert_eq!(space.dimension(), 7);
+        let conditioning = space.parameters(&DVector::zeros(7)).conditioning;
+        assert_eq!((conditioning.rate_scale.x, conditioning.cutoff), (0.01, 200.0));
+    }
+}

@@ -1,0 +1,218 @@
+//! What a tuning came to, as Markdown.
+
+use std::fmt::Write;
+
+use washout_setup::{Setup, all};
+
+use super::cost::{Channels, Cost};
+
+/// A ride before and after.
+#[derive(Clone, Debug)]
+pub struct RideResult {
+    /// The ride's name.
+    pub name: String,
+    /// RMS of each channel as it is desired, in thresholds.
+    pub desired: Channels<f64>,
+    /// With the parameters that the search started from.
+    pub before: Cost,
+    /// With the tuned parameters; none for a ride that was not tuned on.
+    pub tuned: Option<Cost>,
+    /// With parameters that were tuned without this ride.
+    pub unseen: Option<Cost>,
+}
+
+/// The channels' names.
+const CHANNELS: [&str; 6] = ["force x", "force y", "force z", "rate x", "rate y", "rate z"];
+
+/// The whole summary.
+pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], interrupted: bool) -> String {
+    let mut text = format!("# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name);
+    if interrupted {
+        text.push_str("The search was broken off: this is the best that it had found.\n\n");
+    }
+    text.push_str(&verdict(results, &before.parameters_name));
+    text.push_str("\n\n");
+    text.push_str(&errors(results));
+    text.push('\n');
+    text.push_str(&channels(results));
+    text.push('\n');
+    text.push_str(&parameters(before, tuned));
+    text
+}
+
+/// In a few sentences: is it better, and is it better on rides that it was not tuned on?
+fn verdict(results: &[RideResult], before_name: &str) -> String {
+    let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
+    let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
+    let mut text = String::new();
+    if let Some(tuned) = tuned {
+        write!(
+            text,
+            "On the rides that it was tuned on, the mean error goes from {:.3} to {:.3}",
+            tuned.before, tuned.after
+        )
+        .expect("a string takes whatever is written");
+        match tuned.limited_before {
+            0 => text.push('.'),
+            count => write!(
+                text,
+                "; {before_name} let the platform's limits act, or the reserve be touched, on {count} of {}, tuned on none.",
+                tuned.rides
+            )
+            .expect("a string takes whatever is written"),
+        }
+    }
+    let Some(unseen) = unseen else {
+        text.push_str(" No ride was held out: nothing is known of other rides.");
+        return text;
+    };
+    let Comparison { rides, before, after, better, limited_before, limited_after } = unseen;
+    write!(
+        text,
+        "\n\nOn rides that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {rides}. \
+         The platform's limits act, or the reserve of stroke is touched, on {limited_after} of them, with {before_name} on {limited_before}."
+    )
+    .expect("a string takes whatever is written");
+    text.push_str(if unseen.is_clearly_better() {
+        " **It beats the parameters that it started from.**"
+    } else {
+        " **It does not clearly beat the parameters that it started from**: these rides have too little in common, or are too few."
+    });
+    text
+}
+
+/// Errors before and after over some rides.
+struct Comparison {
+    rides: usize,
+    before: f64,
+    after: f64,
+    better: usize,
+    limited_before: usize,
+    limited_after: usize,
+}
+
+impl Comparison {
+    /// Better on average and on most rides, and limited on no more.
+    fn is_clearly_better(&self) -> bool {
+        self.after < self.before && 2 * self.better > self.rides && self.limited_after <= self.limited_before
+    }
+
+    fn of(pairs: impl Iterator<Item = (Cost, Cost)>) -> Option<Self> {
+        let pairs: Vec<(Cost, Cost)> = pairs.collect();
+        let mean = |error: fn(&(Cost, Cost)) -> f64| pairs.iter().map(error).sum::<f64>() / pairs.len() as f64;
+        let count = |holds: fn(&(Cost, Cost)) -> bool| pairs.iter().filter(|pair| holds(pair)).count();
+        (!pairs.is_empty()).then(|| Comparison {
+            rides: pairs.len(),
+            before: mean(|pair| pair.0.error),
+            after: mean(|pair| pair.1.error),
+            better: count(|pair| pair.1.error < pair.0.error),
+            limited_before: count(|pair| !pair.0.is_feasible()),
+            limited_after: count(|pair| !pair.1.is_feasible()),
+        })
+    }
+}
+
+fn errors(results: &[RideResult]) -> String {
+    let cell = |cost: &Option<Cost>| cost.map_or_else(|| "–".to_owned(), |cost| with_limits(&cost));
+    let rows = results
+        .iter()
+        .map(|result| [result.name.clone(), with_limits(&result.before), cell(&result.tuned), cell(&result.unseen)]);
+    table(["ride", "before", "tuned", "tuned without it"], rows)
+}
+
+/// The error, and what share of the time limits were at work.
+fn with_limits(cost: &Cost) -> String {
+    match cost.violated {
+        0.0 => format!("{:.3}", cost.error),
+        share => format!("{:.3} (limits {:.2} %)", cost.error, 100.0 * share),
+    }
+}
+
+fn channels(results: &[RideResult]) -> String {
+    let row = |result: &RideResult| {
+        let after = result.tuned.or(result.unseen).unwrap_or(result.before);
+        let cell =
+            |k: usize| format!("{:.2}: {:.2} → {:.2}", result.desired[k], result.before.channels[k], after.channels[k]);
+        let [x, y, z, p, q, r] = std::array::from_fn(cell);
+        [result.name.clone(), x, y, z, p, q, r]
+    };
+    let [x, y, z, p, q, r] = CHANNELS;
+    table(["thresholds, desired: error before → after", x, y, z, p, q, r], results.iter().map(row))
+}
+
+fn parameters(before: &Setup, tuned: &Setup) -> String {
+    let pairs = all(&before.parameters).into_iter().zip(all(&tuned.parameters));
+    let changed = pairs.filter(|(old, new)| old.1 != new.1);
+    let row =
+        |((name, old), (_, new)): ((String, f64), (String, f64))| [name, format!("{old:.3}"), format!("{new:.3}")];
+    table(["parameter", "before", "tuned"], changed.map(row))
+}
+
+/// A Markdown table whose columns are aligned for those who read it as text.
+fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; N]>) -> String {
+    let mut all = vec![header.map(str::to_owned)];
+    all.extend(rows);
+    let widths: [usize; N] =
+        std::array::from_fn(|k| all.iter().map(|row| row[k].chars().count()).max().unwrap_or(0).max(3));
+    let mut text = String::new();
+    for (index, row) in all.iter().enumerate() {
+        for (cell, &width) in row.iter().zip(&widths) {
+            write!(text, "| {cell:<width$} ").expect("a string takes whatever is written");
+        }
+        text.push_str("|\n");
+        if index == 0 {
+            widths.iter().for_each(|width| text.push_str(&format!("|{}", "-".repeat(width + 2))));
+            text.push_str("|\n");
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cost(error: f64, violated: f64) -> Cost {
+        Cost { channels: [error; 6], error, violated }
+    }
+
+    fn result(before: Cost, unseen: Option<Cost>) -> RideResult {
+        let tuned = Some(cost(0.5, 0.0));
+        RideResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen }
+    }
+
+    const BEATS: &str = "**It beats the parameters that it started from.**";
+
+    #[test]
+    fn better_on_average_and_on_most_rides_beats() {
+        let results = [(0.8, 0.6), (0.9, 0.7), (0.5, 0.6)];
+        let results = results.map(|(before, unseen)| result(cost(before, 0.0), Some(cost(unseen, 0.0))));
+        let text = verdict(&results, "default");
+        assert!(text.contains("goes from 0.733 to 0.633; it is better on 2 of 3") && text.contains(BEATS), "{text}");
+    }
+
+    #[test]
+    fn better_on_average_by_one_ride_alone_or_at_the_price_of_limits_does_not() {
+        let results = [(3.0, 1.0), (0.5, 0.6), (0.5, 0.6)];
+        let results = results.map(|(before, unseen)| result(cost(before, 0.0), Some(cost(unseen, 0.0))));
+        assert!(!verdict(&results, "default").contains(BEATS));
+        let results = [0.0, 0.01].map(|violated| result(cost(0.8, 0.0), Some(cost(0.4, violated))));
+        assert!(!verdict(&results, "default").contains(BEATS));
+    }
+
+    #[test]
+    fn what_was_not_held_out_is_not_claimed() {
+        let text = verdict(&[result(cost(0.8, 0.02), None)], "default");
+        assert!(text.contains("No ride was held out: nothing is known of other rides."), "{text}");
+        assert!(text.contains("default let the platform's limits act, or the reserve be touched, on 1 of 1"), "{text}");
+        assert!(!text.contains(BEATS));
+    }
+
+    #[test]
+    fn a_table_is_markdown_and_aligned() {
+        let text = table(["ride", "x"], [["a".to_owned(), "1 → 2".to_owned()]].into_iter());
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[1], "|------|-------|");
+        assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()));
+    }
+}

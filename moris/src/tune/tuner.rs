@@ -1,0 +1,132 @@
+//! One tuning: search, and see whether what was found holds in the steps that it will be used with.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Result, bail};
+use indicatif::ProgressBar;
+use moris_washout::Parameters;
+use rayon::prelude::*;
+use washout_setup::Setup;
+
+use super::cost::{Cost, Judge};
+use super::search::{Budget, Searched, search};
+use super::space::Space;
+use super::summary::RideResult;
+use crate::run::Recording;
+
+/// Tunes on rides, as often as asked.
+pub struct Tuner<'a> {
+    /// The rig, and the parameters before.
+    pub setup: &'a Setup,
+    /// What may change.
+    pub space: Space,
+    /// How long each search may be.
+    pub budget: Budget,
+    /// Set when the user wants it to end.
+    pub interrupted: Arc<AtomicBool>,
+    /// Counts parameter sets.
+    pub bar: ProgressBar,
+}
+
+impl Tuner<'_> {
+    /// Whether the user wanted it to end.
+    pub fn was_interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+
+    /// The best parameters for these rides that keep all constraints, also in the internal steps that they will be used with.
+    ///
+    /// # Errors
+    /// None were found, or parameters cannot be used.
+    pub fn tune(&self, judges: &[&Judge], what: &str) -> Result<Setup> {
+        let begin = self.bar.position();
+        let searched = search(judges, &self.space, self.budget, |tried, least| {
+            self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
+            let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
+            self.bar.set_message(format!("{what}: {error}"));
+            !self.was_interrupted()
+        })?;
+        self.bar.set_position(begin + self.budget.evaluations as u64);
+        for parameters in self.candidates(&searched) {
+            let tuned = Setup { parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
+            if keeps_all_constraints(judges, &tuned)? {
+                return Ok(tuned);
+            }
+        }
+        let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
+        bail!(
+            "no parameters were found with which every ride stays clear of the safety units and the actuators' limits{}; leave out the ride \
+             that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, where it vibrates, \
+             --tune splitter,angular,scale,cutoff",
+            self.held_up(judges, &nearest)?
+        )
+    }
+
+    /// What to try in the steps that it will be used with, one after the other: what the search found to be best, and, where none of that
+    /// holds, the best with its scales made smaller and smaller.
+    fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
+        let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
+        let tries = if self.space.has_scales() { TRIES } else { 0 };
+        let smaller = (1..=tries).map(move |k| {
+            let mut parameters = best;
+            parameters.conditioning.force_scale *= SMALLER.powi(k);
+            parameters.conditioning.rate_scale *= SMALLER.powi(k);
+            parameters
+        });
+        searched.best.iter().map(|found| found.parameters).collect::<Vec<_>>().into_iter().chain(smaller)
+    }
+
+    /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
+    fn held_up(&self, judges: &[&Judge], setup: &Setup) -> Result<String> {
+        let mut told = Vec::new();
+        for judge in judges {
+            let share = full_cost(judge, setup)?.violated;
+            if share > 0.0 {
+                told.push(format!("{} for {:.2} % of its time", judge.name(), 100.0 * share));
+            }
+        }
+        Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
+    }
+
+    /// Tunes without these rides and adds to their results what they come to then. Does nothing once the user wants it to end:
+    /// a search that was broken off says nothing.
+    ///
+    /// # Errors
+    /// Parameters cannot be used.
+    pub fn leave_out(&self, judges: &[&Judge], fold: &[usize], results: &mut [RideResult]) -> Result<()> {
+        let others: Vec<&Judge> =
+            judges.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, judge)| *judge).collect();
+        let names: Vec<&str> = fold.iter().map(|&k| judges[k].name()).collect();
+        if self.was_interrupted() {
+            return Ok(());
+        }
+        let tuned = self.tune(&others, &format!("without {}", names.join(", ")));
+        if self.was_interrupted() {
+            return Ok(());
+        }
+        let tuned = tuned?;
+        for &k in fold {
+            results[k].unseen = Some(full_cost(judges[k], &tuned)?);
+        }
+        Ok(())
+    }
+}
+
+/// How much smaller the scales are made at a time, and how often at most: down to a fifth.
+const SMALLER: f64 = 0.95;
+const TRIES: i32 = 32;
+
+fn keeps_all_constraints(judges: &[&Judge], setup: &Setup) -> Result<bool> {
+    let costs: Result<Vec<Cost>> = judges.par_iter().map(|judge| full_cost(judge, setup)).collect();
+    Ok(costs?.iter().all(Cost::is_feasible))
+}
+
+/// What a ride comes to with these parameters, in the internal steps that they say.
+///
+/// # Errors
+/// The parameters cannot be used.
+pub fn full_cost(judge: &Judge, setup: &Setup) -> Result<Cost> {
+    let parameters = judge.ride().parameters(&setup.parameters);
+    Ok(judge.cost(&Recording::of(judge.ride(), &parameters, || ())?))
+}

@@ -1,0 +1,167 @@
+//! The commands, as a user runs them.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{Input, Parameters, Washout};
+
+fn moris(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_moris")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+fn rigs() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/rigs"))
+}
+
+/// The rig file of similar hexagons: the platform can turn about its axis freely.
+fn singular_rig(directory: &Path) -> String {
+    let text = fs::read_to_string(rigs().join("default.toml")).unwrap();
+    let text = text.replace("[-52, 52, 68, 172, 188, 292]", "[-8, 8, 112, 128, 232, 248]").replace("1.091", "1.29");
+    let file = directory.join("singular.toml");
+    fs::write(&file, text).unwrap();
+    file.display().to_string()
+}
+
+/// A ride of 4 s: accelerate gently, with some roll.
+fn ride() -> Vec<Input> {
+    (0..=400)
+        .map(|k| {
+            let t = 0.01 * f64::from(k);
+            let mut input = Input::default();
+            input.specific_force += Vector3::new(0.2 * t, 0.0, 0.0);
+            input.angular_velocity = Vector3::new(0.05 * t.sin(), 0.0, 0.0);
+            input
+        })
+        .collect()
+}
+
+fn write_ride(directory: &Path, name: &str) {
+    let mut text = "time,ax,ay,az,wx,wy,wz\n".to_owned();
+    for (k, input) in ride().iter().enumerate() {
+        let (f, w) = (input.specific_force, input.angular_velocity);
+        writeln!(text, "{},{},{},{},{},{},{}", k as f64 / 100.0, f.x, f.y, f.z, w.x, w.y, w.z).unwrap();
+    }
+    fs::write(directory.join(name), text).unwrap();
+}
+
+#[test]
+fn every_example_rig_passes_the_check_and_is_drawn() {
+    let directory = tempfile::tempdir().unwrap();
+    for name in ["default", "compact", "long-stroke", "narrow"] {
+        let file = rigs().join(format!("{name}.toml")).display().to_string();
+        let output = moris(directory.path(), &["rig", "check", &file, "--samples", "20000", "--report", "out"]);
+        assert!(output.status.success(), "{name}: {}", text(&output.stderr));
+        assert!(text(&output.stdout).contains("free of singularities"));
+        let picture = fs::read_to_string(directory.path().join(format!("out/{name}.svg"))).unwrap();
+        assert!(picture.starts_with("<svg") && picture.trim_end().ends_with("</svg>"));
+    }
+}
+
+#[test]
+fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = singular_rig(directory.path());
+    let output = moris(directory.path(), &["rig", "check", &file, "--samples", "20000"]);
+    assert!(!output.status.success());
+    let said = text(&output.stdout);
+    let lengths = said.split("lengths of\n").nth(1).unwrap().lines().next().unwrap();
+    let lengths: Vec<f64> = lengths.trim().trim_end_matches(" m").split(", ").map(|l| l.parse().unwrap()).collect();
+    assert!(lengths.len() == 6 && lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{said}");
+    assert!(directory.path().join("report/singular.svg").exists());
+}
+
+#[test]
+fn a_run_leaves_the_crate_s_outputs_and_a_page() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    let output = moris(directory.path(), &["run", "ride.csv", "--report", "out"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(said.contains("The ride fits the rig") && said.contains("force x"), "{said}");
+
+    // The table against the crate, stepped here.
+    let mut parameters = Parameters::default();
+    parameters.conditioning.angular_velocity_frame = moris_washout::interface::AngularVelocityFrame::Body;
+    let mut washout = Washout::new(&parameters).unwrap();
+    let inputs = ride();
+    let mut table = csv::Reader::from_path(directory.path().join("out/ride.csv")).unwrap();
+    let column = |name: &str, table: &mut csv::Reader<fs::File>| {
+        table.headers().unwrap().iter().position(|header| header == name).unwrap_or_else(|| panic!("{name}"))
+    };
+    let (time, leg, felt, flag) = (
+        column("time", &mut table),
+        column("actuator[4].length", &mut table),
+        column("rider.specificForce.x", &mut table),
+        column("status.safetyActive", &mut table),
+    );
+    for (k, record) in table.records().enumerate() {
+        let record = record.unwrap();
+        if k > 0 {
+            washout.step_between(&inputs[k - 1], &inputs[k], 0.01);
+        }
+        let expected = washout.output();
+        let number = |place: usize| record[place].parse::<f64>().unwrap();
+        assert!((number(time) - 0.01 * k as f64).abs() < 1e-6);
+        assert!((number(leg) - expected.length[3]).abs() < 1e-6, "sample {k}");
+        assert!((number(felt) - expected.felt_specific_force.x).abs() < 1e-6, "sample {k}");
+        assert_eq!(&record[flag], "0");
+    }
+    let page = fs::read_to_string(directory.path().join("out/ride.html")).unwrap();
+    assert!(page.to_lowercase().starts_with("<!doctype html>") && page.contains("</script>"));
+}
+
+#[test]
+fn runs_with_other_parameters_stand_beside_the_first() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    let narrow = rigs().join("narrow.toml").display().to_string();
+    let output = moris(directory.path(), &["run", "ride.csv", "--rig", &narrow, "--against", "wake"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let said = text(&output.stdout);
+    assert!(
+        said.contains("Narrow mock-up, 0.45 m stroke, parameters default:") && said.contains("parameters wake:"),
+        "{said}"
+    );
+    for file in ["ride.csv", "ride.wake.csv", "ride.html"] {
+        assert!(directory.path().join("report").join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn errors_say_what_to_do_and_fail() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    let failure = |arguments: &[&str]| {
+        let output = moris(directory.path(), arguments);
+        assert!(!output.status.success(), "{arguments:?}");
+        text(&output.stderr)
+    };
+    assert!(failure(&["run", "ride.csv", "--parameters", "wakee"]).contains("did you mean wake?"));
+    assert!(failure(&["run", "missing.csv"]).contains("cannot read missing.csv"));
+    assert!(failure(&["run", "ride.csv", "--columns", "ax=acc"]).contains("--columns ax=NAME"));
+    assert!(failure(&["run", "ride.csv", "--columns", "bx=acc"]).contains("there is no key bx"));
+    assert!(failure(&["run", "ride.csv", "--resample", "0"]).contains("resample is 0, but must be from 1"));
+    let singular = singular_rig(directory.path());
+    assert!(failure(&["run", "ride.csv", "--rig", &singular]).contains("singular inside the stroke"));
+}
+
+#[test]
+fn parameters_print_a_file_that_reads_back() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = moris(directory.path(), &["parameters", "--parameters", "wake"]);
+    assert!(output.status.success());
+    fs::write(directory.path().join("all.toml"), &output.stdout).unwrap();
+    let changed = |set: &str| {
+        let output = moris(directory.path(), &["parameters", "--changed", "--parameters", set]);
+        text(&output.stdout).lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n")
+    };
+    assert!(changed("wake").contains("\"splitter.x.omega1\" = 0.35"));
+    assert_eq!(changed("all.toml"), changed("wake"));
+}

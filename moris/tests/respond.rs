@@ -1,0 +1,180 @@
+//! For small signals the washout is linear, and what is felt has a closed form in HP = s^4/D, LP = 1 - HP.
+//!
+//! With u the force, w the rate, h the head's height and theta = -LP u/g the tilt that the force asks for, full compensation
+//! takes h theta'' off the platform's acceleration before the high-pass:
+//! felt = HP (u - h theta'') + h theta'' + LP u = (1 - (h/g) s^2 LP^2) u, and the pitch rate is -s LP u/g.
+//! A rate turns the platform by s^3/D w: felt is s^4/D w, and gravity, compensated like a tilt, brings
+//! -(g - h s^2 LP) s^3/D w along surge (with the other sign along sway, where a roll to the right feels like a force to the left).
+
+use moris::respond::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
+use moris::respond::excitation::{Amplitudes, frequencies};
+use moris::respond::{Measured, Response, picture, response, table};
+use moris_washout::nalgebra::Complex;
+use moris_washout::{Parameters, parameter_sets};
+
+const GRAVITY: f64 = 9.80665;
+const HEAD: f64 = 1.2;
+const SMALL: f64 = 1e-3;
+/// What steps of a millisecond leave of a sine of 15.8 rad/s, as the tilt, felt through its acceleration, shows it: (w h)^2/2.
+const TOLERANCE: f64 = 1.3e-4;
+
+/// 1 - s^4/D with D = (s^2 + 2 zeta omega s + omega^2)^2.
+fn low_pass(s: Complex<f64>, omega: f64, zeta: f64) -> Complex<f64> {
+    1.0 - high_pass(s, omega, zeta)
+}
+
+fn high_pass(s: Complex<f64>, omega: f64, zeta: f64) -> Complex<f64> {
+    let pair = s * s + 2.0 * zeta * omega * s + omega * omega;
+    (s * s / pair).powi(2)
+}
+
+fn small_signal(parameters: &Parameters, channel: Channel, frequency: f64) -> Response {
+    let amplitude = Amplitudes::default().scaled(SMALL).of(channel, frequency);
+    response(parameters, channel, frequency, amplitude, false).unwrap()
+}
+
+#[track_caller]
+fn assert_near(response: &Response, output: Channel, expected: Complex<f64>) {
+    let found = response.ratios[output.index()];
+    let error = (found - expected).norm();
+    let w = response.frequency;
+    assert!(error <= TOLERANCE * expected.norm() + 1e-6, "{output:?} at {w}: {found} is not {expected}");
+}
+
+#[test]
+fn heave_and_the_rates_are_high_passes() {
+    let parameters = Parameters::default();
+    for frequency in frequencies() {
+        let s = Complex::new(0.0, frequency);
+        assert_near(&small_signal(&parameters, Heave, frequency), Heave, high_pass(s, 2.5, 1.0));
+        for channel in [Roll, Pitch, Yaw] {
+            assert_near(&small_signal(&parameters, channel, frequency), channel, high_pass(s, 1.0, 1.0));
+        }
+    }
+}
+
+#[test]
+fn surge_and_sway_add_up_to_themselves_and_the_tilt_s_jolt() {
+    let parameters = Parameters::default();
+    for frequency in frequencies() {
+        let s = Complex::new(0.0, frequency);
+        let low = low_pass(s, 2.5, 1.0);
+        let force = 1.0 - HEAD / GRAVITY * s * s * low * low;
+        let rate = s * low / GRAVITY;
+        for (channel, turn, sign) in [(Surge, Pitch, -1.0), (Sway, Roll, 1.0)] {
+            let found = small_signal(&parameters, channel, frequency);
+            assert_near(&found, channel, force);
+            assert_near(&found, turn, sign * rate);
+            assert_eq!(found.limited[1..], [0.0, 0.0]);
+        }
+    }
+}
+
+#[test]
+fn a_rate_is_felt_as_a_force_through_gravity() {
+    let parameters = Parameters::default();
+    for frequency in frequencies() {
+        let s = Complex::new(0.0, frequency);
+        let angle = high_pass(s, 1.0, 1.0) / s;
+        let force = (GRAVITY - HEAD * s * s * low_pass(s, 2.5, 1.0)) * angle;
+        assert_near(&small_signal(&parameters, Pitch, frequency), Surge, -force);
+        assert_near(&small_signal(&parameters, Roll, frequency), Sway, force);
+    }
+}
+
+#[test]
+fn another_set_has_its_own_response() {
+    let parameters = parameter_sets::parameters(parameter_sets::WAKE);
+    for frequency in [0.1, 0.398_107_170_553_497_3, 1.0, 10.0] {
+        let s = Complex::new(0.0, frequency);
+        let found = small_signal(&parameters, Heave, frequency);
+        assert!(found.settled);
+        assert_near(&found, Heave, high_pass(s, 0.35, 0.5));
+        assert_near(&small_signal(&parameters, Roll, frequency), Roll, 0.3 * high_pass(s, 1.0, 1.0));
+    }
+}
+
+#[test]
+fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
+    let parameters = Parameters::default();
+    let heave = response(&parameters, Heave, 3.0, 1.0, false).unwrap();
+    assert!(heave.distortion[Heave.index()] < 1e-3, "{}", heave.distortion[Heave.index()]);
+    // 1 m/s2 at 3 rad/s would ask for more than 17 degrees a second of a tilt that may turn by 3.
+    let surge = response(&parameters, Surge, 3.0, 1.0, false).unwrap();
+    assert!(surge.limited[0] > 0.5);
+    assert!(surge.distortion[Pitch.index()] > 0.02, "{}", surge.distortion[Pitch.index()]);
+}
+
+/// A vehicle that pitches without accelerating feels gravity along surge; where the whole of gravity is removed, none of it is
+/// cued, and only the rate is left.
+#[test]
+fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
+    let mut parameters = Parameters::default();
+    let at = |parameters: &Parameters, gravity_turns| response(parameters, Pitch, 0.251, 0.004, gravity_turns).unwrap();
+    let alone = at(&parameters, false).ratios[Surge.index()];
+    let turning = at(&parameters, true).ratios[Surge.index()];
+    // What the head in the vehicle feels: -g sin(pitch), pitch = w/s, of which nearly all is cued at so low a frequency.
+    let felt = -GRAVITY / Complex::new(0.0, 0.251);
+    assert!((turning - alone - felt).norm() < 0.03 * felt.norm(), "{turning} less {alone} is not {felt}");
+    parameters.conditioning.gravity_removal = moris_washout::interface::GravityRemoval::Full;
+    let removed = at(&parameters, true).ratios[Surge.index()];
+    assert!((removed - alone).norm() < 1e-3 * felt.norm(), "{removed} is not {alone}");
+}
+
+/// All tests, coarsely stepped.
+fn measured(progress: impl Fn() + Sync) -> Measured {
+    let mut parameters = Parameters::default();
+    parameters.structure.max_step = 0.02;
+    Measured::of(&parameters, Amplitudes::default(), false, progress).unwrap()
+}
+
+#[test]
+fn everything_is_measured_once_and_in_order() {
+    let count = std::sync::atomic::AtomicU64::new(0);
+    let measured = measured(|| {
+        count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    });
+    assert_eq!(count.into_inner(), Measured::TESTS);
+    for responses in [&measured.test, &measured.small] {
+        let found: Vec<(Channel, f64)> = responses.iter().map(|one| (one.input, one.frequency)).collect();
+        let wanted: Vec<(Channel, f64)> =
+            [Surge, Sway, Heave, Roll, Pitch, Yaw].iter().flat_map(|&c| frequencies().map(|w| (c, w))).collect();
+        assert_eq!(found, wanted);
+    }
+}
+
+#[test]
+fn the_files_hold_what_was_measured() {
+    let measured = measured(|| ());
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| directory.path().join(name);
+    table::write(&file("response.csv"), &measured).unwrap();
+    let mut rows = csv::Reader::from_path(file("response.csv")).unwrap();
+    let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len() as u64, Measured::TESTS * 6);
+    let row = |signal: &str, input: &str, output: &str, frequency: &str| {
+        let wanted = [signal, input, output];
+        let found = rows.iter().find(|row| row.iter().take(3).eq(wanted) && &row[4] == frequency);
+        found.unwrap_or_else(|| panic!("no row for {wanted:?} at {frequency}"))
+    };
+    let heave = row("small", "heave", "heave", "2.5119");
+    let expected = high_pass(Complex::new(0.0, 2.511_886_431_509_58), 2.5, 1.0);
+    assert!((heave[8].parse::<f64>().unwrap() - expected.norm()).abs() < 1e-3);
+    assert!((heave[10].parse::<f64>().unwrap() - expected.arg().to_degrees()).abs() < 0.1);
+    assert_eq!((&heave[3], &heave[6], &heave[7]), ("direct", "0.001000", "m/s²"));
+    // Slowly enough, 1 m/s2 takes a pitch of 5.8 degrees, whose rate is 0.1 times that.
+    let pitch = row("test", "surge", "pitch rate", "0.1000");
+    assert!((pitch[8].parse::<f64>().unwrap() - 0.585).abs() < 0.002, "{pitch:?}");
+    assert_eq!((&pitch[3], &pitch[9]), ("cross", "°/s per m/s²"));
+    assert_eq!(&row("test", "yaw rate", "heave", "1.0000")[10], "", "what is not felt has no phase");
+
+    for (name, titles) in
+        [("direct.svg", ["Surge", "Yaw rate"]), ("cross.svg", ["Pitch rate to surge", "Sway to roll rate"])]
+    {
+        let draw = if name == "direct.svg" { picture::direct } else { picture::cross };
+        draw(&file(name), &measured).unwrap();
+        let drawn = std::fs::read_to_string(file(name)).unwrap();
+        assert!(titles.iter().all(|title| drawn.contains(title)), "{name}");
+    }
+    assert!(picture::direct(&file("no/such/direct.svg"), &measured).is_err());
+}

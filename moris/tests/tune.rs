@@ -1,0 +1,278 @@
+//! Tuning: the cost against what it must be in cases that are known, the search, and the command.
+
+use std::fmt::Write;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Output};
+
+use moris::ride::Ride;
+use moris::run::Recording;
+use moris::tune::cost::{Constraints, Judge};
+use moris::tune::search::{Budget, search};
+use moris::tune::space::{Group, Space};
+use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::{Input, Parameters};
+use washout_batch::Manoeuvre;
+use washout_setup::Setup;
+
+const STEP: f64 = 0.01;
+const EQUAL: [f64; 6] = [1.0; 6];
+const NO_RESERVE: Constraints = Constraints { stroke_reserve: 0.0 };
+const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+
+fn ride(name: &str, duration: f64, input: impl Fn(f64, &mut Input)) -> Ride {
+    let sampled = |time| {
+        let mut sample = Input::default();
+        input(time, &mut sample);
+        sample
+    };
+    Ride {
+        name: name.to_owned(),
+        manoeuvre: Manoeuvre::sampled(STEP, duration, sampled),
+        start: 0.0,
+        angular_velocity_frame: AngularVelocityFrame::Body,
+        has_orientation: false,
+        remarks: Vec::new(),
+    }
+}
+
+/// Surge and some roll, from rest.
+fn weaving() -> Ride {
+    ride("weaving", 12.0, |t, input| {
+        input.specific_force.x = 1.2 * (0.9 * t).sin() * (t / 3.0).min(1.0);
+        input.specific_force.y = 0.5 * (2.1 * t).sin() * (t / 3.0).min(1.0);
+        input.angular_velocity.x = 0.1 * (2.1 * t).sin() * (t / 3.0).min(1.0);
+    })
+}
+
+fn judge(ride: Ride, constraints: Constraints) -> Judge {
+    Judge::new(ride, &Parameters::default(), &EQUAL, constraints).unwrap()
+}
+
+fn recording(judge: &Judge, parameters: &Parameters) -> Recording {
+    Recording::of(judge.ride(), &judge.ride().parameters(parameters), || ()).unwrap()
+}
+
+#[test]
+fn a_platform_at_rest_scores_1() {
+    let judge = judge(weaving(), NO_RESERVE);
+    let mut still = Parameters::default();
+    still.conditioning.force_scale *= 0.0;
+    still.conditioning.rate_scale *= 0.0;
+    let cost = judge.cost(&recording(&judge, &still));
+    assert!((cost.error - 1.0).abs() < 1e-12, "{cost:?}");
+    assert!(cost.channels.iter().zip(judge.desired_rms()).all(|(error, desired)| (error - desired).abs() < 1e-12));
+    assert!(cost.is_feasible());
+}
+
+#[test]
+fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
+    let judge = judge(weaving(), NO_RESERVE);
+    let mut perfect = recording(&judge, &Parameters::default());
+    for share in [1.0, 0.5] {
+        for (input, output) in perfect.inputs.iter().zip(&mut perfect.outputs) {
+            let rest = Input::default().specific_force;
+            output.felt_specific_force = rest + share * (input.specific_force - rest);
+            output.felt_angular_velocity = share * input.angular_velocity;
+        }
+        assert!((judge.cost(&perfect).error - (1.0 - share)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn only_channels_with_weight_count() {
+    let mut weights = [0.0; 6];
+    weights[1] = 2.0;
+    let judge = Judge::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
+    let cost = judge.cost(&recording(&judge, &Parameters::default()));
+    assert!((cost.error - cost.channels[1] / judge.desired_rms()[1]).abs() < 1e-12);
+}
+
+#[test]
+fn the_search_s_short_way_comes_to_what_a_recording_comes_to() {
+    let judge = judge(weaving(), NO_RESERVE);
+    let mut parameters = Parameters::default();
+    parameters.structure.max_step = STEP;
+    parameters.splitter.omega1.x = 1.3;
+    parameters.angular.zeta2.roll = 0.6;
+    parameters.conditioning.rate_scale.x = 0.4;
+    assert_eq!(judge.coarse_cost(&parameters).unwrap(), judge.cost(&recording(&judge, &parameters)));
+}
+
+#[test]
+fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
+    let wild = ride("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
+    let tight = judge(wild.clone(), Constraints { stroke_reserve: 0.29 });
+    let loose = judge(wild, NO_RESERVE);
+    let recording = recording(&loose, &Parameters::default());
+    let acted = recording.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
+    assert_eq!(loose.cost(&recording).violated, acted as f64 / recording.outputs.len() as f64);
+    assert!(tight.cost(&recording).violated > loose.cost(&recording).violated);
+}
+
+fn searched(threads: usize, seed: u64) -> Parameters {
+    let (first, second) = (judge(weaving(), NO_RESERVE), judge(brisk(), NO_RESERVE));
+    let space = Space::new(&Parameters::default(), &DEFAULT);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let budget = Budget { evaluations: 120, seed };
+    pool.install(|| search(&[&first, &second], &space, budget, |_, _| true).unwrap().best[0].parameters)
+}
+
+fn brisk() -> Ride {
+    ride("brisk", 10.0, |t, input| input.specific_force.x = 1.5 * ((t - 1.0) / 0.5).clamp(0.0, 1.0))
+}
+
+#[test]
+fn the_search_finds_the_same_however_many_threads_there_are_and_another_for_another_seed() {
+    let alone = searched(1, 1);
+    assert_eq!(alone, searched(4, 1));
+    assert_ne!(alone, searched(4, 2));
+}
+
+#[test]
+fn the_search_finds_something_better_that_keeps_the_limits() {
+    let judge = judge(weaving(), NO_RESERVE);
+    let start = Parameters::default();
+    let space = Space::new(&start, &DEFAULT);
+    let mut tried = Vec::new();
+    let budget = Budget { evaluations: 600, seed: 3 };
+    let searched = search(&[&judge], &space, budget, |count, least| {
+        tried.push((count, least));
+        true
+    });
+    let best = &searched.unwrap().best;
+    let (before, after) = (judge.cost(&recording(&judge, &start)), judge.cost(&recording(&judge, &best[0].parameters)));
+    assert!(after.is_feasible() && after.error < 0.9 * before.error, "{} {}", before.error, after.error);
+    assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 >= pair[1].1), "progress goes on and down");
+    assert!(best[1..].windows(2).all(|pair| pair[0].error <= pair[1].error + 0.01));
+}
+
+#[test]
+fn a_search_that_is_broken_off_keeps_what_it_has() {
+    let judge = judge(weaving(), NO_RESERVE);
+    let space = Space::new(&Parameters::default(), &DEFAULT);
+    let mut generations = 0;
+    let budget = Budget { evaluations: 100_000, seed: 1 };
+    let searched = search(&[&judge], &space, budget, |_, _| {
+        generations += 1;
+        generations < 3
+    });
+    assert_eq!(generations, 3);
+    assert!(!searched.unwrap().best.is_empty());
+}
+
+#[test]
+fn what_the_rides_have_nothing_to_say_about_stays_as_it_was() {
+    let judge = judge(brisk(), NO_RESERVE);
+    let start = Parameters::default();
+    let space = Space::new(&start, &DEFAULT);
+    let best = search(&[&judge], &space, Budget { evaluations: 300, seed: 1 }, |_, _| true).unwrap().best;
+    let tuned = best[0].parameters;
+    assert_eq!(tuned.splitter.omega1.y, start.splitter.omega1.y);
+    assert_eq!(tuned.angular.omega1.yaw, start.angular.omega1.yaw);
+    assert_eq!(tuned.conditioning.rate_scale, start.conditioning.rate_scale);
+    assert_ne!(tuned.splitter, start.splitter);
+}
+
+fn moris(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_moris")).args(arguments).current_dir(directory).output().unwrap()
+}
+
+fn write_ride(directory: &Path, ride: &Ride) {
+    let mut text = "time,ax,ay,az,wx,wy,wz\n".to_owned();
+    for (time, input) in ride.times().zip(ride.inputs()) {
+        let (f, w) = (input.specific_force, input.angular_velocity);
+        writeln!(text, "{time},{},{},{},{},{},{}", f.x, f.y, f.z, w.x, w.y, w.z).unwrap();
+    }
+    fs::write(directory.join(format!("{}.csv", ride.name)), text).unwrap();
+}
+
+#[test]
+fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_tuned_on_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    write_ride(here, &weaving());
+    write_ride(here, &brisk());
+    let output = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--report", "out"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.contains("On rides that it was not tuned on, the mean error goes from"), "{said}");
+    assert!(!said.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{said}");
+    let tuned = Setup::load(None, &[here.join("tuned.toml").display().to_string()]).unwrap();
+    assert_ne!(tuned.parameters, Parameters::default());
+    for file in ["out/tune.md", "out/weaving.html", "out/brisk.html"] {
+        assert!(here.join(file).exists(), "{file}");
+    }
+    let again = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--output", "again.toml"]);
+    assert!(again.status.success());
+    assert_eq!(fs::read(here.join("tuned.toml")).unwrap(), fs::read(here.join("again.toml")).unwrap());
+}
+
+#[test]
+fn rides_that_are_held_out_are_not_tuned_on() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    write_ride(here, &weaving());
+    write_ride(here, &brisk());
+    let alone = moris(here, &["tune", "weaving.csv", "--evaluations", "60", "--output", "alone.toml"]);
+    let said = String::from_utf8(alone.stdout).unwrap();
+    assert!(said.contains("No ride was held out: nothing is known of other rides."), "{said}");
+    let tried = moris(
+        here,
+        &["tune", "weaving.csv", "--evaluations", "60", "--output", "tried.toml", "--hold-out", "brisk.csv"],
+    );
+    let said = String::from_utf8(tried.stdout).unwrap();
+    assert!(said.contains("On rides that it was not tuned on"), "{said}");
+    assert_eq!(fs::read(here.join("alone.toml")).unwrap(), fs::read(here.join("tried.toml")).unwrap());
+}
+
+#[test]
+fn a_rig_s_values_are_not_written_into_the_parameter_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    write_ride(here, &brisk());
+    let rig = concat!(env!("CARGO_MANIFEST_DIR"), "/rigs/long-stroke.toml");
+    let output = moris(here, &["tune", "brisk.csv", "--evaluations", "60", "--rig", rig, "--parameters", "wake"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = fs::read_to_string(here.join("tuned.toml")).unwrap();
+    assert!(!text.contains("rig.base") && !text.contains("actuator."), "{text}");
+    assert!(text.contains("\"splitter.y.omega1\" = 0.35"), "the set that it started from is not the default: {text}");
+}
+
+#[test]
+fn a_ride_that_cannot_be_kept_within_the_limits_is_named() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), &weaving());
+    let output = moris(directory.path(), &["tune", "weaving.csv", "--evaluations", "40", "--stroke-reserve", "0.31"]);
+    assert!(!output.status.success());
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(said.contains("no parameters were found") && said.contains("weaving for 100.00 % of its time"), "{said}");
+    assert!(!directory.path().join("tuned.toml").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_keeps_the_best_so_far() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), &weaving());
+    write_ride(directory.path(), &brisk());
+    let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
+        .args(["tune", "weaving.csv", "brisk.csv", "--evaluations", "10000000"])
+        .current_dir(directory.path())
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut told = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    told.read_line(&mut line).unwrap();
+    assert!(line.contains("Ctrl-C"), "{line}");
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("broken off") && said.contains("No ride was held out"), "{said}");
+    assert!(directory.path().join("tuned.toml").exists());
+}

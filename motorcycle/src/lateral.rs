@@ -1,0 +1,350 @@
+//! Lean, steer, lateral velocity and yaw with tyres that slip: four degrees of freedom in the manner of Sharp (1971).
+//!
+//! The bodies are those of [`crate::whipple`], in its axes: x forward, y to the RIGHT, z DOWN from the rear contact; all
+//! angles positive to the right. The equations are derived from the same kinetic and potential energy, before the
+//! wheels are forbidden to slip sideways; with infinitely stiff tyres they are Whipple's. They are linear in the state
+//! and their coefficients linear in the speed, so that a model is two matrices.
+//!
+//! The lean of these linear equations stands for the TANGENT of the roll angle: so a steady turn, where they say
+//! speed times yaw rate = gravity times lean, is balanced at any roll angle, and no state rolls beyond 90 degrees.
+
+use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
+use serde::{Deserialize, Serialize};
+
+use crate::interface::{Machine, Parameters};
+use crate::whipple::{Bicycle, Body, Wheel};
+
+/// Places in the state: lateral velocity of the rear contact in axes of the heading \[m/s\], yaw rate, lean rate, steer
+/// rate \[rad/s\], lean (the roll's tangent), steer \[rad\], lateral force on the rear and on the front tyre \[N\].
+pub mod place {
+    pub const VELOCITY: usize = 0;
+    pub const YAW_RATE: usize = 1;
+    pub const LEAN_RATE: usize = 2;
+    pub const STEER_RATE: usize = 3;
+    pub const LEAN: usize = 4;
+    pub const STEER: usize = 5;
+    pub const REAR_FORCE: usize = 6;
+    pub const FRONT_FORCE: usize = 7;
+}
+use place::*;
+
+/// The state's size.
+pub const SIZE: usize = 8;
+/// The lateral state, or its derivative.
+pub type State = SVector<f64, SIZE>;
+/// A matrix that acts on the lateral state.
+pub type StateMatrix = SMatrix<f64, SIZE, SIZE>;
+
+/// A tyre: forces for slip and camber, and how far it rolls until they are there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tyre {
+    /// Lateral force for a small slip angle \[N/rad\].
+    pub cornering: f64,
+    /// Lateral force for a small camber angle \[N/rad\].
+    pub camber: f64,
+    /// Relaxation length \[m\].
+    pub relaxation: f64,
+}
+
+/// The rider's torso, which leans to the right about an axis along the motorcycle at the height of the seat.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Torso {
+    pub mass: f64,
+    /// Distance of its centre of mass from the axis \[m\].
+    pub arm: f64,
+    /// Place of its centre of mass: ahead of the rear contact, and height \[m\].
+    pub x: f64,
+    pub height: f64,
+    /// Moment of inertia about its centre of mass, about the axis forward \[kg m2\].
+    pub inertia: f64,
+}
+
+/// What the lateral equations are made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Design {
+    pub bicycle: Bicycle,
+    pub rear: Tyre,
+    pub front: Tyre,
+    pub steer_damping: f64,
+    pub torso: Torso,
+    /// Where the wind's force acts: ahead of the rear contact, and height \[m\].
+    pub wind_x: f64,
+    pub wind_height: f64,
+    pub gravity: f64,
+}
+
+/// The linear equations: x' = (constant + speed per_speed + feet hold) x + inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Lateral {
+    pub constant: StateMatrix,
+    pub per_speed: StateMatrix,
+    /// Feet on the road and firm hands, when they hold fully: see [`Lateral::new`].
+    pub hold: StateMatrix,
+    /// Of a torque between rider and bars \[N m\], positive to the right.
+    pub torque: State,
+    /// Of the torso's lean \[rad\] ...
+    pub torso: State,
+    /// ... and of its second derivative \[rad/s2\].
+    pub torso_acceleration: State,
+    /// Of the wind's force to the right \[N\].
+    pub wind: State,
+}
+
+/// What acts on the motorcycle from outside, positive to the right.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Actions {
+    pub torque: f64,
+    pub torso: f64,
+    pub torso_acceleration: f64,
+    pub wind: f64,
+}
+
+impl Lateral {
+    /// The equations, or `None` where the masses make no positive definite mass matrix.
+    ///
+    /// With q = (lateral displacement of the rear contact, yaw, lean, steer): M q'' + v G q' + D q' + g K q = Q. M comes
+    /// from the kinetic energy of bodies displaced by y + x yaw - z lean (+ u steer in front), G from the wheels' angular
+    /// momentum, and K is Whipple's K0: the potential energy of a machine with both wheels on the road does not depend
+    /// on where it stands and which way it points.
+    pub fn new(design: &Design) -> Option<Lateral> {
+        let bicycle = &design.bicycle;
+        let t = bicycle.totals();
+        let (sin, cos) = libm::sincos(bicycle.lambda);
+
+        #[rustfmt::skip]
+        let mass = Matrix4::new(
+            t.m_t,              t.m_t * t.x_t, -t.m_t * t.z_t, t.m_a * t.u_a,
+            t.m_t * t.x_t,      t.t_zz,         t.t_xz,        t.a_lz,
+            -t.m_t * t.z_t,     t.t_xz,         t.t_xx,        t.a_lx,
+            t.m_a * t.u_a,      t.a_lz,         t.a_lx,        t.a_ll,
+        );
+        let inverse = mass.cholesky()?.inverse();
+
+        // Of yaw rate, lean rate and steer rate (columns 1 to 3), per speed: a spinning wheel resists being turned.
+        let s_t = t.s_r + t.s_f;
+        #[rustfmt::skip]
+        let gyroscopic = Matrix4::new(
+            0.0, 0.0,         0.0,            0.0,
+            0.0, 0.0,        -s_t,           -t.s_f * sin,
+            0.0, s_t,         0.0,            t.s_f * cos,
+            0.0, t.s_f * sin, -t.s_f * cos,   0.0,
+        );
+        let k0 = t.gravity_stiffness(sin) * design.gravity;
+
+        // Generalised forces of a lateral force at the rear and at the front contact, which trails the steer axis.
+        let front_arm = bicycle.c * cos;
+        let at_rear = Vector4::new(1.0, 0.0, 0.0, 0.0);
+        let at_front = Vector4::new(1.0, bicycle.w, 0.0, -front_arm);
+
+        let mut constant = StateMatrix::zeros();
+        let mut per_speed = StateMatrix::zeros();
+        let velocities = 0..4;
+        set_columns(&mut per_speed, velocities.clone(), &(-inverse * gyroscopic));
+        // The acceleration of the contact is y'' = velocity' + speed yaw rate.
+        per_speed[(VELOCITY, YAW_RATE)] -= 1.0;
+        constant[(LEAN, LEAN_RATE)] = 1.0;
+        constant[(STEER, STEER_RATE)] = 1.0;
+        let steer_unit = Vector4::new(0.0, 0.0, 0.0, 1.0);
+        add_column(&mut constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
+        for (column, stiffness) in [(LEAN, k0.column(0)), (STEER, k0.column(1))] {
+            add_column(&mut constant, column, &(-inverse * Vector4::new(0.0, 0.0, stiffness[0], stiffness[1])));
+        }
+        add_column(&mut constant, REAR_FORCE, &(inverse * at_rear));
+        add_column(&mut constant, FRONT_FORCE, &(inverse * at_front));
+
+        // Each tyre, with its slip velocity s = v alpha: sigma F' = -v F - C s + v C_camber camber.
+        let rear_slip = [(VELOCITY, 1.0)];
+        let front_slip = [(VELOCITY, 1.0), (YAW_RATE, bicycle.w), (STEER_RATE, -front_arm)];
+        let (rear, front) = (design.rear, design.front);
+        per_speed[(REAR_FORCE, REAR_FORCE)] = -1.0 / rear.relaxation;
+        per_speed[(REAR_FORCE, LEAN)] = rear.camber / rear.relaxation;
+        per_speed[(FRONT_FORCE, FRONT_FORCE)] = -1.0 / front.relaxation;
+        per_speed[(FRONT_FORCE, LEAN)] = front.camber / front.relaxation;
+        per_speed[(FRONT_FORCE, STEER)] = (front.camber * sin + front.cornering * cos) / front.relaxation;
+        for (column, factor) in rear_slip {
+            constant[(REAR_FORCE, column)] -= rear.cornering / rear.relaxation * factor;
+        }
+        for (column, factor) in front_slip {
+            constant[(FRONT_FORCE, column)] -= front.cornering / front.relaxation * factor;
+        }
+
+        let torso = design.torso;
+        let moment = torso.mass * torso.arm;
+        let torso_coupling = Vector4::new(moment, moment * torso.x, moment * torso.height + torso.inertia, 0.0);
+        let torso_weight = Vector4::new(0.0, 0.0, moment * design.gravity, 0.0);
+        let wind = Vector4::new(1.0, design.wind_x, design.wind_height, 0.0);
+
+        Some(Lateral {
+            constant,
+            per_speed,
+            hold: hold(design, &inverse, [at_rear, at_front], [&rear_slip, &front_slip]),
+            torque: accelerations(inverse * steer_unit),
+            torso: accelerations(inverse * torso_weight),
+            torso_acceleration: accelerations(-inverse * torso_coupling),
+            wind: accelerations(inverse * wind),
+        })
+    }
+
+    /// The matrix of the free motion at a speed \[m/s\], with the feet holding by a share from 0 to 1.
+    pub fn state_matrix(&self, speed: f64, feet: f64) -> StateMatrix {
+        self.constant + self.per_speed * speed + self.hold * feet
+    }
+
+    /// The state's derivative.
+    pub fn derivative(&self, state: &State, speed: f64, feet: f64, actions: &Actions) -> State {
+        self.constant * state
+            + self.per_speed * state * speed
+            + self.hold * state * feet
+            + self.torque * actions.torque
+            + self.torso * actions.torso
+            + self.torso_acceleration * actions.torso_acceleration
+            + self.wind * actions.wind
+    }
+}
+
+/// Feet and hands when they hold fully: a stiffness against roll, and as much damping as brings the motorcycle upright
+/// without swinging; the same for the bars, which fall to a side by their own weight; and dampers on both contacts, for
+/// a tyre that does not roll is a spring without any damping.
+fn hold(
+    design: &Design,
+    inverse: &Matrix4<f64>,
+    contacts: [Vector4<f64>; 2],
+    slips: [&[(usize, f64)]; 2],
+) -> StateMatrix {
+    let t = design.bicycle.totals();
+    let (sin, _) = libm::sincos(design.bicycle.lambda);
+    let k0 = t.gravity_stiffness(sin) * design.gravity;
+    let mut hold = StateMatrix::zeros();
+    let holds = [
+        (2, LEAN, LEAN_RATE, FEET_STIFFNESS * k0[(0, 0)].abs(), t.t_xx),
+        (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll),
+    ];
+    for (row, angle, rate, stiffness, inertia) in holds {
+        let damping = 2.0 * libm::sqrt(stiffness * inertia);
+        let force = Vector4::ith(row, 1.0);
+        add_column(&mut hold, angle, &(inverse * force * -stiffness));
+        add_column(&mut hold, rate, &(inverse * force * -damping));
+    }
+    for ((contact, slip), tyre) in contacts.iter().zip(slips).zip([design.rear, design.front]) {
+        // Half of the critical damping of half the mass on the tyre's lateral spring.
+        let damping = libm::sqrt(tyre.cornering / tyre.relaxation * 0.5 * t.m_t);
+        for &(column, factor) in slip {
+            add_column(&mut hold, column, &(inverse * contact * (-damping * factor)));
+        }
+    }
+    hold
+}
+
+/// How much stiffer than gravity topples the motorcycle the feet hold it.
+const FEET_STIFFNESS: f64 = 4.0;
+/// How much stiffer than gravity turns the bars the hands hold them.
+const HANDS_STIFFNESS: f64 = 5.0;
+
+/// The feet's share of holding the motorcycle upright: 1 at rest, falling smoothly to 0 at `fastest` \[m/s\].
+pub fn feet_share(speed: f64, fastest: f64) -> f64 {
+    let ratio = speed / fastest;
+    if ratio < 1.0 { (1.0 - ratio * ratio) * (1.0 - ratio * ratio) } else { 0.0 }
+}
+
+impl Design {
+    /// From the interface's parameters: z is up there.
+    pub fn new(parameters: &Parameters) -> Design {
+        let Parameters { machine, tyres, rider, longitudinal, run, .. } = parameters;
+        let bicycle = bicycle(machine);
+        let loads = static_loads(&bicycle, run.gravity);
+        let tyre = |load: f64, cornering: f64, camber: f64, relaxation: f64| Tyre {
+            cornering: load * cornering,
+            camber: load * camber,
+            relaxation,
+        };
+        let seat = rider.head_height - rider.torso_length;
+        Design {
+            bicycle,
+            rear: tyre(loads.rear, tyres.rear_cornering, tyres.rear_camber, tyres.rear_relaxation),
+            front: tyre(loads.front, tyres.front_cornering, tyres.front_camber, tyres.front_relaxation),
+            steer_damping: machine.steer_damping,
+            torso: Torso {
+                mass: rider.torso_mass,
+                arm: rider.torso_centre,
+                x: rider.head_x,
+                height: seat + rider.torso_centre,
+                inertia: rider.torso_inertia,
+            },
+            wind_x: 0.5 * machine.wheelbase,
+            wind_height: longitudinal.aero_height,
+            gravity: run.gravity,
+        }
+    }
+}
+
+/// The bicycle with the machine's parameters.
+pub fn bicycle(machine: &Machine) -> Bicycle {
+    Bicycle {
+        w: machine.wheelbase,
+        c: machine.trail,
+        lambda: machine.caster_angle,
+        r: Wheel {
+            r: machine.rear_wheel_radius,
+            m: machine.rear_wheel_mass,
+            xx: machine.rear_wheel_xx,
+            yy: machine.rear_wheel_yy,
+        },
+        b: Body {
+            x: machine.frame_x,
+            z: -machine.frame_height,
+            m: machine.frame_mass,
+            xx: machine.frame_xx,
+            xz: -machine.frame_xz,
+            zz: machine.frame_zz,
+        },
+        h: Body {
+            x: machine.fork_x,
+            z: -machine.fork_height,
+            m: machine.fork_mass,
+            xx: machine.fork_xx,
+            xz: -machine.fork_xz,
+            zz: machine.fork_zz,
+        },
+        f: Wheel {
+            r: machine.front_wheel_radius,
+            m: machine.front_wheel_mass,
+            xx: machine.front_wheel_xx,
+            yy: machine.front_wheel_yy,
+        },
+    }
+}
+
+/// A number for each wheel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Wheels {
+    pub front: f64,
+    pub rear: f64,
+}
+
+/// The tyres' loads at rest \[N\].
+pub fn static_loads(bicycle: &Bicycle, gravity: f64) -> Wheels {
+    let t = bicycle.totals();
+    let front = t.m_t * gravity * t.x_t / bicycle.w;
+    Wheels { front, rear: t.m_t * gravity - front }
+}
+
+/// Writes a matrix that maps velocities to accelerations into these columns of the first four rows.
+fn set_columns(matrix: &mut StateMatrix, columns: std::ops::Range<usize>, block: &Matrix4<f64>) {
+    for column in columns {
+        add_column(matrix, column, &block.column(column).into_owned());
+    }
+}
+
+/// Adds accelerations to a column's first four rows.
+fn add_column(matrix: &mut StateMatrix, column: usize, accelerations: &Vector4<f64>) {
+    for row in 0..4 {
+        matrix[(row, column)] += accelerations[row];
+    }
+}
+
+/// Accelerations as a derivative of the state.
+fn accelerations(accelerations: Vector4<f64>) -> State {
+    let mut state = State::zeros();
+    state.fixed_rows_mut::<4>(0).copy_from(&accelerations);
+    state
+}

@@ -1,0 +1,40 @@
+//! A motorcycle and its rider: from throttle, brake, lean and wind to what the rider's head feels.
+//!
+//! [`Motorcycle`] is stepped beside a washout filter, whose inputs are its first outputs, by the same names and in the
+//! same frames.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`longitudinal`] | drive, brakes, drag, tyre limits; a stop that is one |
+//! | [`suspension`] | heave and pitch: a half-bike on two springs |
+//! | [`lateral`] | lean, steer, lateral velocity and yaw on tyres that slip, in the manner of Sharp (1971) |
+//! | [`whipple`] | its limit for stiff tyres: the benchmark bicycle of Meijaard et al. (2007) |
+//! | [`rider`], [`riccati`] | who follows a lean by torque on the bars and with his torso |
+//! | [`pose`] | the pose in the world, and the specific force at the head |
+//! | [`state`] | all that changes |
+//!
+//! Frames: x forward, y left, z up; roll positive to the right, pitch positive nose down, yaw positive to the left; only
+//! [`lateral`] and [`whipple`] keep the axes of their literature, y to the right and z down. All quantities are in SI
+//! units. Sines, cosines and their like come from the crate `libm`, so that every platform computes the same bits.
+//!
+//! A step allocates nothing, does no I/O and does not panic, whatever it is fed.
+
+#![forbid(unsafe_code)]
+
+mod check;
+pub mod interface;
+pub mod lateral;
+pub mod longitudinal;
+mod model;
+mod motorcycle;
+mod output_rate;
+pub mod pose;
+pub mod riccati;
+pub mod rider;
+pub mod state;
+pub mod suspension;
+pub mod whipple;
+
+pub use interface::{Input, Output, Parameters};
+pub use model_interface::Refusal;
+pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};

@@ -1,0 +1,73 @@
+//! The motorcycle as a model with variables, for whoever hosts it.
+
+use model_interface::{Group, Identity, Model, Reader, Refusal, Row, Slot, Writer};
+use model_interface::{concat_rows, row_count, slot_count, slot_table};
+
+use crate::interface::{Clock, Input, Output, Parameters};
+use crate::motorcycle::{MOST_INTERNAL_STEPS, Motorcycle};
+
+const GROUPS: &[&[Row]] = &[Clock::ROWS, Input::ROWS, Output::ROWS, Parameters::ROWS];
+static ROWS: [Row; row_count(GROUPS)] = concat_rows(GROUPS);
+static SLOTS: [Slot; slot_count(&concat_rows::<{ row_count(GROUPS) }>(GROUPS))] =
+    slot_table(&concat_rows::<{ row_count(GROUPS) }>(GROUPS));
+
+/// Where the groups begin in the slots.
+const INPUT: usize = slot_count(Clock::ROWS);
+const OUTPUT: usize = INPUT + slot_count(Input::ROWS);
+const PARAMETERS: usize = OUTPUT + slot_count(Output::ROWS);
+
+impl Model for Motorcycle {
+    const IDENTITY: Identity = Identity {
+        name: "Motorcycle",
+        version: env!("CARGO_PKG_VERSION"),
+        text: "Motorcycle and rider: from throttle, brake, lean and wind to the motion of the rider's head, as the washout takes it in.",
+        rows: &ROWS,
+        slots: &SLOTS,
+        stop_time: 60.0,
+        step_size: 0.001,
+    };
+
+    fn start(slots: &mut [f64]) {
+        Clock::default().write(&mut Writer::new(slots));
+        Input::default().write(&mut Writer::new(&mut slots[INPUT..]));
+        Parameters::default().write(&mut Writer::new(&mut slots[PARAMETERS..]));
+        if let Ok(motorcycle) = Self::new(&Parameters::default(), &Input::default()) {
+            motorcycle.outputs(slots);
+        }
+    }
+
+    fn new(slots: &[f64]) -> Result<Self, Refusal> {
+        Motorcycle::new(&read(slots, PARAMETERS), &read(slots, INPUT))
+    }
+
+    /// All parameters are fixed: there is nothing to take over.
+    fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
+        Ok(())
+    }
+
+    fn longest_step(&self) -> f64 {
+        MOST_INTERNAL_STEPS * self.parameters().run.max_step
+    }
+
+    fn step(&mut self, slots: &[f64], derivatives: &[f64], step: f64) {
+        let start: Input = read(slots, INPUT);
+        let mut at_end = [0.0; OUTPUT - INPUT];
+        for (k, value) in at_end.iter_mut().enumerate() {
+            *value = slots[INPUT + k] + step * derivatives[INPUT + k];
+        }
+        self.step_between(&start, &read(&at_end, 0), step);
+    }
+
+    fn outputs(&self, slots: &mut [f64]) {
+        self.output().write(&mut Writer::new(&mut slots[OUTPUT..]));
+    }
+
+    fn output_derivatives(&self, slots: &mut [f64]) {
+        self.output_derivative().write(&mut Writer::new(&mut slots[OUTPUT..]));
+    }
+}
+
+/// The group that begins at this slot.
+fn read<G: Group>(slots: &[f64], begin: usize) -> G {
+    G::read(&mut Reader::new(&slots[begin..]))
+}

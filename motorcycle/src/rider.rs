@@ -1,0 +1,231 @@
+//! The rider: the lean that he asks for, his torque on the bars, and his torso.
+//!
+//! He follows a lean by torque on the bars: the torque of the steady turn with that lean, less a gain on the deviation
+//! of the whole lateral state from that turn's, less a gain on the accumulated error of the lean. The gains are those
+//! that minimise a quadratic cost (LQR), computed at the beginning for speeds from walking pace to the top and
+//! interpolated. Below walking pace they give way to feet and hands ([`crate::lateral::feet_share`]).
+
+use model_interface::Refusal;
+use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
+use serde::{Deserialize, Serialize};
+
+use crate::interface::{self, Parameters};
+use crate::lateral::{self, Lateral, feet_share, place};
+use crate::riccati::lqr_gain;
+
+/// The lateral state, and the accumulated error of the lean.
+const SIZE: usize = lateral::SIZE + 1;
+const ERROR: usize = lateral::SIZE;
+/// Speeds for which there are gains.
+pub const SPEEDS: usize = 48;
+
+/// What the rider does at one speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Skill {
+    /// Torque against a deviation of the lateral state, and against the accumulated error.
+    pub gain: lateral::State,
+    pub error_gain: f64,
+    /// Lateral state and torque of the steady turn, divided by its lean.
+    pub turn: lateral::State,
+    pub turn_torque: f64,
+}
+
+impl Skill {
+    fn none() -> Skill {
+        Skill { gain: lateral::State::zeros(), error_gain: 0.0, turn: lateral::State::zeros(), turn_torque: 0.0 }
+    }
+
+    fn towards(&self, other: &Skill, share: f64) -> Skill {
+        let number = |from: f64, to: f64| from + share * (to - from);
+        Skill {
+            gain: self.gain + (other.gain - self.gain) * share,
+            error_gain: number(self.error_gain, other.error_gain),
+            turn: self.turn + (other.turn - self.turn) * share,
+            turn_torque: number(self.turn_torque, other.turn_torque),
+        }
+    }
+}
+
+/// What the rider is about: the lean that he asks for, the accumulated error of the lean, and his torso.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Roll angle asked for, to the right \[rad\], and its rate \[rad/s\].
+    pub lean: f64,
+    pub lean_rate: f64,
+    /// Accumulated error of the lean \[s\].
+    pub error: f64,
+    /// Lean of the torso to the right, relative to the motorcycle \[rad\], and its rate \[rad/s\].
+    pub torso: f64,
+    pub torso_rate: f64,
+}
+
+/// The rider's skills for all speeds, and his limits.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rider {
+    skills: SVector<Skill, SPEEDS>,
+    slowest: f64,
+    fastest: f64,
+    parameters: interface::Rider,
+    /// Largest tangent of the lean: of the rider's limit, and of what the tyres hold.
+    largest_lean: f64,
+    steer_lock: f64,
+}
+
+impl Rider {
+    /// The rider of a motorcycle that goes up to `fastest` \[m/s\].
+    ///
+    /// # Errors
+    /// The motorcycle cannot be ridden with these parameters: no torque keeps it upright.
+    pub fn new(lateral: &Lateral, parameters: &Parameters, fastest: f64) -> Result<Rider, Refusal> {
+        let limits = &parameters.rider;
+        let mut rider = Rider {
+            skills: SVector::repeat(Skill::none()),
+            slowest: SLOWEST_SHARE * limits.feet_speed,
+            fastest,
+            parameters: *limits,
+            largest_lean: libm::tan(limits.lean_limit).min(HELD_SHARE * parameters.tyres.friction),
+            steer_lock: parameters.machine.steer_lock,
+        };
+        for k in 0..SPEEDS {
+            let speed = rider.knot(k);
+            rider.skills[k] = learn(lateral, speed, limits).ok_or_else(|| Refusal {
+                variable: "rider.torqueWeight".into(),
+                reason: format!(
+                    "is {}, but with it no torque on the bars keeps this motorcycle upright at {speed:.1} m/s; mend it, \
+                     or the masses and tyres",
+                    limits.torque_weight
+                ),
+            })?;
+        }
+        Ok(rider)
+    }
+
+    /// Speed of the knot number `k`: each is faster than the one before by the same factor.
+    fn knot(&self, k: usize) -> f64 {
+        self.slowest * libm::pow(self.fastest / self.slowest, k as f64 / (SPEEDS - 1) as f64)
+    }
+
+    /// What the rider does at a speed \[m/s\]: interpolated between two knots.
+    pub fn skill(&self, speed: f64) -> Skill {
+        let place = libm::log(speed / self.slowest) / libm::log(self.fastest / self.slowest) * (SPEEDS - 1) as f64;
+        let place = place.max(0.0).min((SPEEDS - 1) as f64);
+        let k = (place as usize).min(SPEEDS - 2);
+        self.skills[k].towards(&self.skills[k + 1], place - k as f64)
+    }
+
+    /// Torque on the bars to the right \[N m\], for feet that hold by a share from 0 to 1.
+    pub fn torque(&self, state: &State, lateral: &lateral::State, skill: &Skill, feet: f64) -> f64 {
+        let lean = libm::tan(state.lean);
+        let mut deviation = lateral - skill.turn * lean;
+        deviation[place::LEAN_RATE] -= state.lean_rate * (1.0 + lean * lean);
+        (1.0 - feet) * (skill.turn_torque * lean - skill.gain.dot(&deviation) - skill.error_gain * state.error)
+    }
+
+    /// The derivative of the rider's state: he takes up a commanded roll angle and a commanded lean of his torso, both
+    /// \[rad\] to the right. `feet` is the share by which feet hold the motorcycle upright.
+    pub fn derivative(
+        &self,
+        state: &State,
+        lateral: &lateral::State,
+        skill: &Skill,
+        feet: f64,
+        command: (f64, f64),
+    ) -> State {
+        let limits = &self.parameters;
+        let riding = 1.0 - feet;
+        let steepest = libm::atan(self.largest_lean.min(self.steer_lock / skill.turn[place::STEER].abs()));
+        let target = riding * within(command.0, steepest);
+        let rate = within(0.5 * limits.lean_frequency * (target - state.lean), limits.lean_rate_limit);
+        let torso = within(command.1 + limits.body_lean_share * state.lean, limits.body_lean_limit);
+        State {
+            lean: state.lean_rate,
+            lean_rate: 2.0 * limits.lean_frequency * (rate - state.lean_rate),
+            error: riding * (lateral[place::LEAN] - libm::tan(state.lean)) - feet * state.error / FORGETTING,
+            torso: state.torso_rate,
+            torso_rate: limits.body_lean_frequency
+                * (limits.body_lean_frequency * (torso - state.torso) - 2.0 * state.torso_rate),
+        }
+    }
+
+    /// The matrix of the closed loop of lateral state and accumulated error at a speed \[m/s\].
+    pub fn closed_loop(&self, lateral: &Lateral, speed: f64) -> SMatrix<f64, SIZE, SIZE> {
+        let skill = self.skill(speed);
+        let (a, torque) = plant(lateral, speed, self.parameters.feet_speed);
+        a - torque * skill.gain.push(skill.error_gain).transpose()
+    }
+}
+
+/// The slowest speed with gains of its own, as a share of the one at which the feet come off the road.
+const SLOWEST_SHARE: f64 = 0.3;
+/// The rider asks for no more lean than this share of the friction holds.
+const HELD_SHARE: f64 = 0.9;
+/// With his feet down the rider forgets the accumulated error with this time constant \[s\].
+const FORGETTING: f64 = 0.5;
+
+/// The limited value: at most `limit` to either side.
+fn within(value: f64, limit: f64) -> f64 {
+    value.max(-limit).min(limit)
+}
+
+/// Skill at a speed: the steady turn, and the gains that minimise the integral of the squares of
+/// lean / 0.1, lean rate / 0.5, steer / 0.2, steer rate / 2, accumulated error / 0.1 and torque / weight.
+fn learn(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<Skill> {
+    let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
+    let (a, torque) = plant(lateral, speed, limits.feet_speed);
+    // Forces in kN: then all numbers are of about the same size.
+    let mut unit = SVector::<f64, SIZE>::repeat(1.0);
+    unit[place::REAR_FORCE] = 1e3;
+    unit[place::FRONT_FORCE] = 1e3;
+    let (scale, inverse) = (SMatrix::from_diagonal(&unit), SMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
+    let mut cost = SVector::<f64, SIZE>::zeros();
+    cost[place::LEAN] = 100.0;
+    cost[place::LEAN_RATE] = 4.0;
+    cost[place::STEER] = 25.0;
+    cost[place::STEER_RATE] = 0.25;
+    cost[ERROR] = 100.0;
+    let gain = lqr_gain(
+        &(inverse * a * scale),
+        &(inverse * torque),
+        &SMatrix::from_diagonal(&cost),
+        limits.torque_weight * limits.torque_weight,
+        CAYLEY_SHIFT,
+    )?;
+    let gain = inverse * gain;
+    let finite = gain.iter().chain(turn.iter()).chain([&turn_torque]).all(|number| number.is_finite());
+    finite.then(|| Skill {
+        gain: gain.fixed_rows::<{ lateral::SIZE }>(0).into_owned(),
+        error_gain: gain[ERROR],
+        turn,
+        turn_torque,
+    })
+}
+
+/// See [`lqr_gain`] \[1/s\].
+const CAYLEY_SHIFT: f64 = 20.0;
+
+/// Lateral state and torque of a steady turn with the lean 1: all but lean and its rates solve six equations.
+fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lateral::State, f64)> {
+    use place::{FRONT_FORCE, LEAN, LEAN_RATE, REAR_FORCE, STEER, STEER_RATE, VELOCITY, YAW_RATE};
+    let rows = [VELOCITY, YAW_RATE, LEAN_RATE, STEER_RATE, REAR_FORCE, FRONT_FORCE];
+    let unknowns = [VELOCITY, YAW_RATE, STEER, REAR_FORCE, FRONT_FORCE];
+    let matrix = Matrix6::from_fn(|i, j| if j < 5 { a[(rows[i], unknowns[j])] } else { torque[rows[i]] });
+    let right = Vector6::from_fn(|i, _| -a[(rows[i], LEAN)]);
+    let solution = matrix.lu().solve(&right)?;
+    let mut turn = lateral::State::zeros();
+    turn[LEAN] = 1.0;
+    for (j, &place) in unknowns.iter().enumerate() {
+        turn[place] = solution[j];
+    }
+    Some((turn, solution[5]))
+}
+
+/// What the rider steers at a speed: the matrix of the lateral state and the accumulated error of the lean, and the
+/// effect of a torque, both with the feet as far down as they are then.
+fn plant(lateral: &Lateral, speed: f64, feet_speed: f64) -> (SMatrix<f64, SIZE, SIZE>, SVector<f64, SIZE>) {
+    let feet = feet_share(speed, feet_speed);
+    let mut a = SMatrix::<f64, SIZE, SIZE>::zeros();
+    a.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(&lateral.state_matrix(speed, feet));
+    a[(ERROR, place::LEAN)] = 1.0 - feet;
+    a[(ERROR, ERROR)] = -feet / FORGETTING;
+    (a, lateral.torque.push(0.0) * (1.0 - feet))
+}

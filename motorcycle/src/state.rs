@@ -1,0 +1,72 @@
+//! Everything that changes during a ride, as one value that can be integrated.
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+
+use crate::{lateral, rider, suspension};
+
+/// The state of motorcycle and rider, or its time derivative.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Position of the rear contact in the world \[m\].
+    pub position: Vector2<f64>,
+    /// Heading to the left \[rad\].
+    pub heading: f64,
+    /// Forward speed \[m/s\].
+    pub speed: f64,
+    /// In the axes of [`crate::lateral`].
+    pub lateral: lateral::State,
+    pub suspension: suspension::State,
+    pub rider: rider::State,
+    /// What has come through of throttle and brakes, from 0 to 1.
+    pub throttle: f64,
+    pub brake: f64,
+}
+
+impl State {
+    /// This state and `factor` times a derivative.
+    pub fn plus(&self, derivative: &State, factor: f64) -> State {
+        let number = |value: f64, rate: f64| value + factor * rate;
+        let (rider, rider_rate) = (&self.rider, &derivative.rider);
+        State {
+            position: self.position + derivative.position * factor,
+            heading: number(self.heading, derivative.heading),
+            speed: number(self.speed, derivative.speed),
+            lateral: self.lateral + derivative.lateral * factor,
+            suspension: suspension::State {
+                position: self.suspension.position + derivative.suspension.position * factor,
+                velocity: self.suspension.velocity + derivative.suspension.velocity * factor,
+            },
+            rider: rider::State {
+                lean: number(rider.lean, rider_rate.lean),
+                lean_rate: number(rider.lean_rate, rider_rate.lean_rate),
+                error: number(rider.error, rider_rate.error),
+                torso: number(rider.torso, rider_rate.torso),
+                torso_rate: number(rider.torso_rate, rider_rate.torso_rate),
+            },
+            throttle: number(self.throttle, derivative.throttle),
+            brake: number(self.brake, derivative.brake),
+        }
+    }
+
+    /// The state with what is no more than dust of a motion that has ended swept away, so that after a stop the
+    /// motorcycle comes to rest in fact and not only in the limit.
+    pub fn without_dust(mut self) -> State {
+        let sweep = |value: &mut f64| {
+            if value.abs() < DUST {
+                *value = 0.0;
+            }
+        };
+        self.lateral.iter_mut().for_each(sweep);
+        self.suspension.position.iter_mut().chain(self.suspension.velocity.iter_mut()).for_each(sweep);
+        let rider = &mut self.rider;
+        [&mut rider.lean, &mut rider.lean_rate, &mut rider.error, &mut rider.torso, &mut rider.torso_rate]
+            .into_iter()
+            .chain([&mut self.throttle, &mut self.brake])
+            .for_each(sweep);
+        self
+    }
+}
+
+/// Angles, lengths, forces and their rates below this, in SI units, are none.
+const DUST: f64 = 1e-12;

@@ -1,0 +1,45 @@
+//! The names by which a host connects the motorcycle.
+
+use std::collections::BTreeSet;
+
+use model_interface::{Causality, Kind, Model};
+use moris_motorcycle::Motorcycle;
+use moris_washout::Washout;
+
+/// Names of a model's variables of a causality, with their kinds.
+fn variables<M: Model>(causality: Causality) -> Vec<(String, Kind)> {
+    let identity = M::IDENTITY;
+    (0..identity.slots.len())
+        .filter(|&slot| identity.row(slot).causality == causality)
+        .map(|slot| (identity.variable_name(slot), identity.row(slot).kind))
+        .collect()
+}
+
+#[test]
+fn its_first_outputs_are_the_washouts_inputs_in_order_with_their_units() {
+    let inputs = variables::<Washout>(Causality::Input);
+    let outputs = variables::<Motorcycle>(Causality::Output);
+    let vehicle = &inputs[..inputs.len() - 1];
+    assert_eq!(inputs.last().unwrap().0, "engaged", "all inputs but this come from the vehicle");
+    assert_eq!(vehicle, &outputs[..vehicle.len()]);
+}
+
+#[test]
+fn no_name_is_used_twice() {
+    let identity = Motorcycle::IDENTITY;
+    let names: BTreeSet<_> = (0..identity.slots.len()).map(|slot| identity.variable_name(slot)).collect();
+    assert_eq!(names.len(), identity.slots.len());
+}
+
+#[test]
+fn as_a_model_it_starts_with_the_outputs_of_a_motorcycle_at_rest() {
+    let identity = Motorcycle::IDENTITY;
+    let mut slots = vec![0.0; identity.slots.len()];
+    Motorcycle::start(&mut slots);
+    let at = |name: &str| slots[identity.slot(name).unwrap()];
+    assert_eq!(at("vehicle.specificForce.z"), 9.80665);
+    assert_eq!(at("rider.feetDown"), 1.0);
+    let mut again = slots.clone();
+    <Motorcycle as Model>::new(&slots).unwrap().outputs(&mut again);
+    assert_eq!(slots, again);
+}

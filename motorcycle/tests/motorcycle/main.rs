@@ -1,0 +1,15 @@
+//! The motorcycle against what others published, closed forms, differences and balances.
+
+mod common;
+mod hostile;
+mod interface;
+mod lateral;
+mod longitudinal;
+mod parameters;
+mod pose;
+mod ride;
+mod rider;
+mod steps;
+mod turns;
+mod washout;
+mod whipple;

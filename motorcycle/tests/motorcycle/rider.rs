@@ -1,0 +1,122 @@
+//! The rider: gains against closed forms, stability over all speeds, how he follows a lean.
+
+use moris_motorcycle::riccati::lqr_gain;
+use moris_motorcycle::{Input, Parameters};
+use nalgebra::{Matrix1, Matrix2, Vector1, Vector2};
+
+use crate::common::{assert_near, at_speed, cruise, motorcycle};
+
+#[test]
+fn the_gain_of_an_unstable_first_order_system_is_the_closed_forms() {
+    for (a, b, q, ease) in [(1.0, 1.0, 1.0, 1.0), (-3.0, 2.0, 10.0, 0.1), (5.0, 0.2, 100.0, 4.0)] {
+        let gain = lqr_gain(&Matrix1::new(a), &Vector1::new(b), &Matrix1::new(q), ease, 2.0).unwrap();
+        // u = -k x with k = (a + sqrt(a^2 + b^2 q ease)) / b
+        assert_near(gain[0], (a + f64::sqrt(a * a + b * b * q * ease)) / b, 1e-12, "gain");
+    }
+}
+
+#[test]
+fn the_gain_of_a_double_integrator_is_the_closed_forms() {
+    let a = Matrix2::new(0.0, 1.0, 0.0, 0.0);
+    let q = Matrix2::new(16.0, 0.0, 0.0, 0.0);
+    let gain = lqr_gain(&a, &Vector2::new(0.0, 1.0), &q, 1.0, 2.0).unwrap();
+    assert_near(gain[0], 4.0, 1e-12, "of the position");
+    assert_near(gain[1], f64::sqrt(8.0), 1e-12, "of the velocity");
+}
+
+#[test]
+fn what_cannot_be_controlled_has_no_gain() {
+    let a = Matrix2::new(1.0, 0.0, 0.0, -1.0);
+    assert!(lqr_gain(&a, &Vector2::new(0.0, 1.0), &Matrix2::identity(), 1.0, 2.0).is_none());
+}
+
+#[test]
+fn at_every_speed_motorcycle_and_rider_are_stable() {
+    let ridden = motorcycle(&Parameters::default());
+    for k in 0..=1000 {
+        let speed = 0.1 * f64::from(k);
+        let poles = ridden.rider().closed_loop(ridden.lateral(), speed).complex_eigenvalues();
+        let slowest = poles.iter().map(|pole| pole.re).fold(f64::MIN, f64::max);
+        // Where the feet come off, the accumulated error is forgotten slowly; else everything is over within seconds.
+        let limit = if speed < 2.5 { -0.1 } else { -0.5 };
+        assert!(slowest < limit, "{slowest} 1/s at {speed} m/s");
+        for pole in poles.iter() {
+            let damping = -pole.re / pole.norm();
+            assert!(damping > 0.07, "damping {damping} of {pole} at {speed} m/s");
+        }
+    }
+}
+
+#[test]
+fn a_commanded_lean_is_there_within_seconds_at_any_speed() {
+    for speed in [4.0, 7.0, 12.0, 20.0, 35.0, 50.0] {
+        let lean = if speed < 5.0 { 0.1 } else { 0.35 };
+        let mut ridden = motorcycle(&at_speed(speed));
+        let mut largest: f64 = 0.0;
+        for k in 0..8000 {
+            let throttle = cruise(&ridden, speed);
+            ridden.step(&Input { lean, throttle, ..Input::default() }, 0.001);
+            let roll = ridden.output().orientation.roll;
+            largest = largest.max(roll);
+            if k > 5000 {
+                assert!((roll - lean).abs() < 0.02 * lean, "{roll} at {speed} m/s after {k} ms");
+            }
+        }
+        assert!(largest < 1.2 * lean, "overshoot to {largest} at {speed} m/s");
+    }
+}
+
+#[test]
+fn to_lean_to_the_right_he_first_steers_to_the_left() {
+    let mut ridden = motorcycle(&at_speed(20.0));
+    for _ in 0..50 {
+        ridden.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
+    }
+    let output = ridden.output();
+    assert!(output.steer_torque > 1.0, "torque {}", output.steer_torque);
+    assert!(output.steer_angle > 0.0, "steer {}", output.steer_angle);
+    for _ in 0..3000 {
+        ridden.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
+    }
+    assert!(ridden.output().steer_angle < 0.0, "in the turn he steers into it");
+}
+
+#[test]
+fn a_gust_from_the_side_is_held() {
+    let mut ridden = motorcycle(&at_speed(25.0));
+    let mut wind = Input::default();
+    wind.wind.y = 300.0;
+    for _ in 0..10_000 {
+        wind.throttle = cruise(&ridden, 25.0);
+        ridden.step(&wind, 0.001);
+    }
+    // It has been blown away to the left, and turned there while it leant into the wind.
+    assert!(ridden.output().position.y > 1.0, "{}", ridden.output().position.y);
+    // The error's integral brings the lean back to what is commanded, wind or not; then the path is bent by the wind.
+    assert!(ridden.output().orientation.roll.abs() < 1e-3);
+}
+
+#[test]
+fn a_torso_that_leans_to_the_right_turns_the_motorcycle_to_the_right_upright() {
+    let mut ridden = motorcycle(&at_speed(15.0));
+    for _ in 0..8000 {
+        let throttle = cruise(&ridden, 15.0);
+        ridden.step(&Input { rider_lean: 0.2, throttle, ..Input::default() }, 0.001);
+    }
+    let output = ridden.output();
+    assert!(output.orientation.roll.abs() < 1e-3, "roll {}", output.orientation.roll);
+    // The weight of the torso out of the plane, against the centripetal force of all masses and the wheels' spin.
+    let static_moment = 221.0 * 0.669 + 22.0 * 0.767 + 12.0 * 0.294 + 15.0 * 0.299;
+    let spin = 0.8 / 0.299 + 0.6 / 0.294;
+    let expected = -44.5 * 0.4 * 0.2 * 9.80665 / ((static_moment + spin) * output.speed);
+    assert_near(output.angular_velocity.z / expected, 1.0, 0.03, "yaw rate");
+}
+
+#[test]
+fn his_torso_leans_as_told_and_into_the_turn() {
+    let mut ridden = motorcycle(&at_speed(20.0));
+    for _ in 0..4000 {
+        ridden.step(&Input { lean: 0.3, rider_lean: -0.1, ..Input::default() }, 0.001);
+    }
+    assert_near(ridden.output().lean, 0.1 * 0.3 - 0.1, 1e-6, "torso");
+}

@@ -1,0 +1,75 @@
+//! Steps: that they converge, agree with each other, allocate nothing, and go on from saved bytes.
+
+use moris_motorcycle::{Input, Motorcycle, Parameters};
+
+use crate::common::{at_speed, motorcycle};
+
+fn input(time: f64) -> Input {
+    Input {
+        throttle: if time < 2.0 { 0.6 } else { 0.1 },
+        brake: if time > 5.0 { 0.8 } else { 0.0 },
+        lean: 0.3 * (1.5 * time).sin(),
+        ..Input::default()
+    }
+}
+
+/// The state after some seconds in steps of this size, with internal steps of at most that size.
+fn ridden(seconds: f64, step: f64, internal: f64) -> Motorcycle {
+    let mut parameters = at_speed(10.0);
+    parameters.run.max_step = internal;
+    let mut ridden = motorcycle(&parameters);
+    for k in 0..(seconds / step).round() as u32 {
+        let time = f64::from(k) * step;
+        ridden.step_between(&input(time), &input(time + step), step);
+    }
+    ridden
+}
+
+#[test]
+fn halving_the_step_changes_next_to_nothing() {
+    let (coarse, fine) = (ridden(4.5, 1e-3, 1e-3), ridden(4.5, 1e-3, 2.5e-4));
+    let (coarse, fine) = (coarse.output(), fine.output());
+    assert!((coarse.head_position - fine.head_position).norm() < 1e-6);
+    assert!((coarse.specific_force - fine.specific_force).norm() < 1e-5);
+    assert!((coarse.orientation.roll - fine.orientation.roll).abs() < 1e-7);
+}
+
+#[test]
+fn a_long_communication_step_is_divided() {
+    let mut at_once = motorcycle(&at_speed(10.0));
+    let mut one_by_one = at_once.clone();
+    let input = Input { throttle: 0.5, lean: 0.2, ..Input::default() };
+    at_once.step(&input, 0.5);
+    (0..500).for_each(|_| one_by_one.step(&input, 0.001));
+    assert!((at_once.output().head_position - one_by_one.output().head_position).norm() < 1e-9);
+}
+
+#[test]
+fn a_stop_ends_at_the_same_place_for_any_step() {
+    let (coarse, fine) = (ridden(9.0, 1e-3, 1e-3), ridden(9.0, 1e-3, 1e-4));
+    assert_eq!(coarse.output().speed, 0.0);
+    assert_eq!(fine.output().speed, 0.0);
+    let off = (coarse.output().position - fine.output().position).norm();
+    assert!(off < 1e-3, "{off} m");
+}
+
+#[test]
+fn steps_allocate_nothing() {
+    let mut ridden = motorcycle(&Parameters::default());
+    let input = Input { throttle: 1.0, lean: 0.5, ..Input::default() };
+    let counted = allocation_counter::measure(|| (0..1000).for_each(|_| ridden.step(&input, 0.004)));
+    assert_eq!(counted.count_total, 0);
+}
+
+#[test]
+fn from_saved_bytes_the_ride_goes_on_bit_for_bit() {
+    let mut ridden = ridden(3.0, 1e-3, 1e-3);
+    let bytes = postcard::to_allocvec(&ridden).unwrap();
+    let mut restored: Motorcycle = postcard::from_bytes(&bytes).unwrap();
+    for k in 3000..6000 {
+        let input = input(f64::from(k) * 1e-3);
+        ridden.step(&input, 1e-3);
+        restored.step(&input, 1e-3);
+        assert_eq!(ridden.output(), restored.output());
+    }
+}

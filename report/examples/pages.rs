@@ -1,0 +1,245 @@
+//! Writes pages to look at and to test with, and beside each what is in it, as plain JSON:
+//! `cargo run -p ride-report --example pages -- DIRECTORY`.
+//!
+//! The ride brings up everything that a report can show: all axes, and each kind of limit.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+use std::process::exit;
+
+use moris_washout::{Input, Parameters, Washout, parameter_sets};
+use ride_report::{
+    Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight, html,
+};
+use serde_json::json;
+
+const GRAVITY: f64 = 9.80665;
+/// Would run a script, end an element, or break out of a string, if it were let.
+const HOSTILE: &str = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \"&lt;' {{data}} \u{2028} ?";
+
+fn main() {
+    let Some(directory) = std::env::args().nth(1) else {
+        eprintln!("error: say into which directory: pages DIRECTORY");
+        exit(2);
+    };
+    let directory = Path::new(&directory);
+    let written = std::fs::create_dir_all(directory).and_then(|()| {
+        write(directory, "two-runs", &two_runs())?;
+        write(directory, "hostile", &hostile())?;
+        write(directory, "long", &long())
+    });
+    if let Err(error) = written {
+        eprintln!("error: {}: {error}", directory.display());
+        exit(1);
+    }
+}
+
+fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
+    let page = html(report).map_err(std::io::Error::other)?;
+    std::fs::write(directory.join(format!("{name}.html")), page)?;
+    let runs: Vec<_> = report
+        .runs
+        .iter()
+        .map(|run| {
+            json!({
+                "name": run.name, "times": run.times, "position": run.position, "orientation": run.orientation,
+                "legs": run.legs, "felt": run.felt.specific_force, "measures": run.measures,
+            })
+        })
+        .collect();
+    let plain = json!({ "title": report.title, "subtitle": report.subtitle, "rig": report.rig, "runs": runs });
+    std::fs::write(directory.join(format!("{name}.json")), plain.to_string())
+}
+
+fn two_runs() -> Report {
+    let shipped = Parameters::default();
+    let mut soft = shipped;
+    soft.conditioning.force_scale.fill(0.7);
+    soft.conditioning.rate_scale.fill(0.3);
+    let wake = parameter_sets::parameters(parameter_sets::WAKE);
+    Report {
+        title: "Out of town and a brusque stop".into(),
+        subtitle: "A computed ride of 60 s on the default rig, with the shipped parameters and two others".into(),
+        findings: vec![
+            finding(Weight::Good, "No leg comes to the end of its stroke with the default parameters."),
+            finding(Weight::Note, "Scaled to 0.7, the brusque stop is felt for four seconds less."),
+            finding(
+                Weight::Warning,
+                "With the set wake the safety units hold the platform back: it is not for such a ride.",
+            ),
+        ],
+        provenance: vec![("ride".into(), "computed".into()), ("step".into(), "0.001 s, every tenth shown".into())],
+        rig: rig(&shipped),
+        runs: vec![
+            ridden("default", &shipped, 60.0, 10),
+            ridden("soft", &soft, 60.0, 10),
+            ridden("wake", &wake, 60.0, 10),
+        ],
+        selected: 0,
+    }
+}
+
+fn finding(weight: Weight, text: &str) -> Finding {
+    Finding { weight, text: text.into() }
+}
+
+fn hostile() -> Report {
+    let mut run = ridden(HOSTILE, &Parameters::default(), 5.0, 10);
+    run.measures.push(Measure {
+        group: HOSTILE.into(),
+        name: HOSTILE.into(),
+        value: Value::Text(HOSTILE.into()),
+        unit: HOSTILE.into(),
+        definition: HOSTILE.into(),
+        source: HOSTILE.into(),
+        better: Better::Neither,
+    });
+    run.charts.push(Chart {
+        title: HOSTILE.into(),
+        quantity: HOSTILE.into(),
+        times: vec![0.0, 2.5, 5.0],
+        lines: vec![Line { label: HOSTILE.into(), values: vec![1.0, f64::NAN, 2.0] }],
+        limits: vec![],
+    });
+    Report {
+        title: HOSTILE.into(),
+        subtitle: HOSTILE.into(),
+        findings: vec![finding(Weight::Warning, HOSTILE)],
+        provenance: vec![(HOSTILE.into(), HOSTILE.into())],
+        rig: rig(&Parameters::default()),
+        runs: vec![run.clone(), run],
+        selected: 1,
+    }
+}
+
+/// Two minutes at 1 kHz.
+fn long() -> Report {
+    let parameters = Parameters::default();
+    Report {
+        title: "Two minutes at 1 kHz".into(),
+        rig: rig(&parameters),
+        runs: vec![ridden("default", &parameters, 120.0, 1)],
+        ..Report::default()
+    }
+}
+
+fn rig(parameters: &Parameters) -> Rig {
+    let Parameters { rig, structure, .. } = parameters;
+    Rig {
+        base: rig.base.map(Into::into),
+        platform: rig.platform.map(Into::into),
+        neutral_height: rig.neutral_height,
+        stroke: [rig.min_length, rig.max_length],
+        head_height: structure.head_height,
+        torso_length: structure.torso_length,
+    }
+}
+
+/// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].
+fn rise(t: f64, start: f64, duration: f64) -> f64 {
+    let x = ((t - start) / duration).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// Off, bends and bumps, and a brusque stop at 40 s.
+fn input(t: f64) -> Input {
+    let surge = 2.2 * (rise(t, 1.0, 3.0) - rise(t, 10.0, 3.0));
+    let brake = if t < 40.0 { -3.5 * rise(t, 32.0, 4.0) } else { 0.0 };
+    let bends = rise(t, 14.0, 2.0) - rise(t, 28.0, 2.0);
+    let sway = 0.8 * bends * (TAU * 0.25 * t).sin();
+    let bumps = 0.6 * bends * (TAU * 1.5 * t).sin() + if (35.0..35.05).contains(&t) { 25.0 } else { 0.0 };
+    let mut input = Input::default();
+    input.specific_force.x = surge + brake;
+    input.specific_force.y = sway;
+    input.specific_force.z = GRAVITY + bumps;
+    input.angular_velocity.x = 0.25 * bends * (TAU * 0.25 * t).cos();
+    input.angular_velocity.z = 0.15 * bends * (TAU * 0.25 * t).sin();
+    input.lean = 0.2 * bends * (TAU * 0.125 * t).sin();
+    input
+}
+
+/// The ride, stepped at 1 kHz; every so many steps are kept.
+fn ridden(name: &str, parameters: &Parameters, duration: f64, every: usize) -> Run {
+    const STEP: f64 = 0.001;
+    let mut washout = Washout::new(parameters).expect("the shipped parameters are good");
+    let mut run = Run { name: name.into(), limits: limits(parameters), ..Run::default() };
+    let mut limited = [false; 3];
+    let steps = (duration / STEP).round() as usize;
+    for k in 0..=steps {
+        let time = k as f64 * STEP;
+        if k > 0 {
+            washout.step_between(&input(time - STEP), &input(time), STEP);
+            let output = washout.output();
+            limited[0] |= output.tilt_limited;
+            limited[1] |= output.safety_active;
+            limited[2] |= output.actuator_limited;
+        }
+        if k % every == 0 {
+            keep(&mut run, time, &input(time), &washout, std::mem::take(&mut limited));
+        }
+    }
+    run.measures = measures(&run);
+    run
+}
+
+fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bool; 3]) {
+    let output = washout.output();
+    run.times.push(time);
+    let turn = [output.orientation.roll, output.orientation.pitch, output.orientation.yaw];
+    for (axis, angle) in turn.into_iter().enumerate() {
+        run.desired.specific_force[axis].push(input.specific_force[axis]);
+        run.desired.angular_velocity[axis].push(input.angular_velocity[axis]);
+        run.felt.specific_force[axis].push(output.felt_specific_force[axis]);
+        run.felt.angular_velocity[axis].push(output.felt_angular_velocity[axis]);
+        run.position[axis].push(output.position[axis]);
+        run.orientation[axis].push(angle);
+    }
+    for (leg, length) in run.legs.iter_mut().zip(output.length) {
+        leg.push(length);
+    }
+    run.tilt[0].push(output.tilt_roll);
+    run.tilt[1].push(output.tilt_pitch);
+    run.tilt_rate[0].push(output.tilt_roll_rate);
+    run.tilt_rate[1].push(output.tilt_pitch_rate);
+    run.lean.push(input.lean);
+    let Limited { tilt, safety, actuator } = &mut run.limited;
+    tilt.push(limited[0]);
+    safety.push(limited[1]);
+    actuator.push(limited[2]);
+}
+
+fn limits(parameters: &Parameters) -> Limits {
+    let Parameters { tilt, safety, rig, .. } = parameters;
+    Limits {
+        tilt_angle: tilt.angle_limit,
+        tilt_rate: tilt.rate_limit,
+        tilt_acceleration: tilt.acceleration_limit,
+        safety_position: safety.position_limit.into(),
+        safety_velocity: safety.velocity_limit.into(),
+        safety_acceleration: safety.acceleration_limit.into(),
+        actuator_velocity: rig.velocity_limit,
+        actuator_acceleration: rig.acceleration_limit,
+    }
+}
+
+/// A few rows for the table.
+fn measures(run: &Run) -> Vec<Measure> {
+    let Cues { specific_force: desired, .. } = &run.desired;
+    let axes = ["Surge", "Sway", "Heave"].into_iter().enumerate();
+    let errors = axes.flat_map(|(i, axis)| {
+        let error: Vec<f64> = desired[i].iter().zip(&run.felt.specific_force[i]).map(|(d, f)| f - d).collect();
+        let rms = (error.iter().map(|e| e * e).sum::<f64>() / error.len() as f64).sqrt();
+        let peak = error.iter().fold(0.0, |peak, e| f64::max(peak, e.abs()));
+        [("RMS error", rms, "root of the mean of (felt − desired)²"), ("peak error", peak, "largest |felt − desired|")]
+            .map(|(name, value, definition)| Measure {
+                group: axis.into(),
+                name: name.into(),
+                value: value.into(),
+                unit: "m/s²".into(),
+                better: Better::Less,
+                definition: definition.into(),
+                source: "Barbagli et al., section 5".into(),
+            })
+    });
+    errors.collect()
+}

@@ -1,0 +1,190 @@
+// A chart over time: curves, limits, a legend with the values at the cursor. All charts share the times shown.
+
+const MARGIN = { left: 52, right: 10, top: 8, bottom: 22 };
+
+/** The x of a time in a plot so wide, and back. */
+const plotWidth = (width) => width - MARGIN.left - MARGIN.right;
+const xOf = (time, [from, to], width) => MARGIN.left + (time - from) / (to - from) * plotWidth(width);
+const timeOf = (x, [from, to], width) => from + (x - MARGIN.left) / plotWidth(width) * (to - from);
+
+/** A plot's canvas with a cursor line over it, on which a click sets the time and a drag chooses the times shown. */
+class Plot {
+  constructor(height, shown, { seek, show }) {
+    this.canvas = element("canvas");
+    this.cursor = element("div", { class: "cursor" });
+    this.selection = element("div", { class: "selection", hidden: "" });
+    this.box = element("div", { class: "plot", style: `height: ${height}px` }, [this.canvas, this.selection, this.cursor]);
+    this.shown = shown;
+    this.listen(seek, show);
+  }
+
+  get width() {
+    return this.box.clientWidth;
+  }
+
+  moveCursor(time) {
+    const [from, to] = this.shown();
+    this.cursor.hidden = time < from || time > to;
+    this.cursor.style.transform = `translateX(${xOf(time, [from, to], this.width)}px)`;
+  }
+
+  listen(seek, show) {
+    let start = null;
+    const xIn = (event) => event.clientX - this.box.getBoundingClientRect().left;
+    const clamped = (x) => Math.min(this.width - MARGIN.right, Math.max(MARGIN.left, x));
+    this.box.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      start = clamped(xIn(event));
+      this.box.setPointerCapture(event.pointerId);
+    });
+    this.box.addEventListener("pointermove", (event) => {
+      if (start === null) return;
+      const x = clamped(xIn(event));
+      this.selection.hidden = Math.abs(x - start) < 5;
+      this.selection.style.left = `${Math.min(x, start)}px`;
+      this.selection.style.width = `${Math.abs(x - start)}px`;
+    });
+    this.box.addEventListener("pointerup", (event) => {
+      if (start === null) return;
+      const times = [start, clamped(xIn(event))].sort((a, b) => a - b).map((x) => timeOf(x, this.shown(), this.width));
+      if (this.selection.hidden) seek(times[1]);
+      else show(times);
+      this.selection.hidden = true;
+      start = null;
+    });
+    this.box.addEventListener("pointercancel", () => {
+      this.selection.hidden = true;
+      start = null;
+    });
+    this.box.addEventListener("dblclick", () => show(null));
+  }
+}
+
+/** Draws the time axis below a plot. */
+function drawTimeAxis(context, shown, width, height, from = MARGIN.top) {
+  const { values, digits } = ticks(shown[0], shown[1], Math.max(3, plotWidth(width) / 90));
+  context.textAlign = "center";
+  context.textBaseline = "top";
+  for (const time of values) {
+    const x = Math.round(xOf(time, shown, width)) + 0.5;
+    context.strokeStyle = colour("--rule");
+    context.lineWidth = 1;
+    context.beginPath();
+    context.moveTo(x, from);
+    context.lineTo(x, height - MARGIN.bottom);
+    context.stroke();
+    context.fillStyle = colour("--muted");
+    const unit = time === values[values.length - 1] ? " s" : "";
+    context.fillText(fixed(time, digits) + unit, Math.min(x, width - 18), height - MARGIN.bottom + 6);
+  }
+}
+
+class Chart {
+  /**
+   * `lines`: { label, colour, width, dash, times, values }, `aside` for those that may leave the chart, and
+   * `layer`, higher on top of lower; `limits`: values of dashed lines; `unit` stands in the title; `least`: the smallest span of the vertical axis.
+   */
+  constructor({ title, unit, lines, limits = [], least = 1e-3, height = 150, digits = 2 }, shown, handlers) {
+    Object.assign(this, { lines, limits, least, digits });
+    this.plot = new Plot(height, shown, handlers);
+    this.shown = shown;
+    this.legend = lines.map((line) => {
+      const value = element("span", { class: "value" });
+      return { line, value, entry: element("li", {}, [swatch(line), line.label, " ", value]) };
+    });
+    if (limits.length > 0) {
+      const line = { colour: "--limit", width: 1.5, dash: [5, 4] };
+      this.legend.push({ entry: element("li", {}, [swatch(line), "limit"]) });
+    }
+    const heading = element("h3", {}, [title, " ", element("span", { class: "unit" }, [unit])]);
+    const legend = element("ul", { class: "legend" }, this.legend.map(({ entry }) => entry));
+    this.element = element("figure", { class: "chart" }, [element("figcaption", {}, [heading, legend]), this.plot.box]);
+    this.element.dataset.title = title;
+  }
+
+  moveCursor(time) {
+    this.plot.moveCursor(time);
+    for (const { line, value } of this.legend) {
+      if (line) value.textContent = fixed(valueAt(line.times, line.values, time), this.digits);
+    }
+  }
+
+  /** Lowest and highest value of the vertical axis. */
+  range() {
+    const [from, to] = this.shown();
+    const extents = this.lines.filter((line) => !line.aside).map(({ times, values }) => extent(times, values, from, to)).filter(Boolean);
+    const all = [...extents.flat(), ...this.limits];
+    if (all.length === 0) return [-1, 1];
+    const [low, high] = [Math.min(...all), Math.max(...all)];
+    const missing = Math.max(0, this.least - (high - low));
+    const margin = 0.07 * Math.max(high - low, this.least);
+    return [low - missing / 2 - margin, high + missing / 2 + margin];
+  }
+
+  draw() {
+    const { context, width, height } = fitted(this.plot.canvas);
+    const shown = this.shown();
+    const [low, high] = this.range();
+    const bottom = height - MARGIN.bottom;
+    const yOf = (value) => bottom - (value - low) / (high - low) * (bottom - MARGIN.top);
+    context.clearRect(0, 0, width, height);
+    context.font = "11px system-ui, sans-serif";
+    drawTimeAxis(context, shown, width, height);
+    this.drawValueAxis(context, width, yOf, ticks(low, high, Math.max(2, (bottom - MARGIN.top) / 24)));
+    context.save();
+    context.beginPath();
+    context.rect(MARGIN.left, MARGIN.top - 3, plotWidth(width), bottom - MARGIN.top + 6);
+    context.clip();
+    for (const limit of this.limits) {
+      const level = { times: shown, values: [limit, limit], colour: "--limit", width: 1.5, dash: [5, 4] };
+      drawLine(context, level, shown, width, yOf);
+    }
+    for (const line of [...this.lines].sort((a, b) => (a.layer || 0) - (b.layer || 0))) drawLine(context, line, shown, width, yOf);
+    context.restore();
+  }
+
+  drawValueAxis(context, width, yOf, { values, digits }) {
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const value of values) {
+      const y = Math.round(yOf(value)) + 0.5;
+      const zero = Math.abs(value) < 1e-12;
+      context.strokeStyle = colour(zero ? "--axis" : "--rule");
+      context.lineWidth = 1;
+      context.beginPath();
+      context.moveTo(MARGIN.left, y);
+      context.lineTo(width - MARGIN.right, y);
+      context.stroke();
+      context.fillStyle = colour("--muted");
+      context.fillText(fixed(value, digits), MARGIN.left - 8, y);
+    }
+  }
+}
+
+function drawLine(context, line, shown, width, yOf) {
+  context.strokeStyle = colour(line.colour);
+  context.globalAlpha = line.aside ? 0.6 : 1;
+  context.lineWidth = line.width;
+  context.lineJoin = "round";
+  context.setLineDash(line.dash || []);
+  context.beginPath();
+  let pen = false;
+  for (const [time, value] of thinned(line.times, line.values, shown[0], shown[1], plotWidth(width))) {
+    if (Number.isFinite(value)) {
+      const [x, y] = [xOf(time, shown, width), yOf(value)];
+      if (pen) context.lineTo(x, y);
+      else context.moveTo(x, y);
+    }
+    pen = Number.isFinite(value);
+  }
+  context.stroke();
+  context.setLineDash([]);
+  context.globalAlpha = 1;
+}
+
+/** A line's sample for the legend. */
+function swatch(line) {
+  const sample = element("span", { class: "swatch" });
+  sample.style.borderTop = `${Math.min(line.width, 4)}px ${line.dash ? "dashed" : "solid"} var(${line.colour})`;
+  return sample;
+}

@@ -1,0 +1,25 @@
+// The legs against their stroke, as six gauges.
+
+class Gauges {
+  constructor(box, [shortest, longest]) {
+    this.stroke = [shortest, longest];
+    this.gauges = Array.from({ length: 6 }, (_, i) => {
+      const needle = element("div", { class: "needle" });
+      const value = element("span", { class: "value" });
+      const track = element("div", { class: "track" }, [needle]);
+      box.append(element("div", { class: "gauge" }, [element("span", {}, [`leg ${i + 1}`]), track, value]));
+      return { needle, value };
+    });
+    box.title = `Length of each leg between ${fixed(shortest, 3)} and ${fixed(longest, 3)} m`;
+  }
+
+  update(state) {
+    const [shortest, longest] = this.stroke;
+    this.gauges.forEach(({ needle, value }, i) => {
+      const share = (state.legs[i] - shortest) / (longest - shortest);
+      needle.style.left = `${100 * Math.min(1, Math.max(0, share))}%`;
+      needle.style.background = rgb(strokeColour(state.legs[i], this.stroke));
+      value.textContent = `${fixed(state.legs[i], 3)} m`;
+    });
+  }
+}

@@ -1,0 +1,94 @@
+// The time line of what was limited, and the list of it with reasons.
+
+const KINDS = {
+  tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target because of its rate, acceleration or angle limit." },
+  safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit held the platform back from its position, velocity or acceleration limit." },
+  actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard held a leg back from its stroke, speed or acceleration limit." },
+};
+const LANE = 20;
+
+/** How long a flag was up: it speaks of the step before its sample. */
+function timeLimited(run, flags) {
+  let sum = 0;
+  for (let i = 1; i < flags.length; i += 1) if (flags[i]) sum += run.times[i] - run.times[i - 1];
+  return sum;
+}
+
+/** One lane for each kind of limit. */
+class TimeLine {
+  constructor(shown, handlers) {
+    this.shown = shown;
+    this.events = [];
+    this.plot = new Plot(Object.keys(KINDS).length * LANE + MARGIN.top + MARGIN.bottom, shown, handlers);
+    this.summary = element("p", { class: "summary" });
+    this.list = element("tbody");
+    const table = element("table", {}, [this.list]);
+    this.element = element("div", {}, [this.plot.box, this.summary, element("div", { class: "events" }, [table])]);
+    this.seek = handlers.seek;
+  }
+
+  select(run) {
+    this.events = run.events;
+    const [first, last] = [run.times[0], run.times[run.times.length - 1]];
+    const shares = Object.entries(KINDS).map(([kind, { long }]) => {
+      const time = timeLimited(run, run.limited[kind]);
+      return time > 0 ? `${long} ${fixed(time, 1)} s (${fixed(100 * time / (last - first), 0)} %)` : null;
+    }).filter(Boolean);
+    this.summary.textContent = shares.length > 0 ? `Of ${fixed(last - first, 1)} s: ${shares.join(", ")}.` : "Nothing was limited.";
+    this.list.replaceChildren(...this.events.map((event) => this.row(event)));
+    this.element.querySelector(".events").hidden = this.events.length === 0;
+  }
+
+  row(event) {
+    const { long, colour: paint } = KINDS[event.kind];
+    const mark = element("span", { class: "mark", style: `background: var(${paint})` });
+    const row = element("tr", { title: "Go there" }, [
+      element("td", { class: "number" }, [`${fixed(event.from, 2)} to ${fixed(event.to, 2)} s`]),
+      element("td", {}, [mark, long]),
+      element("td", {}, [event.why]),
+    ]);
+    row.addEventListener("click", () => this.seek(event.from));
+    return row;
+  }
+
+  moveCursor(time) {
+    this.plot.moveCursor(time);
+  }
+
+  draw() {
+    const { context, width, height } = fitted(this.plot.canvas);
+    const shown = this.shown();
+    context.clearRect(0, 0, width, height);
+    context.font = "11px system-ui, sans-serif";
+    drawTimeAxis(context, shown, width, height);
+    Object.entries(KINDS).forEach(([kind, { label, colour: paint }], lane) => {
+      const y = MARGIN.top + lane * LANE;
+      context.textAlign = "right";
+      context.textBaseline = "middle";
+      context.fillStyle = colour("--muted");
+      context.fillText(label, MARGIN.left - 6, y + LANE / 2);
+      context.fillStyle = colour("--lane");
+      context.fillRect(MARGIN.left, y + 3, plotWidth(width), LANE - 6);
+      context.fillStyle = colour(paint);
+      for (const { from, to } of this.events.filter((event) => event.kind === kind)) {
+        const [a, b] = [from, to].map((time) => Math.min(width - MARGIN.right, Math.max(MARGIN.left, xOf(time, shown, width))));
+        if (to > shown[0] && from < shown[1]) context.fillRect(a, y + 3, Math.max(1.5, b - a), LANE - 6);
+      }
+    });
+  }
+}
+
+/** What is limited at the moment, as chips beside the machine. */
+class Chips {
+  constructor(list) {
+    this.chips = Object.entries(KINDS).map(([kind, { long, colour: paint, help }]) => {
+      const chip = element("li", { title: help, style: `--chip: var(${paint})` }, [long]);
+      list.append(chip);
+      return { kind, chip };
+    });
+  }
+
+  update(state) {
+    for (const { kind, chip } of this.chips) chip.classList.toggle("lit", Boolean(state.limited[kind]));
+  }
+}

@@ -1,0 +1,77 @@
+// The machine in a pose: where its joints, its legs, the mock-up and the rider are, in the base frame.
+
+/** Everything about a run at one time. */
+function stateAt(run, time) {
+  const at = (values) => valueAt(run.times, values, time);
+  const i = indexAt(run.times, time);
+  const [roll, pitch, yaw] = run.orientation.map(at);
+  return {
+    position: run.position.map(at),
+    rotation: rotation(roll, pitch, yaw),
+    lean: run.lean ? at(run.lean) : 0,
+    legs: run.legs.map(at),
+    desired: run.desired.specific_force.map(at),
+    felt: run.felt.specific_force.map(at),
+    limited: { tilt: run.limited.tilt[i], safety: run.limited.safety[i], actuator: run.limited.actuator[i] },
+  };
+}
+
+/** A point of the platform in the base frame. */
+const onPlatform = (state, point) => plus(state.position, turned(state.rotation, point));
+
+/** Both ends of each leg. */
+const legEnds = (rig, state) => rig.base.map((joint, i) => [joint, onPlatform(state, rig.platform[i])]);
+
+/** A point of the rider's torso, `height` above the seat along his back, `aside` to the left and `ahead`: it leans with him. */
+function onTorso(rig, state, height, aside = 0, ahead = 0) {
+  const seat = [0, 0, rig.head_height - rig.torso_length];
+  return onPlatform(state, plus(seat, turned(rolled(state.lean), [ahead, aside, height])));
+}
+
+/** The rider's head: the point where the washout's specific force is felt. */
+const headOf = (rig, state) => onTorso(rig, state, rig.torso_length);
+
+/** A vector in the head's axes, in the base frame. */
+const fromHead = (state, a) => turned(state.rotation, turned(rolled(state.lean), a));
+
+// The mock-up in side view, as x and z in units of the seat's height above the platform, and half its width.
+const BODY = [
+  { half: 0.20, colour: "--mock-up", outline: [[-0.45, 0.30], [0.35, 0.26], [0.62, 0.70], [0.50, 0.98], [-0.10, 0.92]] },
+  { half: 0.16, colour: "--tank", outline: [[0.02, 0.92], [0.60, 0.86], [0.66, 1.10], [0.46, 1.22], [0.10, 1.14]] },
+  { half: 0.18, colour: "--seat", outline: [[-0.98, 1.02], [-0.60, 0.88], [0.08, 0.92], [0.10, 1.04], [-0.50, 1.02], [-0.94, 1.14]] },
+];
+const WHEELS = [{ centre: [1.28, 0.52], radius: 0.5 }, { centre: [-1.12, 0.52], radius: 0.5 }];
+const FORK = [[1.28, 0.52], [0.70, 1.34]];
+const BAR = { at: [0.66, 1.38], half: 0.62 };
+const FOOT = [-0.22, 0.34];
+const KNEE = [0.42, 0.98];
+
+/** A flat shape swept across: its two sides and the strip between them, as polygons of points on the platform. */
+function swept(outline, half, size) {
+  const side = (y) => outline.map(([x, z]) => [size * x, y * size, size * z]);
+  const [left, right] = [side(half), side(-half)];
+  const strip = outline.map((_, i) => {
+    const next = (i + 1) % outline.length;
+    return [left[i], left[next], right[next], right[i]];
+  });
+  return [left, right.slice().reverse(), ...strip];
+}
+
+/** A ring of points on the platform, standing along its x axis. */
+function wheel({ centre: [x, z], radius }, size) {
+  return Array.from({ length: 29 }, (_, k) => {
+    const angle = k / 28 * 2 * Math.PI;
+    return [size * (x + radius * Math.cos(angle)), 0, size * (z + radius * Math.sin(angle))];
+  });
+}
+
+/** A plate with corners at the joints, so thick, below them. */
+function plate(joints, thickness) {
+  const around = joints.slice().sort((a, b) => Math.atan2(a[1], a[0]) - Math.atan2(b[1], b[0]));
+  const below = around.map(([x, y, z]) => [x, y, z - thickness]);
+  const rim = around.map((_, i) => {
+    const next = (i + 1) % around.length;
+    return [around[i], below[i], below[next], around[next]];
+  });
+  return [around, below.slice().reverse(), ...rim];
+}

@@ -1,0 +1,151 @@
+// The page: one time, one selected run, one window of times shown; everything drawn follows them.
+
+const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5"];
+
+const ride = {
+  from: Math.min(...report.runs.map((run) => run.times[0])),
+  to: Math.max(...report.runs.map((run) => run.times[run.times.length - 1])),
+};
+const now = { time: ride.from, run: report.runs[report.selected], shown: [ride.from, ride.to], playing: false, speed: 1 };
+
+const view = new View(byId("view"), report.rig);
+const gauges = new Gauges(byId("gauges"), report.rig.stroke);
+const chips = new Chips(byId("chips"));
+const shown = () => now.shown;
+const handlers = { seek, show };
+const timeLine = new TimeLine(shown, handlers);
+let charts = [];
+
+/** Goes to a time. */
+function seek(time) {
+  now.time = Math.min(ride.to, Math.max(ride.from, time));
+  byId("slider").value = now.time;
+  byId("now").textContent = `${fixed(now.time, 2)} s of ${fixed(ride.to, 2)} s`;
+  for (const chart of [timeLine, ...charts]) chart.moveCursor(now.time);
+  drawMachine();
+}
+
+/** Shows other times in the charts; null: the whole ride. */
+function show(times) {
+  const shortest = 1e-3 * (ride.to - ride.from);
+  now.shown = times && times[1] - times[0] > shortest ? times : [ride.from, ride.to];
+  byId("whole").hidden = !times;
+  drawCharts();
+  seek(now.time);
+}
+
+function play(on) {
+  if (on && now.time >= ride.to) seek(ride.from);
+  now.playing = on;
+  byId("play").textContent = on ? "Pause" : "Play";
+  if (!on) return;
+  let before = performance.now();
+  const tick = (at) => {
+    if (!now.playing) return;
+    const time = now.time + now.speed * Math.max(0, at - before) / 1000;
+    before = at;
+    seek(time);
+    if (time >= ride.to) play(false);
+    else requestAnimationFrame(tick);
+  };
+  requestAnimationFrame(tick);
+}
+
+function select(index) {
+  now.run = report.runs[index];
+  [...byId("runs").children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === index)));
+  timeLine.select(now.run);
+  showKey();
+  buildCharts();
+  drawCharts();
+  seek(now.time);
+}
+
+function buildCharts() {
+  const box = byId("charts");
+  const of = report.runs.length > 1 ? ` (${now.run.name})` : "";
+  const lane = element("section", {}, [element("h2", {}, ["What was limited" + of]), timeLine.element]);
+  charts = [];
+  const built = sections(now.run).map(({ heading, charts: wanted, note, of_run: ofRun }) => {
+    const made = wanted.map((one) => new Chart(one, shown, handlers));
+    charts.push(...made);
+    const parts = made.map((chart) => chart.element);
+    if (note) parts.push(element("p", { class: "summary" }, [note]));
+    return element("section", {}, [element("h2", {}, [heading + (ofRun ? of : "")]), ...parts]);
+  });
+  box.replaceChildren(lane, ...built);
+}
+
+function drawCharts() {
+  for (const chart of [timeLine, ...charts]) chart.draw();
+}
+
+function drawMachine() {
+  const state = view.draw(now.run, now.time);
+  gauges.update(state);
+  chips.update(state);
+}
+
+function showFindings() {
+  const marks = { good: "\u2713", note: "\u2022", warning: "!" };
+  byId("findings").append(...report.findings.map(({ weight, text }) => {
+    const mark = element("span", { class: "finding-mark", "aria-hidden": "true" }, [marks[weight]]);
+    return element("li", { class: weight }, [mark, element("span", {}, [text])]);
+  }));
+}
+
+function showKey() {
+  const arrow = (name, text) => [element("span", { class: "swatch", style: `border-top: 4px solid var(${name})` }), text];
+  byId("key").replaceChildren(
+    ...arrow("--desired", "desired "), ...arrow(now.run.colour, "felt "),
+    "\u2014 arrows at the head: specific force less gravity at rest. Legs: ",
+    ...arrow("--leg-easy", "free "), ...arrow("--leg-near", "near "), ...arrow("--leg-end", "at an end of the stroke"),
+  );
+}
+
+function setUpPlayer() {
+  const slider = byId("slider");
+  Object.assign(slider, { min: ride.from, max: ride.to });
+  slider.addEventListener("input", () => seek(Number(slider.value)));
+  byId("play").addEventListener("click", () => play(!now.playing));
+  byId("whole").addEventListener("click", () => show(null));
+  const speed = byId("speed");
+  speed.append(...SPEEDS.map((factor) => element("option", { value: factor }, [`\u00d7 ${factor}`])));
+  speed.value = "1";
+  speed.addEventListener("change", () => { now.speed = Number(speed.value); });
+  if (report.runs.length > 1) {
+    byId("runs").append(...report.runs.map((run, i) => {
+      const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
+      button.addEventListener("click", () => select(i));
+      return button;
+    }));
+  }
+  addEventListener("keydown", (event) => {
+    if (event.target !== document.body) return;
+    const step = (ride.to - ride.from) / 200;
+    if (event.key === " ") play(!now.playing);
+    else if (event.key === "ArrowLeft") seek(now.time - step);
+    else if (event.key === "ArrowRight") seek(now.time + step);
+    else return;
+    event.preventDefault();
+  });
+}
+
+function redraw() {
+  style = readStyle();
+  drawCharts();
+  seek(now.time);
+}
+
+showFindings();
+showMeasures(byId("measures"), report.runs);
+byId("provenance").append(...report.provenance.map(([name, text]) => element("span", {}, [element("b", {}, [name]), " ", text])));
+setUpPlayer();
+letTurn(view, drawMachine);
+select(report.selected);
+addEventListener("resize", redraw);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+
+// For those who drive the page from a script, such as its tests.
+window.rideReport = { now, seek, show, play, select, view, ride };
+byId("alarm").hidden = true;

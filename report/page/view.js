@@ -1,0 +1,261 @@
+// The machine, drawn: what is farther from the eye first, so that what is nearer covers it.
+
+const LIGHT = direction([0.35, -0.6, 0.75]);
+/** Length of an arrow for 1 m/s2 [m]. */
+const ARROW = 0.12;
+const ARROW_WORTH_DRAWING = 0.1;
+const GRAVITY = 9.80665;
+
+class View {
+  constructor(canvas, rig) {
+    this.canvas = canvas;
+    this.rig = rig;
+    this.camera = new Camera(rig);
+    /** The legs as drawn last: both ends of each in the picture. */
+    this.drawnLegs = [];
+  }
+
+  draw(run, time) {
+    const { context, width, height } = fitted(this.canvas);
+    this.context = context;
+    this.camera.aim(width, height);
+    this.parts = [];
+    const state = stateAt(run, time);
+    context.clearRect(0, 0, width, height);
+    context.lineCap = "round";
+    context.lineJoin = "round";
+    this.drawFloor();
+    this.addPlates(state);
+    this.addLegs(state);
+    this.addMockUp(state);
+    this.addRider(state);
+    this.parts.sort((a, b) => b.depth - a.depth).forEach((part) => part.draw());
+    this.drawArrows(run, state);
+    this.drawCompass(height);
+    return state;
+  }
+
+  // What can be drawn: polygons, rods and balls.
+
+  add(points, draw) {
+    const depth = points.reduce((sum, point) => sum + this.camera.project(point).depth, 0) / points.length;
+    this.parts.push({ depth, draw });
+  }
+
+  path(points) {
+    this.context.beginPath();
+    for (const point of points) {
+      const { x, y } = this.camera.project(point);
+      this.context.lineTo(x, y);
+    }
+  }
+
+  addPolygon(points, paint) {
+    const normal = direction(cross(minus(points[1], points[0]), minus(points[2], points[0])));
+    const bright = 0.5 + 0.5 * Math.abs(dot(normal, LIGHT));
+    const filled = rgb(mixed(mixed(paint, [0, 0, 0], 0.45), paint, bright));
+    this.add(points, () => {
+      this.path(points);
+      this.context.closePath();
+      this.context.fillStyle = filled;
+      this.context.strokeStyle = filled;
+      this.context.lineWidth = 0.7;
+      this.context.fill();
+      this.context.stroke();
+    });
+  }
+
+  /** A line through points, so thick [m]. */
+  addRod(points, thickness, paint) {
+    this.add(points, () => {
+      this.path(points);
+      const { scale } = this.camera.project(points[0]);
+      this.context.strokeStyle = rgb(paint);
+      this.context.lineWidth = Math.max(1, thickness * scale);
+      this.context.stroke();
+    });
+  }
+
+  addBall(centre, radius, paint) {
+    this.add([centre], () => {
+      const { x, y, scale } = this.camera.project(centre);
+      const r = radius * scale;
+      const shade = this.context.createRadialGradient(x - 0.35 * r, y - 0.4 * r, 0.1 * r, x, y, r);
+      shade.addColorStop(0, rgb(mixed(paint, [255, 255, 255], 0.35)));
+      shade.addColorStop(1, rgb(mixed(paint, [0, 0, 0], 0.15)));
+      this.context.beginPath();
+      this.context.arc(x, y, r, 0, 2 * Math.PI);
+      this.context.fillStyle = shade;
+      this.context.fill();
+    });
+  }
+
+  // What there is to draw.
+
+  drawFloor() {
+    const half = 1.5;
+    this.context.strokeStyle = colour("--floor");
+    this.context.lineWidth = 1;
+    for (let k = -3; k <= 3; k += 1) {
+      const at = k * half / 3;
+      for (const ends of [[[at, -half, 0], [at, half, 0]], [[-half, at, 0], [half, at, 0]]]) {
+        this.path(ends);
+        this.context.stroke();
+      }
+    }
+  }
+
+  addPlates(state) {
+    const paint = channels(colour("--plate"));
+    for (const face of plate(this.rig.base, 0.03)) this.addPolygon(face, paint);
+    for (const face of plate(this.rig.platform, 0.05)) this.addPolygon(face.map((point) => onPlatform(state, point)), paint);
+  }
+
+  addLegs(state) {
+    const body = 0.62 * this.rig.stroke[0];
+    const ends = legEnds(this.rig, state);
+    ends.forEach(([foot, top], i) => {
+      const paint = strokeColour(state.legs[i], this.rig.stroke);
+      const along = direction(minus(top, foot));
+      const mouth = plus(foot, scaled(body, along));
+      this.addRod([mouth, top], 0.035, mixed(paint, [255, 255, 255], 0.35));
+      this.addRod([foot, mouth], 0.075, paint);
+      this.addBall(foot, 0.045, paint);
+      this.addBall(top, 0.04, paint);
+    });
+    this.drawnLegs = ends.map((pair) => pair.map((point) => this.camera.project(point)).map(({ x, y }) => [x, y]));
+  }
+
+  addMockUp(state) {
+    const size = this.rig.head_height - this.rig.torso_length;
+    if (size < 0.1) return;
+    const place = ([x, z], y = 0) => onPlatform(state, [size * x, size * y, size * z]);
+    for (const { outline, half, colour: name } of BODY) {
+      for (const face of swept(outline, half, size)) {
+        this.addPolygon(face.map((point) => onPlatform(state, point)), channels(colour(name)));
+      }
+    }
+    const dark = channels(colour("--tyre"));
+    for (const one of WHEELS) {
+      const ring = wheel(one, size).map((point) => onPlatform(state, point));
+      for (let k = 0; k + 7 < ring.length; k += 7) this.addRod(ring.slice(k, k + 8), 0.14 * size, dark);
+      this.addBall(place(one.centre), 0.1 * size, dark);
+    }
+    this.addRod([place(FORK[0]), place(FORK[1])], 0.1 * size, dark);
+    this.addRod([place(BAR.at, BAR.half), place(BAR.at, -BAR.half)], 0.07 * size, dark);
+  }
+
+  addRider(state) {
+    const { rig } = this;
+    const size = rig.head_height - rig.torso_length;
+    const [suit, helmet] = ["--rider", "--helmet"].map((name) => channels(colour(name)));
+    const shoulders = [0.17, -0.17].map((aside) => onTorso(rig, state, 0.74 * rig.torso_length, aside, -0.06));
+    if (size >= 0.1) {
+      for (const [i, side] of [1, -1].entries()) {
+        const place = ([x, z], y) => onPlatform(state, [size * x, side * size * y, size * z]);
+        const hip = onTorso(rig, state, 0.08, side * 0.09, -0.2);
+        this.addRod([hip, place(KNEE, 0.5)], 0.11, suit);
+        this.addRod([place(KNEE, 0.5), place(FOOT, 0.42)], 0.09, suit);
+        const elbow = plus(scaled(0.5, plus(shoulders[i], place(BAR.at, BAR.half))), scaled(-0.09, state.rotation.map((row) => row[2])));
+        this.addRod([shoulders[i], elbow, place(BAR.at, BAR.half)], 0.075, suit);
+      }
+    }
+    const back = [onTorso(rig, state, 0.1, 0, -0.2), onTorso(rig, state, 0.6 * rig.torso_length, 0, -0.1)];
+    this.addRod(back, 0.25, suit);
+    this.addRod(shoulders, 0.15, suit);
+    const head = headOf(rig, state);
+    this.addBall(head, 0.135, helmet);
+    const visor = [0.5, 0.25, 0, -0.25, -0.5].map((angle) => {
+      const towards = [Math.cos(angle), Math.sin(angle), 0.05];
+      return plus(head, scaled(0.137, direction(fromHead(state, towards))));
+    });
+    if (dot(minus(visor[2], head), this.camera.back) > -0.03) this.addRod(visor.map((point) => plus(point, scaled(0.02, this.camera.back))), 0.06, channels(colour("--visor")));
+  }
+
+  /** What is desired and what is felt at the head, less gravity's share along its vertical. */
+  drawArrows(run, state) {
+    const head = headOf(this.rig, state);
+    const cues = [[state.desired, colour("--desired"), 7], [state.felt, colour(run.colour), 3]];
+    for (const [force, paint, wide] of cues) {
+      const cue = minus(force, [0, 0, GRAVITY]);
+      if (norm(cue) < ARROW_WORTH_DRAWING) continue;
+      this.drawArrow(head, plus(head, scaled(ARROW, fromHead(state, cue))), paint, wide);
+    }
+  }
+
+  drawArrow(from, to, paint, wide) {
+    const [a, b] = [from, to].map((point) => this.camera.project(point));
+    const long = Math.hypot(b.x - a.x, b.y - a.y);
+    if (long < 2) return;
+    const [ux, uy] = [(b.x - a.x) / long, (b.y - a.y) / long];
+    const tip = Math.min(long, 6 + wide);
+    const { context } = this;
+    context.strokeStyle = paint;
+    context.fillStyle = paint;
+    context.lineWidth = wide;
+    context.beginPath();
+    context.moveTo(a.x, a.y);
+    context.lineTo(b.x - tip * ux, b.y - tip * uy);
+    context.stroke();
+    context.beginPath();
+    context.moveTo(b.x, b.y);
+    context.lineTo(b.x - tip * ux - 0.6 * tip * uy, b.y - tip * uy + 0.6 * tip * ux);
+    context.lineTo(b.x - tip * ux + 0.6 * tip * uy, b.y - tip * uy - 0.6 * tip * ux);
+    context.fill();
+  }
+
+  /** Which way the axes point. */
+  drawCompass(height) {
+    const { context, camera } = this;
+    const [x, y, long] = [34, height - 34, 22];
+    context.font = "11px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.textBaseline = "middle";
+    context.lineWidth = 1.5;
+    for (const [axis, name] of [[[1, 0, 0], "x"], [[0, 1, 0], "y"], [[0, 0, 1], "z"]]) {
+      const [dx, dy] = [dot(axis, camera.right), -dot(axis, camera.up)];
+      context.strokeStyle = colour("--muted");
+      context.fillStyle = colour("--muted");
+      context.beginPath();
+      context.moveTo(x, y);
+      context.lineTo(x + long * dx, y + long * dy);
+      context.stroke();
+      if (Math.hypot(dx, dy) > 0.25) context.fillText(name, x + (long + 8) * dx, y + (long + 8) * dy);
+    }
+  }
+}
+
+const VIEWS = { oblique: [-0.95, 0.24], side: [-Math.PI / 2, 0.05], front: [0, 0.05], above: [-Math.PI / 2, HIGHEST] };
+
+/** Lets the mouse, a finger or the arrow keys turn the view; `changed` is called when they do. */
+function letTurn(view, changed) {
+  const { canvas, camera } = view;
+  let last = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    last = [event.clientX, event.clientY];
+    canvas.setPointerCapture(event.pointerId);
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (!last) return;
+    camera.turn(0.008 * (event.clientX - last[0]), 0.008 * (event.clientY - last[1]));
+    last = [event.clientX, event.clientY];
+    changed();
+  });
+  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { last = null; });
+  canvas.addEventListener("keydown", (event) => {
+    const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] }[event.key];
+    if (!turn) return;
+    event.preventDefault();
+    event.stopPropagation();
+    camera.turn(...turn);
+    changed();
+  });
+  for (const [name, [azimuth, elevation]] of Object.entries(VIEWS)) {
+    const button = element("button", { type: "button" }, [name]);
+    button.addEventListener("click", () => {
+      Object.assign(camera, { azimuth, elevation });
+      changed();
+    });
+    byId("views").append(button);
+  }
+}

@@ -1,0 +1,222 @@
+//! What a report is made of: plain data.
+//!
+//! All quantities are in SI units and in the frames of the washout: x forward, y left, z up; positive pitch is nose down.
+//! Every series of a [`Run`] has one value for each of its times.
+
+use serde::Serialize;
+
+use crate::encode::{f32_series, f64_series, flags};
+
+/// The whole page.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Report {
+    /// The heading, for instance the ride's name.
+    pub title: String,
+    /// One line below the heading: what was ridden, on which rig, with which parameters.
+    pub subtitle: String,
+    /// What the reader should know first, in order of importance.
+    pub findings: Vec<Finding>,
+    /// Facts for the foot of the page as name and value: files, versions, step.
+    pub provenance: Vec<(String, String)>,
+    pub rig: Rig,
+    /// The runs, for instance with the default parameters and with tuned ones. At least one; at most four are readable.
+    pub runs: Vec<Run>,
+    /// Which of the runs the platform shows first.
+    pub selected: usize,
+}
+
+/// A sentence about the ride, and how much it matters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Finding {
+    pub weight: Weight,
+    pub text: String,
+}
+
+/// How much a finding matters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Weight {
+    /// As it should be.
+    Good,
+    /// Worth knowing.
+    #[default]
+    Note,
+    /// Something limits the cues, or is doubtful about the data.
+    Warning,
+}
+
+/// The Stewart platform.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Rig {
+    /// Joints on the base in the base frame, leg by leg \[m\].
+    pub base: [[f64; 3]; 6],
+    /// Joints on the platform in the platform frame \[m\].
+    pub platform: [[f64; 3]; 6],
+    /// Height of the platform frame's origin in the base frame at neutral \[m\].
+    pub neutral_height: f64,
+    /// Shortest and longest length of a leg \[m\].
+    pub stroke: [f64; 2],
+    /// Height of the upright rider's head above the platform frame's origin \[m\].
+    pub head_height: f64,
+    /// Length of the torso, about whose lower end the rider leans \[m\].
+    pub torso_length: f64,
+}
+
+/// One ride with one set of parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Run {
+    /// Short, because it stands in legends: `default`, `tuned`.
+    pub name: String,
+    /// \[s\], ascending.
+    #[serde(serialize_with = "f64_series::one")]
+    pub times: Vec<f64>,
+    /// What the vehicle's rider would feel.
+    pub desired: Cues,
+    /// What the rider on the platform feels.
+    pub felt: Cues,
+    /// Position of the platform frame's origin in the base frame: x, y, z \[m\].
+    #[serde(serialize_with = "f32_series::many")]
+    pub position: [Vec<f64>; 3],
+    /// Orientation of the platform: roll, pitch, yaw \[rad\].
+    #[serde(serialize_with = "f32_series::many")]
+    pub orientation: [Vec<f64>; 3],
+    /// The legs' lengths \[m\].
+    #[serde(serialize_with = "f32_series::many")]
+    pub legs: [Vec<f64>; 6],
+    /// Tilt coordination's share of roll and pitch \[rad\].
+    #[serde(serialize_with = "f32_series::many")]
+    pub tilt: [Vec<f64>; 2],
+    /// Rates of that share \[rad/s\].
+    #[serde(serialize_with = "f32_series::many")]
+    pub tilt_rate: [Vec<f64>; 2],
+    /// The rider's lean, positive to the right \[rad\]; empty where nobody leans.
+    #[serde(serialize_with = "f32_series::one")]
+    pub lean: Vec<f64>,
+    pub limited: Limited,
+    pub limits: Limits,
+    /// The table's rows for this run. Rows of several runs with the same group and name stand side by side.
+    pub measures: Vec<Measure>,
+    /// Further charts, below the others; a chart of the same title in another run joins it.
+    pub charts: Vec<Chart>,
+}
+
+/// Specific force and angular velocity at the rider's head, in head axes.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Cues {
+    /// x, y, z \[m/s2\]; (0, 0, 9.81) at rest.
+    #[serde(serialize_with = "f32_series::many")]
+    pub specific_force: [Vec<f64>; 3],
+    /// x, y, z \[rad/s\].
+    #[serde(serialize_with = "f32_series::many")]
+    pub angular_velocity: [Vec<f64>; 3],
+}
+
+/// What was limited during the step that led to each sample.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Limited {
+    /// Tilt coordination lagged behind its target.
+    #[serde(serialize_with = "flags")]
+    pub tilt: Vec<bool>,
+    /// A safety unit held the platform back.
+    #[serde(serialize_with = "flags")]
+    pub safety: Vec<bool>,
+    /// The actuator guard held a leg back.
+    #[serde(serialize_with = "flags")]
+    pub actuator: Vec<bool>,
+}
+
+/// The limits that the run was made under. The legs' stroke is the rig's.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Limits {
+    /// \[rad\]
+    pub tilt_angle: f64,
+    /// \[rad/s\]
+    pub tilt_rate: f64,
+    /// \[rad/s2\]
+    pub tilt_acceleration: f64,
+    /// Of the safety units, x, y, z about neutral \[m\].
+    pub safety_position: [f64; 3],
+    /// \[m/s\]
+    pub safety_velocity: [f64; 3],
+    /// \[m/s2\]
+    pub safety_acceleration: [f64; 3],
+    /// \[m/s\]
+    pub actuator_velocity: f64,
+    /// \[m/s2\]
+    pub actuator_acceleration: f64,
+}
+
+/// One row of the table of measures.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Measure {
+    /// The heading that the row stands under: `Surge`, `Sensed roll rate`, `Legs`.
+    pub group: String,
+    pub name: String,
+    pub value: Value,
+    /// As printed, for instance `m/s²`; empty for pure numbers.
+    pub unit: String,
+    /// Which of two values is the better.
+    pub better: Better,
+    /// What is computed, in a sentence or a formula.
+    pub definition: String,
+    /// Where the definition comes from.
+    pub source: String,
+}
+
+/// A cell of the table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// Shown with three significant digits, down to a millionth; one that is not finite is shown as undefined.
+    Number(f64),
+    Text(String),
+    /// Shown as a dash.
+    #[default]
+    Undefined,
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Value::Number(number)
+    }
+}
+
+impl From<Option<f64>> for Value {
+    fn from(number: Option<f64>) -> Self {
+        number.map_or(Value::Undefined, Value::Number)
+    }
+}
+
+/// Which of two values of a measure is the better.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Better {
+    Less,
+    More,
+    /// Neither in itself.
+    #[default]
+    Neither,
+}
+
+/// A chart over time of something that the report does not know of itself.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Chart {
+    pub title: String,
+    /// What the vertical axis says, with its unit.
+    pub quantity: String,
+    /// Times of the lines' values \[s\]; empty: the run's.
+    #[serde(serialize_with = "f64_series::one")]
+    pub times: Vec<f64>,
+    pub lines: Vec<Line>,
+    /// Values drawn as dashed lines across the chart.
+    pub limits: Vec<f64>,
+}
+
+/// A curve of a [`Chart`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Line {
+    pub label: String,
+    /// One value for each time; a value that is not a number is a gap.
+    #[serde(serialize_with = "f32_series::one")]
+    pub values: Vec<f64>,
+}

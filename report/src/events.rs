@@ -1,0 +1,302 @@
+//! When and why something was limited, read off the flags and the motion around them.
+
+use serde::Serialize;
+
+use crate::data::{Rig, Run};
+
+/// A stretch of time in which something was limited.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Event {
+    pub kind: Kind,
+    /// \[s\]
+    pub from: f64,
+    /// \[s\]
+    pub to: f64,
+    /// Which limit, on which axis or leg, as well as the motion shows it.
+    pub why: String,
+}
+
+/// What was limited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    Tilt,
+    Safety,
+    Actuator,
+}
+
+/// Stretches closer to each other than this are one \[s\].
+const GAP: f64 = 0.1;
+
+/// A limit counts as reached at this share of it.
+const REACHED: f64 = 0.98;
+
+/// A quantity's largest share of its limit, and how to say so.
+struct Share {
+    share: f64,
+    /// The axis or leg.
+    who: String,
+    /// Which limit it is at.
+    limit: String,
+}
+
+impl Share {
+    /// A limit of 0 is one that is not known: nothing has a share of it.
+    fn new(who: impl Into<String>, value: f64, limit: f64, text: String) -> Self {
+        Share { share: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
+    }
+}
+
+/// Everything that was limited in a run, in the order of time.
+pub fn events(run: &Run, rig: &Rig) -> Vec<Event> {
+    let flags =
+        [(Kind::Tilt, &run.limited.tilt), (Kind::Safety, &run.limited.safety), (Kind::Actuator, &run.limited.actuator)];
+    let mut events: Vec<Event> = flags
+        .iter()
+        .flat_map(|(kind, flags)| stretches(&run.times, flags).map(|at| event(*kind, run, rig, at)))
+        .collect();
+    events.sort_by(|a, b| a.from.total_cmp(&b.from));
+    events
+}
+
+/// First and last index of each stretch of raised flags. A flag speaks of the step before it.
+fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usize)> {
+    let mut stretches: Vec<(usize, usize)> = Vec::new();
+    for (index, _) in flags.iter().enumerate().filter(|(_, raised)| **raised) {
+        let start = index.saturating_sub(1);
+        match stretches.last_mut() {
+            Some(last) if times[start] - times[last.1] <= GAP => last.1 = index,
+            _ => stretches.push((start, index)),
+        }
+    }
+    stretches.into_iter()
+}
+
+fn event(kind: Kind, run: &Run, rig: &Rig, (first, last): (usize, usize)) -> Event {
+    let at = Stretch { times: &run.times[first..=last], first, last };
+    let why = match kind {
+        Kind::Tilt => tilt_reason(run, &at),
+        Kind::Safety => safety_reason(run, rig, &at),
+        Kind::Actuator => actuator_reason(run, rig, &at),
+    };
+    Event { kind, from: run.times[first], to: run.times[last], why }
+}
+
+/// Part of a run.
+struct Stretch<'a> {
+    times: &'a [f64],
+    first: usize,
+    last: usize,
+}
+
+impl Stretch<'_> {
+    fn of<'a>(&self, series: &'a [f64]) -> &'a [f64] {
+        &series[self.first..=self.last]
+    }
+
+    /// The largest rate of change between samples.
+    fn peak_rate(&self, series: &[f64]) -> f64 {
+        self.rates(series).into_iter().fold(0.0, |peak, rate| f64::max(peak, rate.abs()))
+    }
+
+    /// The largest rate of change of the rate of change.
+    fn peak_second_rate(&self, series: &[f64]) -> f64 {
+        let rates = self.rates(series);
+        let changes = rates.windows(2).zip(self.times.windows(3));
+        changes.fold(0.0, |peak, (rate, t)| f64::max(peak, ((rate[1] - rate[0]) / (0.5 * (t[2] - t[0]))).abs()))
+    }
+
+    fn rates(&self, series: &[f64]) -> Vec<f64> {
+        let values = self.of(series).windows(2);
+        values.zip(self.times.windows(2)).map(|(x, t)| (x[1] - x[0]) / (t[1] - t[0])).collect()
+    }
+}
+
+fn peak(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |peak, value| f64::max(peak, value.abs()))
+}
+
+fn tilt_reason(run: &Run, at: &Stretch) -> String {
+    let limits = &run.limits;
+    let axes = [(0, "roll"), (1, "pitch")];
+    let angles = axes.map(|(i, axis)| {
+        let text = format!("angle limit of {:.1}°", limits.tilt_angle.to_degrees());
+        Share::new(axis, peak(at.of(&run.tilt[i])), limits.tilt_angle, text)
+    });
+    let rates = axes.map(|(i, axis)| {
+        let text = format!("rate limit of {:.1}°/s", limits.tilt_rate.to_degrees());
+        Share::new(axis, peak(at.of(&run.tilt_rate[i])), limits.tilt_rate, text)
+    });
+    let accelerations = axes.map(|(i, axis)| {
+        let text = format!("acceleration limit of {:.1}°/s²", limits.tilt_acceleration.to_degrees());
+        Share::new(axis, at.peak_rate(&run.tilt_rate[i]), limits.tilt_acceleration, text)
+    });
+    reason([angles.into(), rates.into(), accelerations.into()])
+}
+
+fn safety_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
+    let limits = &run.limits;
+    let axes = [(0, "surge", 0.0), (1, "sway", 0.0), (2, "heave", rig.neutral_height)];
+    let positions = axes.map(|(i, axis, neutral)| {
+        let limit = limits.safety_position[i];
+        let farthest = at.of(&run.position[i]).iter().fold(0.0, |peak, x| f64::max(peak, (x - neutral).abs()));
+        Share::new(axis, farthest, limit, format!("travel limit of {limit:.2} m"))
+    });
+    let velocities = axes.map(|(i, axis, _)| {
+        let limit = limits.safety_velocity[i];
+        Share::new(axis, at.peak_rate(&run.position[i]), limit, format!("velocity limit of {limit:.2} m/s"))
+    });
+    let accelerations = axes.map(|(i, axis, _)| {
+        let limit = limits.safety_acceleration[i];
+        let text = format!("acceleration limit of {limit:.1} m/s²");
+        Share::new(axis, at.peak_second_rate(&run.position[i]), limit, text)
+    });
+    reason([positions.into(), velocities.into(), accelerations.into()])
+}
+
+fn actuator_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
+    let limits = &run.limits;
+    let [shortest, longest] = rig.stroke;
+    let (middle, half) = (0.5 * (shortest + longest), 0.5 * (longest - shortest));
+    let farthest = |leg: &[f64], side: f64| at.of(leg).iter().fold(0.0, |far, x| f64::max(far, side * (x - middle)));
+    let legs = || run.legs.iter().enumerate().map(|(i, leg)| (format!("leg {}", i + 1), leg));
+    let short = legs()
+        .map(|(name, leg)| Share::new(name, farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m")));
+    let long = legs()
+        .map(|(name, leg)| Share::new(name, farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m")));
+    let velocities = legs().map(|(name, leg)| {
+        let limit = limits.actuator_velocity;
+        Share::new(name, at.peak_rate(leg), limit, format!("speed limit of {limit:.2} m/s"))
+    });
+    let accelerations = legs().map(|(name, leg)| {
+        let limit = limits.actuator_acceleration;
+        Share::new(name, at.peak_second_rate(leg), limit, format!("acceleration limit of {limit:.1} m/s²"))
+    });
+    reason([short.chain(long).collect(), velocities.collect(), accelerations.collect()])
+}
+
+/// What of the first kind has reached its limit, else of the second, and so on; if nothing has, what came closest.
+fn reason(kinds: [Vec<Share>; 3]) -> String {
+    for shares in &kinds {
+        let reached: Vec<&Share> = shares.iter().filter(|one| one.share >= REACHED).collect();
+        if !reached.is_empty() {
+            return said(&reached);
+        }
+    }
+    let known = kinds.iter().flatten().filter(|one| one.share.is_finite());
+    known.max_by(|a, b| a.share.total_cmp(&b.share)).map_or_else(
+        || "no limit is known".into(),
+        |one| format!("braking or catching up; {} at {:.0} % of the {}", one.who, 100.0 * one.share, one.limit),
+    )
+}
+
+/// Who is at which limit: those at the same one together.
+fn said(reached: &[&Share]) -> String {
+    let same_limit = reached.chunk_by(|a, b| a.limit == b.limit);
+    let parts = same_limit.map(|shares| {
+        let who: Vec<&str> = shares.iter().map(|one| one.who.as_str()).collect();
+        format!("{} at the {}", who.join(", "), shares[0].limit)
+    });
+    parts.collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::data::{Limited, Limits};
+
+    const RIG: Rig = Rig {
+        base: [[0.0; 3]; 6],
+        platform: [[0.0; 3]; 6],
+        neutral_height: 1.1,
+        stroke: [1.0, 1.6],
+        head_height: 1.2,
+        torso_length: 0.75,
+    };
+
+    /// A run of 2 s at 100 Hz in which nothing happens.
+    fn still() -> Run {
+        let times: Vec<f64> = (0..=200).map(|k| f64::from(k) * 0.01).collect();
+        let all = |value: f64| vec![value; times.len()];
+        Run {
+            position: [all(0.0), all(0.0), all(1.1)],
+            legs: std::array::from_fn(|_| all(1.3)),
+            tilt: [all(0.0), all(0.0)],
+            tilt_rate: [all(0.0), all(0.0)],
+            limited: Limited { tilt: vec![false; 201], safety: vec![false; 201], actuator: vec![false; 201] },
+            limits: Limits {
+                tilt_angle: 0.38,
+                tilt_rate: 3_f64.to_radians(),
+                tilt_acceleration: 0.2,
+                safety_position: [0.45, 0.45, 0.33],
+                safety_velocity: [1.0; 3],
+                safety_acceleration: [10.0; 3],
+                actuator_velocity: 1.0,
+                actuator_acceleration: 15.0,
+            },
+            times,
+            ..Run::default()
+        }
+    }
+
+    #[test]
+    fn a_run_without_flags_has_no_events() {
+        assert_eq!(events(&still(), &RIG), []);
+    }
+
+    #[test]
+    fn a_flag_speaks_of_the_step_before_it_and_short_gaps_close() {
+        let mut run = still();
+        for k in [50, 51, 52, 60, 100] {
+            run.limited.tilt[k] = true;
+        }
+        let spans: Vec<(f64, f64)> = events(&run, &RIG).iter().map(|event| (event.from, event.to)).collect();
+        assert_eq!(spans, [(0.49, 0.6), (0.99, 1.0)]);
+    }
+
+    #[test]
+    fn the_reason_is_the_limit_that_is_reached() {
+        let mut run = still();
+        run.limited.tilt[100] = true;
+        run.limited.safety[100] = true;
+        run.limited.actuator[100] = true;
+        run.tilt_rate[1][100] = -3_f64.to_radians();
+        run.position[2][100] = 1.1 - 0.33;
+        run.legs[3][100] = 1.0;
+        run.legs[4][100] = 1.6;
+        run.legs[5][100] = 1.6;
+        let events = events(&run, &RIG);
+        let reason = |kind| events.iter().find(|event| event.kind == kind).map(|event| event.why.as_str());
+        assert_eq!(reason(Kind::Tilt), Some("pitch at the rate limit of 3.0°/s"));
+        assert_eq!(reason(Kind::Safety), Some("heave at the travel limit of 0.33 m"));
+        assert_eq!(
+            reason(Kind::Actuator),
+            Some("leg 4 at the shortest length of 1.000 m; leg 5, leg 6 at the greatest length of 1.600 m")
+        );
+    }
+
+    #[test]
+    fn a_leg_that_is_too_fast_is_said_to_be() {
+        let mut run = still();
+        run.limited.actuator[100] = true;
+        run.limited.actuator[101] = true;
+        run.legs[0][100..].fill(1.31); // 0.01 m in 0.01 s.
+        assert_eq!(events(&run, &RIG)[0].why, "leg 1 at the speed limit of 1.00 m/s");
+    }
+
+    #[test]
+    fn without_a_limit_reached_the_closest_is_named() {
+        let mut run = still();
+        run.limited.safety[100] = true;
+        run.position[0].fill(0.36);
+        let why = &events(&run, &RIG)[0].why;
+        assert_eq!(why, "braking or catching up; surge at 80 % of the travel limit of 0.45 m");
+    }
+
+    #[test]
+    fn limits_that_are_not_given_are_not_guessed_at() {
+        let mut run = Run { limits: Limits::default(), ..still() };
+        run.limited.safety[100] = true;
+        assert_eq!(events(&run, &RIG)[0].why, "no limit is known");
+    }
+}

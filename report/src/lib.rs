@@ -1,0 +1,18 @@
+//! One self-contained HTML page about a ride on a motion platform: what is felt against what is desired, the legs against
+//! their stroke, what was limited and when, a table of measures; and beside it the platform itself, moving in 3D.
+//!
+//! Plain data in ([`Report`]), text out ([`html`]). The page needs no network and no other file: its script and style are
+//! those of `report/page/`, its numbers are inside it.
+
+#![forbid(unsafe_code)]
+
+mod check;
+mod data;
+mod encode;
+mod events;
+mod page;
+
+pub use check::{Unusable, check};
+pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight};
+pub use events::{Event, Kind, events};
+pub use page::html;

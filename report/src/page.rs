@@ -1,0 +1,147 @@
+//! The page: a template with the style, the scripts and the data put in.
+
+use serde::Serialize;
+
+use crate::check::{Unusable, check};
+use crate::data::Report;
+use crate::events::{Event, events};
+
+const TEMPLATE: &str = include_str!("../page/page.html");
+const STYLE: &str = include_str!("../page/style.css");
+const ALARM: &str = include_str!("../page/alarm.js");
+
+/// In the order in which they build upon each other.
+const SCRIPTS: [&str; 15] = [
+    include_str!("../page/data.js"),
+    include_str!("../page/format.js"),
+    include_str!("../page/dom.js"),
+    include_str!("../page/palette.js"),
+    include_str!("../page/thin.js"),
+    include_str!("../page/chart.js"),
+    include_str!("../page/vector.js"),
+    include_str!("../page/machine.js"),
+    include_str!("../page/camera.js"),
+    include_str!("../page/view.js"),
+    include_str!("../page/limits.js"),
+    include_str!("../page/gauges.js"),
+    include_str!("../page/measures.js"),
+    include_str!("../page/panels.js"),
+    include_str!("../page/main.js"),
+];
+
+/// What the scripts read.
+#[derive(Serialize)]
+struct Page<'a> {
+    report: &'a Report,
+    /// Of each run.
+    events: Vec<Vec<Event>>,
+}
+
+/// The whole page as HTML, which needs no network and no other file.
+///
+/// # Errors
+/// The data do not fit together: see [`check`].
+///
+/// # Panics
+/// Never: plain data always serialise.
+pub fn html(report: &Report) -> Result<String, Unusable> {
+    check(report)?;
+    let page = Page { report, events: report.runs.iter().map(|run| events(run, &report.rig)).collect() };
+    // Nothing in the data can end the script element that holds them: a < in JSON stands in a string only.
+    let data = serde_json::to_string(&page).expect("plain data serialise").replace('<', "\\u003c");
+    Ok(filled(
+        TEMPLATE,
+        &[
+            ("title", &escaped(&report.title)),
+            ("subtitle", &escaped(&report.subtitle)),
+            ("style", STYLE),
+            ("alarm", ALARM),
+            ("data", &data),
+            ("script", &SCRIPTS.join("\n")),
+        ],
+    ))
+}
+
+/// The template with every `{{name}}` replaced; what is put in is not looked at again.
+fn filled(template: &str, texts: &[(&str, &str)]) -> String {
+    let mut parts = template.split("{{");
+    let mut page = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let (name, rest) = part.split_once("}}").expect("the template closes its braces");
+        let (_, text) = texts.iter().find(|(known, _)| *known == name).expect("the template names what there is");
+        page.push_str(text);
+        page.push_str(rest);
+    }
+    page
+}
+
+/// Text as HTML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::tests::smallest;
+
+    /// The part of the page from after `start` to before `end`.
+    fn between<'a>(page: &'a str, start: &str, end: &str) -> &'a str {
+        let rest = page.split_once(start).expect(start).1;
+        rest.split_once(end).expect(end).0
+    }
+
+    fn data(page: &str) -> serde_json::Value {
+        let json = between(page, "<script type=\"application/json\" id=\"data\">", "</script>");
+        serde_json::from_str(json).unwrap()
+    }
+
+    #[test]
+    fn everything_is_in_the_page() {
+        let page = html(&smallest()).unwrap();
+        for outside in ["http:", "https:", "src=", "href=\"/", "@import", "url(", "import ", "fetch(", "XMLHttp"] {
+            assert!(!page.contains(outside), "the page holds {outside}");
+        }
+        assert!(!page.contains("{{"));
+        assert!(page.contains("default-src 'none'"));
+    }
+
+    #[test]
+    fn text_that_looks_like_markup_stays_text() {
+        let hostile = "</script><b>\"&{{data}}\u{2028}";
+        let mut report = smallest();
+        report.title = hostile.into();
+        report.runs[0].name = hostile.into();
+        let page = html(&report).unwrap();
+        assert_eq!(between(&page, "<title>", "</title>"), "&lt;/script&gt;&lt;b&gt;&quot;&amp;{{data}}\u{2028}");
+        assert_eq!(data(&page)["report"]["runs"][0]["name"], hostile);
+        assert_eq!(page.matches("</script>").count(), 3);
+    }
+
+    #[test]
+    fn numbers_travel_as_their_bytes_and_gaps_stay_gaps() {
+        let mut report = smallest();
+        report.runs[0].times = vec![0.25, 100_000.125];
+        report.runs[0].legs[2] = vec![1.5, f64::NAN];
+        let data = data(&html(&report).unwrap());
+        let run = &data["report"]["runs"][0];
+        let decoded = |text: &serde_json::Value| {
+            use base64::Engine as _;
+            base64::engine::general_purpose::STANDARD.decode(text.as_str().unwrap()).unwrap()
+        };
+        let times = decoded(&run["times"]);
+        let times: Vec<f64> = times.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
+        assert_eq!(times, [0.25, 100_000.125]);
+        let leg = decoded(&run["legs"][2]);
+        let leg: Vec<f32> = leg.chunks(4).map(|bytes| f32::from_le_bytes(bytes.try_into().unwrap())).collect();
+        assert_eq!(leg[0], 1.5);
+        assert!(leg[1].is_nan());
+    }
+
+    #[test]
+    fn what_does_not_fit_makes_no_page() {
+        let mut report = smallest();
+        report.runs.clear();
+        assert_eq!(html(&report), Err(Unusable::NoRuns));
+    }
+}

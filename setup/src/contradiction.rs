@@ -1,0 +1,30 @@
+//! Limits that contradict each other: each can be used, but one of them is not what its author thinks.
+
+use model_interface::Refusal;
+use moris_washout::Parameters;
+
+use crate::ranges::{Axis, single_axis_range};
+
+/// Whether the safety units' limits are within what the rig reaches along each axis alone. Where they are not, a safety unit
+/// never acts: the legs come to the ends of their stroke before.
+///
+/// # Errors
+/// The first limit beyond the rig's reach.
+pub fn contradiction(parameters: &Parameters) -> Result<(), Refusal> {
+    let limits = parameters.safety.position_limit;
+    for (place, axis) in [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate() {
+        let reach = single_axis_range(&parameters.rig, axis).smaller();
+        if limits[place] > reach {
+            return Err(Refusal {
+                variable: format!("safety.{}.positionLimit", ["x", "y", "z"][place]),
+                reason: format!(
+                    "is {}, but in {} the rig reaches only {reach:.3} m from neutral; give a smaller limit, or in a rig file \
+                     none, and it follows from the rig",
+                    limits[place],
+                    axis.name()
+                ),
+            });
+        }
+    }
+    Ok(())
+}

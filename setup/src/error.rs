@@ -1,0 +1,34 @@
+//! Why a setup cannot be used.
+
+use std::io;
+use std::path::PathBuf;
+
+use model_interface::Refusal;
+
+use crate::names::suggestion;
+
+/// Why a rig file, a parameter file or both together cannot be used, in words that say what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The file cannot be read.
+    #[error("cannot read {}: {reason}", file.display())]
+    Read { file: PathBuf, reason: io::Error },
+    /// Neither a file nor the name of a shipped set.
+    #[error(
+        "{name} is neither a file nor a parameter set that is shipped{}",
+        suggestion(nearest, "shipped are default and wake")
+    )]
+    NoSuchSet { name: String, nearest: Vec<String> },
+    /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows the place.
+    #[error("{source_name}: {text}")]
+    Toml { source_name: String, text: String },
+    /// A name that is not one.
+    #[error("{source_name}: there is no {what} {name}{}", suggestion(nearest, otherwise))]
+    UnknownName { source_name: String, what: &'static str, name: String, nearest: Vec<String>, otherwise: &'static str },
+    /// A value that the name cannot have.
+    #[error("{source_name}: {name} {reason}")]
+    WrongValue { source_name: String, name: String, reason: String },
+    /// Each value could be used, but not all together.
+    #[error("{0}")]
+    Refused(#[from] Refusal),
+}

@@ -1,0 +1,46 @@
+//! Values by the names of variables: what files come down to.
+
+use model_interface::{Group, Identity, Reader, Row, Writer, slot_count};
+
+/// Names of variables with their values, as they lie in slots: enumerations counted from 1, booleans as 0 and 1. A later
+/// value of the same name stands over an earlier one.
+pub type NamedValues = Vec<(String, f64)>;
+
+/// A group of variables with these values laid over it. Names that are not the group's are left out.
+pub fn overlaid<G: Group>(group: &G, values: &[(String, f64)]) -> G {
+    let mut slots = vec![0.0; slot_count(G::ROWS)];
+    group.write(&mut Writer::new(&mut slots));
+    for (slot, name) in variable_names(G::ROWS).enumerate() {
+        if let Some((_, value)) = values.iter().rev().find(|(other, _)| *other == name) {
+            slots[slot] = *value;
+        }
+    }
+    G::read(&mut Reader::new(&slots))
+}
+
+/// The values of all of a group's variables.
+pub fn all<G: Group>(group: &G) -> NamedValues {
+    let mut slots = vec![0.0; slot_count(G::ROWS)];
+    group.write(&mut Writer::new(&mut slots));
+    variable_names(G::ROWS).zip(slots).collect()
+}
+
+/// The values of those of a group's variables that are not the default's.
+pub fn changed<G: Group>(group: &G) -> NamedValues {
+    all(group)
+        .into_iter()
+        .zip(all(&G::default()))
+        .filter(|(mine, default)| mine.1 != default.1)
+        .map(|(mine, _)| mine)
+        .collect()
+}
+
+/// The values in a model's slots, by name.
+pub fn values_of(identity: &Identity, slots: &[f64]) -> NamedValues {
+    variable_names(identity.rows).zip(slots.iter().copied()).collect()
+}
+
+/// The names of all scalar variables of these rows, in the order of the slots.
+pub(crate) fn variable_names(rows: &[Row]) -> impl Iterator<Item = String> {
+    rows.iter().flat_map(|row| (0..row.slots()).map(|element| row.variable_name(element)))
+}

@@ -1,0 +1,126 @@
+//! How far a platform goes along one axis alone.
+
+use moris_washout::Rig;
+use moris_washout::nalgebra::Vector3;
+use moris_washout::orientation::{Orientation, RollPitchYaw};
+use moris_washout::platform::{Geometry, Pose, leg_lengths};
+
+/// An axis of the platform's motion: a translation in the base frame or a rotation from level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    Surge,
+    Sway,
+    Heave,
+    Roll,
+    Pitch,
+    Yaw,
+}
+
+impl Axis {
+    /// All six, translations first.
+    pub const ALL: [Axis; 6] = [Axis::Surge, Axis::Sway, Axis::Heave, Axis::Roll, Axis::Pitch, Axis::Yaw];
+
+    /// The axis' name in lower case.
+    pub fn name(self) -> &'static str {
+        ["surge", "sway", "heave", "roll", "pitch", "yaw"][self as usize]
+    }
+
+    /// Whether it is a rotation, so that its amounts are \[rad\]; those of a translation are \[m\].
+    pub fn is_rotation(self) -> bool {
+        self as usize >= 3
+    }
+}
+
+/// How far the platform goes from neutral along one axis in both directions \[m or rad\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Not above 0.
+    pub min: f64,
+    /// Not below 0.
+    pub max: f64,
+}
+
+impl Range {
+    /// The smaller of the two ways.
+    pub fn smaller(self) -> f64 {
+        self.max.min(-self.min)
+    }
+}
+
+/// The neutral pose displaced along one axis by this much \[m or rad\].
+pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
+    let mut displacement = [0.0; 6];
+    displacement[axis as usize] = amount;
+    let [x, y, z, roll, pitch, yaw] = displacement;
+    Pose {
+        position: Pose::neutral(rig).position + Vector3::new(x, y, z),
+        orientation: Orientation::new(RollPitchYaw::new(roll, pitch, yaw)),
+    }
+}
+
+/// How far the legs are inside their stroke in a pose, the smallest distance of any from either end \[m\]; negative where a
+/// leg would have to be longer or shorter than it can be.
+pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
+    let lengths = leg_lengths(&Geometry::from(rig), pose);
+    lengths.iter().map(|length| (length - rig.min_length).min(rig.max_length - length)).fold(f64::INFINITY, f64::min)
+}
+
+/// How far the platform goes from neutral along this axis alone, all other coordinates neutral, before the first leg is at
+/// an end of its stroke. Rotations end at a quarter turn.
+pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
+    Range { min: -reach(rig, axis, -1.0), max: reach(rig, axis, 1.0) }
+}
+
+/// Farthest that is looked for: translations \[shares of the longest leg\], rotations \[rad\].
+const FARTHEST: [f64; 2] = [2.0, std::f64::consts::FRAC_PI_2];
+/// Parts into which the way there is divided, so that a leg that leaves its stroke and comes back is not missed.
+const PARTS: u32 = 2000;
+/// Halvings of the last part: to well below a nanometre.
+const HALVINGS: u32 = 40;
+
+fn reach(rig: &Rig, axis: Axis, sign: f64) -> f64 {
+    let farthest = if axis.is_rotation() { FARTHEST[1] } else { FARTHEST[0] * rig.max_length };
+    let inside = |amount: f64| stroke_margin(rig, &displaced(rig, axis, sign * amount)) >= 0.0;
+    let amount_at = |part: u32| farthest * f64::from(part) / f64::from(PARTS);
+    let Some(beyond) = (1..=PARTS).find(|&part| !inside(amount_at(part))) else { return farthest };
+    let (mut within, mut without) = (amount_at(beyond - 1), amount_at(beyond));
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (within + without);
+        if inside(middle) { within = middle } else { without = middle }
+    }
+    within
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The figures of the default rig, by an independent computation.
+    #[test]
+    fn the_default_rig_reaches_as_far_as_it_is_said_to() {
+        let range = |axis| single_axis_range(&Rig::default(), axis);
+        let assert_near = |axis, unit: f64, min: f64, max: f64, tolerance: f64| {
+            let found = range(axis);
+            let near = |value: f64, expected: f64| (value * unit - expected).abs() <= tolerance;
+            assert!(near(found.min, min) && near(found.max, max), "{axis:?}: {found:?}");
+        };
+        let degrees = 1f64.to_degrees();
+        assert_near(Axis::Surge, 1.0, -0.576, 0.468, 2e-3);
+        assert_near(Axis::Sway, 1.0, -0.478, 0.478, 2e-3);
+        assert_near(Axis::Heave, 1.0, -0.383, 0.344, 2e-3);
+        assert_near(Axis::Roll, degrees, -25.2, 25.2, 0.06);
+        assert_near(Axis::Pitch, degrees, -25.5, 24.9, 0.06);
+        assert_near(Axis::Yaw, degrees, -34.0, 34.0, 0.06);
+    }
+
+    /// Straight up, a leg whose joints are `d` apart in plan has the length sqrt(d^2 + z^2).
+    #[test]
+    fn heave_is_what_pythagoras_says() {
+        let rig = Rig::default();
+        let apart = (rig.platform[0] - rig.base[0]).norm();
+        let height = |length: f64| (length * length - apart * apart).sqrt();
+        let heave = single_axis_range(&rig, Axis::Heave);
+        assert!((heave.max - (height(rig.max_length) - rig.neutral_height)).abs() < 1e-9);
+        assert!((heave.min - (height(rig.min_length) - rig.neutral_height)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,256 @@
+//! Rig files: where a platform's joints are, and what its legs can do.
+//!
+//! ```toml
+//! name = "MORIS, default rig"
+//! neutralHeight = 1.091              # m: the platform's origin above the base's, level and ready
+//!
+//! [base]                             # joints on the base, in the base frame, legs 1 to 6 in order
+//! radius = 1.0                       # m: on a circle ...
+//! degrees = [-8, 8, 112, 128, 232, 248]
+//!
+//! [platform]                         # joints on the platform, in the platform frame
+//! joints = [[0.52, -0.67, 0.0], [0.52, 0.67, 0.0], [0.32, 0.79, 0.0], [-0.84, 0.12, 0.0], [-0.84, -0.12, 0.0], [0.32, -0.79, 0.0]]
+//!                                    # ... or one by one, in m
+//! [actuator]
+//! minLength = 1.0                    # m, from joint to joint
+//! maxLength = 1.6
+//! velocityLimit = 1.0                # m/s
+//! accelerationLimit = 15.0           # m/s2
+//!
+//! [head]                             # optional: the rider's
+//! height = 1.2                       # m above the platform
+//! torsoLength = 0.75
+//!
+//! [safety]                           # optional: the safety units' limits, for x, y, z
+//! positionLimit = [0.45, 0.45, 0.33] # m from neutral
+//! velocityLimit = [1.0, 1.0, 1.0]    # m/s
+//! accelerationLimit = [10.0, 10.0, 10.0] # m/s2
+//! ```
+//!
+//! What the machine is made of has to be said in full: half one's own rig and half the default one is nobody's. The head
+//! and the safety units' speeds and accelerations are the default's where they are not given. The safety units' positions
+//! then follow from the rig: 95 % of what it reaches along each axis alone.
+
+use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{Refusal, Rig, check};
+use serde::Deserialize;
+
+use crate::names::nearest;
+use crate::ranges::{Axis, single_axis_range};
+use crate::{Error, NamedValues};
+
+/// Share of the reach along an axis alone that a safety unit allows where the file does not say.
+pub const SAFETY_SHARE: f64 = 0.95;
+
+/// A rig file's contents; see the [module](self).
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct RigFile {
+    /// What the rig is called.
+    pub name: String,
+    /// Height of the platform's origin over the base's at neutral \[m\].
+    pub neutral_height: f64,
+    /// Joints on the base.
+    pub base: Joints,
+    /// Joints on the platform.
+    pub platform: Joints,
+    /// What the legs can do.
+    pub actuator: Actuator,
+    /// Where the rider's head is.
+    #[serde(default)]
+    pub head: Head,
+    /// The safety units' limits.
+    #[serde(default)]
+    pub safety: Safety,
+}
+
+/// Six joints: on a circle, or one by one.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Joints {
+    /// Of the circle \[m\].
+    radius: Option<f64>,
+    /// Where on the circle, from x towards y \[deg\].
+    degrees: Option<[f64; 6]>,
+    /// x, y, z of each joint \[m\].
+    joints: Option<[[f64; 3]; 6]>,
+}
+
+/// Stroke, speed and acceleration of each leg.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Actuator {
+    /// \[m\]
+    pub min_length: f64,
+    /// \[m\]
+    pub max_length: f64,
+    /// \[m/s\]
+    pub velocity_limit: f64,
+    /// \[m/s2\]
+    pub acceleration_limit: f64,
+}
+
+/// The rider's head.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Head {
+    /// Above the platform \[m\].
+    pub height: Option<f64>,
+    /// From seat to head \[m\].
+    pub torso_length: Option<f64>,
+}
+
+/// The safety units' limits along x, y and z.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Safety {
+    /// From neutral \[m\].
+    pub position_limit: Option<[f64; 3]>,
+    /// \[m/s\]
+    pub velocity_limit: Option<[f64; 3]>,
+    /// \[m/s2\]
+    pub acceleration_limit: Option<[f64; 3]>,
+}
+
+/// Every key that a rig file may have.
+const KEYS: &[&str] = &[
+    "name",
+    "neutralHeight",
+    "base.radius",
+    "base.degrees",
+    "base.joints",
+    "platform.radius",
+    "platform.degrees",
+    "platform.joints",
+    "actuator.minLength",
+    "actuator.maxLength",
+    "actuator.velocityLimit",
+    "actuator.accelerationLimit",
+    "head.height",
+    "head.torsoLength",
+    "safety.positionLimit",
+    "safety.velocityLimit",
+    "safety.accelerationLimit",
+];
+
+/// A platform larger than this, in metres, has been given in other units.
+const LARGEST: f64 = 30.0;
+
+/// Reads the text of a rig file. `source_name` is what errors call the file.
+///
+/// # Errors
+/// Text that is not TOML; a key that is not one, is missing or has a value that it cannot have.
+pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
+    let toml_error =
+        |error: toml::de::Error| Error::Toml { source_name: source_name.to_owned(), text: error.to_string() };
+    let table: toml::Table = text.parse().map_err(toml_error)?;
+    // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
+    if let Some(name) = keys(&table).find(|key| !KEYS.contains(&key.as_str())) {
+        return Err(Error::UnknownName {
+            source_name: source_name.to_owned(),
+            what: "key",
+            nearest: nearest(&name, KEYS.iter().copied()).into_iter().map(str::to_owned).collect(),
+            name,
+            otherwise: "docs/workbench.md lists the keys of a rig file",
+        });
+    }
+    let file: RigFile = toml::from_str(text).map_err(toml_error)?;
+    file.check_joints(source_name)?;
+    Ok(file)
+}
+
+/// The keys of a table, those of tables within it after its name.
+fn keys(table: &toml::Table) -> impl Iterator<Item = String> {
+    table.iter().flat_map(|(key, value)| match value {
+        toml::Value::Table(inner) => inner.keys().map(|inner| format!("{key}.{inner}")).collect(),
+        _ => vec![key.clone()],
+    })
+}
+
+impl Joints {
+    /// The joints \[m\].
+    pub fn coordinates(&self) -> Option<[Vector3<f64>; 6]> {
+        match (self.radius, self.degrees, self.joints) {
+            (None, None, Some(joints)) => Some(joints.map(Vector3::from)),
+            (Some(radius), Some(degrees), None) => Some(degrees.map(|angle| {
+                let (sin, cos) = angle.to_radians().sin_cos();
+                Vector3::new(radius * cos, radius * sin, 0.0)
+            })),
+            _ => None,
+        }
+    }
+}
+
+impl RigFile {
+    /// What the file's own form cannot tell: each joint once, and metres.
+    fn check_joints(&self, source_name: &str) -> Result<(), Error> {
+        for (name, joints) in [("base", &self.base), ("platform", &self.platform)] {
+            let wrong = |reason: String| Error::WrongValue {
+                source_name: source_name.to_owned(),
+                name: format!("[{name}]"),
+                reason,
+            };
+            let joints = joints
+                .coordinates()
+                .ok_or_else(|| wrong("needs either radius and degrees, or joints; not both".to_owned()))?;
+            let farthest = joints.iter().map(Vector3::amax).fold(0.0, f64::max);
+            if farthest.is_nan() || farthest > LARGEST {
+                return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
+            }
+        }
+        Ok(())
+    }
+
+    /// The rig as the washout takes it.
+    pub fn rig(&self) -> Rig {
+        let coordinates = |joints: &Joints| joints.coordinates().expect("the file was checked when it was read");
+        Rig {
+            base: coordinates(&self.base),
+            platform: coordinates(&self.platform),
+            neutral_height: self.neutral_height,
+            min_length: self.actuator.min_length,
+            max_length: self.actuator.max_length,
+            velocity_limit: self.actuator.velocity_limit,
+            acceleration_limit: self.actuator.acceleration_limit,
+        }
+    }
+
+    /// The washout's parameters on this rig, all others the default's.
+    pub fn parameters(&self) -> Parameters {
+        let defaults = Parameters::default();
+        let rig = self.rig();
+        let vector = |given: Option<[f64; 3]>, default| given.map_or(default, Vector3::from);
+        let reach = || {
+            let smaller = |axis| single_axis_range(&rig, axis).smaller();
+            SAFETY_SHARE * Vector3::new(smaller(Axis::Surge), smaller(Axis::Sway), smaller(Axis::Heave))
+        };
+        Parameters {
+            safety: SafetyParameters {
+                position_limit: self.safety.position_limit.map_or_else(reach, Vector3::from),
+                velocity_limit: vector(self.safety.velocity_limit, defaults.safety.velocity_limit),
+                acceleration_limit: vector(self.safety.acceleration_limit, defaults.safety.acceleration_limit),
+            },
+            structure: StructureParameters {
+                head_height: self.head.height.unwrap_or(defaults.structure.head_height),
+                torso_length: self.head.torso_length.unwrap_or(defaults.structure.torso_length),
+                ..defaults.structure
+            },
+            rig,
+            ..defaults
+        }
+    }
+
+    /// The file as values of the FMU's variables.
+    pub fn values(&self) -> NamedValues {
+        crate::named_values::changed(&self.parameters())
+    }
+
+    /// Whether a washout runs on this rig.
+    ///
+    /// # Errors
+    /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a value out of its range.
+    pub fn check(&self) -> Result<(), Refusal> {
+        check(&self.parameters())
+    }
+}

@@ -1,0 +1,90 @@
+//! A rig and parameters put together.
+
+use std::fs;
+use std::path::Path;
+
+use model_interface::{Group, Row};
+use moris_washout::{Parameters, check};
+
+use crate::named_values::{changed, overlaid};
+use crate::names::nearest;
+use crate::rig_file::RigFile;
+use crate::{Error, NamedValues, SETS, parameter_file, rig_file};
+
+/// A washout's parameters, put together from files and sets and checked, and what they are called.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// The rig's name.
+    pub rig_name: String,
+    /// The parameters' name: those of the files and sets, in order.
+    pub parameters_name: String,
+    /// All parameters, the rig's among them.
+    pub parameters: Parameters,
+}
+
+/// What the default rig is called.
+const DEFAULT_RIG: &str = "default rig";
+
+impl Setup {
+    /// Puts together the default parameters, the rig of a file laid over them, and then parameter sets one over the other:
+    /// each the name of a shipped set or a parameter file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, a name or value in it that cannot be, or parameters of which no washout can be made.
+    pub fn load(rig: Option<&Path>, sets: &[String]) -> Result<Self, Error> {
+        let rig = rig.map(load_rig).transpose()?;
+        let mut parameters = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
+        for set in sets {
+            parameters = overlaid(&parameters, &load_set(set, Parameters::ROWS)?);
+        }
+        check(&parameters)?;
+        Ok(Setup {
+            rig_name: rig.map_or_else(|| DEFAULT_RIG.to_owned(), |rig| rig.name),
+            parameters_name: if sets.is_empty() { "default".to_owned() } else { names_of(sets) },
+            parameters,
+        })
+    }
+
+    /// The values that are not the default's.
+    pub fn values(&self) -> NamedValues {
+        changed(&self.parameters)
+    }
+}
+
+/// Reads a rig file.
+///
+/// # Errors
+/// The file cannot be read, or [`rig_file::read`] refuses it.
+pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
+    rig_file::read(&text(file)?, &file.display().to_string())
+}
+
+/// The values of a shipped set of this name, or of the parameter file of this name, for a model with these rows.
+///
+/// # Errors
+/// There is neither, or [`parameter_file::read`] refuses the file.
+pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
+    if let Some((_, set)) = SETS.iter().find(|(known, _)| *known == name) {
+        return Ok(set.iter().map(|(variable, value)| ((*variable).to_owned(), *value)).collect());
+    }
+    let file = Path::new(name);
+    if !file.exists() && file.extension().is_none() {
+        let names = nearest(name, SETS.iter().map(|(known, _)| *known));
+        return Err(Error::NoSuchSet {
+            name: name.to_owned(),
+            nearest: names.into_iter().map(str::to_owned).collect(),
+        });
+    }
+    parameter_file::read(&text(file)?, name, rows)
+}
+
+fn text(file: &Path) -> Result<String, Error> {
+    fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })
+}
+
+/// The sets' names, those of files without directory and extension.
+fn names_of(sets: &[String]) -> String {
+    let stem =
+        |set: &String| Path::new(set).file_stem().map_or_else(|| set.clone(), |stem| stem.to_string_lossy().into());
+    sets.iter().map(stem).collect::<Vec<String>>().join(" + ")
+}

@@ -1,0 +1,110 @@
+//! Rig files: the shipped examples, and what is wrong with others.
+
+use std::path::{Path, PathBuf};
+
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{Parameters, Rig};
+use washout_setup::ranges::{Axis, single_axis_range};
+use washout_setup::rig_file::{SAFETY_SHARE, read};
+use washout_setup::{load_rig, overlaid};
+
+fn example(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../moris/rigs").join(name)
+}
+
+fn default_text() -> String {
+    std::fs::read_to_string(example("default.toml")).unwrap()
+}
+
+/// The message with which a text is refused.
+fn refusal(text: &str) -> String {
+    read(text, "my.toml").expect_err("this rig file must be refused").to_string()
+}
+
+#[test]
+fn the_default_rig_s_file_is_the_default_rig() {
+    let file = load_rig(&example("default.toml")).unwrap();
+    let (found, expected) = (file.parameters(), Parameters::default());
+    for i in 0..6 {
+        assert!((found.rig.base[i] - expected.rig.base[i]).norm() < 1e-14);
+        assert!((found.rig.platform[i] - expected.rig.platform[i]).norm() < 1e-14);
+    }
+    let joints_aside =
+        Parameters { rig: Rig { base: expected.rig.base, platform: expected.rig.platform, ..found.rig }, ..found };
+    assert_eq!(joints_aside, expected);
+}
+
+#[test]
+fn every_example_is_a_rig_that_a_washout_runs_on() {
+    for name in ["default.toml", "compact.toml", "long-stroke.toml", "narrow.toml"] {
+        let file = load_rig(&example(name)).unwrap();
+        assert_eq!(file.check(), Ok(()), "{name}");
+        // The examples are set up so that they reach about as far up as down.
+        let heave = single_axis_range(&file.rig(), Axis::Heave);
+        assert!((heave.max + heave.min).abs() < 0.15 * (heave.max - heave.min), "{name}: {heave:?}");
+    }
+}
+
+#[test]
+fn the_safety_units_follow_from_the_rig_where_the_file_does_not_say() {
+    let text = default_text();
+    let without = &text[..text.find("[safety]").unwrap()];
+    let parameters = read(without, "my.toml").unwrap().parameters();
+    let reach = [Axis::Surge, Axis::Sway, Axis::Heave].map(|axis| single_axis_range(&parameters.rig, axis).smaller());
+    assert_eq!(parameters.safety.position_limit, SAFETY_SHARE * Vector3::from(reach));
+    assert_eq!(parameters.safety.velocity_limit, Parameters::default().safety.velocity_limit);
+}
+
+#[test]
+fn the_values_are_the_parameters_under_the_names_of_the_variables() {
+    let file = load_rig(&example("narrow.toml")).unwrap();
+    let values = file.values();
+    assert!(values.contains(&("rig.neutralHeight".to_owned(), 1.02)));
+    assert!(values.contains(&("rig.platform[2].y".to_owned(), 0.55)));
+    assert!(values.iter().all(|(name, _)| !name.starts_with("splitter")), "what a rig does not change is not a rig's");
+    assert_eq!(overlaid(&Parameters::default(), &values), file.parameters());
+}
+
+#[test]
+fn a_misspelt_key_is_named_with_the_right_one() {
+    let message = refusal(&default_text().replace("neutralHeight", "neutralHeigth"));
+    assert_eq!(message, "my.toml: there is no key neutralHeigth; did you mean neutralHeight?");
+    let message = refusal(&default_text().replace("minLength", "min_length"));
+    assert!(message.contains("actuator.min_length") && message.contains("actuator.minLength"), "{message}");
+}
+
+#[test]
+fn what_the_machine_is_made_of_has_to_be_there() {
+    let message = refusal(&default_text().replace("velocityLimit = 1.0\naccelerationLimit = 15.0\n", ""));
+    assert!(message.contains("velocityLimit") && message.contains("missing"), "{message}");
+    let message = refusal(&default_text().replace("radius = 0.85\n", ""));
+    assert!(message.contains("[platform]") && message.contains("radius and degrees, or joints"), "{message}");
+}
+
+#[test]
+fn five_joints_and_words_for_numbers_are_refused_at_their_line() {
+    let message = refusal(&default_text().replace("[-8, 8, 112, 128, 232, 248]", "[-8, 8, 112, 128, 232]"));
+    assert!(message.contains("line 8") && message.contains("6"), "{message}");
+    let message = refusal(&default_text().replace("= 1.091", "= \"high\""));
+    assert!(message.contains("line 4") && message.contains("neutralHeight"), "{message}");
+}
+
+#[test]
+fn millimetres_are_recognised() {
+    let message = refusal(&default_text().replace("radius = 1.0", "radius = 1000"));
+    assert!(message.contains("[base]") && message.contains("millimetres"), "{message}");
+}
+
+#[test]
+fn similar_hexagons_are_read_but_do_not_pass() {
+    let text =
+        default_text().replace("[-52, 52, 68, 172, 188, 292]", "[-8, 8, 112, 128, 232, 248]").replace("1.091", "1.29");
+    let refusal = read(&text, "my.toml").unwrap().check().unwrap_err();
+    assert!(refusal.to_string().contains("singular"), "{refusal}");
+}
+
+#[test]
+fn legs_that_do_not_reach_neutral_are_refused_by_number() {
+    let refusal = read(&default_text().replace("1.091", "2.0"), "my.toml").unwrap().check().unwrap_err();
+    assert!(refusal.to_string().contains("actuator 1"), "{refusal}");
+}

@@ -1,0 +1,125 @@
+//! The dead time of the commands: what goes in comes out after it, unchanged.
+
+use serde::{Deserialize, Serialize};
+
+/// The six commands over a stretch of time, linear from one end to the other \[m\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ramp {
+    /// How long it lasts \[s\].
+    pub duration: f64,
+    pub from: [f64; 6],
+    pub to: [f64; 6],
+}
+
+/// How many ramps can be on their way at a time.
+const CAPACITY: usize = 32;
+
+/// A queue of ramps that together last as long as the dead time.
+///
+/// Ramps shorter than about a fourteenth of the dead time are joined, two to one; longer ones come out exactly as they
+/// went in. No clock is kept, so nothing drifts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct DelayLine {
+    ramps: [Ramp; CAPACITY],
+    first: usize,
+    count: usize,
+    /// Two neighbours that last no longer than this together are joined \[s\].
+    finest: f64,
+}
+
+impl DelayLine {
+    /// A dead time \[s\], during which the commands were these.
+    pub fn new(dead_time: f64, commands: &[f64; 6]) -> Self {
+        let constant = Ramp { duration: dead_time, from: *commands, to: *commands };
+        let finest = 2.0 * dead_time / (CAPACITY - 4) as f64;
+        DelayLine { ramps: [constant; CAPACITY], first: 0, count: usize::from(dead_time > 0.0), finest }
+    }
+
+    /// Puts in what is commanded next.
+    pub fn push(&mut self, ramp: &Ramp) {
+        if self.count > 0 {
+            let last = &mut self.ramps[(self.first + self.count - 1) % CAPACITY];
+            if last.duration + ramp.duration <= self.finest || self.count >= CAPACITY {
+                last.duration += ramp.duration;
+                last.to = ramp.to;
+                return;
+            }
+        }
+        self.ramps[(self.first + self.count) % CAPACITY] = *ramp;
+        self.count += 1;
+    }
+
+    /// Takes out what arrives next: no longer than `longest` \[s\] but for rounding, and linear.
+    ///
+    /// As much as was put in can be taken out; beyond that the last command stays.
+    pub fn pop(&mut self, longest: f64) -> Ramp {
+        /// A rest this much shorter than what is taken is taken with it.
+        const ROUNDING: f64 = 1e-9;
+        if self.count == 0 {
+            let last = self.ramps[(self.first + CAPACITY - 1) % CAPACITY].to;
+            return Ramp { duration: longest, from: last, to: last };
+        }
+        let head = &mut self.ramps[self.first % CAPACITY];
+        if head.duration <= longest * (1.0 + ROUNDING) {
+            self.first = (self.first + 1) % CAPACITY;
+            self.count -= 1;
+            return *head;
+        }
+        let share = longest / head.duration;
+        let between = std::array::from_fn(|i| head.from[i] + share * (head.to[i] - head.from[i]));
+        let taken = Ramp { duration: longest, from: head.from, to: between };
+        head.from = between;
+        head.duration -= longest;
+        taken
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Puts in ramps of `u` at steps of `step`, and takes them out again at once, in parts of `part`.
+    fn delayed(dead_time: f64, step: f64, part: f64, stop: f64, u: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        let mut line = DelayLine::new(dead_time, &[u(0.0); 6]);
+        let (mut arrived, mut time) = (Vec::new(), 0.0);
+        for k in 0..(stop / step).round() as usize {
+            let (begin, end) = (k as f64 * step, (k + 1) as f64 * step);
+            line.push(&Ramp { duration: step, from: [u(begin); 6], to: [u(end); 6] });
+            let mut left = step;
+            while left > 1e-12 {
+                let ramp = line.pop(left.min(part));
+                assert!(ramp.duration > 0.0 && ramp.duration <= part * (1.0 + 1e-8));
+                left -= ramp.duration;
+                time += ramp.duration;
+                arrived.push((time, ramp.to[3]));
+            }
+        }
+        arrived
+    }
+
+    #[test]
+    fn what_goes_in_comes_out_after_the_dead_time() {
+        // Linear between points that are communication points in every case.
+        let u = |t: f64| if t < 0.02 { 1.0 } else { (1.0 + 3.0 * (t - 0.02)).min(1.12) };
+        for (dead_time, step, part) in [
+            (0.004, 0.001, 0.001),
+            (0.0035, 0.001, 0.001),
+            (0.0, 0.001, 0.0004),
+            (0.05, 0.01, 0.001),
+            (0.004, 0.02, 0.001),
+        ] {
+            for (time, value) in delayed(dead_time, step, part, 0.2, u) {
+                let expected = u((time - dead_time).max(0.0));
+                assert!((value - expected).abs() < 1e-12, "{dead_time} {step}: at {time} {value}, not {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn many_short_steps_are_joined_and_nothing_is_lost() {
+        let u = |t: f64| 1.0 + 0.1 * (20.0 * t).sin();
+        for (time, value) in delayed(0.1, 1e-5, 1e-3, 0.3, u) {
+            assert!((value - u((time - 0.1).max(0.0))).abs() < 40.0 * 0.0075_f64.powi(2));
+        }
+    }
+}

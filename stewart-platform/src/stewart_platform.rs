@@ -1,0 +1,379 @@
+//! The whole platform: commands in, one step, the real motion out.
+
+use model_interface::Refusal;
+use moris_washout::evaluator::{Felt, felt};
+use moris_washout::head::Head;
+use moris_washout::interface::StructureParameters;
+use moris_washout::orientation::{Orientation, RollPitchYaw};
+use moris_washout::platform::{Geometry, Legs, PlatformMotion, Pose, motion_of_legs};
+use nalgebra::Vector6;
+use serde::{Deserialize, Serialize};
+
+use crate::body::Body;
+use crate::check::check;
+use crate::delay::{DelayLine, Ramp};
+use crate::drive::{Aim, Drive};
+use crate::dynamics::Dynamics;
+use crate::interface::{Input, Output, Parameters, neutral_lengths};
+use crate::saturation::{Leg, Outcome, solve};
+
+/// Shorter steps than this do nothing \[s\].
+pub const SHORTEST_STEP: f64 = 1e-12;
+
+/// No more internal steps than this in one call; longer steps are the caller's mistake.
+pub const MOST_INTERNAL_STEPS: f64 = 1e6;
+
+/// A Stewart platform on its actuators.
+///
+/// ```
+/// use moris_stewart_platform::{Input, Parameters, StewartPlatform};
+///
+/// let mut platform = StewartPlatform::new(&Parameters::default())?;
+/// let mut input = Input::default();
+/// input.length = [1.32; 6]; // m: all actuators 2 cm longer
+/// for _ in 0..1000 {
+///     platform.step(&input, 0.001);
+/// }
+/// let output = platform.output();
+/// assert!((output.length[0] - 1.32).abs() < 1e-6); // they got there,
+/// assert!((output.position.z - 1.115).abs() < 1e-3); // the platform rose by a little more,
+/// let carried: f64 = output.force.iter().sum();
+/// assert!(carried > 330.0 * 9.80665); // and the inclined legs carry its weight.
+/// # Ok::<(), moris_stewart_platform::Refusal>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StewartPlatform {
+    parameters: Parameters,
+    body: Body,
+    /// Commands that the drives have not seen yet.
+    commands: DelayLine,
+    /// The last commands that actuators can follow \[m\].
+    last_command: [f64; 6],
+    /// Lean of the rider \[rad\].
+    lean: f64,
+    now: Instant,
+    /// One internal step ago, and its length \[s\].
+    before: Instant,
+    last_step: f64,
+    limited: Limited,
+}
+
+/// Everything that is true at an instant.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Instant {
+    motion: PlatformMotion,
+    legs: Legs,
+    /// Accelerations of the legs' lengths \[m/s2\].
+    acceleration: Vector6<f64>,
+    /// Forces of drives and stops together \[N\].
+    force: Vector6<f64>,
+}
+
+/// What was limited in any internal step of the last communication step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Limited {
+    command: bool,
+    drive: bool,
+    force: bool,
+    stop: bool,
+}
+
+impl StewartPlatform {
+    /// The platform at rest at neutral.
+    ///
+    /// # Errors
+    /// The first parameter that cannot be used, and why.
+    pub fn new(parameters: &Parameters) -> Result<Self, Refusal> {
+        let now = Instant::at_rest(parameters);
+        check(parameters, &now.force)?;
+        let neutral = neutral_lengths(&parameters.rig);
+        Ok(StewartPlatform {
+            parameters: *parameters,
+            body: Body::new(&parameters.masses),
+            commands: DelayLine::new(parameters.actuators.dead_time, &neutral),
+            last_command: neutral,
+            lean: 0.0,
+            now,
+            before: now,
+            last_step: 0.0,
+            limited: Limited::default(),
+        })
+    }
+
+    /// The platform before its first step, with the rider leaning like this \[rad\].
+    pub fn starting_with(mut self, lean: f64) -> Self {
+        self.lean = finite_or(lean, 0.0);
+        self
+    }
+
+    /// The parameters that it was made with.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Advances by `step` seconds while the commands go on at the commanded rates.
+    ///
+    /// Any input is safe: a length that no actuator can have is not followed, and the one before it stays. A step shorter
+    /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
+    pub fn step(&mut self, input: &Input, step: f64) {
+        let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i]);
+        self.step_between(input, &Input { length: end, ..*input }, step);
+    }
+
+    /// Advances by `step` seconds while the lengths and the rider's lean go linearly from `start` to `end`; the commanded
+    /// rates do not count.
+    pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+        if step.is_nan() || step < SHORTEST_STEP {
+            return;
+        }
+        let step = step.min(MOST_INTERNAL_STEPS * self.parameters.setting.max_step);
+        self.limited = Limited::default();
+        let from = self.possible(&start.length);
+        let to = self.possible(&end.length);
+        self.commands.push(&Ramp { duration: step, from, to });
+        self.lean = finite_or(end.lean, self.lean);
+        let mut left = step;
+        while left >= SHORTEST_STEP {
+            let ramp = self.commands.pop(left.min(self.parameters.setting.max_step));
+            left -= ramp.duration;
+            self.internal_step(&ramp);
+        }
+    }
+
+    /// Commands inside the stroke, and the last ones that were; drives refuse others, and go on with what they have.
+    fn possible(&mut self, lengths: &[f64; 6]) -> [f64; 6] {
+        let stroke = self.parameters.rig.min_length..=self.parameters.rig.max_length;
+        for (last, length) in self.last_command.iter_mut().zip(lengths) {
+            if stroke.contains(length) {
+                *last = *length;
+            } else {
+                self.limited.command = true;
+            }
+        }
+        self.last_command
+    }
+
+    /// One step over which the commands that the drives see are linear.
+    fn internal_step(&mut self, command: &Ramp) {
+        let step = command.duration;
+        let Instant { motion, legs, .. } = self.now;
+        let drive = Drive::new(&self.parameters, step);
+        let aims: [Aim; 6] =
+            std::array::from_fn(|i| drive.aim(legs.length[i], legs.velocity[i], command.from[i], command.to[i]));
+        let next = self.unhindered(&aims, step).unwrap_or_else(|| self.hindered(&aims, step));
+
+        let geometry = Geometry::from(&self.parameters.rig);
+        let guess = ahead(&motion, step).pose();
+        // A rig that is accepted has a pose for all lengths that its legs can have.
+        let reached = motion_of_legs(&geometry, &next.legs, &[0.0; 6], &guess)
+            .unwrap_or_else(|_| PlatformMotion::at_rest(motion.pose()));
+        let dynamics = self.dynamics(&reached);
+        let force = match next.force {
+            Some(force) => force,
+            None => {
+                let wanted = Vector6::from_fn(|i, _| aims[i].motion.acceleration);
+                self.within_force_limit(dynamics.forces(&wanted))
+            }
+        };
+        let acceleration = dynamics.acceleration(&force);
+        self.before = self.now;
+        self.last_step = step;
+        self.now = Instant {
+            motion: PlatformMotion {
+                acceleration: acceleration.fixed_rows::<3>(0).into(),
+                angular_acceleration: acceleration.fixed_rows::<3>(3).into(),
+                ..reached
+            },
+            legs: next.legs,
+            acceleration: dynamics.leg_accelerations(&force),
+            force,
+        };
+        self.limited.drive |= aims.iter().any(|aim| aim.limited);
+        self.limited.force |= next.force_limited;
+        self.limited.stop |= next.at_stop;
+    }
+
+    /// The step in which every leg gets where its drive wants it, if the drives have the force for it; their forces are then
+    /// those that the motion takes.
+    fn unhindered(&self, aims: &[Aim; 6], step: f64) -> Option<Next> {
+        let rig = &self.parameters.rig;
+        if aims.iter().any(|aim| !(rig.min_length..=rig.max_length).contains(&aim.motion.position)) {
+            return None;
+        }
+        let mean = Vector6::from_fn(|i, _| (aims[i].motion.velocity - self.now.legs.velocity[i]) / step);
+        let force = self.dynamics(&ahead(&self.now.motion, 0.5 * step)).forces(&mean);
+        (force.amax() <= self.parameters.actuators.force_limit).then(|| Next {
+            legs: Legs { length: aims.map(|aim| aim.motion.position), velocity: aims.map(|aim| aim.motion.velocity) },
+            force: None,
+            force_limited: false,
+            at_stop: false,
+        })
+    }
+
+    /// The step in which drives lack force, or stops hold legs: what the legs then do is the body's affair.
+    fn hindered(&self, aims: &[Aim; 6], step: f64) -> Next {
+        let (rig, limit) = (&self.parameters.rig, self.parameters.actuators.force_limit);
+        let Legs { length, velocity } = self.now.legs;
+        let dynamics = self.dynamics(&ahead(&self.now.motion, 0.5 * step));
+        let free = Vector6::from(velocity) + step * dynamics.leg_accelerations(&Vector6::zeros());
+        let asked: [Leg; 6] = std::array::from_fn(|i| Leg {
+            wanted: aims[i].motion.velocity,
+            // A stop does not throw a leg back: the leg ends the step at rest there at the least.
+            slowest: (2.0 * (rig.min_length - length[i]) / step - velocity[i]).min(0.0),
+            fastest: (2.0 * (rig.max_length - length[i]) / step - velocity[i]).max(0.0),
+        });
+        let Outcome { velocity: reached, force } = solve(&free, &(step * dynamics.leg_mobility()), &asked, limit);
+        let length = std::array::from_fn(|i| {
+            (length[i] + 0.5 * step * (velocity[i] + reached[i])).clamp(rig.min_length, rig.max_length)
+        });
+        Next {
+            legs: Legs { length, velocity: reached.into() },
+            force: Some(force),
+            force_limited: force.amax() >= limit,
+            at_stop: force.amax() > limit,
+        }
+    }
+
+    fn dynamics(&self, motion: &PlatformMotion) -> Dynamics {
+        Dynamics::new(&Geometry::from(&self.parameters.rig), &self.body, motion, self.parameters.setting.gravity)
+    }
+
+    fn within_force_limit(&self, force: Vector6<f64>) -> Vector6<f64> {
+        let limit = self.parameters.actuators.force_limit;
+        force.map(|force| force.clamp(-limit, limit))
+    }
+
+    /// What the platform does now.
+    pub fn output(&self) -> Output {
+        let output = self.output_at(&self.now);
+        Output {
+            command_refused: self.limited.command,
+            drive_limited: self.limited.drive,
+            force_limited: self.limited.force,
+            at_stop: self.limited.stop,
+            ..output
+        }
+    }
+
+    /// The rates of the outputs \[their units per second\]: exact for what has its rate among the outputs, else the mean
+    /// over the last internal step.
+    pub fn output_derivative(&self) -> Output {
+        let (now, before) = (self.output_at(&self.now), self.output_at(&self.before));
+        let per_second = if self.last_step > 0.0 { 1.0 / self.last_step } else { 0.0 };
+        let rates = |now: &[f64; 6], before: &[f64; 6]| std::array::from_fn(|i| (now[i] - before[i]) * per_second);
+        Output {
+            position: now.velocity,
+            velocity: now.acceleration,
+            acceleration: (now.acceleration - before.acceleration) * per_second,
+            orientation: self.now.motion.orientation.rates(now.angular_velocity),
+            angular_velocity: now.angular_acceleration,
+            angular_acceleration: (now.angular_acceleration - before.angular_acceleration) * per_second,
+            length: now.leg_velocity,
+            leg_velocity: now.leg_acceleration,
+            leg_acceleration: rates(&now.leg_acceleration, &before.leg_acceleration),
+            force: rates(&now.force, &before.force),
+            stop_force: rates(&now.stop_force, &before.stop_force),
+            total_power: (now.total_power - before.total_power) * per_second,
+            felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
+            felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
+            command_refused: false,
+            drive_limited: false,
+            force_limited: false,
+            at_stop: false,
+            stroke_margin: self.stroke_margin(&self.now.legs).1,
+        }
+    }
+
+    /// The outputs at an instant, with nothing limited.
+    fn output_at(&self, instant: &Instant) -> Output {
+        let Instant { motion, legs, acceleration, force } = instant;
+        let drive = self.within_force_limit(*force);
+        let Felt { specific_force, angular_velocity } = self.felt(motion);
+        Output {
+            position: motion.position,
+            velocity: motion.velocity,
+            acceleration: motion.acceleration,
+            orientation: motion.orientation.angles,
+            angular_velocity: motion.angular_velocity,
+            angular_acceleration: motion.angular_acceleration,
+            length: legs.length,
+            leg_velocity: legs.velocity,
+            leg_acceleration: (*acceleration).into(),
+            force: drive.into(),
+            stop_force: (force - drive).into(),
+            total_power: drive.dot(&Vector6::from(legs.velocity)),
+            felt_specific_force: specific_force,
+            felt_angular_velocity: angular_velocity,
+            command_refused: false,
+            drive_limited: false,
+            force_limited: false,
+            at_stop: false,
+            stroke_margin: self.stroke_margin(legs).0,
+        }
+    }
+
+    /// What the rider's head feels.
+    fn felt(&self, motion: &PlatformMotion) -> Felt {
+        let setting = &self.parameters.setting;
+        let place = StructureParameters {
+            head_height: setting.head_height,
+            torso_length: setting.torso_length,
+            ..StructureParameters::default()
+        };
+        felt(motion, &Head::new(&place, self.lean), setting.gravity)
+    }
+
+    /// The smallest distance of a leg from an end of its stroke \[m\], and its rate \[m/s\].
+    fn stroke_margin(&self, legs: &Legs) -> (f64, f64) {
+        let rig = &self.parameters.rig;
+        let margins = legs.length.iter().zip(&legs.velocity).flat_map(|(&length, &velocity)| {
+            [(length - rig.min_length, velocity), (rig.max_length - length, -velocity)]
+        });
+        margins.fold((f64::INFINITY, 0.0), |nearest, next| if next.0 < nearest.0 { next } else { nearest })
+    }
+}
+
+/// The legs at a step's end.
+struct Next {
+    legs: Legs,
+    /// Forces over the step \[N\]; none where nothing but the motion decides them.
+    force: Option<Vector6<f64>>,
+    force_limited: bool,
+    at_stop: bool,
+}
+
+impl Instant {
+    /// At rest at neutral, with the forces that carry the weight.
+    fn at_rest(parameters: &Parameters) -> Self {
+        let motion = PlatformMotion::at_rest(Pose::neutral(&parameters.rig));
+        let geometry = Geometry::from(&parameters.rig);
+        let dynamics = Dynamics::new(&geometry, &Body::new(&parameters.masses), &motion, parameters.setting.gravity);
+        Instant {
+            motion,
+            legs: Legs { length: neutral_lengths(&parameters.rig), velocity: [0.0; 6] },
+            acceleration: Vector6::zeros(),
+            force: dynamics.forces(&Vector6::zeros()),
+        }
+    }
+}
+
+/// The motion `time` seconds later if its accelerations stay: a guess of the second order.
+fn ahead(motion: &PlatformMotion, time: f64) -> PlatformMotion {
+    let turning = motion.angular_velocity + 0.5 * time * motion.angular_acceleration;
+    let angles = motion.orientation.angles.to_vector() + time * motion.orientation.rates(turning).to_vector();
+    PlatformMotion {
+        position: motion.position + time * (motion.velocity + 0.5 * time * motion.acceleration),
+        orientation: Orientation::new(RollPitchYaw::from_vector(angles)),
+        velocity: motion.velocity + time * motion.acceleration,
+        angular_velocity: motion.angular_velocity + time * motion.angular_acceleration,
+        ..*motion
+    }
+}
+
+/// No machine comes near this in SI units; beyond it arithmetic would.
+const LARGEST: f64 = 1e9;
+
+/// A number of a size that can be reckoned with, or another where it is none.
+fn finite_or(value: f64, other: f64) -> f64 {
+    if value.is_nan() { other } else { value.clamp(-LARGEST, LARGEST) }
+}

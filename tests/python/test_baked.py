@@ -1,0 +1,78 @@
+"""FMUs with a rig and parameters baked in: what they start with, and that it is the same as setting them."""
+
+import subprocess
+
+import numpy as np
+import pytest
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+
+from conftest import ROOT
+
+RIG = ROOT / "moris" / "rigs" / "narrow.toml"
+LEGS = [f"actuator[{i}].length" for i in range(1, 7)]
+
+
+@pytest.fixture(scope="module")
+def baked(tmp_path_factory):
+    """The washout's FMUs of FMI 2.0 and 3.0 on another rig, with the parameters of the set wake."""
+    output = tmp_path_factory.mktemp("baked")
+    for version in ("2", "3"):
+        command = ["cargo", "build-fmu", "--model", "MorisWashout", "--fmi", version, "--output", output]
+        subprocess.run([*command, "--rig", RIG, "--parameters", "wake"], cwd=ROOT, check=True)
+    return output / "MorisWashout.fmu", output / "MorisWashout.fmi3.fmu"
+
+
+def starts(fmu):
+    """The start value of every input and parameter, by name."""
+    return {v.name: v.start for v in read_model_description(fmu).modelVariables if v.start is not None}
+
+
+def simulate(fmu, lengths, start_values={}):
+    """The actuators' lengths after each of 500 steps of 1 ms with an acceleration that is there from the beginning."""
+    result = simulate_fmu(fmu, stop_time=0.5, step_size=0.001, output_interval=0.001, start_values=start_values, output=lengths)
+    return np.column_stack([result[name] for name in lengths])
+
+
+def test_the_descriptions_have_the_values_and_are_valid(baked):
+    for fmu in baked:
+        assert validate_fmu(fmu) == []
+    fmi2, fmi3 = map(starts, baked)
+    assert float(fmi2["rig.neutralHeight"]) == float(fmi3["rig.neutralHeight"]) == 1.02
+    assert float(fmi2["rig.platform[1].z"]) == 0.05
+    assert [float(fmi2[f"splitter.{axis}.omega1"]) for axis in "xyz"] == [0.35] * 3
+    assert [float(value) for value in np.ravel(str(fmi3["splitter.omega1"]).split())] == [0.35] * 3
+
+
+def test_baked_values_are_as_good_as_values_that_are_set(baked, fmu):
+    own, others = starts(fmu), starts(baked[0])
+    others = {name: value for name, value in others.items() if value != own[name]}
+    assert len(others) > 40
+    moving = {"vehicle.specificForce.x": 1.0}
+    expected = simulate(fmu, LEGS, others | moving)
+    assert (simulate(baked[0], LEGS, moving) == expected).all()
+    assert np.ptp(expected, axis=0).min() > 1e-4
+    moving = {"vehicle.specificForce": [1.0, 0.0, 9.80665]}
+    assert (simulate(baked[1], ["actuator.length"], moving) == expected).all()
+
+
+def test_every_set_of_values_has_a_guid_of_its_own(baked, fmu):
+    guids = {read_model_description(path).guid for path in (fmu, baked[0])}
+    assert len(guids) == 2
+
+
+@pytest.mark.parametrize(
+    "values, reason",
+    [
+        ("actuator.minLength = 1.7", "not below actuator.maxLength"),
+        ("safety.x.positionLimit = 0.6", "in surge the rig reaches only"),
+        ("spliter.x.omega1 = 1.0", "did you mean splitter.x.omega1"),
+    ],
+)
+def test_what_cannot_be_started_with_is_not_built(tmp_path, values, reason):
+    parameters = tmp_path / "mine.toml"
+    parameters.write_text(values)
+    command = ["cargo", "build-fmu", "--model", "MorisWashout", "--output", tmp_path, "--parameters", parameters]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode != 0 and reason in done.stderr
+    assert not list(tmp_path.glob("*.fmu"))

@@ -1,0 +1,331 @@
+"""What a report's page shows, held against the data it was made of. Run by run.py:
+
+    checks.py CHROMIUM PAGES PICTURES
+"""
+
+import json
+import math
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+CHROMIUM, PAGES, PICTURES = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+LAPTOP = {"width": 1366, "height": 768}
+# Half of what an eye can tell on the screen, and what 32-bit numbers leave of lengths [m].
+PIXEL, ROUNDING = 0.5, 1e-6
+checks = []
+
+
+def check(function):
+    checks.append(function)
+    return function
+
+
+@contextmanager
+def opened(browser, name, *, quiet=True, text=None, **options):
+    """A page from its file; fails if it says anything on the console or asks for anything but itself."""
+    context = browser.new_context(viewport=options.pop("viewport", LAPTOP), **options)
+    page = context.new_page()
+    said, asked = [], []
+    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
+    page.on("pageerror", lambda error: said.append(f"error: {error}"))
+    page.on("dialog", lambda dialog: (said.append(f"dialog: {dialog.message}"), dialog.dismiss()))
+    page.on("request", lambda request: asked.append(request.url))
+    file = PAGES / f"{name}.html"
+    if text is not None:
+        file = PAGES / f"{name}-changed.html"
+        file.write_text(text)
+    page.goto(file.as_uri())
+    yield page
+    context.close()
+    if quiet:
+        assert not said, f"{name} says {said}"
+    beyond = [url for url in asked if url != file.as_uri() and not url.startswith("data:")]
+    assert not beyond, f"{name} asks for {beyond}"
+
+
+def plain(name):
+    return json.loads((PAGES / f"{name}.json").read_text())
+
+
+def set_slider(page, time):
+    script = "(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }"
+    page.locator("#slider").evaluate(script, time)
+
+
+def near(found, expected, tolerance, what):
+    assert abs(found - expected) <= tolerance, f"{what}: {found} is not {expected} (to {tolerance})"
+
+
+def rotation(roll, pitch, yaw):
+    """Rz(yaw) Ry(pitch) Rx(roll), multiplied out step by step."""
+    def product(a, b):
+        return [[sum(a[i][k] * b[k][j] for k in range(3)) for j in range(3)] for i in range(3)]
+
+    (cr, sr), (cp, sp), (cy, sy) = [(math.cos(angle), math.sin(angle)) for angle in (roll, pitch, yaw)]
+    about_x, about_y, about_z = [[1, 0, 0], [0, cr, -sr], [0, sr, cr]], [[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]], [[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]
+    return product(about_z, product(about_y, about_x))
+
+
+def leg_ends(data, run, k):
+    """Base and platform joint of each leg at sample k."""
+    turn = rotation(*(angle[k] for angle in run["orientation"]))
+    place = [axis[k] for axis in run["position"]]
+    tops = [[place[i] + sum(turn[i][j] * joint[j] for j in range(3)) for i in range(3)] for joint in data["rig"]["platform"]]
+    return list(zip(data["rig"]["base"], tops))
+
+
+def projected(page, point):
+    """Where a point must be in the picture, from nothing but where the camera stands and the focal length."""
+    camera = page.evaluate("(({azimuth, elevation, eye, focal, middle}) => ({azimuth, elevation, eye, focal, middle}))(rideReport.view.camera)")
+    a, e = camera["azimuth"], camera["elevation"]
+    ahead = [-math.cos(e) * math.cos(a), -math.cos(e) * math.sin(a), -math.sin(e)]
+    right = [-math.sin(a), math.cos(a), 0.0]
+    up = [right[1] * ahead[2] - right[2] * ahead[1], right[2] * ahead[0] - right[0] * ahead[2], right[0] * ahead[1] - right[1] * ahead[0]]
+    seen = [p - q for p, q in zip(point, camera["eye"])]
+    x, y, depth = (sum(u * v for u, v in zip(axis, seen)) for axis in (right, up, ahead))
+    return camera["middle"][0] + camera["focal"] * x / depth, camera["middle"][1] - camera["focal"] * y / depth
+
+
+def assert_legs_are_drawn(page, data, run, k, what):
+    drawn = page.evaluate("rideReport.view.drawnLegs")
+    for leg, (ends, pictures) in enumerate(zip(leg_ends(data, run, k), drawn, strict=True)):
+        near(math.dist(*ends), run["legs"][leg][k], ROUNDING, f"{what}, length of leg {leg + 1}")
+        for end, picture in zip(ends, pictures):
+            near(math.dist(projected(page, end), picture), 0.0, PIXEL, f"{what}, end of leg {leg + 1}")
+
+
+@check
+def pages_are_quiet_and_ask_for_nothing(browser):
+    """No message, no error, no dialog, no request, in light and dark, and the alarm is gone."""
+    for name in ("two-runs", "hostile", "long"):
+        for scheme in ("light", "dark"):
+            with opened(browser, name, color_scheme=scheme) as page:
+                assert not page.locator("#alarm").is_visible()
+                page.evaluate("rideReport.seek(3.7)")
+                page.screenshot(path=PICTURES / f"{name}-{scheme}.png")
+
+
+@check
+def the_slider_moves_the_legs(browser):
+    """After the slider, each leg is drawn between its joints, and the gauges say its length."""
+    data = plain("two-runs")
+    run = data["runs"][0]
+    with opened(browser, "two-runs") as page:
+        for k in (0, 512, 2100, 3990, 4100, 5999):
+            set_slider(page, run["times"][k])
+            assert_legs_are_drawn(page, data, run, k, f"sample {k}")
+            texts = page.locator(".gauge .value").all_text_contents()
+            assert texts == [f"{leg[k]:.3f} m" for leg in run["legs"]], texts
+
+
+@check
+def the_mouse_turns_the_view(browser):
+    data = plain("two-runs")
+    with opened(browser, "two-runs") as page:
+        before = page.evaluate("rideReport.view.drawnLegs")
+        box = page.locator("#view").bounding_box()
+        page.mouse.move(box["x"] + 200, box["y"] + 300)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 320, box["y"] + 340, steps=5)
+        page.mouse.up()
+        assert math.dist(before[0][1], page.evaluate("rideReport.view.drawnLegs")[0][1]) > 20
+        assert_legs_are_drawn(page, data, data["runs"][0], 0, "turned")
+        for name in ("side", "front", "above", "oblique"):
+            page.get_by_role("button", name=name).click()
+            assert_legs_are_drawn(page, data, data["runs"][0], 0, name)
+
+
+@check
+def the_picture_has_the_legs_colours(browser):
+    """Where a leg's lower part must be, its pixels are of the colour of its stroke, unless something stands before it.
+
+    Chromium advises against reading a canvas often; that is the only message.
+    """
+    data = plain("two-runs")
+    run = data["runs"][0]
+    with opened(browser, "two-runs", quiet=False) as page:
+        for k in (0, 3900):
+            set_slider(page, run["times"][k])
+            seen = 0
+            for leg, (foot, top) in enumerate(leg_ends(data, run, k)):
+                x, y = projected(page, [f + 0.25 * (t - f) for f, t in zip(foot, top)])
+                pixel = page.evaluate("([x, y]) => [...document.getElementById('view').getContext('2d').getImageData(x, y, 1, 1).data]", [x, y])
+                seen += max(abs(a - b) for a, b in zip(pixel, stroke_colour(page, data, run["legs"][leg][k]))) <= 2
+            assert seen >= 4, f"only {seen} legs have their colour at sample {k}"
+
+
+def stroke_colour(page, data, length):
+    """The colour by the share of the half stroke that is left, from the style sheet's four colours."""
+    shortest, longest = data["rig"]["stroke"]
+    left = min(length - shortest, longest - length) / ((longest - shortest) / 2)
+    names = ["--leg-end", "--leg-near", "--leg-some", "--leg-easy"]
+    texts = page.evaluate("names => names.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim())", names)
+    colours = [[int(text[i:i + 2], 16) for i in (1, 3, 5)] for text in texts]
+    place = min(max(left / 0.2, 0.0), 3.0)
+    low = min(int(place), 2)
+    return [a + (place - low) * (b - a) for a, b in zip(colours[low], colours[low + 1])]
+
+
+@check
+def the_charts_follow(browser):
+    """The cursor stands at its time in every chart, and the legend gives the values there."""
+    run = plain("two-runs")["runs"][0]
+    with opened(browser, "two-runs") as page:
+        set_slider(page, 37.5)
+        for plot in page.locator(".plot").all():
+            box, cursor = plot.bounding_box(), plot.locator(".cursor").bounding_box()
+            inside = (box["width"] - 52 - 10) * 37.5 / 60
+            near(cursor["x"] - box["x"], 52 + inside, 1.5, "cursor")
+        surge = page.locator('.chart[data-title="Surge, x"] .legend li', has_text="default")
+        assert surge.inner_text().endswith(f"{run['felt'][0][3750]:.2f}".replace("-", "\u2212")), surge.inner_text()
+
+
+@check
+def charts_are_zoomed_and_clicked(browser):
+    with opened(browser, "two-runs") as page:
+        box = page.locator(".plot").first.bounding_box()
+        x_of = lambda time: box["x"] + 52 + (box["width"] - 62) * time / 60
+        y = box["y"] + 20
+        page.mouse.click(x_of(30), y)
+        near(page.evaluate("rideReport.now.time"), 30, 0.1, "clicked time")
+        page.mouse.move(x_of(20), y)
+        page.mouse.down()
+        page.mouse.move(x_of(45), y, steps=4)
+        page.mouse.up()
+        for found, expected in zip(page.evaluate("rideReport.now.shown"), (20, 45)):
+            near(found, expected, 0.1, "shown time")
+        page.screenshot(path=PICTURES / "zoomed.png")
+        page.get_by_role("button", name="Whole ride").click()
+        assert page.evaluate("rideReport.now.shown") == [0, 60]
+
+
+@check
+def it_plays_at_real_speed(browser):
+    """On a clock that the test turns: a second of it is a second of the ride, or five at speed 5; it stops at the end."""
+    with opened(browser, "two-runs") as page:
+        page.clock.install(time=0)
+        page.clock.pause_at(3_600_000)
+        page.get_by_role("button", name="Play").click()
+        page.clock.run_for(2000)
+        near(page.evaluate("rideReport.now.time"), 2.0, 0.05, "time after two seconds")
+        page.locator("#speed").select_option("5")
+        page.clock.run_for(2000)
+        near(page.evaluate("rideReport.now.time"), 12.0, 0.2, "time after two more, five times as fast")
+        page.clock.run_for(12000)
+        assert page.evaluate("[rideReport.now.time, rideReport.now.playing]") == [60, False]
+        assert page.locator("#play").inner_text() == "Play"
+
+
+@check
+def another_run_can_be_chosen(browser):
+    data = plain("two-runs")
+    with opened(browser, "two-runs") as page:
+        set_slider(page, 38.0)
+        page.get_by_role("button", name="soft").click()
+        assert_legs_are_drawn(page, data, data["runs"][1], 3800, "soft")
+        assert page.locator("#runs button[aria-pressed=true]").all_text_contents() == ["soft"]
+        page.get_by_role("button", name="wake").click()
+        assert page.locator(".events tr", has_text="safety unit").count() > 0
+        page.screenshot(path=PICTURES / "wake.png")
+
+
+@check
+def the_table_holds_the_measures(browser):
+    data = plain("two-runs")
+    with opened(browser, "two-runs") as page:
+        shown, heads, group = {}, [], None
+        for row in page.locator("#measures .wide tr").evaluate_all("rows => rows.map((row) => [...row.children].map((cell) => cell.textContent))"):
+            group = row[0] or group
+            if row[:2] == ["", ""]:
+                heads, group = row[2:], None
+            for head, cell in zip(heads, row[2:]):
+                shown[group, head, row[1]] = cell
+        for run in data["runs"]:
+            for measure in run["measures"]:
+                cell = shown[measure["group"], f"{measure['name']} {measure['unit']}", run["name"]]
+                near(float(cell.replace("\u2212", "-")), measure["value"], 0.006 * abs(measure["value"]), str(measure))
+        page.get_by_text("Definitions and sources").click()
+        defined = page.locator("#measures details tbody tr").all_inner_texts()
+        for measure in data["runs"][0]["measures"]:
+            assert any(measure["definition"] in row and measure["source"] in row for row in defined), measure
+        page.locator("#measures").scroll_into_view_if_needed()
+        page.screenshot(path=PICTURES / "measures.png", full_page=True)
+
+
+@check
+def no_peak_is_lost(browser):
+    """In two minutes at 1 kHz, a bump of 50 ms, less than half a pixel wide, is drawn to its full height."""
+    with opened(browser, "long") as page:
+        found = page.evaluate("""() => {
+            const canvas = document.querySelector('.chart[data-title="Heave, z"] canvas');
+            const [ratio, box] = [canvas.width / canvas.clientWidth, canvas.getBoundingClientRect()];
+            const x = Math.round((52 + (box.width - 62) * 35.025 / 120) * ratio);
+            const data = canvas.getContext("2d").getImageData(x - 3, 0, 7, canvas.height).data;
+            const wanted = [1, 3, 5].map((at) => parseInt(getComputedStyle(document.documentElement)
+                .getPropertyValue("--desired").trim().slice(at, at + 2), 16));
+            const rows = new Set();
+            for (let i = 0; i < data.length; i += 4) {
+                if (wanted.every((part, k) => Math.abs(part - data[i + k]) < 12)) rows.add(Math.floor(i / 28) / ratio);
+            }
+            return [Math.min(...rows), Math.max(...rows), rows.size];
+        }""")
+        top, bottom, rows = found
+        assert top < 20 and bottom > 90 and rows > 60, f"the bump is drawn from {top} to {bottom} px, in {rows} rows"
+
+
+@check
+def hostile_text_stays_text(browser):
+    data = plain("hostile")
+    with opened(browser, "hostile") as page:
+        assert page.locator("h1").inner_text().split() == data["title"].split()
+        assert page.title().split() == data["title"].split()
+        counts = page.evaluate("['img', 'script', 'iframe', 'object'].map((tag) => document.getElementsByTagName(tag).length)")
+        assert counts == [0, 3, 0, 0], counts
+        assert page.locator("#runs button").first.inner_text().split() == data["runs"][0]["name"].split()
+
+
+@check
+def a_failing_script_is_not_silent(browser):
+    """A script that fails, data that are cut off, and no scripts at all: the page says so."""
+    text = (PAGES / "hostile.html").read_text()
+    broken = text.replace("const report = {", "const report = nothing + {", 1)
+    cut = text.replace('"times":"', '"times":"!', 1)
+    assert text not in (broken, cut)
+    for changed in (broken, cut):
+        with opened(browser, "hostile", quiet=False, text=changed) as page:
+            assert "could not be drawn" in page.locator("#alarm").inner_text()
+            assert page.locator("#alarm").is_visible()
+    with opened(browser, "hostile", java_script_enabled=False) as page:
+        assert page.locator("#alarm").is_visible()
+
+
+@check
+def a_narrow_screen_is_enough(browser):
+    with opened(browser, "two-runs", viewport={"width": 700, "height": 900}) as page:
+        page.screenshot(path=PICTURES / "narrow.png")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 700
+
+
+def main():
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    failed = 0
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        for function in checks:
+            name = function.__name__.replace("_", " ")
+            try:
+                function(browser)
+                print(f"{name:45}ok", flush=True)
+            except Exception as failure:  # Whatever went wrong, the other checks still say what they find.
+                failed += 1
+                print(f"{name:45}FAILED: {failure}", flush=True)
+        print(f"{len(checks) - failed} of {len(checks)} checks ok in Chromium {browser.version}; pictures in {PICTURES}")
+        browser.close()
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()

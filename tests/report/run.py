@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Opens the report's pages in a headless Chromium and holds what they show against the data they were made of.
+
+    python3 tests/report/run.py [--require] [--install]
+
+The pages are those of report/examples/pages.rs. Without Chromium or Playwright nothing is run, and that is said; with --require it
+is an error. With --install both are installed first (apt and pip; for Debian and Ubuntu). Pictures are left in target/report/.
+"""
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "report"
+VENV = WORK / "venv"
+PYTHON = VENV / "bin" / "python"
+
+APT = ["chromium"]
+PIP = ["playwright==1.65.2"]
+BROWSERS = ["chromium", "chromium-browser", "google-chrome"]
+
+
+def check_call(*command):
+    print("$", *command, flush=True)
+    subprocess.run([str(part) for part in command], cwd=ROOT, check=True)
+
+
+def install():
+    if not browser():
+        become_root = [] if os.geteuid() == 0 else ["sudo"]
+        check_call(*become_root, "apt-get", "update", "-qq")
+        check_call(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *APT)
+    if not PYTHON.exists():
+        venv.create(VENV, with_pip=True)
+    check_call(PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP)
+
+
+def browser():
+    return next(filter(None, map(shutil.which, BROWSERS)), None)
+
+
+def playwright():
+    """An interpreter that has Playwright."""
+    for interpreter in (PYTHON, Path(sys.executable)):
+        found = interpreter.exists() and subprocess.run([interpreter, "-c", "import playwright"], capture_output=True)
+        if found and found.returncode == 0:
+            return interpreter
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--require", action="store_true", help="a missing browser is an error")
+    parser.add_argument("--install", action="store_true", help="install what is needed first, with apt and pip")
+    arguments = parser.parse_args()
+    if arguments.install:
+        install()
+    chromium, interpreter = browser(), playwright()
+    if not chromium or not interpreter:
+        what = "Chromium: apt-get install chromium" if not chromium else "Playwright: pip install playwright"
+        print(f"report pages: not run, missing ({what}; or run with --install)")
+        sys.exit(1 if arguments.require else 0)
+    pages = WORK / "pages"
+    check_call("cargo", "run", "--quiet", "--release", "--package", "ride-report", "--example", "pages", "--", pages)
+    sys.exit(subprocess.run([interpreter, HERE / "checks.py", chromium, pages, WORK / "pictures"]).returncode)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"failed: {' '.join(map(str, error.cmd))}")
