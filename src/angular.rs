@@ -4,44 +4,32 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::bump::Bump;
-use crate::chain::{Chain, Denominator};
-use crate::governor::Motion;
+use crate::chain::{Chains, Denominator};
 use crate::interface::AngularParameters;
+use crate::motions::Motions;
 
 /// The angular channel with its state: roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngularChannel {
-    axes: [Axis; 3],
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Axis {
-    chain: Chain,
+    chains: Chains,
     bump: Bump,
-    motion: Motion,
+    /// The rates at the end of the last step \[rad/s\].
+    rates: Vector3<f64>,
 }
 
 impl AngularChannel {
     /// At rest.
     pub fn new(parameters: &AngularParameters, order: i32) -> Self {
-        AngularChannel {
-            axes: denominators(parameters, order).map(|denominator| Axis {
-                chain: Chain::new(denominator),
-                bump: Bump::default(),
-                motion: Motion::default(),
-            }),
-        }
+        let chains = Chains::new(denominators(parameters, order));
+        AngularChannel { chains, bump: Bump::default(), rates: Vector3::zeros() }
     }
 
     /// Takes other filter parameters at an instant at which the input changes from `before` to `after` because of other
     /// new parameters: angles and rates stay what they are, and the difference fades away.
     pub fn retune(&mut self, parameters: &AngularParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
-        for (k, denominator) in denominators(parameters, order).into_iter().enumerate() {
-            let Axis { chain, bump, .. } = &mut self.axes[k];
-            let rate = chain.high_pass(before[k]);
-            chain.retune(denominator, 1);
-            bump.add(rate - chain.high_pass(after[k]));
-        }
+        let rates = self.chains.high_pass(before);
+        self.chains.retune(denominators(parameters, order), 1);
+        self.bump.add(rates - self.chains.high_pass(after));
     }
 
     /// Advances by `step` seconds while the rates go linearly from `start` to `end`. Returns angle, rate and
@@ -49,22 +37,14 @@ impl AngularChannel {
     ///
     /// The acceleration is the mean over the step, from one step's rate to the next one's: the accelerations add up to the
     /// rates, also where the input jumps between two steps.
-    pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> [Motion; 3] {
-        for (k, axis) in self.axes.iter_mut().enumerate() {
-            axis.advance(start[k], end[k], step);
-        }
-        self.axes.map(|axis| axis.motion)
-    }
-}
-
-impl Axis {
-    fn advance(&mut self, start: f64, end: f64, step: f64) {
+    pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Motions {
         let (bump_start, bump_end) = self.bump.advance(step);
-        let (start, end) = (start + bump_start, end + bump_end);
-        self.chain.advance(start, end, step);
-        let rate = self.chain.high_pass(end);
-        let acceleration = (rate - self.motion.velocity) / step;
-        self.motion = Motion { position: self.chain.first_integral(), velocity: rate, acceleration };
+        let end = end + bump_end;
+        self.chains.advance(start + bump_start, end, step);
+        let rates = self.chains.high_pass(end);
+        let acceleration = (rates - self.rates) / step;
+        self.rates = rates;
+        Motions { position: self.chains.first_integral(), velocity: rates, acceleration }
     }
 }
 

@@ -1,11 +1,12 @@
 //! Bumpless changes: what a new parameter would make jump is held, and fades away.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// A correction to a filter's input that decays to zero.
+/// A correction to the inputs of three filters that decays to zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Bump {
-    value: f64,
+    value: Vector3<f64>,
 }
 
 /// Time constant with which a bump fades \[s\].
@@ -15,18 +16,17 @@ const OVER: f64 = 1e-15;
 
 impl Bump {
     /// Adds a correction.
-    pub fn add(&mut self, value: f64) {
+    pub fn add(&mut self, value: Vector3<f64>) {
         self.value += value;
     }
 
     /// Lets `step` seconds pass; the correction at their start and end.
-    pub fn advance(&mut self, step: f64) -> (f64, f64) {
-        if self.value == 0.0 {
-            return (0.0, 0.0);
-        }
+    pub fn advance(&mut self, step: f64) -> (Vector3<f64>, Vector3<f64>) {
         let start = self.value;
-        let end = start * libm::exp(-step / TIME_CONSTANT);
-        self.value = if end.abs() < OVER { 0.0 } else { end };
+        if start != Vector3::zeros() {
+            let end = start * libm::exp(-step / TIME_CONSTANT);
+            self.value = end.map(|value| if value.abs() < OVER { 0.0 } else { value });
+        }
         (start, self.value)
     }
 }

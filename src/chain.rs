@@ -5,7 +5,7 @@
 //! add up to the input exactly, eq. (6). The first integral of the high-pass is xi^(n-1) and the second xi^(n-2): no
 //! integrator runs free, nothing drifts.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// The coefficients c1..c4 of D(s); those beyond the order are zero.
@@ -34,105 +34,115 @@ impl Denominator {
 }
 
 /// The exact solution of the chain over one step for an input that is linear in time (first-order hold).
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Transition {
-    step: f64,
-    /// What each of the four states, the input and the input's slope add to the four states: a column each.
-    columns: [[f64; 4]; 6],
+///
+/// `[i][j][axis]`: what each of the four states, the input and the input's slope (j) add to state i.
+type Transition = [[[f64; 3]; 6]; 4];
+
+/// By the matrix exponential of the chain with its input and the input's slope as two more states.
+fn transition(denominators: &[Denominator; 3], step: f64) -> Transition {
+    let exponentials = denominators.map(|denominator| exponential(&denominator, step));
+    std::array::from_fn(|i| std::array::from_fn(|j| exponentials.map(|exponential| exponential[(i, j)])))
 }
 
-impl Transition {
-    /// By the matrix exponential of the chain with its input and the input's slope as two more states.
-    fn new(denominator: &Denominator, step: f64) -> Self {
-        let mut matrix = SMatrix::<f64, 6, 6>::zeros();
-        for (k, c) in denominator.coefficients.iter().enumerate() {
-            matrix[(0, k)] = -c;
-        }
-        for k in 1..denominator.order {
-            matrix[(k, k - 1)] = 1.0;
-        }
-        matrix[(0, 4)] = 1.0;
-        matrix[(4, 5)] = 1.0;
-        let scaled = matrix * step;
-        // A state that somebody made up can have any coefficients, and on infinite ones the exponential never ends.
-        let usable = scaled.iter().all(|entry| entry.abs() < 1e30);
-        let exponential = if usable { scaled.exp() } else { SMatrix::zeros() };
-        Transition { step, columns: std::array::from_fn(|j| std::array::from_fn(|i| exponential[(i, j)])) }
+fn exponential(denominator: &Denominator, step: f64) -> SMatrix<f64, 6, 6> {
+    let mut matrix = SMatrix::<f64, 6, 6>::zeros();
+    for (k, c) in denominator.coefficients.iter().enumerate() {
+        matrix[(0, k)] = -c;
     }
+    for k in 1..denominator.order {
+        matrix[(k, k - 1)] = 1.0;
+    }
+    matrix[(0, 4)] = 1.0;
+    matrix[(4, 5)] = 1.0;
+    let scaled = matrix * step;
+    // A state that somebody made up can have any coefficients, and on infinite ones the exponential never ends.
+    let usable = scaled.iter().all(|entry| entry.abs() < 1e30);
+    if usable { scaled.exp() } else { SMatrix::zeros() }
 }
 
-/// A chain with its state.
+/// Three chains side by side, one for each axis, with their states. They share nothing but the step; side by side the
+/// processor does two at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Chain {
-    denominator: Denominator,
+pub struct Chains {
+    denominators: [Denominator; 3],
+    /// The step that the transition is for \[s\].
+    step: f64,
     transition: Transition,
-    /// xi^(n-1), xi^(n-2), and down to xi; zero beyond the order.
-    state: [f64; 4],
+    /// xi^(n-1), xi^(n-2), and down to xi, of each axis; zero beyond the order.
+    states: [[f64; 3]; 4],
 }
 
 /// State below this is rest: what decays for long would otherwise end in denormal numbers, which are slow.
 const REST: f64 = 1e-30;
 
-impl Chain {
-    /// A chain at rest.
-    pub fn new(denominator: Denominator) -> Self {
-        Chain { denominator, transition: Transition::new(&denominator, 0.0), state: [0.0; 4] }
+impl Chains {
+    /// Chains at rest.
+    pub fn new(denominators: [Denominator; 3]) -> Self {
+        Chains { denominators, step: 0.0, transition: transition(&denominators, 0.0), states: [[0.0; 3]; 4] }
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end`.
-    pub fn advance(&mut self, start: f64, end: f64, step: f64) {
-        if step != self.transition.step {
-            self.transition = Transition::new(&self.denominator, step);
+    pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
+        if step != self.step {
+            self.transition = transition(&self.denominators, step);
+            self.step = step;
         }
-        let [x1, x2, x3, x4] = self.state;
         let slope = (end - start) / step;
-        let [a, b, c, d, u, s] = &self.transition.columns;
-        let next = |i: usize| {
-            let x = (a[i] * x1 + b[i] * x2) + (c[i] * x3 + d[i] * x4) + (u[i] * start + s[i] * slope);
-            if x.abs() < REST { 0.0 } else { x }
-        };
-        self.state = std::array::from_fn(next);
+        let [x1, x2, x3, x4] = self.states;
+        for (state, [a, b, c, d, u, s]) in self.states.iter_mut().zip(&self.transition) {
+            for k in 0..3 {
+                let x =
+                    (a[k] * x1[k] + b[k] * x2[k]) + (c[k] * x3[k] + d[k] * x4[k]) + (u[k] * start[k] + s[k] * slope[k]);
+                state[k] = if x.abs() < REST { 0.0 } else { x };
+            }
+        }
     }
 
     /// The low-pass 1 - s^n/D of the input.
-    pub fn low_pass(&self) -> f64 {
-        let [c1, c2, c3, c4] = self.denominator.coefficients;
-        let [x1, x2, x3, x4] = self.state;
-        (c1 * x1 + c2 * x2) + (c3 * x3 + c4 * x4)
+    pub fn low_pass(&self) -> Vector3<f64> {
+        let [x1, x2, x3, x4] = &self.states;
+        Vector3::from_fn(|k, _| {
+            let [c1, c2, c3, c4] = self.denominators[k].coefficients;
+            (c1 * x1[k] + c2 * x2[k]) + (c3 * x3[k] + c4 * x4[k])
+        })
     }
 
     /// The high-pass s^n/D of the input, whose value is `input` now.
-    pub fn high_pass(&self, input: f64) -> f64 {
+    pub fn high_pass(&self, input: Vector3<f64>) -> Vector3<f64> {
         input - self.low_pass()
     }
 
     /// The first integral of the high-pass, s^(n-1)/D of the input.
-    pub fn first_integral(&self) -> f64 {
-        self.state[0]
+    pub fn first_integral(&self) -> Vector3<f64> {
+        self.states[0].into()
     }
 
     /// The second integral of the high-pass, s^(n-2)/D of the input.
-    pub fn second_integral(&self) -> f64 {
-        self.state[1]
+    pub fn second_integral(&self) -> Vector3<f64> {
+        self.states[1].into()
     }
 
     /// Only the last term of the low-pass, cn/D of the input: a low-pass without zeros, for an order of 2.
-    pub fn all_pole_low_pass(&self) -> f64 {
-        self.denominator.coefficients[self.denominator.order - 1] * self.state[self.denominator.order - 1]
+    pub fn all_pole_low_pass(&self) -> Vector3<f64> {
+        Vector3::from_fn(|k, _| {
+            let Denominator { coefficients, order } = self.denominators[k];
+            coefficients[order - 1] * self.states[order - 1][k]
+        })
     }
 
     /// Takes other coefficients, keeping the first `kept` states and every later term of the low-pass as they are.
     ///
     /// What is kept is what the platform's motion is made of; the later states only remember, and are rescaled so that
     /// what the filter has already washed out stays so.
-    pub fn retune(&mut self, denominator: Denominator, kept: usize) {
-        let (old, new) = (self.denominator.coefficients, denominator.coefficients);
-        for k in kept..denominator.order {
-            self.state[k] *= old[k] / new[k];
+    pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
+        for (k, (old, new)) in self.denominators.iter().zip(&denominators).enumerate() {
+            for i in kept..new.order {
+                self.states[i][k] *= old.coefficients[i] / new.coefficients[i];
+            }
         }
-        if denominator != self.denominator {
-            self.transition = Transition::new(&denominator, self.transition.step);
-            self.denominator = denominator;
+        if denominators != self.denominators {
+            self.transition = transition(&denominators, self.step);
+            self.denominators = denominators;
         }
     }
 }

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::governor::{Limits, Motion};
 use crate::interface::TiltParameters;
+use crate::motions::Motions;
 
 /// The tilt of the platform that the gravitational strategy commands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -53,6 +54,15 @@ impl GravitationalStrategy {
         let (roll, roll_limited) = track(&self.roll, self.target.roll, target.roll, &limits, step);
         let (pitch, pitch_limited) = track(&self.pitch, self.target.pitch, target.pitch, &limits, step);
         *self = GravitationalStrategy { roll, pitch, target, limited: clipped || roll_limited || pitch_limited };
+    }
+
+    /// Adds the tilt to roll, pitch and yaw.
+    pub fn add_to(&self, angles: &mut Motions) {
+        for (k, tilt) in [&self.roll, &self.pitch].into_iter().enumerate() {
+            angles.position[k] += tilt.position;
+            angles.velocity[k] += tilt.velocity;
+            angles.acceleration[k] += tilt.acceleration;
+        }
     }
 }
 

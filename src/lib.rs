@@ -10,7 +10,7 @@
 //! |---|---|
 //! | [`conditioning`], [`splitter`] | (1) strategy splitter: gravity removal, scale, limit; high and low frequencies |
 //! | [`gravitational`] | (2) gravitational strategy: tilt |
-//! | [`direct_linear`] | (3) direct linear motion with its safety units |
+//! | [`direct_linear`], [`safety`] | (3) direct linear motion with its safety units |
 //! | [`spurious`] | (4) spurious accelerations of tilting |
 //! | [`angular`] | (5), (6) angular channel |
 //! | [`platform`] | pose to legs and back, actuator guard |
@@ -39,9 +39,11 @@ pub mod head;
 mod input;
 pub mod interface;
 mod model;
+pub mod motions;
 pub mod orientation;
 pub mod parameter_sets;
 pub mod platform;
+pub mod safety;
 pub mod splitter;
 pub mod spurious;
 mod washout;

@@ -4,7 +4,7 @@ use model_interface::{Field, Kind, units};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::governor::Motion;
+use crate::motions::Motions;
 
 /// Roll about x, pitch about y (nose down is positive), yaw about z, or three quantities that belong to them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -125,10 +125,10 @@ pub struct Turning {
 
 impl Turning {
     /// From roll, pitch and yaw as they move.
-    pub fn new([roll, pitch, yaw]: [Motion; 3]) -> Self {
-        let orientation = Orientation::new(RollPitchYaw::new(roll.position, pitch.position, yaw.position));
-        let rates = RollPitchYaw::new(roll.velocity, pitch.velocity, yaw.velocity);
-        let accelerations = RollPitchYaw::new(roll.acceleration, pitch.acceleration, yaw.acceleration);
+    pub fn new(angles: &Motions) -> Self {
+        let orientation = Orientation::new(RollPitchYaw::from_vector(angles.position));
+        let rates = RollPitchYaw::from_vector(angles.velocity);
+        let accelerations = RollPitchYaw::from_vector(angles.acceleration);
         Turning {
             orientation,
             velocity: orientation.angular_velocity(rates),

@@ -7,13 +7,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{Chain, Denominator};
+use crate::chain::{Chains, Denominator};
 use crate::interface::{LowPassKind, SplitterParameters};
 
 /// The low-pass filters, one for each axis of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LowPass {
-    chains: [Chain; 3],
+    chains: Chains,
     complementary: bool,
 }
 
@@ -22,24 +22,18 @@ impl LowPass {
     pub fn new(parameters: &SplitterParameters, order: i32, kind: LowPassKind) -> Self {
         let complementary = kind == LowPassKind::Complementary;
         let denominators = denominators(parameters, order, complementary);
-        LowPass { chains: denominators.map(Chain::new), complementary }
+        LowPass { chains: Chains::new(denominators), complementary }
     }
 
     /// Takes other frequencies and dampings; the output stays what it is.
     pub fn retune(&mut self, parameters: &SplitterParameters, order: i32) {
-        for (chain, denominator) in self.chains.iter_mut().zip(denominators(parameters, order, self.complementary)) {
-            chain.retune(denominator, 0);
-        }
+        self.chains.retune(denominators(parameters, order, self.complementary), 0);
     }
 
     /// Advances by `step` seconds while the force goes linearly from `start` to `end`; returns its low-frequency part.
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Vector3<f64> {
-        let mut output = Vector3::zeros();
-        for (axis, chain) in self.chains.iter_mut().enumerate() {
-            chain.advance(start[axis], end[axis], step);
-            output[axis] = if self.complementary { chain.low_pass() } else { chain.all_pole_low_pass() };
-        }
-        output
+        self.chains.advance(start, end, step);
+        if self.complementary { self.chains.low_pass() } else { self.chains.all_pole_low_pass() }
     }
 }
 

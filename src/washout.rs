@@ -13,7 +13,7 @@ use crate::gravitational::GravitationalStrategy;
 use crate::head::Head;
 use crate::interface::{Input, Output, Parameters};
 use crate::orientation::Turning;
-use crate::platform::{ActuatorGuard, PlatformMotion, Pose};
+use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
 use crate::splitter::LowPass;
 use crate::spurious::compensated;
 
@@ -47,7 +47,7 @@ pub struct Washout {
     angular: AngularChannel,
     direct_linear: DirectLinearMotion,
     /// What the washout wants of the platform; the guard says what it gets.
-    wanted: PlatformMotion,
+    wanted: Coordinates,
     guard: ActuatorGuard,
     felt: Felt,
     limited: Limited,
@@ -98,8 +98,8 @@ impl Washout {
             low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass),
             gravitational: GravitationalStrategy::default(),
             angular: AngularChannel::new(angular, structure.angular_order),
-            direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order),
-            wanted: PlatformMotion::at_rest(Pose::neutral(rig)),
+            direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
+            wanted: Coordinates::default(),
             guard,
             felt: at_rest,
             limited: Limited::default(),
@@ -177,23 +177,17 @@ impl Washout {
         let lean = head_at_end.lean * self.engagement;
         self.gravitational.advance(low_frequency, structure.gravity, lean, tilt, structure.max_step, step);
 
-        let [roll, pitch, yaw] = self.angular.advance(cue_start.rates, cue_end.rates, step);
-        let turning = Turning::new([self.gravitational.roll + roll, self.gravitational.pitch + pitch, yaw]);
+        let mut angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
+        self.gravitational.add_to(&mut angles);
+        let turning = Turning::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
         let spurious = compensated(conditioning.compensation, turning.velocity, turning.acceleration, arm);
-        let linear =
-            self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, structure.max_step, step);
+        let linear = self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, step);
 
-        self.wanted = PlatformMotion {
-            position: Pose::neutral(rig).position + linear.position,
-            orientation: turning.orientation,
-            velocity: linear.velocity,
-            angular_velocity: turning.velocity,
-            acceleration: linear.acceleration,
-            angular_acceleration: turning.acceleration,
-        };
+        self.wanted = Coordinates { linear: *linear, angles };
+        let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance(&self.wanted, step);
+        self.guard.advance(&self.wanted, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
         self.input = *end;
         self.limited.tilt |= self.gravitational.limited;
@@ -242,10 +236,10 @@ impl Washout {
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let head = Head::new(&self.parameters.structure, self.input.lean);
         let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
-        let PlatformMotion { orientation, angular_velocity, angular_acceleration, .. } = self.wanted;
+        let Turning { orientation, velocity, acceleration } = Turning::new(&self.wanted.angles);
         let arm = orientation.rotation * head.point;
         let compensation = self.parameters.conditioning.compensation;
-        (force - compensated(compensation, angular_velocity, angular_acceleration, arm), cue.rates)
+        (force - compensated(compensation, velocity, acceleration, arm), cue.rates)
     }
 
     /// The parameters in force.

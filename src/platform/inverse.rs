@@ -18,14 +18,19 @@ const SHORTEST: f64 = 1e-9;
 
 /// Lengths and rates of the legs for a motion of the platform.
 pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
+    let Geometry { base, platform } = geometry;
+    let arm = platform.turned(&motion.orientation.rotation);
+    let (p, v, w) = (motion.position, motion.velocity, motion.angular_velocity);
     let mut legs = Legs::default();
+    // Written out and not in vectors, so that the processor does two legs at a time.
     for i in 0..6 {
-        let arm = motion.orientation.rotation * geometry.platform[i];
-        let leg = motion.position + arm - geometry.base[i];
-        let joint_velocity = motion.velocity + motion.angular_velocity.cross(&arm);
-        let length = leg.norm();
+        let (x, y, z) = (p.x + arm.x[i] - base.x[i], p.y + arm.y[i] - base.y[i], p.z + arm.z[i] - base.z[i]);
+        let along = x * (v.x + (w.y * arm.z[i] - w.z * arm.y[i]))
+            + y * (v.y + (w.z * arm.x[i] - w.x * arm.z[i]))
+            + z * (v.z + (w.x * arm.y[i] - w.y * arm.x[i]));
+        let length = (x * x + y * y + z * z).sqrt();
         legs.length[i] = length;
-        legs.velocity[i] = leg.dot(&joint_velocity) / length.max(SHORTEST);
+        legs.velocity[i] = along / length.max(SHORTEST);
     }
     legs
 }
@@ -33,8 +38,8 @@ pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs 
 /// Accelerations of the legs' lengths \[m/s2\] for a motion of the platform.
 pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 6] {
     std::array::from_fn(|i| {
-        let arm = motion.orientation.rotation * geometry.platform[i];
-        let leg = motion.position + arm - geometry.base[i];
+        let arm = motion.orientation.rotation * geometry.platform.joint(i);
+        let leg = motion.position + arm - geometry.base.joint(i);
         let length = leg.norm().max(SHORTEST);
         let direction = leg / length;
         let velocity = motion.velocity + motion.angular_velocity.cross(&arm);
@@ -54,5 +59,5 @@ pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
 
 /// The leg from base joint to platform joint, in the base frame.
 pub(super) fn leg(geometry: &Geometry, pose: &Pose, i: usize) -> Vector3<f64> {
-    pose.position + pose.orientation.rotation * geometry.platform[i] - geometry.base[i]
+    pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)
 }

@@ -13,7 +13,7 @@ pub fn jacobian(geometry: &Geometry, pose: &Pose) -> Jacobian {
     let mut matrix = Matrix6::zeros();
     for i in 0..6 {
         let direction = leg(geometry, pose, i).normalize();
-        let moment = (pose.orientation.rotation * geometry.platform[i]).cross(&direction);
+        let moment = (pose.orientation.rotation * geometry.platform.joint(i)).cross(&direction);
         matrix.fixed_view_mut::<1, 3>(i, 0).copy_from(&direction.transpose());
         matrix.fixed_view_mut::<1, 3>(i, 3).copy_from(&moment.transpose());
     }

@@ -1,33 +1,39 @@
 //! The Stewart platform: its geometry, and the way from pose to legs and back.
 
+mod braking;
+mod coordinates;
 mod forward;
 mod guard;
 mod inverse;
 mod jacobian;
+mod joints;
 mod survey;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+pub use coordinates::Coordinates;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
 pub use guard::ActuatorGuard;
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
+pub use joints::Joints;
 pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;
-use crate::orientation::{Orientation, RollPitchYaw};
+use crate::motions::Motions;
+use crate::orientation::{Orientation, RollPitchYaw, Turning};
 
 /// Where the joints are: on the base in the base frame, on the platform in the platform frame \[m\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Geometry {
-    pub base: [Vector3<f64>; 6],
-    pub platform: [Vector3<f64>; 6],
+    pub base: Joints,
+    pub platform: Joints,
 }
 
 impl From<&Rig> for Geometry {
     fn from(rig: &Rig) -> Self {
-        Geometry { base: rig.base, platform: rig.platform }
+        Geometry { base: Joints::from(&rig.base), platform: Joints::from(&rig.platform) }
     }
 }
 
@@ -58,6 +64,18 @@ pub struct PlatformMotion {
 }
 
 impl PlatformMotion {
+    /// From surge, sway and heave, and how the platform turns.
+    pub fn new(linear: &Motions, turning: &Turning, neutral_height: f64) -> Self {
+        PlatformMotion {
+            position: Vector3::new(linear.position.x, linear.position.y, neutral_height + linear.position.z),
+            orientation: turning.orientation,
+            velocity: linear.velocity,
+            angular_velocity: turning.velocity,
+            acceleration: linear.acceleration,
+            angular_acceleration: turning.acceleration,
+        }
+    }
+
     /// At rest in this pose.
     pub fn at_rest(pose: Pose) -> Self {
         PlatformMotion {

@@ -43,7 +43,7 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
     let mut pose = Pose::neutral(rig);
     let mut lengths = leg_lengths(&geometry, &pose);
     let neutral_sign = jacobian(&geometry, &pose).determinant().signum();
-    let radius = mean_radius(&geometry.platform);
+    let radius = mean_radius(&rig.platform);
     let mut found = Survey { smallest_singular_value: f64::INFINITY, worst_condition: 0.0 };
     let mut failed = false;
     walk(&mut |levels: &[usize; 6]| {

@@ -1,8 +1,9 @@
 //! The filter chain against closed forms, an integration of its equation, and itself.
 
-use moris_washout::chain::{Chain, Denominator};
+use moris_washout::chain::Denominator;
 use proptest::prelude::*;
 
+use crate::common::chain::Chain;
 use crate::common::random::Random;
 use crate::common::{cases, rk4};
 

@@ -22,7 +22,7 @@ fn input(t: f64) -> Input {
     Input {
         specific_force: force,
         angular_velocity: Vector3::new(turning(1.0, 0.2), turning(3.0, -0.1), turning(5.0, 0.3)),
-        lean: 0.1,
+        lean: 0.1 + ramp(t, 6.0, 8.0, 0.04) - ramp(t, 15.0, 16.0, 0.02),
         ..Input::default()
     }
 }

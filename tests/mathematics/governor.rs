@@ -1,13 +1,16 @@
 //! The braking law: inviolable, invisible while it has nothing to do, and without a jump in between.
 
-use moris_washout::chain::{Chain, Denominator};
+use moris_washout::chain::Denominator;
 use moris_washout::direct_linear::DirectLinearMotion;
-use moris_washout::governor::{Governor, Limits, Motion, approach_velocity};
+use moris_washout::governor::{Motion, approach_velocity};
 use moris_washout::interface::{SafetyParameters, SplitterParameters};
+use moris_washout::motions::Motions;
+use moris_washout::safety::SafetyUnits;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::cases;
+use crate::common::chain::Chain;
 use crate::common::random::Random;
 
 /// A target that moves as nothing can, and now and then as something can.
@@ -28,6 +31,12 @@ fn hostile_target(random: &mut Random, last: &Motion, step: f64) -> Motion {
     }
 }
 
+/// What the units are asked for next: each axis something of its own.
+fn hostile_targets(random: &mut Random, last: &Motions, step: f64) -> Motions {
+    let targets = [0, 1, 2].map(|k| hostile_target(random, &last.axis(k), step));
+    Motions::from_axes(|k| targets[k])
+}
+
 proptest! {
     #![proptest_config(cases(300))]
 
@@ -35,47 +44,58 @@ proptest! {
     fn limits_hold_whatever_the_target(
         seed: u64, velocity in 0.1..3.0, acceleration in 1.0..30.0, range in 0.01..1.0, longest in 1e-4..0.05, kept in 1..30_u64,
     ) {
-        let limits = Limits { min: -0.3 * range, max: 0.7 * range, velocity, acceleration, longest_step: longest };
-        let mut governor = Governor::at_rest(0.0);
+        // Axes of different temper.
+        let limits = SafetyParameters {
+            position_limit: range * Vector3::new(1.0, 0.3, 2.0),
+            velocity_limit: velocity * Vector3::new(1.0, 2.0, 0.5),
+            acceleration_limit: acceleration * Vector3::new(1.0, 0.4, 1.5),
+        };
+        let mut units = SafetyUnits::new(longest);
         let mut random = Random::new(seed);
-        let mut target = Motion::default();
-        let mut last_mean: Option<(f64, f64)> = None;
+        let mut target = Motions::default();
+        let mut last_mean: Option<(Vector3<f64>, f64)> = None;
         for k in 0..2000 {
             let step = random.between(0.01, 1.0) * longest;
             if k % kept == 0 {
-                target = governor.motion;
+                target = *units.motion();
             }
-            target = hostile_target(&mut random, &target, step);
-            let before = governor.motion;
-            governor.advance(&target, &limits, step);
-            let now = governor.motion;
-            let rounding = 1.0 + 1e-9;
-            prop_assert!((limits.min..=limits.max).contains(&now.position));
-            prop_assert!(now.velocity.abs() <= velocity * rounding);
-            prop_assert!(now.acceleration.abs() <= acceleration * rounding);
-            prop_assert!((now.velocity - before.velocity).abs() <= acceleration * step * rounding);
+            target = hostile_targets(&mut random, &target, step);
+            let before = *units.motion();
+            units.advance(&target, &limits, step);
+            let now = units.motion();
             let mean = (now.position - before.position) / step;
-            if let Some((last_mean, last_step)) = last_mean {
-                let noise = 1e-14 * (1.0 / step + 1.0 / last_step);
-                let change = (mean - last_mean).abs() - noise;
-                prop_assert!(change <= acceleration * 0.5 * (step + last_step) * rounding, "{change}");
+            for k in 0..3 {
+                let most = limits.acceleration_limit[k];
+                let rounding = 1.0 + 1e-9;
+                prop_assert!(now.position[k].abs() <= limits.position_limit[k]);
+                prop_assert!(now.velocity[k].abs() <= limits.velocity_limit[k] * rounding);
+                prop_assert!(now.acceleration[k].abs() <= most * rounding);
+                prop_assert!((now.velocity[k] - before.velocity[k]).abs() <= most * step * rounding);
+                if let Some((last_mean, last_step)) = last_mean {
+                    let noise = 1e-14 * (1.0 / step + 1.0 / last_step);
+                    let change = (mean[k] - last_mean[k]).abs() - noise;
+                    prop_assert!(change <= most * 0.5 * (step + last_step) * rounding, "{change}");
+                }
             }
             last_mean = Some((mean, step));
         }
     }
 
     #[test]
-    fn a_target_at_rest_is_reached_and_kept(
-        start in -0.5..0.5, speed in -0.9..0.9, goal in -0.45..0.45, step in 0.0005..0.01,
-    ) {
-        let limits = Limits::symmetric(1.0, 1.0, 10.0, 0.01);
-        let mut governor = Governor::at_rest(0.0);
-        governor.motion = Motion { position: start, velocity: speed, acceleration: 0.0 };
-        for _ in 0..(4.0 / step) as usize {
-            governor.advance(&Motion::at_rest(goal), &limits, step);
+    fn a_target_at_rest_is_reached_and_kept(seed: u64, goal in -0.4..0.4, step in 0.0005..0.01) {
+        let limits = SafetyParameters::default();
+        let mut units = SafetyUnits::new(0.01);
+        let (mut random, mut target) = (Random::new(seed), Motions::default());
+        for _ in 0..500 {
+            target = hostile_targets(&mut random, &target, step);
+            units.advance(&target, &limits, step);
         }
-        prop_assert_eq!(governor.motion, Motion::at_rest(goal));
-        prop_assert!(!governor.acting);
+        let rest = Motions { position: goal * Vector3::new(1.0, -1.0, 0.5), ..Motions::default() };
+        for _ in 0..(4.0 / step) as usize {
+            units.advance(&rest, &limits, step);
+        }
+        prop_assert_eq!(*units.motion(), rest);
+        prop_assert!(!units.acting());
     }
 
     #[test]
@@ -88,14 +108,14 @@ proptest! {
     #[test]
     fn inside_its_limits_the_output_is_the_filters(seed: u64, step in 0.0005..0.005) {
         let (splitter, safety) = (SplitterParameters::default(), SafetyParameters::default());
-        let mut unit = DirectLinearMotion::new(&splitter, 4);
+        let mut unit = DirectLinearMotion::new(&splitter, 4, step);
         let mut chain = Chain::new(Denominator::new(4, 2.5, 1.0, 2.5, 1.0));
         let mut random = Random::new(seed);
         let mut last = 0.0;
         for k in 0..1000 {
             let force = if k % 100 == 0 { random.between(-2.0, 2.0) } else { last };
             chain.advance(force, force, step);
-            let motion = unit.advance(Vector3::repeat(force), Vector3::repeat(force), &safety, step, step);
+            let motion = unit.advance(Vector3::repeat(force), Vector3::repeat(force), &safety, step);
             // Bit by bit.
             prop_assert_eq!(motion.position, Vector3::repeat(chain.second_integral()));
             prop_assert_eq!(motion.velocity, Vector3::repeat(chain.first_integral()));
@@ -109,12 +129,12 @@ proptest! {
 #[test]
 fn the_limit_is_reached_and_left_without_a_jump() {
     let safety = SafetyParameters { position_limit: Vector3::repeat(0.1), ..SafetyParameters::default() };
-    let mut unit = DirectLinearMotion::new(&SplitterParameters::default(), 4);
+    let mut unit = DirectLinearMotion::new(&SplitterParameters::default(), 4, 0.001);
     let (mut acted, mut free_again, mut farthest) = (false, 0, 0.0_f64);
-    let mut before = unit.motion();
+    let mut before = *unit.motion();
     for k in 0..20_000 {
         let force = Vector3::repeat(if k < 5000 { 8.0 } else { 0.0 });
-        let now = unit.advance(force, force, &safety, 0.001, 0.001);
+        let now = *unit.advance(force, force, &safety, 0.001);
         let moved = now.position - before.position - 0.0005 * (now.velocity + before.velocity);
         // A jump is what velocities do not account for: at most the hundredth of what an acceleration does in a step.
         assert!(moved.amax() <= 0.0101 * 10.0 * 1e-6, "at {k}: {moved}");

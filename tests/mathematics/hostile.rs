@@ -14,21 +14,24 @@ use crate::common::{cases, displacement, parameters};
 enum Kind {
     Noise,
     Held,
+    Jolts,
     SignFlip,
     Huge,
     NotNumbers,
     SmallNoise,
     Mixed,
 }
-const KINDS: [Kind; 7] =
-    [Kind::Noise, Kind::Held, Kind::SignFlip, Kind::Huge, Kind::NotNumbers, Kind::SmallNoise, Kind::Mixed];
+const KINDS: [Kind; 8] =
+    [Kind::Noise, Kind::Held, Kind::Jolts, Kind::SignFlip, Kind::Huge, Kind::NotNumbers, Kind::SmallNoise, Kind::Mixed];
 
 /// An input of this kind, number `k` of an episode.
 fn hostile(kind: Kind, random: &mut Random, k: usize, last: &Input) -> Input {
     let amplitude = match kind {
         Kind::Held if !k.is_multiple_of(700) => return *last,
-        Kind::Mixed => return hostile(KINDS[random.below(6) as usize], random, k, last),
+        Kind::Jolts if !k.is_multiple_of(300) => return *last,
+        Kind::Mixed => return hostile(KINDS[random.below(7) as usize], random, k, last),
         Kind::Huge => 1e6,
+        Kind::Jolts => 12.0,
         Kind::SmallNoise => 0.05,
         _ => 30.0,
     };
@@ -55,12 +58,15 @@ enum Steps {
     Irregular(f64),
 }
 
-/// Variations of the default set: long travel, strong cues, steps so long that limits act coarsely, the wake's set.
-const SETS: [&[(&str, f64)]; 5] = [
+/// Variations of the default set: long travel, strong cues, steps so long that limits act coarsely, a slow machine, tight
+/// safety limits, the wake's set.
+const SETS: [&[(&str, f64)]; 7] = [
     &[],
     &[("splitter.x.omega1", 0.3), ("splitter.y.omega2", 0.3), ("splitter.z.omega1", 0.3)],
     &[("limit.specificForce.x", 1e6), ("limit.specificForce.y", 1e6), ("limit.angularVelocity.y", 100.0)],
     &[("solver.maxStep", 0.02)],
+    &[("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 3.0)],
+    &[("safety.x.velocityLimit", 0.2), ("safety.y.accelerationLimit", 2.0), ("safety.z.positionLimit", 0.1)],
     parameter_sets::WAKE,
 ];
 

@@ -22,9 +22,7 @@ impl Watch {
 
     /// Looks at the output after a step of `step` seconds.
     pub fn look(&mut self, output: &Output, step: f64) {
-        if !output.actuator_limited {
-            self.look_at_platform(output, step);
-        }
+        self.look_at_platform(output, step);
         self.look_at_machine(output, step);
     }
 
@@ -83,13 +81,11 @@ impl Watch {
             assert!(velocity.abs() <= safety.velocity_limit[k] * ROUNDING, "axis {k} at {velocity} m/s");
             let acceleration = output.acceleration[k];
             assert!(acceleration.abs() <= safety.acceleration_limit[k] * ROUNDING, "axis {k} at {acceleration} m/s2");
-            if !self.last.actuator_limited {
-                let change = (velocity - self.last.velocity[k]) / step;
-                assert!(
-                    change.abs() <= safety.acceleration_limit[k] * (1.0 + 1e-6),
-                    "axis {k} accelerates by {change} m/s2"
-                );
-            }
+            let change = (velocity - self.last.velocity[k]) / step;
+            assert!(
+                change.abs() <= safety.acceleration_limit[k] * (1.0 + 1e-6),
+                "axis {k} accelerates by {change} m/s2"
+            );
         }
     }
 }

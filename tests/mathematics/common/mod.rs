@@ -1,5 +1,6 @@
 //! What the tests share: inputs, manoeuvres, an integrator, rotations in plain arrays, and random numbers.
 
+pub mod chain;
 pub mod limits;
 pub mod manoeuvres;
 pub mod random;

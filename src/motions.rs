@@ -1,0 +1,45 @@
+//! Three motions side by side: along x, y, z or in roll, pitch, yaw.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::governor::Motion;
+
+/// Position, velocity and acceleration of three things that move along lines, in SI units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Motions {
+    pub position: Vector3<f64>,
+    pub velocity: Vector3<f64>,
+    pub acceleration: Vector3<f64>,
+}
+
+impl Motions {
+    /// One of them.
+    pub fn axis(&self, k: usize) -> Motion {
+        Motion { position: self.position[k], velocity: self.velocity[k], acceleration: self.acceleration[k] }
+    }
+
+    /// Each from its axis.
+    pub fn from_axes(motion: impl Fn(usize) -> Motion) -> Self {
+        let axes = [motion(0), motion(1), motion(2)];
+        Motions {
+            position: axes.map(|axis| axis.position).into(),
+            velocity: axes.map(|axis| axis.velocity).into(),
+            acceleration: axes.map(|axis| axis.acceleration).into(),
+        }
+    }
+
+    /// The motions after `step` seconds of the steady accelerations that lead to these velocities.
+    pub fn at_velocity(&self, velocity: Vector3<f64>, step: f64) -> Self {
+        Motions {
+            position: self.position + 0.5 * step * (self.velocity + velocity),
+            velocity,
+            acceleration: (velocity - self.velocity) / step,
+        }
+    }
+
+    /// The motions after braking for `time` seconds with these decelerations, each resting from when it stands.
+    pub fn braked(&self, decelerations: &Vector3<f64>, time: f64) -> Self {
+        Motions::from_axes(|k| self.axis(k).braked(decelerations[k], time))
+    }
+}
