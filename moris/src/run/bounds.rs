@@ -29,6 +29,9 @@ impl AxisBound {
 /// An axis on which less than this is desired has no bound worth computing: RMS \[m/s2\].
 const WORTH_BOUNDING: f64 = 0.01;
 
+/// More intervals than this take too long, and a longer ride gets longer ones: its bound is a little lower, and as valid.
+const MOST_INTERVALS: f64 = 10_000.0;
+
 /// The bounds of surge, sway and heave, computed beside each other; none where nothing is desired on an axis.
 ///
 /// The bound knows an upright rider: his head's height is that of the washout location without lean.
@@ -36,11 +39,13 @@ const WORTH_BOUNDING: f64 = 0.01;
 /// # Errors
 /// The ride is too short for a bound, or the solver fails.
 pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound> {
+    let duration = recording.step * recording.inputs.len() as f64;
+    let interval = INTERVAL.max(duration / MOST_INTERVALS);
     let on_axis = |axis: usize| {
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let desired: Vec<f64> = recording.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();
         let bound = AxisBound {
-            bound: bound(&desired, recording.step, &limits(&recording.parameters, axis), INTERVAL)?,
+            bound: bound(&desired, recording.step, &limits(&recording.parameters, axis), interval)?,
             desired,
         };
         Ok((bound.desired_rms() >= WORTH_BOUNDING).then_some(bound))
