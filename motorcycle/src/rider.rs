@@ -16,7 +16,7 @@ use crate::riccati::lqr_gain;
 /// The lateral state, and the accumulated error of the lean.
 const SIZE: usize = lateral::SIZE + 1;
 const ERROR: usize = lateral::SIZE;
-/// Speeds for which there are gains.
+/// Number of speeds for which gains are computed.
 pub const SPEEDS: usize = 48;
 
 /// What the rider does at one speed.
@@ -100,8 +100,9 @@ impl Rider {
         Ok(rider)
     }
 
-    /// Speed of the knot number `k`: each is faster than the one before by the same factor.
-    fn knot(&self, k: usize) -> f64 {
+    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed: each is faster than the one
+    /// before by the same factor.
+    pub fn knot(&self, k: usize) -> f64 {
         self.slowest * libm::pow(self.fastest / self.slowest, k as f64 / (SPEEDS - 1) as f64)
     }
 
