@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bump::Bump;
 use crate::chain::Chains;
+use crate::governor::Motion;
 use crate::interface::{SafetyParameters, SplitterParameters};
 use crate::motions::Motions;
 use crate::safety::SafetyUnits;
@@ -35,23 +36,26 @@ impl DirectLinearMotion {
     }
 
     /// Advances by `step` seconds while the input, a force in the base frame, goes linearly from `start` to `end`.
-    /// Returns surge, sway and heave from neutral, which keep the safety limits.
+    /// `planned` is a surge beside the filters'. Returns surge, sway and heave from neutral, which keep the safety limits.
     pub fn advance(
         &mut self,
-        start: Vector3<f64>,
-        end: Vector3<f64>,
+        [start, end]: [Vector3<f64>; 2],
+        planned: &Motion,
         limits: &SafetyParameters,
         step: f64,
     ) -> &Motions {
         let (bump_start, bump_end) = self.bump.advance(step);
         let end = end + bump_end;
         self.chains.advance(start + bump_start, end, step);
-        let washed_out = Motions {
+        let mut wanted = Motions {
             position: self.chains.second_integral(),
             velocity: self.chains.first_integral(),
             acceleration: self.chains.high_pass(end),
         };
-        self.safety.advance(&washed_out, limits, step);
+        wanted.position.x += planned.position;
+        wanted.velocity.x += planned.velocity;
+        wanted.acceleration.x += planned.acceleration;
+        self.safety.advance(&wanted, limits, step);
         self.motion()
     }
 

@@ -30,7 +30,7 @@ interface! {
         "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
         /// Orientation of the vehicle in its own world (roll about x, pitch about y with nose down positive, yaw about z).
         "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0);
-        /// Forward speed of the vehicle; the washout itself does not depend on it.
+        /// Forward speed of the vehicle; the washout depends on it only with preaction on.
         "vehicle.speed" speed: f64 [M_PER_S] = 0.0;
         /// Lean of the rider's torso relative to the mock-up, positive to the right.
         "rider.lean" lean: f64 [RAD] = 0.0;
@@ -120,6 +120,16 @@ enumeration! {
         "complementary" Complementary,
         /// A second-order low-pass with its own frequency and damping.
         "independent" Independent,
+    }
+}
+
+enumeration! {
+    /// What is done ahead of a brusque stop (the paper's section 6).
+    pub enum Preaction {
+        /// Nothing.
+        "off" Off,
+        /// The tilt begins to end before the stop, and surge holds part of the force meanwhile.
+        "on" On,
     }
 }
 
@@ -234,6 +244,8 @@ interface! {
         "washoutPoint.@" washout_point: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 1.2);
         /// Longest internal step; a longer communication step is divided.
         "solver.maxStep" max_step: f64 [S] = 0.001;
+        /// Whether tilt and surge act ahead of the vehicle's stop, which they foresee from vehicle.speed and its deceleration.
+        "preaction" preaction: Preaction = Preaction::Off;
     }
 }
 

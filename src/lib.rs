@@ -9,6 +9,7 @@
 //! | module | block |
 //! |---|---|
 //! | [`conditioning`], [`splitter`] | (1) strategy splitter: gravity removal, scale, limit; high and low frequencies |
+//! | `preaction` | ahead of (1): begin to end the tilt before a stop (the paper's section 6) |
 //! | [`gravitational`] | (2) gravitational strategy: tilt |
 //! | [`direct_linear`], [`safety`] | (3) direct linear motion with its safety units |
 //! | [`spurious`] | (4) spurious accelerations of tilting |
@@ -43,6 +44,7 @@ pub mod motions;
 pub mod orientation;
 pub mod parameter_sets;
 pub mod platform;
+mod preaction;
 pub mod safety;
 pub mod splitter;
 pub mod spurious;

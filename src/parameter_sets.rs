@@ -2,7 +2,7 @@
 
 use model_interface::{Causality, Model};
 
-use crate::interface::Parameters;
+use crate::interface::{Parameters, Preaction};
 use crate::model::parameters_in;
 use crate::washout::Washout;
 
@@ -26,6 +26,9 @@ pub const WAKE: &[(&str, f64)] = &[
     ("splitter.z.zeta2", 0.5),
     ("scale.angularVelocity.x", 0.3),
 ];
+
+/// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and surge act before it comes.
+pub const PREACTION: &[(&str, f64)] = &[("preaction", 1.0 + Preaction::On as i32 as f64)]; // Items count from 1.
 
 /// The default parameters with a set's values over them.
 ///

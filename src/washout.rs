@@ -11,9 +11,11 @@ use crate::direct_linear::DirectLinearMotion;
 use crate::evaluator::{Felt, felt};
 use crate::gravitational::GravitationalStrategy;
 use crate::head::Head;
+use crate::interface::Preaction;
 use crate::interface::{Input, Output, Parameters};
 use crate::orientation::Turning;
 use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
+use crate::preaction::StopPreaction;
 use crate::splitter::LowPass;
 use crate::spurious::compensated;
 
@@ -42,6 +44,7 @@ pub struct Washout {
     /// The input at the end of the last step.
     input: Input,
     input_filter: InputFilter,
+    preaction: StopPreaction,
     low_pass: LowPass,
     gravitational: GravitationalStrategy,
     angular: AngularChannel,
@@ -95,6 +98,7 @@ impl Washout {
             engagement: 1.0,
             input: Input::default(),
             input_filter: InputFilter::default(),
+            preaction: StopPreaction::new(structure.max_step),
             low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass),
             gravitational: GravitationalStrategy::default(),
             angular: AngularChannel::new(angular, structure.angular_order),
@@ -163,7 +167,8 @@ impl Washout {
     fn internal_step(&mut self, start: &Input, end: &Input, step: f64) {
         let head = Head::new(&self.parameters.structure, start.lean);
         let head_at_end = if start == end { head } else { Head::new(&self.parameters.structure, end.lean) };
-        let (cue_start, cue_end) = self.conditioned((start, &head), (end, &head_at_end), step);
+        let (mut cue_start, mut cue_end) = self.conditioned((start, &head), (end, &head_at_end), step);
+        self.preact(&mut cue_start, &mut cue_end, end.speed, step);
 
         let rotation = self.guard.motion().orientation.rotation;
         let turn = self.guard.motion().turn(step);
@@ -182,7 +187,12 @@ impl Washout {
         let turning = Turning::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
         let spurious = compensated(conditioning.compensation, turning.velocity, turning.acceleration, arm);
-        let linear = self.direct_linear.advance(force_start - spurious, force_end - spurious, safety, step);
+        let linear = self.direct_linear.advance(
+            [force_start - spurious, force_end - spurious],
+            self.preaction.surge(),
+            safety,
+            step,
+        );
 
         self.wanted = Coordinates { linear: *linear, angles };
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
@@ -205,6 +215,17 @@ impl Washout {
         let cue_end = if start.0 == end.0 { cue_start } else { cue_of(end) };
         let (cue_start, cue_end) = (cue_start.scaled(faded_before), cue_end.scaled(self.engagement));
         self.input_filter.advance(cue_start, cue_end, conditioning.cutoff, step)
+    }
+
+    /// Changes the cue ahead of a stop, if that is wanted.
+    fn preact(&mut self, start: &mut Cue, end: &mut Cue, speed: f64, step: f64) {
+        let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
+        if structure.preaction == Preaction::On {
+            let braking = [end.force.x, conditioning.force_scale.x, speed];
+            self.preaction.advance(braking, structure.gravity, tilt, safety, step);
+            start.force.x = self.preaction.tilted_force(start.force.x);
+            end.force.x = self.preaction.tilted_force(end.force.x);
+        }
     }
 
     /// Takes over other tunable parameters. Position, velocity, angles and rates of the platform stay what they are;

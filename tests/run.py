@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs every test: the FMU is built, Rust's tests run, then Python's in a virtual environment made for them; then the FMU
+"""Runs every test: the FMUs are built, Rust's tests run, then Python's in a virtual environment made for them; then the FMU
 goes through other people's importers and, where there are Wine and qemu, through the libraries for other platforms; where
 there is Chromium, the report's pages are opened in it.
 
@@ -37,6 +37,8 @@ def python():
 def main():
     run("cargo", "build-fmu")
     run("cargo", "build-fmu", "--fmi", "3")
+    run("cargo", "build-ssp")
+    run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(sys.executable, "tests/importers/run.py")

@@ -5,6 +5,7 @@ use std::io::{Cursor, Read};
 use build_fmu::archive::{Contents, pack};
 use build_fmu::contents::contents;
 use build_fmu::model::WASHOUT;
+use build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
 use build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
 use clap::ValueEnum;
 use model_description::scalar_variable::{ScalarVariable, Values};
@@ -261,4 +262,15 @@ fn the_washouts_reference_ride_is_as_expected() {
     // The vehicle accelerates for two seconds and more: by then the platform is tilted nose up, which is negative.
     let two_seconds = rows.iter().find(|row| row[0] == 2.0).unwrap();
     assert!(two_seconds[column("tilt.pitch")] < -0.03);
+}
+
+#[test]
+fn a_systems_description_is_the_same_every_time() {
+    for (form, parameters) in [(Form::Whole, "MotorcycleSimulator"), (Form::Flat, "washout")] {
+        let contents = ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap();
+        let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
+        let parameters = format!("resources/{parameters}.ssv");
+        assert_eq!(paths, ["SystemStructure.ssd", "documentation/licenses/license.txt", &*parameters]);
+        assert!(pack(&contents).unwrap() == pack(&ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap()).unwrap());
+    }
 }

@@ -121,11 +121,12 @@ impl<M: Model> Instance<M> {
             let Some(check) = self.tables.checks.get(slot as usize) else {
                 return Err(self.no_such_variable(slot));
             };
-            let name = self.name(slot);
             if check.role != role {
+                let name = self.name(slot);
                 return Err(Complaint::error(format!("{name} has no derivative: it is not {role_text}")));
             }
             if order != 1 {
+                let name = self.name(slot);
                 return Err(Complaint::error(format!(
                     "the derivative of {name} of order {order}: only order 1 exists"
                 )));
@@ -144,18 +145,14 @@ impl<M: Model> Instance<M> {
     /// Writes values of which some are tunable parameters, and tells the model if any of these has changed.
     #[inline(never)]
     fn set_and_retune<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
-        let old: Vec<(usize, f64)> =
-            slots.clone().map(|slot| (slot as usize, self.run.values[slot as usize])).collect();
-        self.write(slots, values);
-        let changed = old
-            .iter()
-            .any(|&(slot, old)| self.tables.checks[slot].role == Role::Parameter && self.run.values[slot] != old);
+        self.old_values.copy_from_slice(&self.run.values);
+        self.write(slots.clone(), values);
+        let changed = slots.map(|slot| slot as usize).any(|slot| {
+            self.tables.checks[slot].role == Role::Parameter && self.run.values[slot] != self.old_values[slot]
+        });
         let Some(model) = self.run.model.as_mut().filter(|_| changed) else { return Ok(()) };
         model.retune(&self.run.values).map_err(|refusal| {
-            // Backwards: of a variable named twice, the first of its old values is the one to keep.
-            for (slot, old) in old.into_iter().rev() {
-                self.run.values[slot] = old;
-            }
+            self.run.values.copy_from_slice(&self.old_values);
             Complaint::discard(format!("{refusal}. The values of this call have not been taken; the old ones hold"))
         })
     }

@@ -13,12 +13,15 @@ pub struct Instance<M> {
     pub(crate) run: Run<M>,
     /// Room for the outputs' time derivatives.
     pub(crate) output_derivatives: Box<[f64]>,
+    /// Room for all values as they were before parameters are set.
+    pub(crate) old_values: Box<[f64]>,
 }
 
 impl<M: Model> Instance<M> {
     /// A fresh instance of the model to which the tables belong.
     pub fn new(tables: Tables) -> Self {
-        Instance { tables, run: Run::fresh(tables.start), output_derivatives: vec![0.0; tables.start.len()].into() }
+        let room = || vec![0.0; tables.start.len()].into();
+        Instance { tables, run: Run::fresh(tables.start), output_derivatives: room(), old_values: room() }
     }
 
     /// Where in its life the instance is.

@@ -8,7 +8,7 @@
 
 use moris::respond::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
 use moris::respond::excitation::{Amplitudes, frequencies};
-use moris::respond::{Measured, Response, response};
+use moris::respond::{Measured, Response, picture, response, table};
 use moris_washout::nalgebra::Complex;
 use moris_washout::{Parameters, parameter_sets};
 
@@ -121,15 +121,19 @@ fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
     assert!((removed - alone).norm() < 1e-3 * felt.norm(), "{removed} is not {alone}");
 }
 
+/// All tests, coarsely stepped.
+fn measured(progress: impl Fn() + Sync) -> Measured {
+    let mut parameters = Parameters::default();
+    parameters.structure.max_step = 0.02;
+    Measured::of(&parameters, Amplitudes::default(), false, progress).unwrap()
+}
+
 #[test]
 fn everything_is_measured_once_and_in_order() {
     let count = std::sync::atomic::AtomicU64::new(0);
-    let mut parameters = Parameters::default();
-    parameters.structure.max_step = 0.02; // Quick is enough here.
-    let measured = Measured::of(&parameters, Amplitudes::default(), false, || {
+    let measured = measured(|| {
         count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-    })
-    .unwrap();
+    });
     assert_eq!(count.into_inner(), Measured::TESTS);
     for responses in [&measured.test, &measured.small] {
         let found: Vec<(Channel, f64)> = responses.iter().map(|one| (one.input, one.frequency)).collect();
@@ -137,4 +141,40 @@ fn everything_is_measured_once_and_in_order() {
             [Surge, Sway, Heave, Roll, Pitch, Yaw].iter().flat_map(|&c| frequencies().map(|w| (c, w))).collect();
         assert_eq!(found, wanted);
     }
+}
+
+#[test]
+fn the_files_hold_what_was_measured() {
+    let measured = measured(|| ());
+    let directory = tempfile::tempdir().unwrap();
+    let file = |name: &str| directory.path().join(name);
+    table::write(&file("response.csv"), &measured).unwrap();
+    let mut rows = csv::Reader::from_path(file("response.csv")).unwrap();
+    let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len() as u64, Measured::TESTS * 6);
+    let row = |signal: &str, input: &str, output: &str, frequency: &str| {
+        let wanted = [signal, input, output];
+        let found = rows.iter().find(|row| row.iter().take(3).eq(wanted) && &row[4] == frequency);
+        found.unwrap_or_else(|| panic!("no row for {wanted:?} at {frequency}"))
+    };
+    let heave = row("small", "heave", "heave", "2.5119");
+    let expected = high_pass(Complex::new(0.0, 2.511_886_431_509_58), 2.5, 1.0);
+    assert!((heave[8].parse::<f64>().unwrap() - expected.norm()).abs() < 1e-3);
+    assert!((heave[10].parse::<f64>().unwrap() - expected.arg().to_degrees()).abs() < 0.1);
+    assert_eq!((&heave[3], &heave[6], &heave[7]), ("direct", "0.001000", "m/s²"));
+    // Slowly enough, 1 m/s2 takes a pitch of 5.8 degrees, whose rate is 0.1 times that.
+    let pitch = row("test", "surge", "pitch rate", "0.1000");
+    assert!((pitch[8].parse::<f64>().unwrap() - 0.585).abs() < 0.002, "{pitch:?}");
+    assert_eq!((&pitch[3], &pitch[9]), ("cross", "°/s per m/s²"));
+    assert_eq!(&row("test", "yaw rate", "heave", "1.0000")[10], "", "what is not felt has no phase");
+
+    for (name, titles) in
+        [("direct.svg", ["Surge", "Yaw rate"]), ("cross.svg", ["Pitch rate to surge", "Sway to roll rate"])]
+    {
+        let draw = if name == "direct.svg" { picture::direct } else { picture::cross };
+        draw(&file(name), &measured).unwrap();
+        let drawn = std::fs::read_to_string(file(name)).unwrap();
+        assert!(titles.iter().all(|title| drawn.contains(title)), "{name}");
+    }
+    assert!(picture::direct(&file("no/such/direct.svg"), &measured).is_err());
 }

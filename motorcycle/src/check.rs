@@ -2,6 +2,8 @@
 
 use model_interface::{Group, Kind, Refusal, Row, Writer, slot_count};
 
+use nalgebra::{Complex, SVector};
+
 use crate::interface::Parameters;
 use crate::lateral::{Design, Lateral, static_loads};
 use crate::longitudinal::Longitudinal;
@@ -85,7 +87,9 @@ pub fn ridden(
     let mut pole = suspension.fastest_pole().max(fastest_lag(parameters));
     for k in 0..=SPEEDS {
         let speed = fastest * f64::from(k) / f64::from(SPEEDS);
-        let poles = rider.closed_loop(&lateral, speed).complex_eigenvalues();
+        let ridden = rider.closed_loop(&lateral, speed);
+        let finite = ridden.iter().all(|number| number.is_finite());
+        let poles = if finite { ridden.complex_eigenvalues() } else { SVector::repeat(Complex::new(0.0, 0.0)) };
         if poles.iter().any(|pole| pole.re >= 0.0) {
             return refuse(
                 "feet.speed",
@@ -150,23 +154,23 @@ enum Rule {
 fn rule(row: &Row) -> Rule {
     match row.name {
         _ if matches!(row.kind, Kind::Enumeration(_)) => Rule::Finite,
-        "frame.inertia.xz" | "fork.inertia.xz" | "head.x" | "initial.heading" | "fork.centre.x" => Rule::Finite,
-        "steer.damping"
-        | "drive.engineBraking"
-        | "brake.forceLimit"
-        | "brake.frontShare"
-        | "tyre.rollingResistance" => Rule::NotNegative,
-        "wheelLift.reserve" | "aero.height" | "rider.torsoMass" | "rider.torsoCentre" | "rider.torsoInertia" => {
-            Rule::NotNegative
-        }
-        "suspension.front.damping" | "suspension.rear.damping" | "head.torsoLength" => Rule::NotNegative,
-        "tyre.front.camberStiffness" | "tyre.rear.camberStiffness" => Rule::NotNegative,
+        "frame.inertia.xz" | "fork.inertia.xz" | "fork.centre.x" | "geometry.trail" | "initial.heading" => Rule::Finite,
+        "steer.damping" | "suspension.front.damping" | "suspension.rear.damping" => Rule::NotNegative,
+        "drive.engineBraking" | "brake.forceLimit" | "brake.frontShare" | "wheelLift.reserve" => Rule::NotNegative,
+        "tyre.front.camberStiffness" | "tyre.rear.camberStiffness" | "tyre.rollingResistance" => Rule::NotNegative,
+        "rider.torsoMass" | "head.torsoLength" => Rule::NotNegative,
+        "aero.height" | "rider.torsoCentre" => Rule::Between(0.0, 3.0),
+        "rider.torsoInertia" => Rule::Between(0.0, 100.0),
+        "head.x" => Rule::Between(-5.0, 5.0),
+        "head.height" => Rule::Between(1e-3, 5.0),
         "rider.bodyLeanShare" => Rule::Between(-1.0, 1.0),
         "rider.bodyLeanLimit" => Rule::Between(0.0, 1.5),
+        "rider.bodyLeanFrequency" => Rule::Between(0.1, 50.0),
         "rider.leanLimit" => Rule::Between(1e-3, 1.2),
+        "rider.leanFrequency" => Rule::Between(0.1, 50.0),
+        "rider.leanRateLimit" => Rule::Between(1e-3, 10.0),
         "steer.lock" => Rule::Between(1e-3, 1.5),
         "geometry.casterAngle" => Rule::Between(-1.0, 1.2),
-        "geometry.trail" => Rule::Finite,
         "feet.speed" => Rule::Between(0.5, 10.0),
         "tyre.friction" => Rule::Between(0.05, 3.0),
         "initial.speed" => Rule::Between(0.0, LARGEST_SPEED),

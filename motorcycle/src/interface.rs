@@ -30,7 +30,7 @@ interface! {
         "command.lean" lean: f64 [RAD] = 0.0;
         /// Lean of the rider's torso relative to the motorcycle, positive to the right; added to what rider.bodyLeanShare makes of the commanded lean.
         "command.riderLean" rider_lean: f64 [RAD] = 0.0;
-        /// Force of the wind on motorcycle and rider besides the drag of still air, in axes that follow the heading (x forward, y left, z up), at the height aero.height midway between the wheels.
+        /// Force of the wind on motorcycle and rider besides the drag of still air, in axes that follow the heading (x forward, y left, z up), midway between the wheels at aero.height; beyond 600 N counts as 600 N.
         "wind.force.@" wind: Vector3<f64> [N] = Vector3::new(0.0, 0.0, 0.0);
     }
 }
@@ -62,11 +62,11 @@ interface! {
         "steer.angle" steer_angle: f64 [RAD] = 0.0;
         /// Rate of the steer angle.
         "steer.rate" steer_rate: f64 [RAD_PER_S] = 0.0;
-        /// Torque of the rider's hands on the bars, positive to the left.
+        /// Torque with which the rider steers, positive to the left; what holds the bars still below feet.speed is not in it.
         "steer.torque" steer_torque: f64 [N_M] = 0.0;
-        /// Roll angle that the rider is steering to just now: command.lean within his limits, smoothed.
+        /// Roll angle that the rider is steering to just now: command.lean within his limits, taken up smoothly.
         "rider.leanReference" lean_reference: f64 [RAD] = 0.0;
-        /// Share of the weight's overturning that feet on the road hold, from 1 at rest to 0 from feet.speed on.
+        /// How much feet on the road and firm hands hold the motorcycle upright: from 1 at rest to 0 from feet.speed on.
         "rider.feetDown" feet_down: f64 = 1.0;
         /// Share of the throttle that has come through to the rear wheel's force.
         "drive.throttle" throttle: f64 = 0.0;
@@ -88,15 +88,16 @@ interface! {
         "suspension.front.travel" front_travel: f64 [M] = 0.0;
         /// Compression of the rear suspension at the wheel, from its length at rest.
         "suspension.rear.travel" rear_travel: f64 [M] = 0.0;
-        /// Whether, at the end of the last communication step, the drive or a brake was held back so that its tyre does not slide.
+        /// Whether, at the end of the last communication step, drive or brakes were held back so that no tyre slides.
         "status.frictionLimited" friction_limited: bool = false;
-        /// Whether, at the end of the last communication step, the drive or the brakes were held back so that no wheel leaves the road.
+        /// Whether, at the end of the last communication step, drive or brakes were held back so that no wheel lifts off.
         "status.wheelLiftLimited" wheel_lift_limited: bool = false;
     }
 }
 
 interface! {
-    /// Masses and geometry: the 25 parameters of a bicycle (Meijaard et al. 2007), without speed and gravity. Lengths are measured from the rear tyre's contact, x forward and heights above the road.
+    /// Masses and geometry: the parameters of a bicycle in Meijaard et al. (2007), and a steering damper. Lengths are
+    /// measured from the rear tyre's contact, x forward; heights above the road.
     pub struct Machine: Parameter, Fixed {
         /// Distance of the two tyres' contacts.
         "geometry.wheelbase" wheelbase: f64 [M] = 1.448;
@@ -147,7 +148,7 @@ interface! {
         /// Moment of inertia of the front wheel about its axle.
         "frontWheel.inertia.yy" front_wheel_yy: f64 [KG_M2] = 0.6;
         /// Steering damper: torque for a rate of steer.
-        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 1.0;
+        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 7.4;
         /// Largest steer angle that the rider asks for.
         "steer.lock" steer_lock: f64 [RAD] = 0.5;
     }
@@ -240,8 +241,8 @@ interface! {
         "rider.torsoCentre" torso_centre: f64 [M] = 0.4;
         /// Moment of inertia of the torso about its centre of mass, about the axis forward.
         "rider.torsoInertia" torso_inertia: f64 [KG_M2] = 1.3;
-        /// Speed below which feet on the road and firm hands hold the motorcycle upright, all the more the slower.
-        "feet.speed" feet_speed: f64 [M_PER_S] = 2.5;
+        /// Speed below which feet on the road and firm hands hold the motorcycle upright, the more the slower.
+        "feet.speed" feet_speed: f64 [M_PER_S] = 3.0;
         /// Distance of the rider's head ahead of the rear contact.
         "head.x" head_x: f64 [M] = 0.65;
         /// Height of the rider's head above the road.

@@ -8,11 +8,11 @@
 //! The lean of these linear equations stands for the TANGENT of the roll angle: so a steady turn, where they say
 //! speed times yaw rate = gravity times lean, is balanced at any roll angle, and no state rolls beyond 90 degrees.
 
-use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
+use nalgebra::{Matrix2, Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{Machine, Parameters};
-use crate::whipple::{Bicycle, Body, Wheel};
+use crate::whipple::{Bicycle, Body, Totals, Wheel};
 
 /// Places in the state: lateral velocity of the rear contact in axes of the heading \[m/s\], yaw rate, lean rate, steer
 /// rate \[rad/s\], lean (the roll's tangent), steer \[rad\], lateral force on the rear and on the front tyre \[N\].
@@ -78,7 +78,8 @@ pub struct Design {
 pub struct Lateral {
     pub constant: StateMatrix,
     pub per_speed: StateMatrix,
-    /// Feet on the road and firm hands, when they hold fully: see [`Lateral::new`].
+    /// Feet on the road and firm hands when they hold fully, and dampers on both contacts then, for a tyre that does not
+    /// roll is a spring without any damping.
     pub hold: StateMatrix,
     /// Of a torque between rider and bars \[N m\], positive to the right.
     pub torque: State,
@@ -107,82 +108,68 @@ impl Lateral {
     /// momentum, and K is Whipple's K0: the potential energy of a machine with both wheels on the road does not depend
     /// on where it stands and which way it points.
     pub fn new(design: &Design) -> Option<Lateral> {
-        let bicycle = &design.bicycle;
-        let t = bicycle.totals();
-        let (sin, cos) = libm::sincos(bicycle.lambda);
-
-        #[rustfmt::skip]
-        let mass = Matrix4::new(
-            t.m_t,              t.m_t * t.x_t, -t.m_t * t.z_t, t.m_a * t.u_a,
-            t.m_t * t.x_t,      t.t_zz,         t.t_xz,        t.a_lz,
-            -t.m_t * t.z_t,     t.t_xz,         t.t_xx,        t.a_lx,
-            t.m_a * t.u_a,      t.a_lz,         t.a_lx,        t.a_ll,
-        );
-        let inverse = mass.cholesky()?.inverse();
-
-        // Of yaw rate, lean rate and steer rate (columns 1 to 3), per speed: a spinning wheel resists being turned.
-        let s_t = t.s_r + t.s_f;
-        #[rustfmt::skip]
-        let gyroscopic = Matrix4::new(
-            0.0, 0.0,         0.0,            0.0,
-            0.0, 0.0,        -s_t,           -t.s_f * sin,
-            0.0, s_t,         0.0,            t.s_f * cos,
-            0.0, t.s_f * sin, -t.s_f * cos,   0.0,
-        );
+        let t = design.bicycle.totals();
+        let (sin, cos) = libm::sincos(design.bicycle.lambda);
+        let inverse = mass_matrix(&t).cholesky()?.inverse();
         let k0 = t.gravity_stiffness(sin) * design.gravity;
-
-        // Generalised forces of a lateral force at the rear and at the front contact, which trails the steer axis.
-        let front_arm = bicycle.c * cos;
-        let at_rear = Vector4::new(1.0, 0.0, 0.0, 0.0);
-        let at_front = Vector4::new(1.0, bicycle.w, 0.0, -front_arm);
-
-        let mut constant = StateMatrix::zeros();
-        let mut per_speed = StateMatrix::zeros();
-        let velocities = 0..4;
-        set_columns(&mut per_speed, velocities.clone(), &(-inverse * gyroscopic));
-        // The acceleration of the contact is y'' = velocity' + speed yaw rate.
-        per_speed[(VELOCITY, YAW_RATE)] -= 1.0;
-        constant[(LEAN, LEAN_RATE)] = 1.0;
-        constant[(STEER, STEER_RATE)] = 1.0;
         let steer_unit = Vector4::new(0.0, 0.0, 0.0, 1.0);
-        add_column(&mut constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
-        for (column, stiffness) in [(LEAN, k0.column(0)), (STEER, k0.column(1))] {
-            add_column(&mut constant, column, &(-inverse * Vector4::new(0.0, 0.0, stiffness[0], stiffness[1])));
-        }
-        add_column(&mut constant, REAR_FORCE, &(inverse * at_rear));
-        add_column(&mut constant, FRONT_FORCE, &(inverse * at_front));
-
-        // Each tyre, with its slip velocity s = v alpha: sigma F' = -v F - C s + v C_camber camber.
-        let rear_slip = [(VELOCITY, 1.0)];
-        let front_slip = [(VELOCITY, 1.0), (YAW_RATE, bicycle.w), (STEER_RATE, -front_arm)];
-        let (rear, front) = (design.rear, design.front);
-        per_speed[(REAR_FORCE, REAR_FORCE)] = -1.0 / rear.relaxation;
-        per_speed[(REAR_FORCE, LEAN)] = rear.camber / rear.relaxation;
-        per_speed[(FRONT_FORCE, FRONT_FORCE)] = -1.0 / front.relaxation;
-        per_speed[(FRONT_FORCE, LEAN)] = front.camber / front.relaxation;
-        per_speed[(FRONT_FORCE, STEER)] = (front.camber * sin + front.cornering * cos) / front.relaxation;
-        for (column, factor) in rear_slip {
-            constant[(REAR_FORCE, column)] -= rear.cornering / rear.relaxation * factor;
-        }
-        for (column, factor) in front_slip {
-            constant[(FRONT_FORCE, column)] -= front.cornering / front.relaxation * factor;
-        }
-
         let torso = design.torso;
         let moment = torso.mass * torso.arm;
         let torso_coupling = Vector4::new(moment, moment * torso.x, moment * torso.height + torso.inertia, 0.0);
         let torso_weight = Vector4::new(0.0, 0.0, moment * design.gravity, 0.0);
-        let wind = Vector4::new(1.0, design.wind_x, design.wind_height, 0.0);
 
-        Some(Lateral {
-            constant,
-            per_speed,
-            hold: hold(design, &inverse, [at_rear, at_front], [&rear_slip, &front_slip]),
+        let mut lateral = Lateral {
+            constant: StateMatrix::zeros(),
+            per_speed: StateMatrix::zeros(),
+            hold: StateMatrix::zeros(),
             torque: accelerations(inverse * steer_unit),
             torso: accelerations(inverse * torso_weight),
             torso_acceleration: accelerations(-inverse * torso_coupling),
-            wind: accelerations(inverse * wind),
-        })
+            wind: accelerations(inverse * Vector4::new(1.0, design.wind_x, design.wind_height, 0.0)),
+        };
+        add_block(&mut lateral.per_speed, &(-inverse * gyroscopic_matrix(&t, sin, cos)));
+        // The acceleration of the contact is y'' = velocity' + speed yaw rate.
+        lateral.per_speed[(VELOCITY, YAW_RATE)] -= 1.0;
+        lateral.constant[(LEAN, LEAN_RATE)] = 1.0;
+        lateral.constant[(STEER, STEER_RATE)] = 1.0;
+        add_column(&mut lateral.constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
+        for (place, stiffness) in [(LEAN, k0.column(0)), (STEER, k0.column(1))] {
+            let moments = Vector4::new(0.0, 0.0, stiffness[0], stiffness[1]);
+            add_column(&mut lateral.constant, place, &(-inverse * moments));
+        }
+        for contact in design.contacts() {
+            lateral.add_tyre(&contact, &inverse);
+            // Half of the critical damping of half the mass on the tyre's lateral spring.
+            let damping = libm::sqrt(contact.tyre.cornering / contact.tyre.relaxation * 0.5 * t.m_t);
+            add_block(&mut lateral.hold, &(-inverse * contact.arms * contact.arms.transpose() * damping));
+        }
+        lateral.add_feet_and_hands(&t, &k0, &inverse);
+        Some(lateral)
+    }
+
+    /// A tyre's force F on the motorcycle, and how it follows the slip velocity s: sigma F' = -v F - C s + v C_camber camber.
+    fn add_tyre(&mut self, contact: &Contact, inverse: &Matrix4<f64>) {
+        let Contact { force, arms, steer_slip, steer_camber, tyre } = contact;
+        let force = *force;
+        add_column(&mut self.constant, force, &(inverse * arms));
+        for (place, arm) in arms.iter().enumerate() {
+            self.constant[(force, place)] = -tyre.cornering * arm / tyre.relaxation;
+        }
+        self.per_speed[(force, force)] = -1.0 / tyre.relaxation;
+        self.per_speed[(force, LEAN)] = tyre.camber / tyre.relaxation;
+        self.per_speed[(force, STEER)] = (tyre.cornering * steer_slip + tyre.camber * steer_camber) / tyre.relaxation;
+    }
+
+    /// Feet and hands when they hold fully: a stiffness against roll, and as much damping as brings the motorcycle upright
+    /// without swinging; and the same for the bars, which fall to a side by their own weight.
+    fn add_feet_and_hands(&mut self, t: &Totals, k0: &Matrix2<f64>, inverse: &Matrix4<f64>) {
+        let feet = (2, LEAN, LEAN_RATE, FEET_STIFFNESS * k0[(0, 0)].abs(), t.t_xx);
+        let hands = (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll);
+        for (row, angle, rate, stiffness, inertia) in [feet, hands] {
+            let damping = 2.0 * libm::sqrt(stiffness * inertia);
+            add_column(&mut self.hold, angle, &(inverse.column(row) * -stiffness));
+            add_column(&mut self.hold, rate, &(inverse.column(row) * -damping));
+        }
     }
 
     /// The matrix of the free motion at a speed \[m/s\], with the feet holding by a share from 0 to 1.
@@ -202,39 +189,69 @@ impl Lateral {
     }
 }
 
-/// Feet and hands when they hold fully: a roll stiffness of twice what gravity topples with, and as much damping as
-/// brings the motorcycle upright without swinging; the same for the bars, which fall to a side by their own weight; and
-/// dampers on both contacts, for a tyre that does not roll is a spring without any damping.
-fn hold(
-    design: &Design,
-    inverse: &Matrix4<f64>,
-    contacts: [Vector4<f64>; 2],
-    slips: [&[(usize, f64)]; 2],
-) -> StateMatrix {
-    let t = design.bicycle.totals();
-    let (sin, _) = libm::sincos(design.bicycle.lambda);
-    let k0 = t.gravity_stiffness(sin) * design.gravity;
-    let mut hold = StateMatrix::zeros();
-    let holds = [(2, LEAN, LEAN_RATE, k0[(0, 0)], t.t_xx), (3, STEER, STEER_RATE, k0[(1, 1)], t.a_ll)];
-    for (row, angle, rate, toppling, inertia) in holds {
-        let stiffness = HOLD_STIFFNESS * toppling.abs();
-        let damping = 2.0 * libm::sqrt(stiffness * inertia);
-        let force = Vector4::ith(row, 1.0);
-        add_column(&mut hold, angle, &(inverse * force * -stiffness));
-        add_column(&mut hold, rate, &(inverse * force * -damping));
-    }
-    for ((contact, slip), tyre) in contacts.iter().zip(slips).zip([design.rear, design.front]) {
-        // Half of the critical damping of half the mass on the tyre's lateral spring.
-        let damping = libm::sqrt(tyre.cornering / tyre.relaxation * 0.5 * t.m_t);
-        for &(column, factor) in slip {
-            add_column(&mut hold, column, &(inverse * contact * (-damping * factor)));
-        }
-    }
-    hold
+/// A tyre on the road.
+struct Contact {
+    /// The place of its force in the state.
+    force: usize,
+    /// How far each of q displaces the contact sideways; and so the generalised forces of a lateral force there.
+    arms: Vector4<f64>,
+    /// How much of the steer angle turns its wheel in the road's plane, and how much cambers it.
+    steer_slip: f64,
+    steer_camber: f64,
+    tyre: Tyre,
 }
 
-/// How much stiffer than gravity topples feet and hands hold.
-const HOLD_STIFFNESS: f64 = 2.0;
+impl Design {
+    /// The rear and the front contact; the front one trails the steer axis.
+    fn contacts(&self) -> [Contact; 2] {
+        let Bicycle { w, c, lambda, .. } = self.bicycle;
+        let (sin, cos) = libm::sincos(lambda);
+        [
+            Contact {
+                force: REAR_FORCE,
+                arms: Vector4::new(1.0, 0.0, 0.0, 0.0),
+                steer_slip: 0.0,
+                steer_camber: 0.0,
+                tyre: self.rear,
+            },
+            Contact {
+                force: FRONT_FORCE,
+                arms: Vector4::new(1.0, w, 0.0, -c * cos),
+                steer_slip: cos,
+                steer_camber: sin,
+                tyre: self.front,
+            },
+        ]
+    }
+}
+
+/// The mass matrix of (lateral displacement, yaw, lean, steer).
+#[rustfmt::skip]
+fn mass_matrix(t: &Totals) -> Matrix4<f64> {
+    Matrix4::new(
+        t.m_t,           t.m_t * t.x_t, -t.m_t * t.z_t, t.m_a * t.u_a,
+        t.m_t * t.x_t,   t.t_zz,         t.t_xz,        t.a_lz,
+        -t.m_t * t.z_t,  t.t_xz,         t.t_xx,        t.a_lx,
+        t.m_a * t.u_a,   t.a_lz,         t.a_lx,        t.a_ll,
+    )
+}
+
+/// The generalised forces, per speed, with which the spinning wheels resist being turned.
+#[rustfmt::skip]
+fn gyroscopic_matrix(t: &Totals, sin: f64, cos: f64) -> Matrix4<f64> {
+    let s_t = t.s_r + t.s_f;
+    Matrix4::new(
+        0.0, 0.0,          0.0,         0.0,
+        0.0, 0.0,         -s_t,        -t.s_f * sin,
+        0.0, s_t,          0.0,         t.s_f * cos,
+        0.0, t.s_f * sin, -t.s_f * cos, 0.0,
+    )
+}
+
+/// How much stiffer than gravity topples the motorcycle the feet hold it.
+const FEET_STIFFNESS: f64 = 4.0;
+/// How much stiffer than gravity turns the bars the hands hold them.
+const HANDS_STIFFNESS: f64 = 5.0;
 
 /// The feet's share of holding the motorcycle upright: 1 at rest, falling smoothly to 0 at `fastest` \[m/s\].
 pub fn feet_share(speed: f64, fastest: f64) -> f64 {
@@ -324,9 +341,9 @@ pub fn static_loads(bicycle: &Bicycle, gravity: f64) -> Wheels {
     Wheels { front, rear: t.m_t * gravity - front }
 }
 
-/// Writes a matrix that maps velocities to accelerations into these columns of the first four rows.
-fn set_columns(matrix: &mut StateMatrix, columns: std::ops::Range<usize>, block: &Matrix4<f64>) {
-    for column in columns {
+/// Adds a matrix that maps velocities to accelerations.
+fn add_block(matrix: &mut StateMatrix, block: &Matrix4<f64>) {
+    for column in 0..4 {
         add_column(matrix, column, &block.column(column).into_owned());
     }
 }

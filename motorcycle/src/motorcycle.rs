@@ -19,8 +19,8 @@ use crate::suspension::{self, Suspension};
 /// How many internal steps a communication step may take.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
 
-/// Wind beyond this counts as this, along each axis \[N\]: about what 40 m/s from the side make.
-pub const STRONGEST_WIND: f64 = 1000.0;
+/// Wind beyond this counts as this, along each axis \[N\]: about what 30 m/s from the side make.
+pub const STRONGEST_WIND: f64 = 600.0;
 
 /// A motorcycle and its rider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -36,7 +36,7 @@ pub struct Motorcycle {
     output_derivative: Output,
 }
 
-/// A state's derivative, with what was computed on the way.
+/// A state's derivative, and what was computed on the way.
 struct Dynamics {
     derivative: State,
     forces: Forces,
@@ -47,7 +47,8 @@ struct Dynamics {
 }
 
 impl Motorcycle {
-    /// The motorcycle at its initial speed, upright and straight ahead; throttle and brakes as the input has them.
+    /// The motorcycle at its initial speed, upright and straight ahead, with throttle closed and brakes off; in the wind of
+    /// the input.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
@@ -56,7 +57,6 @@ impl Motorcycle {
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
         let (lateral, rider) = ridden(parameters, &longitudinal, &suspension)?;
-        let input = made_safe(input);
         let state = State {
             position: Vector2::zeros(),
             heading: parameters.run.initial_heading,
@@ -64,8 +64,8 @@ impl Motorcycle {
             lateral: lateral::State::zeros(),
             suspension: suspension::State { position: Vector2::zeros(), velocity: Vector2::zeros() },
             rider: crate::rider::State::default(),
-            throttle: input.throttle,
-            brake: input.brake,
+            throttle: 0.0,
+            brake: 0.0,
         };
         let mut motorcycle = Motorcycle {
             parameters: *parameters,
@@ -78,7 +78,7 @@ impl Motorcycle {
             output: Output::default(),
             output_derivative: rest_rate(),
         };
-        motorcycle.output = motorcycle.output_for(&input);
+        motorcycle.output = motorcycle.output_for(&made_safe(input));
         Ok(motorcycle)
     }
 
@@ -139,7 +139,8 @@ impl Motorcycle {
         let k2 = self.motion(&state.plus(&k1, 0.5 * size), &middle).derivative;
         let k3 = self.motion(&state.plus(&k2, 0.5 * size), &middle).derivative;
         let k4 = self.motion(&state.plus(&k3, size), &end).derivative;
-        self.state = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
+        let end = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
+        self.state = end.without_dust();
         self.state.speed = self.state.speed.max(0.0);
     }
 

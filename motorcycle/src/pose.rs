@@ -8,6 +8,7 @@
 //! R Rx(torso's lean).
 
 use moris_washout::governor::Motion;
+use moris_washout::motions::Motions;
 use moris_washout::orientation::{Orientation, Turning};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -80,8 +81,8 @@ impl Geometry {
 
     /// The head's motion: f^H = R_H' (p_head'' - g).
     pub fn head(&self, moving: &Moving) -> Head {
-        let plane = Turning::new([moving.roll, Motion::at_rest(0.0), moving.yaw]);
-        let chassis = Turning::new([moving.roll, moving.pitch, moving.yaw]);
+        let plane = turning([moving.roll, Motion::at_rest(0.0), moving.yaw]);
+        let chassis = turning([moving.roll, moving.pitch, moving.yaw]);
         let heave = moving.heave;
         let axis = Point {
             position: self.pitch_axis + Vector3::z() * heave.position,
@@ -139,4 +140,9 @@ impl std::ops::Add for Point {
             acceleration: self.acceleration + other.acceleration,
         }
     }
+}
+
+/// Something that turns by roll, pitch and yaw, as these move.
+fn turning(angles: [Motion; 3]) -> Turning {
+    Turning::new(&Motions::from_axes(|k| angles[k]))
 }

@@ -16,7 +16,7 @@ use crate::riccati::lqr_gain;
 /// The lateral state, and the accumulated error of the lean.
 const SIZE: usize = lateral::SIZE + 1;
 const ERROR: usize = lateral::SIZE;
-/// Speeds for which there are gains.
+/// Number of speeds for which gains are computed.
 pub const SPEEDS: usize = 48;
 
 /// What the rider does at one speed.
@@ -88,7 +88,7 @@ impl Rider {
         };
         for k in 0..SPEEDS {
             let speed = rider.knot(k);
-            rider.skills[k] = learn(lateral, speed, limits.torque_weight).ok_or_else(|| Refusal {
+            rider.skills[k] = learn(lateral, speed, limits).ok_or_else(|| Refusal {
                 variable: "rider.torqueWeight".into(),
                 reason: format!(
                     "is {}, but with it no torque on the bars keeps this motorcycle upright at {speed:.1} m/s; mend it, \
@@ -100,8 +100,9 @@ impl Rider {
         Ok(rider)
     }
 
-    /// Speed of the knot number `k`: each is faster than the one before by the same factor.
-    fn knot(&self, k: usize) -> f64 {
+    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed: each is faster than the one
+    /// before by the same factor.
+    pub fn knot(&self, k: usize) -> f64 {
         self.slowest * libm::pow(self.fastest / self.slowest, k as f64 / (SPEEDS - 1) as f64)
     }
 
@@ -149,20 +150,14 @@ impl Rider {
 
     /// The matrix of the closed loop of lateral state and accumulated error at a speed \[m/s\].
     pub fn closed_loop(&self, lateral: &Lateral, speed: f64) -> SMatrix<f64, SIZE, SIZE> {
-        let feet = feet_share(speed, self.parameters.feet_speed);
         let skill = self.skill(speed);
-        let mut a = with_error(&lateral.state_matrix(speed, feet));
-        let mut gain = SVector::<f64, SIZE>::zeros();
-        gain.fixed_rows_mut::<{ lateral::SIZE }>(0).copy_from(&skill.gain);
-        gain[ERROR] = skill.error_gain;
-        a.row_mut(ERROR).scale_mut(1.0 - feet);
-        a[(ERROR, ERROR)] -= feet / FORGETTING;
-        a - with_zero(&lateral.torque) * gain.transpose() * (1.0 - feet)
+        let (a, torque) = plant(lateral, speed, self.parameters.feet_speed);
+        a - torque * skill.gain.push(skill.error_gain).transpose()
     }
 }
 
 /// The slowest speed with gains of its own, as a share of the one at which the feet come off the road.
-const SLOWEST_SHARE: f64 = 0.5;
+const SLOWEST_SHARE: f64 = 0.3;
 /// The rider asks for no more lean than this share of the friction holds.
 const HELD_SHARE: f64 = 0.9;
 /// With his feet down the rider forgets the accumulated error with this time constant \[s\].
@@ -174,10 +169,10 @@ fn within(value: f64, limit: f64) -> f64 {
 }
 
 /// Skill at a speed: the steady turn, and the gains that minimise the integral of the squares of
-/// lean / 0.1, lean rate / 0.5, steer rate / 2, accumulated error / 0.1 and torque / weight.
-fn learn(lateral: &Lateral, speed: f64, torque_weight: f64) -> Option<Skill> {
-    let a = lateral.state_matrix(speed, 0.0);
-    let (turn, turn_torque) = steady_turn(&a, &lateral.torque)?;
+/// lean / 0.1, lean rate / 0.5, steer / 0.2, steer rate / 2, accumulated error / 0.1 and torque / weight.
+fn learn(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<Skill> {
+    let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
+    let (a, torque) = plant(lateral, speed, limits.feet_speed);
     // Forces in kN: then all numbers are of about the same size.
     let mut unit = SVector::<f64, SIZE>::repeat(1.0);
     unit[place::REAR_FORCE] = 1e3;
@@ -186,13 +181,14 @@ fn learn(lateral: &Lateral, speed: f64, torque_weight: f64) -> Option<Skill> {
     let mut cost = SVector::<f64, SIZE>::zeros();
     cost[place::LEAN] = 100.0;
     cost[place::LEAN_RATE] = 4.0;
+    cost[place::STEER] = 25.0;
     cost[place::STEER_RATE] = 0.25;
     cost[ERROR] = 100.0;
     let gain = lqr_gain(
-        &(inverse * with_error(&a) * scale),
-        &(inverse * with_zero(&lateral.torque)),
+        &(inverse * a * scale),
+        &(inverse * torque),
         &SMatrix::from_diagonal(&cost),
-        torque_weight * torque_weight,
+        limits.torque_weight * limits.torque_weight,
         CAYLEY_SHIFT,
     )?;
     let gain = inverse * gain;
@@ -224,14 +220,13 @@ fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lat
     Some((turn, solution[5]))
 }
 
-/// The lateral equations with the accumulated error of the lean.
-fn with_error(a: &lateral::StateMatrix) -> SMatrix<f64, SIZE, SIZE> {
-    let mut augmented = SMatrix::<f64, SIZE, SIZE>::zeros();
-    augmented.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(a);
-    augmented[(ERROR, place::LEAN)] = 1.0;
-    augmented
-}
-
-fn with_zero(state: &lateral::State) -> SVector<f64, SIZE> {
-    state.push(0.0)
+/// What the rider steers at a speed: the matrix of the lateral state and the accumulated error of the lean, and the
+/// effect of a torque, both with the feet as far down as they are then.
+fn plant(lateral: &Lateral, speed: f64, feet_speed: f64) -> (SMatrix<f64, SIZE, SIZE>, SVector<f64, SIZE>) {
+    let feet = feet_share(speed, feet_speed);
+    let mut a = SMatrix::<f64, SIZE, SIZE>::zeros();
+    a.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(&lateral.state_matrix(speed, feet));
+    a[(ERROR, place::LEAN)] = 1.0 - feet;
+    a[(ERROR, ERROR)] = -feet / FORGETTING;
+    (a, lateral.torque.push(0.0) * (1.0 - feet))
 }

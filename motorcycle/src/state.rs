@@ -48,4 +48,25 @@ impl State {
             brake: number(self.brake, derivative.brake),
         }
     }
+
+    /// The state with what is no more than dust of a motion that has ended swept away, so that after a stop the
+    /// motorcycle comes to rest in fact and not only in the limit.
+    pub fn without_dust(mut self) -> State {
+        let sweep = |value: &mut f64| {
+            if value.abs() < DUST {
+                *value = 0.0;
+            }
+        };
+        self.lateral.iter_mut().for_each(sweep);
+        self.suspension.position.iter_mut().chain(self.suspension.velocity.iter_mut()).for_each(sweep);
+        let rider = &mut self.rider;
+        [&mut rider.lean, &mut rider.lean_rate, &mut rider.error, &mut rider.torso, &mut rider.torso_rate]
+            .into_iter()
+            .chain([&mut self.throttle, &mut self.brake])
+            .for_each(sweep);
+        self
+    }
 }
+
+/// Angles, lengths, forces and their rates below this, in SI units, are none.
+const DUST: f64 = 1e-12;

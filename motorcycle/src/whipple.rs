@@ -74,7 +74,7 @@ pub struct Totals {
 }
 
 impl Bicycle {
-    /// Eqs. (A 1) to (A 18).
+    /// What appendix A defines before the coefficients.
     pub fn totals(&self) -> Totals {
         let Bicycle { w, c, lambda, r, b, h, f } = *self;
         let (sin, cos) = libm::sincos(lambda);
@@ -100,7 +100,7 @@ impl Bicycle {
         Totals { m_t, x_t, z_t, t_xx, t_xz, t_zz, m_a, x_a, z_a, u_a, a_ll, a_lx, a_lz, mu, s_r, s_f, s_a }
     }
 
-    /// The coefficients of the linearised equations of lean and steer, eqs. (A 19) to (A 26).
+    /// The coefficients of the linearised equations of lean and steer, as appendix A ends with them.
     pub fn equations(&self) -> Equations {
         let t = self.totals();
         let (sin, cos) = libm::sincos(self.lambda);

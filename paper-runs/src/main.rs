@@ -9,7 +9,7 @@ use clap::Parser;
 use fmu_host::Fmu;
 use paper_runs::figures::{write_figures, write_readme_picture};
 use paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre};
-use paper_runs::parameter_set::{DEFAULT, ParameterSet, WAKE};
+use paper_runs::parameter_set::{DEFAULT, PREACTION, ParameterSet, WAKE};
 use paper_runs::recording::Recording;
 use paper_runs::simulate::simulate;
 use paper_runs::table::{force_table, platform_table, rate_table};
@@ -64,10 +64,10 @@ fn build_fmu() -> Result<PathBuf> {
     Ok(built.file)
 }
 
-/// The four runs with the FMU's own parameters, and run b with those made for it.
+/// The four runs with the FMU's own parameters, run b with those made for it, and run c with preaction.
 fn make_runs(path: &Path, step: f64) -> Result<Vec<Recording>> {
     let fmu = Fmu::open(path).with_context(|| format!("cannot open {}", path.display()))?;
-    let runs = [(A, DEFAULT), (A_BRISK, DEFAULT), (B, DEFAULT), (B, WAKE), (C, DEFAULT)];
+    let runs = [(A, DEFAULT), (A_BRISK, DEFAULT), (B, DEFAULT), (B, WAKE), (C, DEFAULT), (C, PREACTION)];
     let make = |(run, parameters): &(Manoeuvre, ParameterSet)| {
         simulate(&fmu, run, parameters, step)
             .with_context(|| format!("run {} with parameters {}", run.name, parameters.name))

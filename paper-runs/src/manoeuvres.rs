@@ -20,6 +20,8 @@ pub struct Motion {
     pub roll: f64,
     /// Time derivative of the roll \[rad/s\].
     pub roll_rate: f64,
+    /// Forward speed \[m/s\].
+    pub speed: f64,
 }
 
 impl Motion {
@@ -72,13 +74,11 @@ pub const C: Manoeuvre =
     Manoeuvre { name: "c", text: "accelerate, brake to a brusque stop", duration: 50.0, motion: run_c };
 
 fn run_a(t: f64) -> Motion {
-    let ax = 2.0 * (rise(t, 3.0, 6.0) - rise(t, 15.0, 6.0)) - 2.5 * (rise(t, 24.0, 7.5) - rise(t, 33.6, 7.5));
-    Motion { acceleration: [ax, 0.0, 0.0], ..Motion::default() }
+    straight(t, &[(2.0, 3.0, 6.0), (-2.0, 15.0, 6.0), (-2.5, 24.0, 7.5), (2.5, 33.6, 7.5)])
 }
 
 fn run_a_brisk(t: f64) -> Motion {
-    let ax = 2.0 * (rise(t, 3.0, 2.0) - rise(t, 15.0, 2.0)) - 2.5 * (rise(t, 24.0, 2.0) - rise(t, 33.6, 2.0));
-    Motion { acceleration: [ax, 0.0, 0.0], ..Motion::default() }
+    straight(t, &[(2.0, 3.0, 2.0), (-2.0, 15.0, 2.0), (-2.5, 24.0, 2.0), (2.5, 33.6, 2.0)])
 }
 
 fn run_b(t: f64) -> Motion {
@@ -96,19 +96,35 @@ fn run_b(t: f64) -> Motion {
         acceleration: [window * sum(AX, t), window * sum(AY, t), window * sum(AZ, t)],
         roll: window * roll,
         roll_rate: window_rate * roll + window * roll_rate,
+        speed: SPEED_IN_THE_WAKE,
     }
 }
 
 fn run_c(t: f64) -> Motion {
-    let ax = 2.2 * (rise(t, 1.0, 6.6) - rise(t, 12.0, 6.6)) - 3.5 * rise(t, 22.0, 10.5);
-    let ax = if t < STOP { ax } else { 0.0 };
-    Motion { acceleration: [ax, 0.0, 0.0], ..Motion::default() }
+    if t < STOP { straight(t, &[(2.2, 1.0, 6.6), (-2.2, 12.0, 6.6), (-3.5, 22.0, 10.5)]) } else { Motion::default() }
 }
+
+/// A run in a straight line from rest, whose acceleration changes by so much \[m/s2\], from when, and in what time \[s\].
+fn straight(t: f64, changes: &[(f64, f64, f64)]) -> Motion {
+    let sum = |term: fn(f64, f64, f64) -> f64| changes.iter().map(|&(change, a, b)| change * term(t, a, b)).sum();
+    // At the end rounding leaves a speed of no number, or one below zero.
+    let speed = f64::max(sum(rise_integral), 0.0);
+    Motion { acceleration: [sum(rise), 0.0, 0.0], speed, ..Motion::default() }
+}
+
+/// What run b keeps to \[m/s\].
+const SPEED_IN_THE_WAKE: f64 = 25.0;
 
 /// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].
 fn rise(t: f64, start: f64, duration: f64) -> f64 {
     let x = ((t - start) / duration).clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
+}
+
+/// The integral of [`rise`] over time.
+fn rise_integral(t: f64, start: f64, duration: f64) -> f64 {
+    let x = ((t - start) / duration).clamp(0.0, 1.0);
+    duration * (x * x * x - 0.5 * x * x * x * x) + (t - start - duration).max(0.0)
 }
 
 /// The time derivative of [`rise`].
@@ -166,7 +182,7 @@ mod tests {
     #[test]
     fn run_b_is_still_at_both_ends_and_is_its_waves_in_the_middle() {
         for time in [0.0, 0.5, 9.5, 10.0] {
-            assert_eq!(B.motion(time), Motion::default());
+            assert_eq!(B.motion(time), Motion { speed: 25.0, ..Motion::default() });
         }
         // At 4 s the window is 1, and 0.35, 1.1, 0.5 and 1.3 Hz are 1.4, 4.4, 2 and 5.2 turns.
         let Motion { acceleration: [ax, ay, az], roll, .. } = B.motion(4.0);
@@ -193,6 +209,20 @@ mod tests {
         assert_near(STOP, 34.164_285_714, 1e-9);
         assert_eq!(surge(C, STOP - 1e-9), -3.5);
         assert_eq!(surge(C, STOP), 0.0);
+    }
+
+    #[test]
+    fn the_speed_is_the_integral_of_the_acceleration() {
+        for run in [A, A_BRISK, C] {
+            for k in 1..500 {
+                let time = 0.1 * f64::from(k) + 0.0033;
+                let difference = (run.motion(time + 1e-5).speed - run.motion(time - 1e-5).speed) / 2e-5;
+                assert_near(surge(run, time), difference, 1e-6);
+            }
+        }
+        assert_near(A.motion(22.0).speed, 24.0, 1e-12);
+        assert_near(C.motion(STOP - 1e-6).speed, 3.5e-6, 1e-9);
+        assert_eq!(C.motion(STOP).speed, 0.0);
     }
 
     #[test]

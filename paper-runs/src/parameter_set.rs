@@ -14,3 +14,7 @@ pub const DEFAULT: ParameterSet = ParameterSet { name: "default", values: &[] };
 
 /// For small quick motion, as in run b.
 pub const WAKE: ParameterSet = ParameterSet { name: "wake", values: moris_washout::parameter_sets::WAKE };
+
+/// As delivered, and ahead of a stop.
+pub const PREACTION: ParameterSet =
+    ParameterSet { name: "preaction", values: moris_washout::parameter_sets::PREACTION };

@@ -8,7 +8,7 @@ use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;
 use crate::recording::{Recording, Sample};
 
-const INPUTS: [&str; 7] = [
+const INPUTS: [&str; 8] = [
     "vehicle.specificForce.x",
     "vehicle.specificForce.y",
     "vehicle.specificForce.z",
@@ -16,6 +16,7 @@ const INPUTS: [&str; 7] = [
     "vehicle.angularVelocity.y",
     "vehicle.angularVelocity.z",
     "vehicle.orientation.roll",
+    "vehicle.speed",
 ];
 
 const OUTPUTS: [&str; 17] = [
@@ -94,7 +95,7 @@ impl References {
         let motion = run.motion(time);
         let [fx, fy, fz] = motion.specific_force();
         let [wx, wy, wz] = motion.angular_velocity();
-        let status = instance.set_real(&self.inputs, &[fx, fy, fz, wx, wy, wz, motion.roll]);
+        let status = instance.set_real(&self.inputs, &[fx, fy, fz, wx, wy, wz, motion.roll, motion.speed]);
         check(instance, status)
     }
 

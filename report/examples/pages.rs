@@ -43,7 +43,7 @@ fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
         .map(|run| {
             json!({
                 "name": run.name, "times": run.times, "position": run.position, "orientation": run.orientation,
-                "legs": run.legs, "felt": run.felt.specific_force, "measures": run.measures,
+                "legs": run.legs, "lean": run.lean, "felt": run.felt.specific_force, "measures": run.measures,
             })
         })
         .collect();

@@ -12,13 +12,12 @@ function fixed(value, digits) {
   return withMinus(Number(text) === 0 ? text.replace("-", "") : text);
 }
 
-/** With so many significant digits, and no power of ten where a plain number will do. */
+/** With so many significant digits, but none beyond the sixth after the point: smaller numbers are rounding. */
 function significant(value, digits) {
   if (!Number.isFinite(value)) return "\u2013";
-  if (value === 0) return "0";
+  if (Math.abs(value) < 1e-6) return "0";
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
-  if (magnitude < -4 || magnitude > 6) return withMinus(value.toExponential(digits - 1).replace("e", "\u00d710^"));
-  return fixed(value, Math.max(0, digits - 1 - magnitude));
+  return fixed(value, Math.min(6, Math.max(0, digits - 1 - magnitude)));
 }
 
 /** Round values from `low` to `high`, about `count` of them, and the digits that they need. */

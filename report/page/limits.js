@@ -7,6 +7,13 @@ const KINDS = {
 };
 const LANE = 20;
 
+/** How long a flag was up: it speaks of the step before its sample. */
+function timeLimited(run, flags) {
+  let sum = 0;
+  for (let i = 1; i < flags.length; i += 1) if (flags[i]) sum += run.times[i] - run.times[i - 1];
+  return sum;
+}
+
 /** One lane for each kind of limit. */
 class TimeLine {
   constructor(shown, handlers) {
@@ -24,7 +31,7 @@ class TimeLine {
     this.events = run.events;
     const [first, last] = [run.times[0], run.times[run.times.length - 1]];
     const shares = Object.entries(KINDS).map(([kind, { long }]) => {
-      const time = this.events.filter((event) => event.kind === kind).reduce((sum, event) => sum + event.to - event.from, 0);
+      const time = timeLimited(run, run.limited[kind]);
       return time > 0 ? `${long} ${fixed(time, 1)} s (${fixed(100 * time / (last - first), 0)} %)` : null;
     }).filter(Boolean);
     this.summary.textContent = shares.length > 0 ? `Of ${fixed(last - first, 1)} s: ${shares.join(", ")}.` : "Nothing was limited.";

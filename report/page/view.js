@@ -11,8 +11,9 @@ class View {
     this.canvas = canvas;
     this.rig = rig;
     this.camera = new Camera(rig);
-    /** The legs as drawn last: both ends of each in the picture. */
+    /** As drawn last: both ends of each leg and the middle of the head, in the picture. */
     this.drawnLegs = [];
+    this.drawnHead = [];
   }
 
   draw(run, time) {
@@ -165,6 +166,8 @@ class View {
     this.addRod(shoulders, 0.15, suit);
     const head = headOf(rig, state);
     this.addBall(head, 0.135, helmet);
+    const { x, y } = this.camera.project(head);
+    this.drawnHead = [x, y];
     const visor = [0.5, 0.25, 0, -0.25, -0.5].map((angle) => {
       const towards = [Math.cos(angle), Math.sin(angle), 0.05];
       return plus(head, scaled(0.137, direction(fromHead(state, towards))));

@@ -167,7 +167,7 @@ pub struct Measure {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
-    /// Shown with three significant digits; one that is not finite is shown as undefined.
+    /// Shown with three significant digits, down to a millionth; one that is not finite is shown as undefined.
     Number(f64),
     Text(String),
     /// Shown as a dash.

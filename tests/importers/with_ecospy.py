@@ -8,6 +8,7 @@ from ecospy.EcosSimulation import EcosSimulation
 from ecospy.EcosSimulationStructure import EcosSimulationStructure
 
 import report
+import simulator
 from ride import Ride
 
 
@@ -30,12 +31,29 @@ def ride_with(ride, location):
             return largest
 
 
+def accelerate(package):
+    with EcosSimulation(ssp_path=str(package), step_size=simulator.STEP) as simulation:
+        assert simulation.init(parameter_set=simulator.PARAMETER_SET), "the system cannot be initialized"
+        for k in range(simulator.STEPS):
+            if k == simulator.OPENED_AT:
+                simulation.set_real("motorcycle::command.throttle", simulator.THROTTLE)
+            simulation.step()
+        simulator.judge(
+            simulation.get_real("motorcycle::vehicle.speed"),
+            [simulation.get_real(f"platform::{name}") for name in simulator.LEGS],
+            simulation.get_real(f"washout::{simulator.PARAMETER}"),
+        )
+        simulation.terminate()
+
+
 def main(fmu):
     ride = Ride(fmu)
     report.difference("ride, in process", ride_with(ride, fmu))
     # The package forgets to mark its program as one.
     (Path(ecospy.__file__).parent / "binaries" / "proxyfmu").chmod(0o755)
     report.difference("ride, in another process (proxyfmu)", ride_with(ride, f"proxyfmu://localhost?file={fmu}"))
+    if package := simulator.package(fmu):
+        accelerate(package)
 
 
 if __name__ == "__main__":

@@ -8,9 +8,34 @@ from libcosimpy.CosimObserver import CosimObserver
 from libcosimpy.CosimSlave import CosimLocalSlave
 
 import report
+import simulator
 from ride import Ride
 
 NANOSECONDS = 1e9
+
+
+def accelerate(package):
+    execution = CosimExecution.from_ssp_file(ssp_path=str(package), step_size=int(simulator.STEP * NANOSECONDS))
+    manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
+    execution.add_manipulator(manipulator)
+    execution.add_observer(observer)
+    throttle = simulator.references(package, "Motorcycle")["command.throttle"]
+    for k in range(simulator.STEPS):
+        if k == simulator.OPENED_AT:
+            index = execution.slave_index_from_instance_name("motorcycle")
+            manipulator.slave_real_values(index, [throttle], [simulator.THROTTLE])
+        assert execution.step(), "a step failed"
+
+    def values(component, model, names):
+        references = simulator.references(package, model)
+        index = execution.slave_index_from_instance_name(component)
+        return observer.last_real_values(index, [references[name] for name in names])
+
+    simulator.judge(
+        values("motorcycle", "Motorcycle", ["vehicle.speed"])[0],
+        values("platform", "StewartPlatform", simulator.LEGS),
+        values("washout", "MorisWashout", [simulator.PARAMETER])[0],
+    )
 
 
 def main(fmu):
@@ -32,6 +57,8 @@ def main(fmu):
         lambda: observer.last_real_values(slave, outputs),
     )
     report.difference("ride", largest)
+    if package := simulator.package(fmu):
+        accelerate(package)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ mod governor;
 mod hostile;
 mod kinematics;
 mod paper_runs;
+mod preaction;
 mod refusals;
 mod retuning;
 mod rigs;

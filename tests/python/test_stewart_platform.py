@@ -7,7 +7,6 @@ import shutil
 import numpy as np
 import pytest
 from fmpy import extract, read_model_description
-from fmpy.validation import validate_fmu
 from scipy.spatial.transform import Rotation
 
 from conftest import ANGLES, AXES, ROOT, Washout as Instance
@@ -152,10 +151,6 @@ def energy(rig, motion):
     own = motion.rotation.inv().apply(omega)
     kinetic = 0.5 * rig.mass * np.sum(velocity**2, axis=1) + 0.5 * np.einsum("ni,ij,nj->n", own, rig.moments, own)
     return kinetic - rig.mass * (motion.vector("platform.position") + arms) @ rig.gravity
-
-
-def test_fmpy_finds_nothing_to_complain_of(fmu):
-    assert validate_fmu(str(fmu)) == []
 
 
 SKEW = {

@@ -122,6 +122,22 @@ def the_slider_moves_the_legs(browser):
 
 
 @check
+def the_head_leans_with_the_rider(browser):
+    """The head is drawn where eq. (4) as corrected has it: (0, -b sin(lean), h - b + b cos(lean)) on the platform."""
+    data = plain("two-runs")
+    run, rig = data["runs"][0], data["rig"]
+    with opened(browser, "two-runs") as page:
+        for k in (0, 1800, 2600):
+            lean, torso = run["lean"][k], rig["torso_length"]
+            head = [0, -torso * math.sin(lean), rig["head_height"] - torso + torso * math.cos(lean)]
+            turn = rotation(*(angle[k] for angle in run["orientation"]))
+            place = [axis[k] + sum(turn[i][j] * head[j] for j in range(3)) for i, axis in enumerate(run["position"])]
+            set_slider(page, run["times"][k])
+            near(math.dist(projected(page, place), page.evaluate("rideReport.view.drawnHead")), 0.0, PIXEL, f"head at sample {k}")
+        assert max(abs(run["lean"][k]) for k in (1800, 2600)) > 0.1, "nobody leans at the samples looked at"
+
+
+@check
 def the_mouse_turns_the_view(browser):
     data = plain("two-runs")
     with opened(browser, "two-runs") as page:

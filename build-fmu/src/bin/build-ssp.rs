@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use build_fmu::ssp::{self, MOTORCYCLE_SIMULATOR};
+use build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
 use build_fmu::{Platform, workspace};
 use clap::Parser;
 
@@ -13,6 +13,11 @@ use clap::Parser;
 #[derive(Parser)]
 #[command(name = "cargo build-ssp", version)]
 struct Arguments {
+    /// Make MotorcycleSimulator.flat.ssp, without inputs of the system and with a parameter set for each component, for tools
+    /// that want it so (Ecos, libcosim)
+    #[arg(long)]
+    flat: bool,
+
     /// Platforms that the FMUs shall run on, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
@@ -25,7 +30,8 @@ struct Arguments {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let output = arguments.output.unwrap_or_else(workspace::default_output);
-    match ssp::build(&MOTORCYCLE_SIMULATOR, &arguments.platform, &output, |line| println!("{line}")) {
+    let form = if arguments.flat { Form::Flat } else { Form::Whole };
+    match ssp::build(&MOTORCYCLE_SIMULATOR, form, &arguments.platform, &output, |line| println!("{line}")) {
         Ok(built) => {
             println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
             ExitCode::SUCCESS

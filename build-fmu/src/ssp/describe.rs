@@ -5,9 +5,10 @@ use model_interface::{Causality, Identity, Kind};
 use quick_xml::se::Serializer;
 use serde::Serialize;
 
+use super::parameter_set::ByComponent;
 use super::schema;
 use super::system::{Component, Connection, System};
-use super::{fmu_path, parameters_path};
+use super::{Form, fmu_path, parameters_path};
 
 const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
 const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
@@ -17,9 +18,10 @@ const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 const BOX: f64 = 60.0;
 const GAP: f64 = 40.0;
 
-/// The description of a system.
-pub fn describe(system: &System) -> schema::SystemStructureDescription {
+/// The description of a system whose components start with these parameters.
+pub fn describe(system: &System, form: Form, parameters: &ByComponent) -> schema::SystemStructureDescription {
     let connections = (system.connections)();
+    let own_inputs = if form == Form::Whole { system.inputs } else { &[] };
     let origin = origin(system);
     schema::SystemStructureDescription {
         ssd: SSD,
@@ -34,14 +36,20 @@ pub fn describe(system: &System) -> schema::SystemStructureDescription {
         generation_date_and_time: origin.generation_date_and_time,
         system: schema::System {
             name: "simulator".to_owned(),
-            connectors: (!system.inputs.is_empty()).then(|| inputs(system)),
-            parameter_bindings: schema::ParameterBindings {
-                bindings: vec![schema::ParameterBinding { source: parameters_path(system) }],
-            },
+            connectors: (!own_inputs.is_empty()).then(|| inputs(system, own_inputs)),
+            parameter_bindings: (form == Form::Whole).then(|| bound_to(system.name)),
             elements: schema::Elements {
-                components: (0..).zip(system.components).map(|(n, c)| component(system, c, n, &connections)).collect(),
+                components: (0..)
+                    .zip(system.components)
+                    .map(|(number, part)| schema::Component {
+                        parameter_bindings: (form == Form::Flat
+                            && parameters.iter().any(|(name, _)| name == part.name))
+                        .then(|| bound_to(part.name)),
+                        ..component(part, number, &connections, own_inputs)
+                    })
+                    .collect(),
             },
-            connections: schema::Connections { connections: wires(system, &connections) },
+            connections: schema::Connections { connections: wires(own_inputs, &connections) },
         },
         units: units(system),
         default_experiment: schema::DefaultExperiment { start_time: 0.0, stop_time: system.stop_time },
@@ -84,21 +92,31 @@ fn origin(system: &System) -> ModelDescription {
     system.components[0].model.description()
 }
 
+/// A binding to the parameter set of this name.
+fn bound_to(name: &str) -> schema::ParameterBindings {
+    schema::ParameterBindings { bindings: vec![schema::ParameterBinding { source: parameters_path(name) }] }
+}
+
 /// The system's own connectors, each as the component's variable of that name.
-fn inputs(system: &System) -> schema::Connectors {
+fn inputs(system: &System, inputs: &[(&str, &str)]) -> schema::Connectors {
     let input = |&(element, name): &(&str, &str)| {
         let component = system.component(element);
         connector(&component.model.made.identity, name, schema::ConnectorKind::Input)
     };
-    schema::Connectors { connectors: system.inputs.iter().map(input).collect() }
+    schema::Connectors { connectors: inputs.iter().map(input).collect() }
 }
 
-/// A component with the connectors that are connected or shown.
-fn component(system: &System, component: &Component, number: i32, connections: &[Connection]) -> schema::Component {
+/// A component with the connectors that are connected, to another or to the system's inputs, or shown.
+fn component(
+    component: &Component,
+    number: i32,
+    connections: &[Connection],
+    inputs: &[(&str, &str)],
+) -> schema::Component {
     let identity = component.model.made.identity;
     let has_input = |name: &str| {
         connections.iter().any(|wire| wire.to == (component.name, name.to_owned()))
-            || system.inputs.contains(&(component.name, name))
+            || inputs.contains(&(component.name, name))
     };
     let has_output = |name: &str| {
         connections.iter().any(|wire| wire.from == (component.name, name.to_owned())) || component.shows(name)
@@ -123,6 +141,7 @@ fn component(system: &System, component: &Component, number: i32, connections: &
             connectors: connectors.map(|(name, kind)| connector(&identity, &name, kind)).collect(),
         },
         geometry: schema::ElementGeometry { x1: left, y1: 0.0, x2: left + BOX, y2: BOX },
+        parameter_bindings: None,
     }
 }
 
@@ -143,8 +162,8 @@ pub fn unit_name(unit: &model_interface::Unit) -> Option<String> {
 }
 
 /// All connections, the system's inputs first.
-fn wires(system: &System, connections: &[Connection]) -> Vec<schema::Connection> {
-    let inputs = system.inputs.iter().map(|&(element, name)| schema::Connection {
+fn wires(inputs: &[(&str, &str)], connections: &[Connection]) -> Vec<schema::Connection> {
+    let inputs = inputs.iter().map(|&(element, name)| schema::Connection {
         start_element: None,
         start_connector: name.to_owned(),
         end_element: Some(element.to_owned()),

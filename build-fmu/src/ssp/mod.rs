@@ -12,6 +12,15 @@ use std::path::Path;
 
 pub use system::{MOTORCYCLE_SIMULATOR, System};
 
+/// What a package is made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// The system has inputs of its own and one parameter set, as FMPy wants it.
+    Whole,
+    /// The system has no connectors, and each component its own parameter set, as Ecos and libcosim want it.
+    Flat,
+}
+
 use crate::archive::{self, Contents};
 use crate::contents::LICENCES;
 use crate::{Built, Error, FmiVersion, Platform, fmu, write_whole};
@@ -19,7 +28,7 @@ use crate::{Built, Error, FmiVersion, Platform, fmu, write_whole};
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";
 
-/// Builds a system's package into the directory `output`, which is made where it does not exist, and says through
+/// Builds a system's package of this form into the directory `output`, which is made where it does not exist, and says through
 /// `report` what it does, a line at a time.
 ///
 /// Without platforms the FMUs are for this machine. They are of FMI 2.0, which is what SSP 1.0 knows.
@@ -28,17 +37,18 @@ const RESOURCES: &str = "resources";
 /// An FMU cannot be built, the system's parameters name what there is not, or the package cannot be written.
 pub fn build(
     system: &System,
+    form: Form,
     platforms: &[Platform],
     output: &Path,
     mut report: impl FnMut(&str),
 ) -> Result<Built, Error> {
-    let mut contents = description(system)?;
+    let mut contents = description(system, form)?;
     for component in system.components {
         let model = component.model;
         contents.insert(fmu_path(component), fmu(model, FmiVersion::Fmi2, platforms, &mut report)?);
     }
     let package = archive::pack(&contents)?;
-    let file = output.join(format!("{}.ssp", system.name));
+    let file = output.join(format!("{}{}.ssp", system.name, if form == Form::Flat { ".flat" } else { "" }));
     write_whole(&file, &package)?;
     Ok(Built { file, size: package.len() })
 }
@@ -47,19 +57,29 @@ pub fn build(
 ///
 /// # Errors
 /// The system's parameters name what there is not.
-pub fn description(system: &System) -> Result<Contents, Error> {
-    let parameters = parameter_set::parameter_set(system)?;
-    Ok(Contents::from([
-        ("SystemStructure.ssd".to_owned(), describe::to_xml(&describe::describe(system))),
-        (parameters_path(system), describe::to_xml(&parameters)),
+pub fn description(system: &System, form: Form) -> Result<Contents, Error> {
+    let parameters = parameter_set::read(system)?;
+    let mut contents = Contents::from([
+        ("SystemStructure.ssd".to_owned(), describe::to_xml(&describe::describe(system, form, &parameters))),
         ("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec()),
-    ]))
+    ]);
+    match form {
+        Form::Whole => {
+            let set = describe::parameter_set(system, parameter_set::of_all(&parameters));
+            contents.insert(parameters_path(system.name), describe::to_xml(&set));
+        }
+        Form::Flat => contents.extend(parameters.into_iter().map(|(component, parameters)| {
+            (parameters_path(&component), describe::to_xml(&describe::parameter_set(system, parameters)))
+        })),
+    }
+    Ok(contents)
 }
 
 fn fmu_path(component: &system::Component) -> String {
     format!("{RESOURCES}/{}", FmiVersion::Fmi2.fmu_file(component.model.name))
 }
 
-fn parameters_path(system: &System) -> String {
-    format!("{RESOURCES}/{}.ssv", system.name)
+/// Where the parameter set of a system or of a component is.
+fn parameters_path(name: &str) -> String {
+    format!("{RESOURCES}/{name}.ssv")
 }

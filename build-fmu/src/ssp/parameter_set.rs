@@ -3,29 +3,43 @@
 use model_interface::{Causality, Identity, Kind};
 use toml::{Table, Value};
 
-use super::describe::{self, unit_name};
+use super::describe::unit_name;
 use super::schema;
 use super::system::System;
 use crate::Error;
 
-/// The parameter set of a system.
+/// Parameters by the name of their component.
+pub type ByComponent = Vec<(String, Vec<schema::Parameter>)>;
+
+/// The parameters of a system's components.
 ///
 /// # Errors
 /// The text is no TOML, or names a component, a parameter or a value that there is not.
-pub fn parameter_set(system: &System) -> Result<schema::ParameterSet, Error> {
+pub fn read(system: &System) -> Result<ByComponent, Error> {
     let tables: Table = system.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?;
-    let mut parameters = Vec::new();
+    let mut by_component = ByComponent::new();
     for (name, values) in &tables {
         let component = system.components.iter().find(|component| component.name == name);
         let identity = component.ok_or_else(|| error(format!("there is no component {name}")))?.model.made.identity;
         let values = values.as_table().ok_or_else(|| error(format!("{name} must be a table of parameters")))?;
+        let mut parameters = Vec::new();
         for (variable, value) in values {
             let value =
                 typed(&identity, variable, value).map_err(|reason| error(format!("{name}.{variable} {reason}")))?;
-            parameters.push(schema::Parameter { name: format!("{name}.{variable}"), value });
+            parameters.push(schema::Parameter { name: variable.clone(), value });
         }
+        by_component.push((name.clone(), parameters));
     }
-    Ok(describe::parameter_set(system, parameters))
+    Ok(by_component)
+}
+
+/// All parameters, each with its component's name before its own.
+pub fn of_all(parameters: &ByComponent) -> Vec<schema::Parameter> {
+    let named = |component: &str, parameter: &schema::Parameter| schema::Parameter {
+        name: format!("{component}.{}", parameter.name),
+        value: parameter.value.clone(),
+    };
+    parameters.iter().flat_map(|(name, own)| own.iter().map(move |parameter| named(name, parameter))).collect()
 }
 
 fn error(reason: String) -> Error {
@@ -62,7 +76,7 @@ mod tests {
     use crate::ssp::MOTORCYCLE_SIMULATOR;
 
     fn reason(parameters: &'static str) -> String {
-        parameter_set(&System { parameters, ..MOTORCYCLE_SIMULATOR }).unwrap_err().to_string()
+        read(&System { parameters, ..MOTORCYCLE_SIMULATOR }).unwrap_err().to_string()
     }
 
     #[test]

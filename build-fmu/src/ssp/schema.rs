@@ -45,8 +45,8 @@ pub struct System {
     /// None rather than empty: the schema knows no empty lists.
     #[serde(rename = "ssd:Connectors", skip_serializing_if = "Option::is_none")]
     pub connectors: Option<Connectors>,
-    #[serde(rename = "ssd:ParameterBindings")]
-    pub parameter_bindings: ParameterBindings,
+    #[serde(rename = "ssd:ParameterBindings", skip_serializing_if = "Option::is_none")]
+    pub parameter_bindings: Option<ParameterBindings>,
     #[serde(rename = "ssd:Elements")]
     pub elements: Elements,
     #[serde(rename = "ssd:Connections")]
@@ -100,7 +100,7 @@ pub struct ParameterBindings {
     pub bindings: Vec<ParameterBinding>,
 }
 
-/// `ParameterBinding`: a parameter set that a system's components start with.
+/// `ParameterBinding`: a parameter set that a component, or all components of a system, start with.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ParameterBinding {
     #[serde(rename = "@source")]
@@ -131,6 +131,8 @@ pub struct Component {
     pub connectors: Connectors,
     #[serde(rename = "ssd:ElementGeometry")]
     pub geometry: ElementGeometry,
+    #[serde(rename = "ssd:ParameterBindings", skip_serializing_if = "Option::is_none")]
+    pub parameter_bindings: Option<ParameterBindings>,
 }
 
 /// `ElementGeometry`: where a tool may draw the component, lower left and upper right corner.
@@ -226,7 +228,7 @@ pub struct Parameters {
     pub parameters: Vec<Parameter>,
 }
 
-/// `Parameter`: a component's name, a dot, its variable's name, and a value.
+/// `Parameter`: a variable's name, with its component's before it where the set is the whole system's, and a value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
     #[serde(rename = "@name")]

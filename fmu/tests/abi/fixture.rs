@@ -1,7 +1,7 @@
 //! The washout's library, instances of it, and a ride.
 
 use std::collections::HashMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use fmu_host::{Fmu, Instance, Variable, VariableKind};
 use model_interface::{Identity, Kind, Model};
@@ -11,7 +11,12 @@ pub const IDENTITY: Identity = Washout::IDENTITY;
 
 /// The library, which `cargo test` has put beside the test.
 pub fn library() -> PathBuf {
-    let name = format!("{}shared_library{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    library_named("shared_library")
+}
+
+/// A library made of the example of this name.
+pub fn library_named(example: &str) -> PathBuf {
+    let name = format!("{}{example}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let test = std::env::current_exe().unwrap();
     let path = test.parent().and_then(|deps| deps.parent()).unwrap().join("examples").join(name);
     assert!(
@@ -23,6 +28,10 @@ pub fn library() -> PathBuf {
 }
 
 pub fn open() -> Fmu {
+    open_library(&library())
+}
+
+pub fn open_library(path: &Path) -> Fmu {
     let variable = |slot: usize| {
         let kind = match IDENTITY.row(slot).kind {
             Kind::Real(_) => VariableKind::Real,
@@ -33,7 +42,7 @@ pub fn open() -> Fmu {
         (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
     };
     let variables: HashMap<_, _> = (0..IDENTITY.slots.len()).map(variable).collect();
-    Fmu::with_variables(&library(), &model_interface::guid::<Washout>(), variables).unwrap()
+    Fmu::with_variables(path, &model_interface::guid::<Washout>(), variables).unwrap()
 }
 
 pub fn initialized(parameters: &[(&str, f64)]) -> Instance {

@@ -8,6 +8,7 @@ mod forged_states;
 mod hostile;
 #[cfg(target_os = "linux")]
 mod process;
+mod real_time;
 mod resources;
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 mod rounds;

@@ -26,7 +26,7 @@ const LIMITED: RGBColor = RGBColor(255, 255, 255);
 
 /// The frequencies shown \[rad/s\].
 const FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
-/// What a modulus is drawn as at least: a zero has no logarithm, and nobody feels less.
+/// A smaller modulus is not drawn: nobody feels it, and its phase means nothing.
 const LEAST: f64 = 1e-3;
 
 /// Draws what is felt of each channel on the same channel.
@@ -97,10 +97,9 @@ fn draw_pair(area: &Area, measured: &Measured, (input, output): (Channel, Channe
 }
 
 fn draw_modulus(area: &Area, title: &str, test: &[Response], small: &[Response], output: Channel) -> Result<()> {
-    let value = |response: &Response| modulus(response, output).max(LEAST);
-    let values = || test.iter().chain(small).map(value);
+    let values = || test.iter().chain(small).map(|response| modulus(response, output).max(LEAST));
     let low = 10_f64.powf(values().fold(0.1, f64::min).log10().floor());
-    let high = 10_f64.powf(values().fold(10.0, f64::max).log10().ceil());
+    let high = 10_f64.powf(values().fold(1.1, f64::max).log10().ceil());
     let mut chart = ChartBuilder::on(area)
         .caption(title, (FONT, 22).into_font().color(&TEXT))
         .margin_right(24)
@@ -117,12 +116,7 @@ fn draw_modulus(area: &Area, title: &str, test: &[Response], small: &[Response],
         .axis_style(TEXT)
         .label_style((FONT, 17).into_font().color(&TEXT))
         .draw()?;
-    let points = |responses: &[Response]| responses.iter().map(|one| (one.frequency, value(one))).collect::<Vec<_>>();
-    chart.draw_series(LineSeries::new(points(small), SMALL.stroke_width(3)))?;
-    chart.draw_series(LineSeries::new(points(test), TEST.stroke_width(2)))?;
-    chart.draw_series(test.iter().map(|one| dot((one.frequency, value(one)), one)))?;
-    chart.draw_series(test.iter().map(|one| ring((one.frequency, value(one)))))?;
-    Ok(())
+    draw_curves(&mut chart, test, small, output, |response| modulus(response, output), |_, _| false)
 }
 
 fn draw_phase(area: &Area, test: &[Response], small: &[Response], output: Channel) -> Result<()> {
@@ -143,26 +137,34 @@ fn draw_phase(area: &Area, test: &[Response], small: &[Response], output: Channe
         .axis_style(TEXT)
         .label_style((FONT, 17).into_font().color(&TEXT))
         .draw()?;
-    for part in without_jumps(small, output) {
-        chart.draw_series(LineSeries::new(part, SMALL.stroke_width(3)))?;
-    }
-    for part in without_jumps(test, output) {
-        chart.draw_series(LineSeries::new(part, TEST.stroke_width(2)))?;
-    }
-    let seen = || test.iter().filter(|one| modulus(one, output) > LEAST);
-    chart.draw_series(seen().map(|one| dot((one.frequency, phase(one, output)), one)))?;
-    chart.draw_series(seen().map(|one| ring((one.frequency, phase(one, output)))))?;
-    Ok(())
+    // Between two neighbours that seem to be more than half a turn apart, the phase has passed 180 degrees.
+    draw_curves(&mut chart, test, small, output, |response| phase(response, output), |a, b| (a - b).abs() > 180.0)
 }
 
-/// The phases in parts between which they jump by a turn, where there is something to have a phase.
-fn without_jumps(responses: &[Response], output: Channel) -> Vec<Vec<(f64, f64)>> {
-    let seen: Vec<(f64, f64)> = responses
-        .iter()
-        .filter(|response| modulus(response, output) > LEAST)
-        .map(|response| (response.frequency, phase(response, output)))
-        .collect();
-    seen.chunk_by(|a, b| (a.1 - b.1).abs() < 180.0).map(<[_]>::to_vec).collect()
+/// The small signals as a line, the test's as a line with dots; no line is drawn over a `gap` between neighbours, and nothing
+/// of what cannot be felt.
+fn draw_curves<'a, C>(
+    chart: &mut ChartContext<'a, SVGBackend<'a>, C>,
+    test: &[Response],
+    small: &[Response],
+    output: Channel,
+    value: impl Fn(&Response) -> f64,
+    gap: impl Fn(f64, f64) -> bool,
+) -> Result<()>
+where
+    C: CoordTranslate<From = (f64, f64)>,
+{
+    let felt = |response: &&Response| modulus(response, output) > LEAST;
+    let point = |response: &Response| (response.frequency, value(response));
+    for (responses, style) in [(small, SMALL.stroke_width(3)), (test, TEST.stroke_width(2))] {
+        let points: Vec<(f64, f64)> = responses.iter().filter(felt).map(point).collect();
+        for part in points.chunk_by(|a, b| !gap(a.1, b.1)) {
+            chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
+        }
+    }
+    chart.draw_series(test.iter().filter(felt).map(|response| dot(point(response), response)))?;
+    chart.draw_series(test.iter().filter(felt).map(|response| ring(point(response))))?;
+    Ok(())
 }
 
 /// A measurement: hollow where something limited.

@@ -10,6 +10,9 @@ use super::measure::Response;
 use super::{Measured, frequencies};
 use crate::text_table::TextTable;
 
+/// A smaller modulus is rounding.
+const NOTHING: f64 = 1e-9;
+
 const HEADER: [&str; 16] = [
     "signal",
     "input",
@@ -51,6 +54,8 @@ pub fn write(file: &Path, measured: &Measured) -> Result<()> {
 
 fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
     let input = response.input;
+    // What is not felt has neither phase nor distortion.
+    let felt = modulus(response, output) > NOTHING;
     let [tilt, safety, actuator] = response.limited.map(|share| format!("{share:.4}"));
     [
         signal.into(),
@@ -63,8 +68,8 @@ fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
         input.unit().into(),
         format!("{:.6}", modulus(response, output)),
         input.unit_to(output).into(),
-        format!("{:.3}", phase(response, output)),
-        format!("{:.5}", response.distortion[output.index()]),
+        if felt { format!("{:.3}", phase(response, output)) } else { String::new() },
+        if felt { format!("{:.5}", response.distortion[output.index()]) } else { String::new() },
         tilt,
         safety,
         actuator,
@@ -90,7 +95,8 @@ pub fn modulus(response: &Response, output: Channel) -> f64 {
 
 /// The phase by which what is felt leads, -180 to 180 \[deg\].
 pub fn phase(response: &Response, output: Channel) -> f64 {
-    response.ratios[output.index()].arg().to_degrees()
+    // A phase of -0.0 would be written as such.
+    response.ratios[output.index()].arg().to_degrees() + 0.0
 }
 
 /// Modulus and phase of the direct and the cross channels with the test's amplitudes, and what limited them.
@@ -120,7 +126,7 @@ fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
         let cell = |&(input, output): &(Channel, Channel)| {
             let response = &measured.test[input.index() * frequencies().len() + k];
             let mark = if response.settled { "" } else { "?" };
-            format!("{:.3} {:>4.0}{mark}", modulus(response, output), phase(response, output))
+            format!("{:.3} {:>4.0}{mark}", modulus(response, output), phase(response, output).round() + 0.0)
         };
         table.push(std::iter::once(format!("{frequency:.3}")).chain(pairs.iter().map(cell)).collect());
     }

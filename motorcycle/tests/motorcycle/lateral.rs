@@ -59,7 +59,7 @@ fn on_the_stiffest_tyres_the_benchmarks_eigenvalues_are_met_to_five_digits() {
 
 #[test]
 fn the_default_motorcycle_weaves_and_wobbles_as_motorcycles_do() {
-    // Cossalter, Motorcycle Dynamics, ch. 7: weave at 0 to 4 Hz, wobble at 4 to 10 Hz.
+    // After Cossalter, Motorcycle Dynamics: weave at 0 to 4 Hz, wobble at 4 to 10 Hz.
     let design = Design::new(&Parameters::default());
     let modes = Lateral::new(&design).unwrap().state_matrix(30.0, 0.0).complex_eigenvalues();
     let mut hertz: Vec<_> =

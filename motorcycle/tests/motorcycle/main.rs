@@ -11,4 +11,5 @@ mod ride;
 mod rider;
 mod steps;
 mod turns;
+mod washout;
 mod whipple;

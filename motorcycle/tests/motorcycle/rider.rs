@@ -1,8 +1,9 @@
 //! The rider: gains against closed forms, stability over all speeds, how he follows a lean.
 
+use moris_motorcycle::lateral::place;
 use moris_motorcycle::riccati::lqr_gain;
 use moris_motorcycle::{Input, Parameters};
-use nalgebra::{Matrix1, Matrix2, Vector1, Vector2};
+use nalgebra::{Complex, Matrix1, Matrix2, SMatrix, SVector, Vector1, Vector2};
 
 use crate::common::{assert_near, at_speed, cruise, motorcycle};
 
@@ -28,6 +29,40 @@ fn the_gain_of_a_double_integrator_is_the_closed_forms() {
 fn what_cannot_be_controlled_has_no_gain() {
     let a = Matrix2::new(1.0, 0.0, 0.0, -1.0);
     assert!(lqr_gain(&a, &Vector2::new(0.0, 1.0), &Matrix2::identity(), 1.0, 2.0).is_none());
+}
+
+/// Kalman's identity: the gain k minimises the cost of x' Q x + u^2 / e for x' = A x + b u exactly if, with
+/// g = (i w - A)^-1 b, |1 + k g|^2 = 1 + e g* Q g at every frequency w.
+#[test]
+fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
+    let parameters = Parameters::default();
+    let ridden = motorcycle(&parameters);
+    let cost = [0.0, 0.0, 4.0, 0.25, 100.0, 25.0, 0.0, 0.0, 100.0];
+    let ease = parameters.rider.torque_weight * parameters.rider.torque_weight;
+    for knot in [32, 36, 40, 46] {
+        let speed = ridden.rider().knot(knot);
+        assert!(speed > 3.0, "no feet on the road at {speed} m/s");
+        let skill = ridden.rider().skill(speed);
+        let state_matrix = ridden.lateral().state_matrix(speed, 0.0);
+        let torque = ridden.lateral().torque;
+        for frequency in [0.1, 0.5, 1.0, 3.0, 10.0, 30.0, 100.0] {
+            let matrix = SMatrix::<Complex<f64>, 9, 9>::from_fn(|i, j| {
+                let a = if i < 8 && j < 8 { state_matrix[(i, j)] } else { f64::from(i == 8 && j == place::LEAN) };
+                Complex::new(-a, if i == j { frequency } else { 0.0 })
+            });
+            let b = SVector::<Complex<f64>, 9>::from_fn(|i, _| Complex::from(if i < 8 { torque[i] } else { 0.0 }));
+            let g = matrix.lu().solve(&b).unwrap();
+            let gain = skill.gain.push(skill.error_gain);
+            let returned: Complex<f64> = (0..9).map(|i| g[i] * gain[i]).sum();
+            let expected = 1.0 + ease * (0..9).map(|i| cost[i] * g[i].norm_sqr()).sum::<f64>();
+            assert_near(
+                (1.0 + returned).norm_sqr() / expected,
+                1.0,
+                5e-3,
+                &format!("{frequency} rad/s at {speed} m/s"),
+            );
+        }
+    }
 }
 
 #[test]
@@ -90,8 +125,26 @@ fn a_gust_from_the_side_is_held() {
         wind.throttle = cruise(&ridden, 25.0);
         ridden.step(&wind, 0.001);
     }
+    // It has been blown away to the left, and turned there while it leant into the wind.
+    assert!(ridden.output().position.y > 1.0, "{}", ridden.output().position.y);
     // The error's integral brings the lean back to what is commanded, wind or not; then the path is bent by the wind.
     assert!(ridden.output().orientation.roll.abs() < 1e-3);
+}
+
+#[test]
+fn a_torso_that_leans_to_the_right_turns_the_motorcycle_to_the_right_upright() {
+    let mut ridden = motorcycle(&at_speed(15.0));
+    for _ in 0..8000 {
+        let throttle = cruise(&ridden, 15.0);
+        ridden.step(&Input { rider_lean: 0.2, throttle, ..Input::default() }, 0.001);
+    }
+    let output = ridden.output();
+    assert!(output.orientation.roll.abs() < 1e-3, "roll {}", output.orientation.roll);
+    // The weight of the torso out of the plane, against the centripetal force of all masses and the wheels' spin.
+    let static_moment = 221.0 * 0.669 + 22.0 * 0.767 + 12.0 * 0.294 + 15.0 * 0.299;
+    let spin = 0.8 / 0.299 + 0.6 / 0.294;
+    let expected = -44.5 * 0.4 * 0.2 * 9.80665 / ((static_moment + spin) * output.speed);
+    assert_near(output.angular_velocity.z / expected, 1.0, 0.03, "yaw rate");
 }
 
 #[test]

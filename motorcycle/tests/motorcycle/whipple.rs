@@ -1,4 +1,4 @@
-//! The benchmark bicycle of Meijaard et al. (2007): matrices of section 5, eigenvalues of table 2, speeds of section 7.
+//! The benchmark bicycle of Meijaard et al. (2007): its published matrices, eigenvalues and speeds.
 
 use nalgebra::Matrix2;
 

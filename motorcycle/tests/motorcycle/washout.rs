@@ -1,0 +1,80 @@
+//! The motorcycle beside the washout: that both mean the same by the same names.
+
+use moris_motorcycle::{Input, Output};
+use moris_washout::conditioning::cue;
+use moris_washout::interface::GravityRemoval;
+use moris_washout::{Parameters as Tuning, Washout};
+use nalgebra::{Rotation3, Vector3};
+
+use crate::common::{at_speed, motorcycle};
+
+/// What a host does that connects by name.
+fn connected(output: &Output) -> moris_washout::Input {
+    moris_washout::Input {
+        specific_force: output.specific_force,
+        angular_velocity: output.angular_velocity,
+        orientation: output.orientation,
+        speed: output.speed,
+        lean: output.lean,
+        engaged: true,
+    }
+}
+
+fn ride(time: f64) -> Input {
+    Input {
+        throttle: if time < 3.0 { 0.4 } else { 0.1 },
+        brake: if time > 12.0 { 0.4 } else { 0.0 },
+        lean: 0.35 * (1.2 * time).sin(),
+        rider_lean: 0.1 * (0.9 * time).sin(),
+        ..Input::default()
+    }
+}
+
+#[test]
+fn without_gravity_the_washout_is_left_with_the_heads_acceleration_and_the_angles_rates() {
+    let mut tuning = Tuning::default().conditioning;
+    tuning.gravity_removal = GravityRemoval::Full;
+    tuning.force_limit = Vector3::repeat(1e6);
+    tuning.rate_limit = Vector3::repeat(1e6);
+    let step = 5e-4;
+    let mut ridden = motorcycle(&at_speed(15.0));
+    let mut last = [*ridden.output(); 3];
+    for k in 0..20_000 {
+        let time = f64::from(k) * step;
+        ridden.step_between(&ride(time), &ride(time + step), step);
+        last = [last[1], last[2], *ridden.output()];
+        let [before, now, after] = &last;
+        // Differences take no notice of the instants at which the throttle jumps.
+        if k < 10 || (time - 3.0).abs() < 0.01 {
+            continue;
+        }
+        let cued = cue(&connected(now), &tuning, 9.80665, now.lean);
+        let acceleration = (after.head_velocity - before.head_velocity) / (2.0 * step);
+        let o = now.orientation;
+        let head = Rotation3::from_euler_angles(o.roll, o.pitch, o.yaw)
+            * Rotation3::from_axis_angle(&Vector3::x_axis(), now.lean);
+        assert!((cued.force - head.inverse() * acceleration).norm() < 5e-3, "{} at {time} s", cued.force);
+        let rates = (after.orientation.to_vector() - before.orientation.to_vector()) / (2.0 * step);
+        assert!((cued.rates - rates).norm() < 1e-4, "{} instead of {rates} at {time} s", cued.rates);
+    }
+}
+
+#[test]
+fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
+    let mut washout = Washout::new(&Tuning::default()).unwrap();
+    let mut ridden = motorcycle(&at_speed(0.0));
+    for k in 0..30_000 {
+        let before = connected(ridden.output());
+        let time = f64::from(k) * 1e-3;
+        ridden.step(&ride(time), 1e-3);
+        washout.step_between(&before, &connected(ridden.output()), 1e-3);
+        let output = washout.output();
+        assert!(output.length.iter().all(|length| (1.0..=1.6).contains(length)));
+        if time > 20.0 {
+            assert_eq!(ridden.output().speed, 0.0);
+        }
+    }
+    // More than ten seconds after the stop the platform is back.
+    let off = washout.output().position - Vector3::new(0.0, 0.0, Tuning::default().rig.neutral_height);
+    assert!(off.norm() < 0.02, "{off}");
+}

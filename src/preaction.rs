@@ -1,0 +1,165 @@
+//! Preaction for a brusque stop (the paper's section 6).
+//!
+//! A vehicle that brakes to a standstill takes the whole of its deceleration away at once, but the tilt that stands for it
+//! may only go at its rate limit. So begin before: from speed and deceleration it is known when the stop comes. The tilt
+//! goes at its rate ahead of the stop and after it, and what it lacks before and has too much after is held, as far as
+//! the stroke reaches, by surge: backwards ever faster until the stop, and slower again from there. For that the
+//! platform is moved forward in good time, too gently to be felt.
+
+use serde::{Deserialize, Serialize};
+
+use crate::governor::{Limits, Motion};
+use crate::interface::{SafetyParameters, TiltParameters};
+
+/// Watches the vehicle brake, and acts ahead of its stop.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StopPreaction {
+    /// The longest step that may ever be taken \[s\].
+    longest_step: f64,
+    /// The vehicle's deceleration, smoothed \[m/s2\].
+    deceleration: f64,
+    /// How long until the vehicle stands, infinite while it does not brake \[s\].
+    time_left: f64,
+    /// How fast the force that the tilt stands for may change \[m/s3\].
+    slew: f64,
+    /// The force that the tilt was to stand for at the end of the last step, and whether that was less than asked for.
+    tilted_for: f64,
+    reduced: bool,
+    /// What is left of the tilt after the stop, as a force \[m/s2\]; never positive.
+    carried: f64,
+    surge: Motion,
+    phase: Phase,
+}
+
+/// What the surge does.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+enum Phase {
+    /// Gently forward if a stop is coming, and to neutral if not.
+    Waiting,
+    /// Backwards, ever faster, to this acceleration at the stop \[m/s2\].
+    Launching { acceleration: f64 },
+    /// Slowing down after the stop, from this speed \[m/s\].
+    Recovering { from: f64 },
+}
+
+/// Time constant of the deceleration's smoothing \[s\].
+const SMOOTHING: f64 = 0.2;
+/// Less than this is not braking \[m/s2\].
+const LEAST_DECELERATION: f64 = 0.5;
+/// The share of the force for which the platform is still tilted at the stop: so much error before it as after it.
+const SHARE_AT_STOP: f64 = 0.45;
+/// The surge is launched so long before the stop, and recovers in the same time \[s\].
+const LAUNCH_TIME: f64 = 1.5;
+/// The shares of the safety limits that the launch uses.
+const SHARE_OF_POSITION: f64 = 0.9;
+const SHARE_OF_VELOCITY: f64 = 0.8;
+/// The platform is moved forward from so long before the stop \[s\] ...
+const POSITIONING_TIME: f64 = 9.0;
+/// ... with an acceleration that riders hardly perceive \[m/s2\], and not fast \[m/s\].
+const GENTLE_ACCELERATION: f64 = 0.05;
+const GENTLE_VELOCITY: f64 = 0.3;
+/// Slower than this the surge has recovered \[m/s\].
+const RECOVERED: f64 = 1e-3;
+
+impl StopPreaction {
+    /// Nothing ahead.
+    pub fn new(longest_step: f64) -> Self {
+        StopPreaction {
+            longest_step,
+            deceleration: 0.0,
+            time_left: f64::INFINITY,
+            slew: 0.0,
+            tilted_for: 0.0,
+            reduced: false,
+            carried: 0.0,
+            surge: Motion::default(),
+            phase: Phase::Waiting,
+        }
+    }
+
+    /// Lets `step` seconds pass, at whose end the force to be felt along x is `force` \[m/s2\], which is `scale` times the
+    /// vehicle's, and the vehicle's speed is `speed` \[m/s\].
+    pub fn advance(
+        &mut self,
+        [force, scale, speed]: [f64; 3],
+        gravity: f64,
+        tilt: &TiltParameters,
+        safety: &SafetyParameters,
+        step: f64,
+    ) {
+        self.slew = gravity * tilt.rate_limit;
+        let now = if scale > 0.0 { -force / scale } else { 0.0 };
+        self.deceleration += (now - self.deceleration) * (1.0 - libm::exp(-step / SMOOTHING));
+        let braking = now > LEAST_DECELERATION && self.deceleration > LEAST_DECELERATION && speed > 0.0;
+        if braking {
+            self.time_left = speed / self.deceleration;
+            self.carried = 0.0;
+        } else {
+            // A stop: the tilt goes on as it went.
+            let left_over = if self.reduced { self.tilted_for - force } else { self.carried };
+            self.time_left = f64::INFINITY;
+            self.carried = (left_over + self.slew * step).min(0.0);
+        }
+        self.tilted_for = self.tilted_force(force);
+        self.reduced = braking && self.tilted_for > force;
+        self.move_surge(force, safety, step);
+    }
+
+    /// What the platform is to be tilted for, and the splitter gets, instead of this force.
+    pub fn tilted_force(&self, force: f64) -> f64 {
+        if self.time_left.is_finite() {
+            force.max(SHARE_AT_STOP * force - self.slew * self.time_left)
+        } else {
+            force + self.carried
+        }
+    }
+
+    /// The surge that is planned beside the filters' \[m\].
+    pub fn surge(&self) -> &Motion {
+        &self.surge
+    }
+
+    fn move_surge(&mut self, force: f64, safety: &SafetyParameters, step: f64) {
+        let farthest = SHARE_OF_POSITION * safety.position_limit.x;
+        let launching = self.time_left < LAUNCH_TIME;
+        self.phase = match self.phase {
+            Phase::Launching { .. } if !launching => Phase::Recovering { from: -self.surge.velocity },
+            Phase::Recovering { .. } if self.surge.velocity > -RECOVERED => Phase::Waiting,
+            Phase::Waiting if launching => {
+                // Both halves together go 1/3 of acceleration times time squared, at most half of it times time fast.
+                let room = (self.surge.position + farthest).max(0.0);
+                let fastest = SHARE_OF_VELOCITY * safety.velocity_limit.x;
+                let acceleration = (3.0 * room / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
+                Phase::Launching { acceleration: acceleration.min(safety.acceleration_limit.x) }
+            }
+            phase => phase,
+        };
+        self.surge = match self.phase {
+            Phase::Waiting => {
+                let goal = if self.time_left < POSITIONING_TIME { farthest } else { 0.0 };
+                self.gently_towards(goal, safety, step)
+            }
+            Phase::Launching { acceleration } => {
+                let growing = acceleration * (1.0 - self.time_left / LAUNCH_TIME);
+                self.accelerated(-growing.min(self.tilted_for - force), step)
+            }
+            Phase::Recovering { from } => {
+                let easing = 2.0 * (from * self.surge.velocity.abs()).sqrt() / LAUNCH_TIME;
+                self.accelerated(easing.min(-self.surge.velocity / step), step)
+            }
+        };
+    }
+
+    /// The surge on its way to a place, too gently to be felt.
+    fn gently_towards(&self, position: f64, safety: &SafetyParameters, step: f64) -> Motion {
+        let limits =
+            Limits::symmetric(safety.position_limit.x, GENTLE_VELOCITY, GENTLE_ACCELERATION, self.longest_step);
+        limits.follow(&self.surge, &Motion::at_rest(position), GENTLE_ACCELERATION, step)
+    }
+
+    fn accelerated(&self, acceleration: f64, step: f64) -> Motion {
+        let velocity = self.surge.velocity + acceleration * step;
+        let position = self.surge.position + 0.5 * (self.surge.velocity + velocity) * step;
+        Motion { position, velocity, acceleration }
+    }
+}

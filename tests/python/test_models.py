@@ -1,0 +1,73 @@
+"""Every model's FMUs, of both versions of FMI, as an importer first sees them: valid, and starting as they say."""
+
+import shutil
+
+import numpy as np
+import pytest
+from fmpy import extract, read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+
+from conftest import ROOT, Washout as Instance
+
+MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
+
+
+def fmu(name):
+    path = ROOT / "target" / "fmu" / name
+    assert path.exists(), f"{path} is missing: run `cargo build-fmu` and `cargo build-fmu --fmi 3`"
+    return path
+
+
+@pytest.mark.parametrize("model", MODELS)
+@pytest.mark.parametrize("version", ["fmu", "fmi3.fmu"])
+def test_fmpy_finds_nothing_to_complain_of_and_steps_it(model, version):
+    path = fmu(f"{model}.{version}")
+    assert validate_fmu(str(path)) == []
+    result = simulate_fmu(str(path), stop_time=0.1, output_interval=0.01)
+    assert len(result) == 11
+    for name in result.dtype.names:
+        assert np.all(np.isfinite(result[name].astype(float))), name
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_every_start_value_is_what_the_binary_returns(model):
+    path = fmu(f"{model}.fmu")
+    description, directory = read_model_description(path), extract(path)
+    instance = Instance(description, directory)
+    try:
+        for variable in description.modelVariables:
+            if variable.start is None:
+                continue
+            reference = [variable.valueReference]
+            if variable.type == "Real":
+                assert instance.slave.getReal(reference)[0] == float(variable.start), variable.name
+            elif variable.type == "Boolean":
+                assert instance.slave.getBoolean(reference)[0] == (variable.start in ("true", "1")), variable.name
+            else:
+                assert instance.slave.getInteger(reference)[0] == int(variable.start), variable.name
+    finally:
+        instance.slave.freeInstance()
+        shutil.rmtree(directory, ignore_errors=True)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_a_run_repeats_bit_for_bit_after_going_back(model):
+    path = fmu(f"{model}.fmu")
+    description, directory = read_model_description(path), extract(path)
+    instance = Instance(description, directory)
+    try:
+        inputs = [v.name for v in description.modelVariables if v.causality == "input" and v.type == "Real"]
+        outputs = [v.name for v in description.modelVariables if v.causality == "output" and v.type == "Real"]
+        rng = np.random.default_rng(2)
+        rows = {name: instance.get(name)[0] + 0.05 * rng.normal(size=200) for name in inputs}
+        instance.run(1e-3, rows, outputs)
+        state, time = instance.slave.getFMUstate(), instance.time
+        once = instance.run(1e-3, rows, outputs)
+        instance.slave.setFMUstate(state)
+        instance.slave.freeFMUstate(state)
+        instance.time = time
+        assert np.array_equal(once, instance.run(1e-3, rows, outputs))
+        assert np.ptp(once, axis=0).max() > 0
+    finally:
+        instance.slave.freeInstance()
+        shutil.rmtree(directory, ignore_errors=True)

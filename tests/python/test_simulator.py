@@ -1,0 +1,196 @@
+"""The whole simulator as an SSP: its schemas, that its wiring fits the FMUs in it, and the documented ride."""
+
+import importlib.util
+import io
+import os
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from fmpy import read_model_description
+from lxml import etree
+
+from conftest import ANGLES, AXES, ROOT
+
+SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
+NAMESPACES = {
+    part: f"http://ssp-standard.org/SSP1/SystemStructure{name}"
+    for part, name in (("ssd", "Description"), ("ssc", "Common"), ("ssv", "ParameterValues"))
+}
+
+
+@pytest.fixture(scope="module")
+def ssp():
+    path = Path(os.environ.get("MORIS_SSP", ROOT / "target" / "fmu" / "MotorcycleSimulator.ssp"))
+    assert path.exists(), f"{path} is missing: run `cargo build-ssp`"
+    return path
+
+
+def file(ssp, name):
+    with zipfile.ZipFile(ssp) as archive:
+        return archive.read(name)
+
+
+@pytest.fixture(scope="module")
+def system(ssp):
+    return etree.fromstring(file(ssp, "SystemStructure.ssd"))
+
+
+@pytest.fixture(scope="module")
+def parameters(ssp, system):
+    (source,) = system.xpath("ssd:System/ssd:ParameterBindings/ssd:ParameterBinding/@source", namespaces=NAMESPACES)
+    return etree.fromstring(file(ssp, source))
+
+
+@pytest.fixture(scope="module")
+def models(ssp, system):
+    """The variables of each component's FMU, by name."""
+    found = {}
+    for component in system.xpath("//ssd:Component", namespaces=NAMESPACES):
+        description = read_model_description(io.BytesIO(file(ssp, component.get("source"))))
+        found[component.get("name")] = {variable.name: variable for variable in description.modelVariables}
+    return found
+
+
+@pytest.fixture(scope="module")
+def flat(ssp):
+    path = ssp.with_suffix(".flat.ssp")
+    assert path.exists(), f"{path} is missing: run `cargo build-ssp --flat`"
+    return path
+
+
+def test_the_flat_one_is_the_same_without_inputs_and_with_a_parameter_set_a_component(system, parameters, flat):
+    root = etree.fromstring(file(flat, "SystemStructure.ssd"))
+    etree.XMLSchema(file=str(SCHEMAS / "SystemStructureDescription.xsd")).assertValid(root)
+    assert not root.xpath("ssd:System/ssd:Connectors", namespaces=NAMESPACES)
+
+    def wires(root):
+        return [dict(w.attrib) for w in root.xpath("//ssd:Connection[@startElement]", namespaces=NAMESPACES)]
+
+    assert wires(root) == wires(system) == [dict(w.attrib) for w in root.xpath("//ssd:Connection", namespaces=NAMESPACES)]
+    values = {}
+    for component in root.xpath("//ssd:Component[ssd:ParameterBindings]", namespaces=NAMESPACES):
+        (source,) = component.xpath("ssd:ParameterBindings/ssd:ParameterBinding/@source", namespaces=NAMESPACES)
+        own = etree.fromstring(file(flat, source))
+        etree.XMLSchema(file=str(SCHEMAS / "SystemStructureParameterValues.xsd")).assertValid(own)
+        for parameter in own.xpath("ssv:Parameters/ssv:Parameter", namespaces=NAMESPACES):
+            values[f"{component.get('name')}.{parameter.get('name')}"] = dict(parameter[0].attrib)
+    whole = parameters.xpath("ssv:Parameters/ssv:Parameter", namespaces=NAMESPACES)
+    assert values == {parameter.get("name"): dict(parameter[0].attrib) for parameter in whole}
+
+
+def test_it_is_valid_against_the_schemas_of_ssp_1_0(system, parameters):
+    for root, schema in ((system, "SystemStructureDescription.xsd"), (parameters, "SystemStructureParameterValues.xsd")):
+        assert root.get("version") == "1.0"
+        etree.XMLSchema(file=str(SCHEMAS / schema)).assertValid(root)
+
+
+def units(root, part):
+    """A file's definitions of units: exponents by name."""
+    found = {}
+    for unit in root.xpath(f"{part}:Units/ssc:Unit", namespaces=NAMESPACES):
+        (base,) = unit
+        assert unit.get("name") not in found
+        found[unit.get("name")] = dict(base.attrib)
+    return found
+
+
+def test_every_connector_is_a_variable_of_its_fmu_with_its_unit(ssp, system, models):
+    defined = units(system, "ssd")
+    for component in system.xpath("//ssd:Component", namespaces=NAMESPACES):
+        variables = models[component.get("name")]
+        connectors = component.xpath("ssd:Connectors/ssd:Connector", namespaces=NAMESPACES)
+        assert len(connectors) > 10
+        for connector in connectors:
+            variable = variables[connector.get("name")]
+            assert variable.causality == connector.get("kind")
+            (kind,) = connector
+            assert etree.QName(kind).localname == variable.type
+            assert kind.get("unit") == variable.unit and (variable.unit is None or variable.unit in defined)
+        description = etree.fromstring(zipfile.ZipFile(io.BytesIO(file(ssp, component.get("source")))).read("modelDescription.xml"))
+        for unit in description.iter("Unit"):
+            assert defined[unit.get("name")] == dict(unit.find("BaseUnit").attrib)
+
+
+def test_the_washout_gets_the_motorcycle_and_the_platform_gets_the_washout(system, models):
+    ends = [
+        tuple(connection.get(part) for part in ("startElement", "startConnector", "endElement", "endConnector"))
+        for connection in system.xpath("//ssd:Connection", namespaces=NAMESPACES)
+    ]
+    vectors = [(name, AXES) for name in ("vehicle.specificForce", "vehicle.angularVelocity")]
+    delivered = [f"{name}.{part}" for name, parts in [*vectors, ("vehicle.orientation", ANGLES)] for part in parts]
+    expected = {("motorcycle", name, "washout", name) for name in [*delivered, "vehicle.speed", "rider.lean"]}
+    expected |= {
+        ("washout", f"actuator[{i}].{quantity}", "platform", f"command[{i}].{quantity}")
+        for i in range(1, 7)
+        for quantity in ("length", "velocity")
+    }
+    expected |= {("motorcycle", "rider.lean", "platform", "rider.lean")}
+    expected |= {(None, name, "motorcycle", name) for name in ("command.throttle", "command.brake", "command.lean")}
+    assert sorted(map(str, ends)) == sorted(map(str, expected))
+    for start, output, end, name in ends:
+        if start is not None:
+            assert models[start][output].unit == models[end][name].unit
+    # Every input that is a connector has its connection, and nothing of the platform's or the washout's is left open but this.
+    for component, left in (("washout", {"engaged"}), ("platform", set())):
+        inputs = {name for name, variable in models[component].items() if variable.causality == "input"}
+        assert inputs - {name for _, _, end, name in ends if end == component} == left
+
+
+def test_every_parameter_is_one_of_its_fmu_with_its_unit(parameters, models):
+    defined = units(parameters, "ssv")
+    found = parameters.xpath("ssv:Parameters/ssv:Parameter", namespaces=NAMESPACES)
+    assert found
+    for parameter in found:
+        component, name = parameter.get("name").split(".", 1)
+        variable = models[component][name]
+        assert variable.causality == "parameter"
+        (value,) = parameter
+        assert etree.QName(value).localname == variable.type
+        if variable.type == "Real":
+            float(value.get("value"))
+            assert value.get("unit") == variable.unit and (variable.unit is None or variable.unit in defined)
+
+
+@pytest.fixture(scope="module")
+def example():
+    spec = importlib.util.spec_from_file_location("ssp_ride", ROOT / "examples" / "ssp" / "ride.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_the_ride_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(example, ssp, tmp_path):
+    result = example.ride(ssp, 2e-3)
+    time, speed = result["time"], result["motorcycle.vehicle.speed"]
+    assert speed[0] == 0.0 and speed.max() > 20.0
+    assert np.all(speed[time > 40.0] == 0.0) and np.all(speed >= 0.0)
+    lean = np.degrees(result["motorcycle.vehicle.orientation.roll"])
+    assert lean.max() > 12.0 and lean.min() < -12.0
+    lengths = example.legs(result, "platform", "length")
+    assert lengths.min() > 1.1 and lengths.max() < 1.52
+    assert np.ptp(lengths) > 0.25
+    for status in (
+        "washout.status.safetyActive", "washout.status.actuatorLimited", "platform.status.commandRefused",
+        "platform.status.driveLimited", "platform.status.forceLimited", "platform.status.atStop",
+    ):  # fmt: skip
+        assert not np.any(result[status]), status
+
+    def correlation(quantity, felt_quantity, during):
+        vehicle, felt = result[f"motorcycle.vehicle.{quantity}"], result[f"platform.rider.{felt_quantity}"]
+        return np.corrcoef(vehicle[during], felt[during])[0, 1]
+
+    slalom = (time > 14.0) & (time < 30.0)
+    assert correlation("specificForce.x", "specificForce.x", time > 0) > 0.85
+    assert correlation("specificForce.y", "specificForce.y", slalom) > 0.9
+    assert correlation("angularVelocity.x", "angularVelocity.x", slalom) > 0.8
+    # The platform is where it was commanded, but for the delay of its drives.
+    late = 0.004 + 2 * np.sqrt(0.5) / 62.83 + 2e-3
+    for i in range(1, 7):
+        commanded = np.interp(time - late, time, result[f"washout.actuator[{i}].length"])
+        assert np.max(np.abs(commanded - result[f"platform.actuator[{i}].length"])) < 1e-3
+    picture = tmp_path / "ride.svg"
+    example.draw(picture, result)
+    assert picture.stat().st_size > 50_000
