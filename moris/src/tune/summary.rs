@@ -66,11 +66,13 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
         text.push_str(" No ride was held out: nothing is known of other rides.");
         return text;
     };
-    let Comparison { rides, before, after, better, limited_before, limited_after } = unseen;
+    let Comparison { rides, before, after, better, .. } = unseen;
     write!(
         text,
         "\n\nOn rides that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {rides}. \
-         The platform's limits act, or the reserve of stroke is touched, on {limited_after} of them, with {before_name} on {limited_before}."
+         The platform's limits act, or the reserve of stroke is touched, for {:.2} % of their time, with {before_name} for {:.2} %.",
+        100.0 * unseen.violated_after,
+        100.0 * unseen.violated_before
     )
     .expect("a string takes whatever is written");
     text.push_str(if unseen.is_clearly_better() {
@@ -88,13 +90,14 @@ struct Comparison {
     after: f64,
     better: usize,
     limited_before: usize,
-    limited_after: usize,
+    violated_before: f64,
+    violated_after: f64,
 }
 
 impl Comparison {
-    /// Better on average and on most rides, and limited on no more.
+    /// Better on average and on most rides, and limited for no longer.
     fn is_clearly_better(&self) -> bool {
-        self.after < self.before && 2 * self.better > self.rides && self.limited_after <= self.limited_before
+        self.after < self.before && 2 * self.better > self.rides && self.violated_after <= self.violated_before
     }
 
     fn of(pairs: impl Iterator<Item = (Cost, Cost)>) -> Option<Self> {
@@ -107,7 +110,8 @@ impl Comparison {
             after: mean(|pair| pair.1.error),
             better: count(|pair| pair.1.error < pair.0.error),
             limited_before: count(|pair| !pair.0.is_feasible()),
-            limited_after: count(|pair| !pair.1.is_feasible()),
+            violated_before: mean(|pair| pair.0.violated),
+            violated_after: mean(|pair| pair.1.violated),
         })
     }
 }
