@@ -70,7 +70,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let text = summary::text(&before, &tuned, &results, tuner.was_interrupted());
     write!(out, "{text}")?;
     writeln!(out, "wrote {}", options.output.display())?;
-    for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[before, tuned])? {
+    for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[tuned, before])? {
         writeln!(out, "wrote {}", file.display())?;
     }
     Ok(ExitCode::SUCCESS)

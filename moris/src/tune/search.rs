@@ -71,8 +71,7 @@ pub fn search(
 ) -> Result<Searched> {
     let best = Mutex::new(Best::default());
     let cost = |point: &DVector<f64>| price(judges, space, point.as_slice(), &best);
-    let start = start_within_limits(judges, space);
-    cost(&DVector::from(start.clone()));
+    let start = first_point(judges, space, |point| cost(&DVector::from(point.as_slice().to_vec())));
     let mut search = CMAESOptions::new(start, FIRST_STEP)
         .seed(budget.seed)
         .max_function_evals(budget.evaluations)
@@ -97,11 +96,33 @@ pub fn search(
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
 }
 
+/// What is tried on each channel before the search proper, times the start's: the cost has several valleys, most of all along the
+/// break frequencies, and the search ends in the one that it begins in.
+const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
+const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+
+/// Where the search begins: the best of a coarse scan from the start, channel by channel.
+fn first_point(judges: &[&Judge], space: &Space, cost: impl Fn(&nalgebra::DVector<f64>) -> f64 + Sync) -> Vec<f64> {
+    let mut best = nalgebra::DVector::from(start_within_limits(judges, space));
+    let mut least = cost(&best);
+    for channel in 0..6 {
+        let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
+        let points: Vec<_> = factors.map(|(f, s)| space.with_channel(&best, channel, f, s)).collect();
+        let costs: Vec<f64> = points.par_iter().map(&cost).collect();
+        for (point, cost) in points.into_iter().zip(costs) {
+            if cost < least {
+                (best, least) = (point, cost);
+            }
+        }
+    }
+    best.as_slice().to_vec()
+}
+
 /// How much smaller each try is than the one before, and how many there are: down to a hundredth.
 const SMALLER: f64 = 0.8;
 const TRIES: i32 = 21;
 
-/// Where the search begins: at the start itself, or, where that lets limits act, with all scales made smaller until it does not.
+/// The start itself, or, where that lets limits act, with all scales made smaller until it does not.
 fn start_within_limits(judges: &[&Judge], space: &Space) -> Vec<f64> {
     let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
     let keeps = |point: &nalgebra::DVector<f64>| {

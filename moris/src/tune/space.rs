@@ -52,7 +52,7 @@ impl Space {
     pub fn new(start: &Parameters, groups: &[Group]) -> Self {
         let mut start = *start;
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        visit(&mut start, groups, &mut |value, range| {
+        visit(&mut start, groups, &mut |value, range, _| {
             if *value <= 0.0 {
                 *value = instead_of_none(range);
             }
@@ -82,40 +82,59 @@ impl Space {
     /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
     pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
         let mut logarithms = Vec::new();
-        visit(&mut self.start.clone(), &self.groups, &mut |_, range| {
+        visit(&mut self.start.clone(), &self.groups, &mut |_, range, _| {
             logarithms.push(if range == SCALES { factor.ln() } else { 0.0 });
         });
         self.clamped(&logarithms.into()).0
+    }
+
+    /// A point with other frequencies and another scale on one channel, 0 to 5: those of the start times these factors, as far as the box
+    /// goes.
+    pub fn with_channel(&self, point: &DVector<f64>, channel: usize, frequency: f64, scale: f64) -> DVector<f64> {
+        let mut moved = point.clone();
+        let mut coordinates = moved.iter_mut();
+        visit(&mut self.start.clone(), &self.groups, &mut |_, range, of| {
+            let Some(coordinate) = coordinates.next() else { return };
+            if of == Some(channel) && range == FREQUENCIES {
+                *coordinate = frequency.ln();
+            } else if of == Some(channel) && range == SCALES {
+                *coordinate = scale.ln();
+            }
+        });
+        self.clamped(&moved).0
     }
 
     /// The parameters at a point.
     pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
         let mut parameters = self.start;
         let mut factors = point.iter();
-        visit(&mut parameters, &self.groups, &mut |value, _| {
+        visit(&mut parameters, &self.groups, &mut |value, _, _| {
             *value *= factors.next().map_or(1.0, |logarithm| logarithm.exp());
         });
         parameters
     }
 }
 
-/// Visits every parameter that is tuned, always in the same order.
-fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range)) {
+/// Visits every parameter that is tuned, always in the same order, with its range and its channel: 0 to 2 for what acts on the specific
+/// force along x, y and z, 3 to 5 for what acts on roll, pitch and yaw, none for what acts on all.
+fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range, Option<usize>)) {
     let Parameters { splitter, angular, conditioning, .. } = parameters;
-    let mut vector = |values: &mut Vector3<f64>, range| values.iter_mut().for_each(|value| act(value, range));
+    let mut vector = |values: &mut Vector3<f64>, range, first: usize| {
+        values.iter_mut().enumerate().for_each(|(axis, value)| act(value, range, Some(first + axis)));
+    };
     if groups.contains(&Group::Splitter) {
-        vector(&mut splitter.omega1, FREQUENCIES);
-        vector(&mut splitter.zeta1, DAMPINGS);
-        vector(&mut splitter.omega2, FREQUENCIES);
-        vector(&mut splitter.zeta2, DAMPINGS);
+        vector(&mut splitter.omega1, FREQUENCIES, 0);
+        vector(&mut splitter.zeta1, DAMPINGS, 0);
+        vector(&mut splitter.omega2, FREQUENCIES, 0);
+        vector(&mut splitter.zeta2, DAMPINGS, 0);
     }
     if groups.contains(&Group::Scale) {
-        vector(&mut conditioning.force_scale, SCALES);
-        vector(&mut conditioning.rate_scale, SCALES);
+        vector(&mut conditioning.force_scale, SCALES, 0);
+        vector(&mut conditioning.rate_scale, SCALES, 3);
     }
     let mut angles = |values: &mut RollPitchYaw, range| {
-        for value in [&mut values.roll, &mut values.pitch, &mut values.yaw] {
-            act(value, range);
+        for (axis, value) in [&mut values.roll, &mut values.pitch, &mut values.yaw].into_iter().enumerate() {
+            act(value, range, Some(3 + axis));
         }
     };
     if groups.contains(&Group::Angular) {
@@ -125,7 +144,7 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
         angles(&mut angular.zeta2, DAMPINGS);
     }
     if groups.contains(&Group::Cutoff) {
-        act(&mut conditioning.cutoff, CUTOFFS);
+        act(&mut conditioning.cutoff, CUTOFFS, None);
     }
 }
 
@@ -183,6 +202,21 @@ mod tests {
         assert!(scaled.conditioning.force_scale.iter().all(|scale| (scale - 0.5).abs() < 1e-12));
         assert!(scaled.conditioning.rate_scale.iter().all(|scale| (scale - 0.5).abs() < 1e-12));
         assert_eq!((scaled.splitter, scaled.angular), (Parameters::default().splitter, Parameters::default().angular));
+    }
+
+    #[test]
+    fn a_channel_has_its_own_frequencies_and_scale() {
+        let space = Space::new(&Parameters::default(), &DEFAULT);
+        let mut expected = Parameters::default();
+        expected.splitter.omega1.y *= 0.5;
+        expected.splitter.omega2.y *= 0.5;
+        expected.conditioning.force_scale.y *= 0.2;
+        expected.angular.omega1.yaw *= 2.0;
+        expected.angular.omega2.yaw *= 2.0;
+        let point = space.with_channel(&DVector::zeros(30), 1, 0.5, 0.2);
+        let found = space.parameters(&space.with_channel(&point, 5, 2.0, 1.0));
+        let close = |(a, b): (&(String, f64), &(String, f64))| (a.1 - b.1).abs() < 1e-12;
+        assert!(washout_setup::all(&found).iter().zip(&washout_setup::all(&expected)).all(close));
     }
 
     #[test]
