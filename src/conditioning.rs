@@ -41,6 +41,15 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
     }
 }
 
+/// The vehicle's acceleration along the head's x \[m/s2\]: its specific force without gravity, which a pitch brings into it.
+pub fn forward_acceleration(input: &Input, parameters: &ConditioningParameters, gravity: f64) -> f64 {
+    let pitched = match parameters.gravity_removal {
+        GravityRemoval::None => 0.0,
+        GravityRemoval::HeadVertical | GravityRemoval::Full => libm::sin(input.orientation.pitch),
+    };
+    input.specific_force.x + gravity * pitched
+}
+
 /// The direction of gravity in head axes, R_D^H (0, 0, -1), or the part of it that is removed.
 fn removed_gravity(removal: GravityRemoval, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
     match removal {

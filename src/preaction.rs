@@ -53,6 +53,8 @@ const LAUNCH_TIME: f64 = 1.5;
 /// The shares of the safety limits that the launch uses.
 const SHARE_OF_POSITION: f64 = 0.9;
 const SHARE_OF_VELOCITY: f64 = 0.8;
+/// The share of the way back that the launch is planned for: the stop may come later than foreseen.
+const SHARE_OF_ROOM: f64 = 0.9;
 /// The platform is moved forward from so long before the stop \[s\] ...
 const POSITIONING_TIME: f64 = 9.0;
 /// ... with an acceleration that riders hardly perceive \[m/s2\], and not fast \[m/s\].
@@ -77,20 +79,19 @@ impl StopPreaction {
         }
     }
 
-    /// Lets `step` seconds pass, at whose end the force to be felt along x is `force` \[m/s2\], which is `scale` times the
-    /// vehicle's, and the vehicle's speed is `speed` \[m/s\].
+    /// Lets `step` seconds pass, at whose end the force to be felt along x is `force` \[m/s2\], and the vehicle's acceleration
+    /// and speed are these \[m/s2, m/s\].
     pub fn advance(
         &mut self,
-        [force, scale, speed]: [f64; 3],
+        [force, acceleration, speed]: [f64; 3],
         gravity: f64,
         tilt: &TiltParameters,
         safety: &SafetyParameters,
         step: f64,
     ) {
         self.slew = gravity * tilt.rate_limit;
-        let now = if scale > 0.0 { -force / scale } else { 0.0 };
-        self.deceleration += (now - self.deceleration) * (1.0 - libm::exp(-step / SMOOTHING));
-        let braking = now > LEAST_DECELERATION && self.deceleration > LEAST_DECELERATION && speed > 0.0;
+        self.deceleration += (-acceleration - self.deceleration) * (1.0 - libm::exp(-step / SMOOTHING));
+        let braking = -acceleration > LEAST_DECELERATION && self.deceleration > LEAST_DECELERATION && speed > 0.0;
         if braking {
             self.time_left = speed / self.deceleration;
             self.carried = 0.0;
@@ -121,14 +122,16 @@ impl StopPreaction {
 
     fn move_surge(&mut self, force: f64, safety: &SafetyParameters, step: f64) {
         let farthest = SHARE_OF_POSITION * safety.position_limit.x;
-        let launching = self.time_left < LAUNCH_TIME;
+        // Recovering from here takes a third of its time at this speed.
+        let room = (self.surge.position + farthest).max(0.0);
+        let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * room;
         self.phase = match self.phase {
             Phase::Launching { .. } if !launching => Phase::Recovering { from: -self.surge.velocity },
             Phase::Recovering { .. } if self.surge.velocity > -RECOVERED => Phase::Waiting,
             Phase::Waiting if launching => {
                 // Both halves together go 1/3 of acceleration times time squared, at most half of it times time fast.
-                let room = (self.surge.position + farthest).max(0.0);
                 let fastest = SHARE_OF_VELOCITY * safety.velocity_limit.x;
+                let room = SHARE_OF_ROOM * room;
                 let acceleration = (3.0 * room / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
                 Phase::Launching { acceleration: acceleration.min(safety.acceleration_limit.x) }
             }

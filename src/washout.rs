@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::angular::AngularChannel;
 use crate::check::{check, check_change};
-use crate::conditioning::{Cue, InputFilter, cue};
+use crate::conditioning::{Cue, InputFilter, cue, forward_acceleration};
 use crate::direct_linear::DirectLinearMotion;
 use crate::evaluator::{Felt, felt};
 use crate::gravitational::GravitationalStrategy;
@@ -168,7 +168,7 @@ impl Washout {
         let head = Head::new(&self.parameters.structure, start.lean);
         let head_at_end = if start == end { head } else { Head::new(&self.parameters.structure, end.lean) };
         let (mut cue_start, mut cue_end) = self.conditioned((start, &head), (end, &head_at_end), step);
-        self.preact(&mut cue_start, &mut cue_end, end.speed, step);
+        self.preact(&mut cue_start, &mut cue_end, end, step);
 
         let rotation = self.guard.motion().orientation.rotation;
         let turn = self.guard.motion().turn(step);
@@ -218,10 +218,11 @@ impl Washout {
     }
 
     /// Changes the cue ahead of a stop, if that is wanted.
-    fn preact(&mut self, start: &mut Cue, end: &mut Cue, speed: f64, step: f64) {
+    fn preact(&mut self, start: &mut Cue, end: &mut Cue, input: &Input, step: f64) {
         let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
         if structure.preaction == Preaction::On {
-            let braking = [end.force.x, conditioning.force_scale.x, speed];
+            let acceleration = self.engagement * forward_acceleration(input, conditioning, structure.gravity);
+            let braking = [end.force.x, acceleration, input.speed];
             self.preaction.advance(braking, structure.gravity, tilt, safety, step);
             start.force.x = self.preaction.tilted_force(start.force.x);
             end.force.x = self.preaction.tilted_force(end.force.x);

@@ -3,7 +3,7 @@
 use moris_motorcycle::{Input, Output};
 use moris_washout::conditioning::cue;
 use moris_washout::interface::GravityRemoval;
-use moris_washout::{Parameters as Tuning, Washout};
+use moris_washout::{Parameters as Tuning, Washout, parameter_sets};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::common::{at_speed, motorcycle};
@@ -77,4 +77,45 @@ fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
     // More than ten seconds after the stop the platform is back.
     let off = washout.output().position - Vector3::new(0.0, 0.0, Tuning::default().rig.neutral_height);
     assert!(off.norm() < 0.02, "{off}");
+}
+
+/// Rides at 30 m/s and brakes to the stop. Returns when it stops, in milliseconds, and the error of the surge force felt
+/// \[m/s2\] every millisecond.
+fn errors_of_a_stop(brake: f64, set: &[(&str, f64)]) -> (usize, Vec<f64>) {
+    let mut washout = Washout::new(&parameter_sets::parameters(set)).unwrap();
+    let mut ridden = motorcycle(&at_speed(30.0));
+    let mut stop = None;
+    let errors = (0..40_000).map(|k| {
+        let before = connected(ridden.output());
+        let time = 1e-3 * k as f64;
+        let throttle = if time < 3.0 { 0.15 } else { 0.0 };
+        let brake = brake * ((time - 3.0) / 3.0).clamp(0.0, 1.0);
+        ridden.step(&Input { throttle, brake, ..Input::default() }, 1e-3);
+        let asked = connected(ridden.output());
+        washout.step_between(&before, &asked, 1e-3);
+        if asked.speed == 0.0 {
+            stop.get_or_insert(k);
+        }
+        let output = washout.output();
+        assert!(!output.actuator_limited && !output.safety_active, "at {time} s");
+        output.felt_specific_force.x - asked.specific_force.x
+    });
+    let errors = errors.collect();
+    (stop.expect("the motorcycle stops"), errors)
+}
+
+/// From 5 s before the stop to 5 s after it the RMS error, and the largest after it.
+#[test]
+fn preaction_halves_the_error_of_a_stop() {
+    for brake in [0.1, 0.15, 0.2] {
+        let [(rms_off, peak_off), (rms, peak)] = [&[][..], parameter_sets::PREACTION].map(|set| {
+            let (stop, errors) = errors_of_a_stop(brake, set);
+            let around = &errors[stop - 5000..stop + 5000];
+            let rms = (around.iter().map(|error| error * error).sum::<f64>() / around.len() as f64).sqrt();
+            (rms, errors[stop..stop + 8000].iter().fold(0.0_f64, |peak, error| peak.max(error.abs())))
+        });
+        println!("brake {brake}: RMS {rms_off} {rms}, peak {peak_off} {peak}");
+        assert!(rms < 0.5 * rms_off, "{rms_off} {rms}");
+        assert!(peak < 0.6 * peak_off, "{peak_off} {peak}");
+    }
 }
