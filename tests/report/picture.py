@@ -1,0 +1,47 @@
+#!/usr/bin/env python3
+"""Makes a picture of a report's first screen: a page of `cargo moris run` in, an SVG with the browser's picture in it out.
+
+    cargo moris run ride.csv --report report
+    python3 tests/report/run.py --install          # once: Chromium and Playwright
+    target/report/venv/bin/python tests/report/picture.py report/ride.html docs/report.svg --time 34.5
+"""
+
+import argparse
+import base64
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+from run import browser
+
+SIZE = {"width": 1366, "height": 768}
+
+
+def picture(page_file, time):
+    """The first screen of a page at a time of the ride, as a JPEG."""
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=browser())
+        page = chromium.new_page(viewport=SIZE)
+        page.goto(Path(page_file).resolve().as_uri())
+        slider = page.locator("input[type=range]").first
+        slider.evaluate("(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }", time)
+        page.wait_for_timeout(500)
+        return page.screenshot(type="jpeg", quality=75)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("page", help="a report, as cargo moris run makes it")
+    parser.add_argument("picture", help="the SVG to write")
+    parser.add_argument("--time", type=float, default=0.0, help="time of the ride in seconds")
+    arguments = parser.parse_args()
+    image = base64.b64encode(picture(arguments.page, arguments.time)).decode()
+    width, height = SIZE["width"], SIZE["height"]
+    Path(arguments.picture).write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}">\n'
+        f'<image width="{width}" height="{height}" href="data:image/jpeg;base64,{image}"/>\n</svg>\n'
+    )
+
+
+if __name__ == "__main__":
+    main()
