@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Refusal, Row, Variability, Writer, slot_count};
+use model_interface::{Group, Kind, Refusal, Row, Variability, Writer, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, leg_lengths, survey};
@@ -61,12 +61,12 @@ enum Rule {
 
 /// Frequencies and dampings have ends so far out that no one misses them; beyond, the filters' arithmetic fails.
 fn rule(row: &Row) -> Rule {
+    if matches!(row.kind, Kind::Enumeration(_)) {
+        return Rule::Finite;
+    }
     match row.name {
         "rig.base[#].@" | "rig.platform[#].@" | "washoutPoint.@" => Rule::Finite,
         "scale.specificForce.@" | "scale.angularVelocity.@" => Rule::Finite,
-        "gravityRemoval" | "compensation" | "angularVelocityFrame" | "splitter.lowPass" | "washoutLocation" => {
-            Rule::Finite
-        }
         "input.cutoff" | "head.height" | "head.torsoLength" => Rule::NotNegative,
         "tilt.angleLimit" => Rule::UpTo(LARGEST_TILT),
         "solver.maxStep" => Rule::Between(1e-6, LONGEST_STEP),

@@ -126,6 +126,8 @@ impl StopPreaction {
         let room = (self.surge.position + farthest).max(0.0);
         let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * room;
         self.phase = match self.phase {
+            // Given up before it has gone backwards at all: there is nothing to recover from.
+            Phase::Launching { .. } if !launching && self.surge.velocity > -RECOVERED => Phase::Waiting,
             Phase::Launching { .. } if !launching => Phase::Recovering { from: -self.surge.velocity },
             Phase::Recovering { .. } if self.surge.velocity > -RECOVERED => Phase::Waiting,
             Phase::Waiting if launching => {

@@ -51,10 +51,10 @@ fn run_c(t: f64) -> (f64, f64) {
     (2.2 * (up - down) - 3.5 * brake, 2.2 * (gained - held) - 3.5 * lost)
 }
 
-/// From 28 m/s, braked with 3 m/s2 from 2 s on; until `RELEASE` seconds later, when the brake is let go in a tenth of a second.
+/// From 28 m/s, braked with 3 m/s2 from 2 s on; until `RELEASE` tenths of a second later, when the brake is let go in another.
 fn braked<const RELEASE: u32>(t: f64) -> (f64, f64) {
     let (brake, lost) = smooth(t, 2.0, 1.0);
-    let (release, kept) = smooth(t, 2.0 + f64::from(RELEASE), 0.1);
+    let (release, kept) = smooth(t, 2.0 + 0.1 * f64::from(RELEASE), 0.1);
     (-3.0 * (brake - release), 28.0 - 3.0 * (lost - kept))
 }
 
@@ -92,8 +92,8 @@ fn a_braking_released_early_changes_nothing() {
 #[test]
 fn a_braking_released_with_the_stop_in_sight_is_felt_as_without() {
     // 5 s before it would stand the platform has been moved forward, and nothing else.
-    let (_, on) = ridden(true, 40.0, braked::<5>);
-    let (_, off) = ridden(false, 40.0, braked::<5>);
+    let (_, on) = ridden(true, 40.0, braked::<50>);
+    let (_, off) = ridden(false, 40.0, braked::<50>);
     let mut moved = 0.0_f64;
     for (on, off) in on.iter().zip(&off) {
         let difference = (on.felt_specific_force - off.felt_specific_force).amax();
@@ -106,13 +106,35 @@ fn a_braking_released_with_the_stop_in_sight_is_felt_as_without() {
 
 #[test]
 fn a_braking_released_at_the_last_moment_is_forgotten() {
-    let (asked, outputs) = ridden(true, 40.0, braked::<8>);
-    let (_, without) = ridden(false, 40.0, braked::<8>);
+    let (asked, outputs) = ridden(true, 40.0, braked::<80>);
+    let (_, without) = ridden(false, 40.0, braked::<80>);
     assert!(outputs.iter().all(|output| !output.actuator_limited && !output.safety_active));
     // No worse than without: letting go is as brusque as a stop.
     let all = 0..outputs.len();
     assert!(errors(&asked, &outputs, all.clone()).0 < errors(&asked, &without, all).0);
     assert!(displacement(outputs.last().unwrap()) < 1e-3);
+}
+
+#[test]
+fn a_launch_given_up_while_the_platform_still_goes_forward_does_not_jolt() {
+    // From standstill late in the positioning: half a second of hard braking, let go at each of many moments.
+    for release in 1..30 {
+        let mut washout = Washout::new(&preaction(true)).unwrap();
+        let mut before = washout.output();
+        for k in 0..20_000 {
+            let time = f64::from(k) * STEP;
+            let braking = time < 1.0 + 0.1 * f64::from(release);
+            let force = if braking { -2.0 } else { 0.0 };
+            let speed = if braking { 4.0 - 2.0 * (time - 1.0).max(0.0) } else { 2.0 };
+            let specific_force = Vector3::new(if time < 1.0 { 0.0 } else { force }, 0.0, STANDARD_GRAVITY);
+            washout.step(&Input { specific_force, speed: speed.max(0.1), ..Input::default() }, STEP);
+            let now = washout.output();
+            assert!(!now.safety_active && !now.actuator_limited, "released at {release}: {time} s");
+            let jerk = (now.velocity - before.velocity).x / STEP;
+            assert!(jerk.abs() < 4.0, "released at {release}: {jerk} m/s2 at {time} s");
+            before = now;
+        }
+    }
 }
 
 proptest! {
