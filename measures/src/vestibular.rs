@@ -41,8 +41,8 @@ pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
     let [b0, b1, b2] = organ.numerator;
     let [a1, a2] = organ.denominator;
     let transition = transition(organ, step);
-    // a2 xi'' + a1 xi' + xi = u; what is sensed is b2 xi'' + b1 xi' + b0 xi.
-    let (mut xi, mut rate) = (0.0, 0.0);
+    // a2 answer'' + a1 answer' + answer = u; what is sensed is b2 answer'' + b1 answer' + b0 answer.
+    let (mut answer, mut rate) = (0.0, 0.0);
     let mut before = None;
     signal
         .iter()
@@ -50,17 +50,18 @@ pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
             let end = value - rest;
             if let Some(start) = before {
                 let slope = (end - start) / step;
-                let next = |row: [f64; 4]| row[0] * xi + row[1] * rate + row[2] * start + row[3] * slope;
-                (xi, rate) = (next(transition[0]), next(transition[1]));
+                let next = |row: [f64; 4]| row[0] * answer + row[1] * rate + row[2] * start + row[3] * slope;
+                (answer, rate) = (next(transition[0]), next(transition[1]));
             }
             before = Some(end);
-            let acceleration = (end - a1 * rate - xi) / a2;
-            b2 * acceleration + b1 * rate + b0 * xi
+            let acceleration = (end - a1 * rate - answer) / a2;
+            b2 * acceleration + b1 * rate + b0 * answer
         })
         .collect()
 }
 
-/// The exact step of xi and xi' for an input that is linear in time: what each of xi, xi', the input and its slope adds.
+/// The exact step of the answer and its rate for an input that is linear in time: what each of answer, rate, the input and
+/// its slope adds.
 fn transition(organ: &Organ, step: f64) -> [[f64; 4]; 2] {
     let [a1, a2] = organ.denominator;
     #[rustfmt::skip]

@@ -20,6 +20,12 @@ const SURGE: AxisLimits = AxisLimits {
     }),
 };
 
+/// So little tilt that a ride is at its limit.
+const LITTLE_TILT: AxisLimits = AxisLimits {
+    tilt: Some(TiltLimits { angle: 0.03, rate: 0.3, acceleration: 0.5, head_height: 1.2, gravity: 9.80665 }),
+    ..SURGE
+};
+
 fn sampled(duration: f64, force: impl Fn(f64) -> f64) -> Vec<f64> {
     (0..=(duration / STEP).round() as usize).map(|k| force(k as f64 * STEP)).collect()
 }
@@ -115,37 +121,55 @@ fn the_brusque_stop_cannot_be_felt_better_than_this() {
 fn the_motion_that_attains_it_keeps_every_limit() {
     let found = bound(&sampled(50.0, brusque_stop), STEP, &SURGE, 0.05).unwrap();
     assert_keeps(&found.trajectory, &SURGE);
-    let heave = bound(&sampled(20.0, |t| 2.0 * (0.8 * t).sin()), STEP, &HEAVE, 0.05).unwrap();
-    assert_keeps(&heave.trajectory, &HEAVE);
+    // Intervals in which the motion turns round as well.
+    for interval in [0.05, 0.2, 0.5] {
+        let heave = bound(&sampled(20.0, |t| 2.0 * (0.8 * t).sin()), STEP, &HEAVE, interval).unwrap();
+        assert_keeps(&heave.trajectory, &HEAVE);
+        let quick = bound(&sampled(20.0, |t| 4.0 * (2.0 * t).sin()), STEP, &SURGE, interval).unwrap();
+        assert_keeps(&quick.trajectory, &SURGE);
+        let stopped = bound(&sampled(50.0, brusque_stop), STEP, &LITTLE_TILT, interval).unwrap();
+        assert_keeps(&stopped.trajectory, &LITTLE_TILT);
+    }
 }
 
-/// Steps through a trajectory and compares what comes with its own knots and with the limits.
+/// Steps through a trajectory and compares what comes with its own knots and, at all times, with the limits.
 fn assert_keeps(trajectory: &Trajectory, limits: &AxisLimits) {
     const ROUNDING: f64 = 1e-5;
     let t = trajectory.interval;
     let within =
         |value: f64, limit: f64, what: &str| assert!(value.abs() <= limit * (1.0 + ROUNDING) + ROUNDING, "{what}");
-    let [mut p, mut v, mut phi, mut rho] = [0.0; 4];
+    let [mut p, mut v, mut tilt_force, mut tilt_force_rate] = [0.0; 4];
     for pair in trajectory.knots.windows(2) {
         let a = (pair[1].velocity - pair[0].velocity) / t;
         let b = (pair[1].tilt_force_rate - pair[0].tilt_force_rate) / t;
+        let position_within =
+            |p: f64| within(p - 0.5 * (limits.max + limits.min), 0.5 * (limits.max - limits.min), "position");
+        position_within(p + turning_point(v, a, t));
+        let turned_tilt_force = tilt_force + turning_point(tilt_force_rate, b, t);
         p += t * (v + 0.5 * t * a);
         v += t * a;
-        phi += t * (rho + 0.5 * t * b);
-        rho += t * b;
-        assert!((p - pair[1].position).abs() < ROUNDING && (phi - pair[1].tilt_force).abs() < ROUNDING);
-        within(p - 0.5 * (limits.max + limits.min), 0.5 * (limits.max - limits.min), "position");
+        tilt_force += t * (tilt_force_rate + 0.5 * t * b);
+        tilt_force_rate += t * b;
+        assert!((p - pair[1].position).abs() < ROUNDING && (tilt_force - pair[1].tilt_force).abs() < ROUNDING);
+        position_within(p);
         within(v, limits.velocity, "velocity");
         within(a, limits.acceleration, "acceleration");
         match &limits.tilt {
-            None => assert!(phi.abs() < ROUNDING),
+            None => assert!(tilt_force.abs() < ROUNDING),
             Some(tilt) => {
-                within((phi / tilt.gravity).asin(), tilt.angle, "tilt");
-                within(rho / tilt.gravity, tilt.rate, "tilt rate");
+                within((tilt_force / tilt.gravity).asin(), tilt.angle, "tilt");
+                within((turned_tilt_force / tilt.gravity).asin(), tilt.angle, "tilt within an interval");
+                within(tilt_force_rate / tilt.gravity, tilt.rate, "tilt rate");
                 within(b / tilt.gravity, tilt.acceleration + tilt.angle.sin() * tilt.rate.powi(2), "tilt acceleration");
             }
         }
     }
+}
+
+/// How far something goes from where it is until it turns round, within a time `t`; 0 if it does not.
+fn turning_point(rate: f64, acceleration: f64, t: f64) -> f64 {
+    let time = -rate / acceleration;
+    if (0.0..t).contains(&time) { 0.5 * rate * time } else { 0.0 }
 }
 
 #[test]

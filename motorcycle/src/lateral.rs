@@ -109,7 +109,7 @@ impl Lateral {
     /// on where it stands and which way it points.
     pub fn new(design: &Design) -> Option<Lateral> {
         let t = design.bicycle.totals();
-        let (sin, cos) = libm::sincos(design.bicycle.lambda);
+        let (sin, cos) = libm::sincos(design.bicycle.caster_angle);
         let inverse = mass_matrix(&t).cholesky()?.inverse();
         let k0 = t.gravity_stiffness(sin) * design.gravity;
         let steer_unit = Vector4::new(0.0, 0.0, 0.0, 1.0);
@@ -204,8 +204,8 @@ struct Contact {
 impl Design {
     /// The rear and the front contact; the front one trails the steer axis.
     fn contacts(&self) -> [Contact; 2] {
-        let Bicycle { w, c, lambda, .. } = self.bicycle;
-        let (sin, cos) = libm::sincos(lambda);
+        let Bicycle { w, c, caster_angle, .. } = self.bicycle;
+        let (sin, cos) = libm::sincos(caster_angle);
         [
             Contact {
                 force: REAR_FORCE,
@@ -295,7 +295,7 @@ pub fn bicycle(machine: &Machine) -> Bicycle {
     Bicycle {
         w: machine.wheelbase,
         c: machine.trail,
-        lambda: machine.caster_angle,
+        caster_angle: machine.caster_angle,
         r: Wheel {
             r: machine.rear_wheel_radius,
             m: machine.rear_wheel_mass,

@@ -37,4 +37,4 @@ pub mod whipple;
 
 pub use interface::{Input, Output, Parameters};
 pub use model_interface::Refusal;
-pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};
+pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, SHORTEST_STEP, STRONGEST_WIND};

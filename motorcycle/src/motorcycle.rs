@@ -16,6 +16,9 @@ use crate::rider::Rider;
 use crate::state::State;
 use crate::suspension::{self, Suspension};
 
+/// Shorter steps than this do nothing \[s\].
+pub const SHORTEST_STEP: f64 = 1e-12;
+
 /// How many internal steps a communication step may take.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
 
@@ -113,6 +116,9 @@ impl Motorcycle {
     }
 
     /// Advances by `step` seconds while the inputs stay.
+    ///
+    /// Any step is safe: one shorter than [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_INTERNAL_STEPS`] internal
+    /// steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         self.step_between(input, input, step);
     }
@@ -120,8 +126,13 @@ impl Motorcycle {
     /// Advances by `step` seconds while the inputs go linearly from `start` to `end`, in equal internal steps of
     /// solver.maxStep at most.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+        if step.is_nan() || step < SHORTEST_STEP {
+            return;
+        }
+        let longest = self.parameters.run.max_step;
+        let step = step.min(MOST_INTERNAL_STEPS * longest);
         let (start, end) = (made_safe(start), made_safe(end));
-        let steps = libm::ceil((step / self.parameters.run.max_step - 1e-6).max(1.0)).min(MOST_INTERNAL_STEPS);
+        let steps = libm::ceil((step / longest - 1e-6).max(1.0));
         let size = step / steps;
         for k in 0..steps as u32 {
             let at = |share: f64| between(&start, &end, (f64::from(k) + share) / steps);

@@ -119,14 +119,14 @@ impl Geometry {
 fn carried(frame: &Turning, point: &Point) -> Point {
     let rotation = frame.orientation.rotation;
     let (position, velocity) = (rotation * point.position, rotation * point.velocity);
-    let (omega, alpha) = (frame.velocity, frame.acceleration);
+    let (angular_velocity, angular_acceleration) = (frame.velocity, frame.acceleration);
     Point {
         position,
-        velocity: velocity + omega.cross(&position),
+        velocity: velocity + angular_velocity.cross(&position),
         acceleration: rotation * point.acceleration
-            + 2.0 * omega.cross(&velocity)
-            + alpha.cross(&position)
-            + omega.cross(&omega.cross(&position)),
+            + 2.0 * angular_velocity.cross(&velocity)
+            + angular_acceleration.cross(&position)
+            + angular_velocity.cross(&angular_velocity.cross(&position)),
     }
 }
 

@@ -13,8 +13,8 @@ pub struct Bicycle {
     pub w: f64,
     /// Trail \[m\].
     pub c: f64,
-    /// Steer axis tilt from the vertical \[rad\].
-    pub lambda: f64,
+    /// Steer axis tilt from the vertical, the paper's lambda \[rad\].
+    pub caster_angle: f64,
     /// Rear wheel.
     pub r: Wheel,
     /// Rear frame with rider.
@@ -76,8 +76,8 @@ pub struct Totals {
 impl Bicycle {
     /// What appendix A defines before the coefficients.
     pub fn totals(&self) -> Totals {
-        let Bicycle { w, c, lambda, r, b, h, f } = *self;
-        let (sin, cos) = libm::sincos(lambda);
+        let Bicycle { w, c, caster_angle, r, b, h, f } = *self;
+        let (sin, cos) = libm::sincos(caster_angle);
         let m_t = r.m + b.m + h.m + f.m;
         let x_t = (b.x * b.m + h.x * h.m + w * f.m) / m_t;
         let z_t = (-r.r * r.m + b.z * b.m + h.z * h.m - f.r * f.m) / m_t;
@@ -103,7 +103,7 @@ impl Bicycle {
     /// The coefficients of the linearised equations of lean and steer, as appendix A ends with them.
     pub fn equations(&self) -> Equations {
         let t = self.totals();
-        let (sin, cos) = libm::sincos(self.lambda);
+        let (sin, cos) = libm::sincos(self.caster_angle);
         let s_t = t.s_r + t.s_f;
         let cos_w = cos / self.w;
         let m_lean_steer = t.a_lx + t.mu * t.t_xz;

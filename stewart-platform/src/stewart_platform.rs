@@ -49,8 +49,6 @@ pub struct StewartPlatform {
     commands: DelayLine,
     /// The last commands that actuators can follow \[m\].
     last_command: [f64; 6],
-    /// Lean of the rider \[rad\].
-    lean: f64,
     now: Instant,
     /// One internal step ago, and its length \[s\].
     before: Instant,
@@ -67,6 +65,8 @@ struct Instant {
     acceleration: Vector6<f64>,
     /// Forces of drives and stops together \[N\].
     force: Vector6<f64>,
+    /// Lean of the rider \[rad\].
+    lean: f64,
 }
 
 /// What was limited in any internal step of the last communication step.
@@ -92,7 +92,6 @@ impl StewartPlatform {
             body: Body::new(&parameters.masses),
             commands: DelayLine::new(parameters.actuators.dead_time, &neutral),
             last_command: neutral,
-            lean: 0.0,
             now,
             before: now,
             last_step: 0.0,
@@ -102,7 +101,8 @@ impl StewartPlatform {
 
     /// The platform before its first step, with the rider leaning like this \[rad\].
     pub fn starting_with(mut self, lean: f64) -> Self {
-        self.lean = finite_or(lean, 0.0);
+        self.now.lean = finite_or(lean, 0.0);
+        self.before.lean = self.now.lean;
         self
     }
 
@@ -131,12 +131,13 @@ impl StewartPlatform {
         let from = self.possible(&start.length);
         let to = self.possible(&end.length);
         self.commands.push(&Ramp { duration: step, from, to });
-        self.lean = finite_or(end.lean, self.lean);
+        let kept = self.now.lean;
+        let (lean, leaning) = (finite_or(start.lean, kept), finite_or(end.lean, kept));
         let mut left = step;
         while left >= SHORTEST_STEP {
             let ramp = self.commands.pop(left.min(self.parameters.setting.max_step));
             left -= ramp.duration;
-            self.internal_step(&ramp);
+            self.internal_step(&ramp, leaning - (leaning - lean) * (left / step));
         }
     }
 
@@ -153,8 +154,8 @@ impl StewartPlatform {
         self.last_command
     }
 
-    /// One step over which the commands that the drives see are linear.
-    fn internal_step(&mut self, command: &Ramp) {
+    /// One step over which the commands that the drives see are linear, and at whose end the rider leans like this.
+    fn internal_step(&mut self, command: &Ramp, lean: f64) {
         let step = command.duration;
         let Instant { motion, legs, .. } = self.now;
         let drive = Drive::new(&self.parameters, step);
@@ -187,6 +188,7 @@ impl StewartPlatform {
             legs: next.legs,
             acceleration: dynamics.leg_accelerations(&force),
             force,
+            lean,
         };
         self.limited.drive |= aims.iter().any(|aim| aim.limited);
         self.limited.force |= next.force_limited;
@@ -286,9 +288,9 @@ impl StewartPlatform {
 
     /// The outputs at an instant, with nothing limited.
     fn output_at(&self, instant: &Instant) -> Output {
-        let Instant { motion, legs, acceleration, force } = instant;
+        let Instant { motion, legs, acceleration, force, lean } = instant;
         let drive = self.within_force_limit(*force);
-        let Felt { specific_force, angular_velocity } = self.felt(motion);
+        let Felt { specific_force, angular_velocity } = self.felt(motion, *lean);
         Output {
             position: motion.position,
             velocity: motion.velocity,
@@ -312,15 +314,15 @@ impl StewartPlatform {
         }
     }
 
-    /// What the rider's head feels.
-    fn felt(&self, motion: &PlatformMotion) -> Felt {
+    /// What the rider's head feels while the rider leans like this.
+    fn felt(&self, motion: &PlatformMotion, lean: f64) -> Felt {
         let setting = &self.parameters.setting;
         let place = StructureParameters {
             head_height: setting.head_height,
             torso_length: setting.torso_length,
             ..StructureParameters::default()
         };
-        felt(motion, &Head::new(&place, self.lean), setting.gravity)
+        felt(motion, &Head::new(&place, lean), setting.gravity)
     }
 
     /// The smallest distance of a leg from an end of its stroke \[m\], and its rate \[m/s\].
@@ -353,6 +355,7 @@ impl Instant {
             legs: Legs { length: neutral_lengths(&parameters.rig), velocity: [0.0; 6] },
             acceleration: Vector6::zeros(),
             force: dynamics.forces(&Vector6::zeros()),
+            lean: 0.0,
         }
     }
 }

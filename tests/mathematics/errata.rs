@@ -74,9 +74,9 @@ fn the_tangential_term_is_the_larger_and_is_compensated() {
 
 #[test]
 fn tangential_and_centripetal_terms_are_those_of_circular_motion() {
-    // A point on a circle of radius 2 in the x-y plane, angle phi: p'' from the coordinates' second derivatives.
-    let (radius, phi, rate, acceleration) = (2.0, 0.7_f64, 1.3, -0.4);
-    let (s, c) = phi.sin_cos();
+    // A point on a circle of radius 2 in the x-y plane, angle angle: p'' from the coordinates' second derivatives.
+    let (radius, angle, rate, acceleration) = (2.0, 0.7_f64, 1.3, -0.4);
+    let (s, c) = angle.sin_cos();
     let arm = Vector3::new(radius * c, radius * s, 0.0);
     let expected = Vector3::new(
         radius * (-c * rate * rate - s * acceleration),

@@ -1,10 +1,10 @@
 //! The bound: the smallest RMS error of the felt specific force that any controller, even one that knows the whole ride
 //! beforehand, could reach on one axis under the same limits.
 //!
-//! The axis is linearised: felt = p'' - (h/g) phi'' + phi, where p is the platform's position, phi = g sin(tilt) is what tilting
-//! adds to the force, and h the head's height above the platform, whose tangential acceleration the tilt causes. Surge goes
-//! with pitch, sway with roll, heave goes alone. Position, velocity and acceleration, tilt, its rate and its acceleration keep
-//! their limits; the axis starts at rest at neutral and may end anyhow.
+//! The axis is linearised: felt = p'' - (h/g) tilt_force'' + tilt_force, where p is the platform's position,
+//! tilt_force = g sin(tilt) is what tilting adds to the force, and h the head's height above the platform, whose tangential
+//! acceleration the tilt causes. Surge goes with pitch, sway with roll, heave goes alone. Position, velocity and acceleration,
+//! tilt, its rate and its acceleration keep their limits; the axis starts at rest at neutral and may end anyhow.
 //!
 //! The best motion is found by a convex quadratic programme over intervals of time. [`Bound::rms_error`] is a lower bound for
 //! every motion in continuous time, not only for those that the intervals can describe: the programme keeps of a motion only

@@ -1,17 +1,19 @@
 //! The quadratic programme: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities and s >= 0 for the rest.
 //!
-//! Time is divided into intervals of length T. At each of their ends there are position p, velocity v, tilt phi and its rate
-//! rho; of each interval, the mean error e and the mean tilt m. The mean of p'' over an interval is the change of v over T,
-//! whatever the motion in between, so that
+//! Time is divided into intervals of length T. At each of their ends there are position p, velocity v, the tilt as the force
+//! that it adds, q = g sin(tilt) (`tilt_force`), and its rate q'; of each interval, the mean error e and the mean tilt m. The
+//! mean of p'' over an interval is the change of v over T, whatever the motion in between, so that
 //!
-//! e_k = (v_k+1 - v_k)/T - (h/g)(rho_k+1 - rho_k)/T + m_k - f_k,
+//! e_k = (v_k+1 - v_k)/T - (h/g)(q'_k+1 - q'_k)/T + m_k - f_k,
 //!
 //! with f_k the mean of the desired force. The integral of the squared error over an interval is at least T e_k^2.
 //!
 //! A motion's way over an interval differs from T (v_k + v_k+1)/2 by the integral of p'' times t (T - t)/2, which is at most
-//! T^3/12 times the limit of |p''|. So does the tilt's, and its mean from (phi_k + phi_k+1)/2 by at most T^2/12 times the limit
-//! of |phi''|. The relaxed programme asks for no more than this. The restricted one has constant accelerations over an interval,
-//! where the first two are zero and the third is known.
+//! T^3/12 times the limit of |p''|. So does the tilt's, and its mean from (q_k + q_k+1)/2 by at most T^2/12 times the limit
+//! of |q''|. The relaxed programme asks for no more than this. The restricted one has constant accelerations over an interval,
+//! where the first two are zero and the third is known. Its positions and tilts are parabolas between the moments; such a one
+//! stays between the least and the greatest of its ends and of the point where the tangents at its ends meet, p_k + v_k T/2,
+//! so that this point too is kept within the limits.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, ZeroConeT};
@@ -72,7 +74,7 @@ fn mean_tilt(k: usize) -> usize {
     STRIDE * k + AT + 1
 }
 
-/// The limits in the programme's terms: phi = g sin(tilt) and its derivatives.
+/// The limits in the programme's terms: tilt_force = g sin(tilt) and its derivatives.
 struct Box {
     tilt: f64,
     tilt_rate: f64,
@@ -115,6 +117,7 @@ impl Programme {
             rows.within(&[(v1, 1.0)], limits.velocity);
             rows.between(&[(position(k + 1), 1.0)], limits.min, limits.max);
             let way = [(position(k + 1), 1.0), (position(k), -1.0), (v0, -0.5 * t), (v1, -0.5 * t)];
+            let turn = [(position(k), 1.0), (v0, 0.5 * t)];
             let tilting = [(tilt(k + 1), 1.0), (tilt(k), -1.0), (r0, -0.5 * t), (r1, -0.5 * t)];
             let sag = [(m, 1.0), (tilt(k), -0.5), (tilt(k + 1), -0.5)];
             let tilts = limits.tilt.is_some();
@@ -131,12 +134,17 @@ impl Programme {
                 }
                 Kind::Relaxed => rows.within(&way, t.powi(3) / 12.0 * limits.acceleration),
                 Kind::Restricted if tilts => {
+                    rows.between(&turn, limits.min, limits.max);
+                    rows.within(&[(tilt(k), 1.0), (r0, 0.5 * t)], bounds.tilt);
                     rows.equal(&way, 0.0);
                     rows.equal(&tilting, 0.0);
                     let [mean, before, after] = sag;
                     rows.equal(&[mean, before, after, (r1, t / 12.0), (r0, -t / 12.0)], 0.0);
                 }
-                Kind::Restricted => rows.equal(&way, 0.0),
+                Kind::Restricted => {
+                    rows.between(&turn, limits.min, limits.max);
+                    rows.equal(&way, 0.0);
+                }
             }
             if !tilts {
                 for variable in [tilt(k + 1), tilt_rate(k + 1), m] {

@@ -8,7 +8,7 @@ pub fn benchmark() -> Bicycle {
     Bicycle {
         w: 1.02,
         c: 0.08,
-        lambda: std::f64::consts::PI / 10.0,
+        caster_angle: std::f64::consts::PI / 10.0,
         r: Wheel { r: 0.3, m: 2.0, xx: 0.0603, yy: 0.12 },
         b: Body { x: 0.3, z: -0.9, m: 85.0, xx: 9.2, xz: 2.4, zz: 2.8 },
         h: Body { x: 0.9, z: -0.7, m: 4.0, xx: 0.05892, xz: -0.00756, zz: 0.00708 },

@@ -1,6 +1,6 @@
 //! Steps: that they converge, agree with each other, allocate nothing, and go on from saved bytes.
 
-use moris_motorcycle::{Input, Motorcycle, Parameters};
+use moris_motorcycle::{Input, MOST_INTERNAL_STEPS, Motorcycle, Parameters};
 
 use crate::common::{at_speed, motorcycle};
 
@@ -32,6 +32,28 @@ fn halving_the_step_changes_next_to_nothing() {
     assert!((coarse.head_position - fine.head_position).norm() < 1e-6);
     assert!((coarse.specific_force - fine.specific_force).norm() < 1e-5);
     assert!((coarse.orientation.roll - fine.orientation.roll).abs() < 1e-7);
+}
+
+#[test]
+fn a_step_that_is_none_does_nothing() {
+    let mut motorcycle = ridden(1.0, 1e-3, 1e-3);
+    let before = motorcycle.clone();
+    for step in [f64::NAN, 0.0, -0.0, -1.0, f64::NEG_INFINITY, 1e-13] {
+        motorcycle.step(&input(1.0), step);
+        assert_eq!(motorcycle.state(), before.state(), "{step}");
+        assert_eq!(motorcycle.output(), before.output(), "{step}");
+        assert_eq!(motorcycle.output_derivative(), before.output_derivative(), "{step}");
+    }
+}
+
+#[test]
+fn a_step_that_is_too_long_is_cut_off() {
+    let mut longest = motorcycle(&at_speed(10.0));
+    let mut endless = longest.clone();
+    longest.step(&input(0.0), MOST_INTERNAL_STEPS * longest.parameters().run.max_step);
+    endless.step(&input(0.0), f64::INFINITY);
+    assert_eq!(endless.state(), longest.state());
+    assert_eq!(endless.output_derivative(), longest.output_derivative());
 }
 
 #[test]
