@@ -3,9 +3,12 @@
 goes through other people's importers and, where there are Wine and qemu, through the libraries for other platforms; where
 there is Chromium, the report's pages are opened in it.
 
-    python3 tests/run.py
+    python3 tests/run.py [--install] [--require]
+
+With --install what other platforms and the pages need is installed first; with --require it is an error where it is missing.
 """
 
+import argparse
 import os
 import subprocess
 import sys
@@ -35,6 +38,11 @@ def python():
 
 
 def main():
+    parser = argparse.ArgumentParser(description="Runs every test.")
+    parser.add_argument("--require", action="store_true", help="what other platforms and the pages need must be there")
+    parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
+    arguments = parser.parse_args()
+    passed_on = [f"--{name}" for name in ("install", "require") if getattr(arguments, name)]
     run("cargo", "build-fmu")
     run("cargo", "build-fmu", "--fmi", "3")
     run("cargo", "build-ssp")
@@ -42,8 +50,8 @@ def main():
     run("cargo", "test", "--workspace", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(sys.executable, "tests/importers/run.py")
-    run(sys.executable, "tests/platforms/run.py")
-    run(sys.executable, "tests/report/run.py")
+    run(sys.executable, "tests/platforms/run.py", *passed_on)
+    run(sys.executable, "tests/report/run.py", *passed_on)
     print("No test has failed. What is missing above has not been run.")
 
 

@@ -35,6 +35,11 @@ pub enum Error {
     /// The model cannot start with the values that it was to be given.
     #[error("{model} cannot start with these values: {refusal}")]
     Start { model: &'static str, refusal: Refusal },
+    /// None of the models that are to be built takes what was given.
+    #[error(
+        "--{option} would do nothing: none of the models to build takes it ({who}); choose others with --model, or leave it out"
+    )]
+    NotTaken { option: &'static str, who: &'static str },
     /// A rig or parameter file cannot be used.
     #[error("{0}")]
     Setup(#[from] washout_setup::Error),

@@ -35,7 +35,7 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     rig: Option<PathBuf>,
 
-    /// Parameter file, or shipped set (wake), whose values the washout's FMU starts with; another model's if --model names
+    /// Parameter file, or shipped set (wake, preaction), whose values the washout's FMU starts with; another model's if --model names
     /// that one alone. May be given several times: later ones stand over earlier ones, and all over the rig
     #[arg(long, value_name = "FILE|NAME")]
     parameters: Vec<String>,
@@ -60,6 +60,7 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let chosen = |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
     let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
     // Before anything is compiled.
+    check_taken(arguments, &models)?;
     let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
     let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
     for (model, start) in models.iter().zip(&starts) {
@@ -73,6 +74,23 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
+/// Whether each of the options that give start values is taken by one of the models.
+fn check_taken(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
+    if arguments.rig.is_some() && !models.iter().any(|model| model.has_rig()) {
+        return Err(Error::NotTaken { option: "rig", who: "only models with a platform have a rig" });
+    }
+    if !arguments.parameters.is_empty() && !models.iter().any(|model| takes_parameters(arguments, model)) {
+        let who = "of several models only the washout does; any other one has to be chosen alone";
+        return Err(Error::NotTaken { option: "parameters", who });
+    }
+    Ok(())
+}
+
+/// Parameters are the washout's, or those of a model that is chosen alone.
+fn takes_parameters(arguments: &Arguments, model: &Model) -> bool {
+    arguments.model.len() == 1 || model.name == WASHOUT.name
+}
+
 /// What is to stand in place of a model's own start values: the rig where it has one, and over it the parameters where they
 /// are its own.
 fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Error> {
@@ -80,8 +98,7 @@ fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Err
     if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {
         values.extend(load_rig(file)?.values());
     }
-    let is_chosen_alone = arguments.model.len() == 1;
-    if is_chosen_alone || model.name == WASHOUT.name {
+    if takes_parameters(arguments, model) {
         for set in &arguments.parameters {
             values.extend(load_set(set, model.made.identity.rows)?);
         }
@@ -91,4 +108,32 @@ fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Err
 
 fn model_names() -> PossibleValuesParser {
     PossibleValuesParser::new(MODELS.iter().map(|model| model.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refusal(arguments: &[&str]) -> Option<String> {
+        let arguments = Arguments::parse_from([&["build-fmu"], arguments].concat());
+        let chosen =
+            |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
+        let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
+        check_taken(&arguments, &models).err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn values_that_no_chosen_model_takes_are_refused() {
+        let refused = refusal(&["--model", "Motorcycle", "--rig", "rig.toml"]).unwrap();
+        assert!(refused.contains("--rig would do nothing") && refused.contains("--model"), "{refused}");
+        let refused = refusal(&["--model", "Motorcycle,StewartPlatform", "--parameters", "mine.toml"]).unwrap();
+        assert!(refused.contains("--parameters would do nothing"), "{refused}");
+    }
+
+    #[test]
+    fn values_that_one_of_the_models_takes_are_not() {
+        assert_eq!(refusal(&["--rig", "rig.toml", "--parameters", "wake"]), None);
+        assert_eq!(refusal(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
+        assert_eq!(refusal(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
+    }
 }

@@ -11,7 +11,7 @@ pub struct SetupOptions {
     #[arg(long, value_name = "FILE")]
     pub rig: Option<PathBuf>,
 
-    /// Parameter file, or a shipped set: default, wake. May be given several times: later ones stand over earlier ones
+    /// Parameter file, or a shipped set: default, wake, preaction. May be given several times: later ones stand over earlier ones
     #[arg(long, value_name = "FILE|NAME")]
     pub parameters: Vec<String>,
 }

@@ -91,7 +91,7 @@ fn a_run_leaves_the_crate_s_outputs_and_a_page() {
     parameters.conditioning.angular_velocity_frame = moris_washout::interface::AngularVelocityFrame::Body;
     let mut washout = Washout::new(&parameters).unwrap();
     let inputs = ride();
-    let mut table = csv::Reader::from_path(directory.path().join("out/ride.csv")).unwrap();
+    let mut table = csv::Reader::from_path(directory.path().join("out/ride.outputs.csv")).unwrap();
     let column = |name: &str, table: &mut csv::Reader<fs::File>| {
         table.headers().unwrap().iter().position(|header| header == name).unwrap_or_else(|| panic!("{name}"))
     };
@@ -129,8 +129,40 @@ fn runs_with_other_parameters_stand_beside_the_first() {
         said.contains("Narrow mock-up, 0.45 m stroke, parameters default:") && said.contains("parameters wake:"),
         "{said}"
     );
-    for file in ["ride.csv", "ride.wake.csv", "ride.html"] {
+    for file in ["ride.outputs.csv", "ride.wake.outputs.csv", "ride.html"] {
         assert!(directory.path().join("report").join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn a_recording_in_the_report_s_directory_is_left_as_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    fs::create_dir(directory.path().join("report")).unwrap();
+    write_ride(directory.path(), "report/ride.csv");
+    let before = fs::read(directory.path().join("report/ride.csv")).unwrap();
+    let output = moris(directory.path(), &["run", "report/ride.csv", "--no-bound"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(fs::read(directory.path().join("report/ride.csv")).unwrap(), before);
+}
+
+#[test]
+fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    fs::create_dir(here.join("other")).unwrap();
+    for name in ["ride.csv", "other/ride.csv", "ride.outputs.csv"] {
+        write_ride(here, name);
+    }
+    for arguments in [
+        &["run", "ride.csv", "other/ride.csv"][..],
+        &["run", "ride.csv", "--against", "wake", "--against", "wake"],
+        &["run", "ride.csv", "ride.outputs.csv"],
+    ] {
+        let output = moris(here, arguments);
+        assert!(!output.status.success(), "{arguments:?}");
+        let said = text(&output.stderr);
+        assert!(said.contains("outputs.csv") && said.contains("rename"), "{said}");
+        assert!(!here.join("report").exists());
     }
 }
 

@@ -380,3 +380,11 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_command_s_own_time_to_lead_in_gives_way_to_any_that_is_said_also_to_none() {
+    let fade_in = |said| ConventionOptions { fade_in: said, ..ConventionOptions::default() };
+    let found = |said| fade_in(said).load_or_fade_in(1.0).unwrap().fade_in;
+    assert_eq!((found(None), found(Some(0.0)), found(Some(2.0))), (1.0, 0.0, 2.0));
+    assert_eq!(fade_in(None).load().unwrap().fade_in, 0.0);
+}

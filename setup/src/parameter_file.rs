@@ -75,7 +75,7 @@ impl Reader<'_> {
                 what: "parameter",
                 name: name.to_owned(),
                 nearest: nearest(name, names.iter().map(String::as_str)).into_iter().map(str::to_owned).collect(),
-                otherwise: "`moris parameters` lists them all",
+                otherwise: "`cargo moris parameters` lists the washout's, an FMU's modelDescription.xml any model's",
             }
         })
     }

@@ -1,9 +1,9 @@
 //! The shipped parameter sets, by name.
 
-use moris_washout::parameter_sets::WAKE;
+use moris_washout::parameter_sets::{PREACTION, WAKE};
 
 /// A parameter set: names and values of variables.
 pub type ParameterSet = &'static [(&'static str, f64)];
 
 /// The parameter sets that are shipped, by the names that users write.
-pub const SETS: &[(&str, ParameterSet)] = &[("default", &[]), ("wake", WAKE)];
+pub const SETS: &[(&str, ParameterSet)] = &[("default", &[]), ("wake", WAKE), ("preaction", PREACTION)];

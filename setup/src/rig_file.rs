@@ -37,7 +37,7 @@ use moris_washout::{Refusal, Rig, check};
 use serde::Deserialize;
 
 use crate::names::nearest;
-use crate::ranges::{Axis, single_axis_range};
+use crate::ranges::{Axis, displaced, single_axis_range, stroke_margin};
 use crate::{Error, NamedValues};
 
 /// Share of the reach along an axis alone that a safety unit allows where the file does not say.
@@ -221,7 +221,12 @@ impl RigFile {
         let defaults = Parameters::default();
         let rig = self.rig();
         let vector = |given: Option<[f64; 3]>, default| given.map_or(default, Vector3::from);
+        // Legs that do not reach neutral reach nothing, and a limit of nothing would be refused before they are.
+        let reaches_neutral = stroke_margin(&rig, &displaced(&rig, Axis::Heave, 0.0)) >= 0.0;
         let reach = || {
+            if !reaches_neutral {
+                return defaults.safety.position_limit;
+            }
             let smaller = |axis| single_axis_range(&rig, axis).smaller();
             SAFETY_SHARE * Vector3::new(smaller(Axis::Surge), smaller(Axis::Sway), smaller(Axis::Heave))
         };

@@ -122,3 +122,9 @@ fn parameters_that_do_not_go_together_are_refused() {
     let message = Setup::load(None, &[file.display().to_string()]).unwrap_err().to_string();
     assert!(message.contains("actuator.minLength: is 1.7, not below actuator.maxLength"), "{message}");
 }
+
+#[test]
+fn the_set_preaction_turns_preaction_on_and_changes_nothing_else() {
+    let setup = Setup::load(None, &["preaction".to_owned()]).unwrap();
+    assert_eq!(setup.values(), vec![("preaction".to_owned(), 2.0)]);
+}

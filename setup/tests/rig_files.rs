@@ -105,6 +105,11 @@ fn similar_hexagons_are_read_but_do_not_pass() {
 
 #[test]
 fn legs_that_do_not_reach_neutral_are_refused_by_number() {
-    let refusal = read(&default_text().replace("1.091", "2.0"), "my.toml").unwrap().check().unwrap_err();
-    assert!(refusal.to_string().contains("actuator 1"), "{refusal}");
+    let text = default_text().replace("1.091", "2.0");
+    let without_safety = &text[..text.find("[safety]").unwrap()];
+    for text in [&text, without_safety] {
+        let refusal = read(text, "my.toml").unwrap().check().unwrap_err();
+        assert_eq!(refusal.variable, "rig.neutralHeight");
+        assert!(refusal.to_string().contains("actuator 1"), "{refusal}");
+    }
 }

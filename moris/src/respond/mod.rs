@@ -55,7 +55,7 @@ pub struct Options {
 
     /// Directory for the table (response.csv) and the pictures (direct.svg, cross.svg)
     #[arg(long, value_name = "DIRECTORY", default_value = "response")]
-    out: PathBuf,
+    report: PathBuf,
 }
 
 /// Responses on all channels at all frequencies, channel by channel in the order of the frequencies.
@@ -112,8 +112,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 
     writeln!(out, "Frequency response, felt over desired: {}, parameters: {}", setup.rig_name, setup.parameters_name)?;
     write!(out, "{}", table::text(&measured))?;
-    fs::create_dir_all(&options.out).with_context(|| format!("cannot make {}", options.out.display()))?;
-    let file = |name: &str| options.out.join(name);
+    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    let file = |name: &str| options.report.join(name);
     table::write(&file("response.csv"), &measured)?;
     picture::direct(&file("direct.svg"), &measured)?;
     picture::cross(&file("cross.svg"), &measured)?;

@@ -304,11 +304,25 @@ impl ConventionOptions {
     /// # Errors
     /// The file cannot be read or says something that cannot be said.
     pub fn load(&self) -> Result<Conventions, RideError> {
-        let Some(file) = &self.conventions else { return self.checked() };
+        self.load_or_fade_in(0.0)
+    }
+
+    /// The same, with another time to lead recordings in where neither the options nor the file say one \[s\].
+    ///
+    /// # Errors
+    /// As [`ConventionOptions::load`].
+    pub fn load_or_fade_in(&self, fade_in: f64) -> Result<Conventions, RideError> {
+        let said = self.with_file()?;
+        ConventionOptions { fade_in: said.fade_in.or(Some(fade_in)), ..said }.checked()
+    }
+
+    /// The options over what the file says, if there is one.
+    fn with_file(&self) -> Result<ConventionOptions, RideError> {
+        let Some(file) = &self.conventions else { return Ok(self.clone()) };
         let text = fs::read_to_string(file).map_err(|reason| RideError::Read { file: file.clone(), reason })?;
         let said: ConventionOptions = toml::from_str(&text)
             .map_err(|error| RideError::Conventions { file: file.clone(), reason: error.to_string() })?;
-        self.over(said).checked()
+        Ok(self.over(said))
     }
 
     /// These options over others.

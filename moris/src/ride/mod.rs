@@ -62,13 +62,18 @@ impl Ride {
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
         remarks.extend(suspicion::remarks(&inputs));
         Ok(Ride {
-            name: file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+            name: Ride::name_of(file),
             start: table.time[0],
             manoeuvre: Manoeuvre::new(table.step(), inputs),
             angular_velocity_frame: conventions.rate_frame.into(),
             has_orientation: table.has_orientation(),
             remarks,
         })
+    }
+
+    /// What the ride in a file is called: as the file is, without directory and extension.
+    pub fn name_of(file: &Path) -> String {
+        file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
     }
 
     /// The parameters with which to ride it: those given, with the axes of the angular velocity that are the recording's.

@@ -11,12 +11,13 @@ pub mod page;
 pub mod recording;
 pub mod summary;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use cue_measures::{Axes, Measures};
 use indicatif::{ProgressBar, ProgressStyle};
 use washout_setup::Setup;
@@ -28,7 +29,7 @@ pub use recording::Recording;
 
 /// Ride recordings on a rig and report how well they are felt
 ///
-/// For each ride the measures are printed, and two files are written into the report's directory: RIDE.csv, every input and
+/// For each ride the measures are printed, and two files are written into the report's directory: RIDE.outputs.csv, every input and
 /// output at every sample by the names of the FMU's variables, and RIDE.html, a page with everything drawn, the moving
 /// platform among it, which needs no network and nothing beside it.
 #[derive(Clone, Debug, clap::Args)]
@@ -103,6 +104,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     for other in &options.against {
         setups.push(Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?);
     }
+    check_names(&options.rides, &setups)?;
     let conventions = options.conventions.load()?;
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     for file in &options.rides {
@@ -128,16 +130,55 @@ fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool) -> Result<Vec<Outc
     outcomes
 }
 
+/// The name of the table of a ride's outputs with one of the setups: the first's is the ride's, those beside it are told apart by
+/// their parameters.
+fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
+    match index {
+        0 => format!("{ride}.outputs.csv"),
+        _ => format!("{ride}.{}.outputs.csv", setup.parameters_name),
+    }
+}
+
+/// Whether every table and page has a name of its own, and none of them is a recording's.
+///
+/// # Errors
+/// Two of them would be written into one file, or one over a recording.
+fn check_names(rides: &[PathBuf], setups: &[Setup]) -> Result<()> {
+    let mut tables = BTreeMap::new();
+    for ride in rides {
+        let stem = Ride::name_of(ride);
+        for (index, setup) in setups.iter().enumerate() {
+            let name = table_name(&stem, index, setup);
+            if rides.iter().any(|ride| ride.file_name().is_some_and(|file| file == name.as_str())) {
+                bail!(
+                    "{name} is both a recording and what the outputs of {} are to be written into; rename the recording",
+                    ride.display()
+                );
+            }
+            match tables.insert(name.clone(), ride) {
+                Some(other) if other == ride => bail!(
+                    "{} would be ridden twice, or with two --against of the same name, and both written into {name}; name each once, \
+                     and rename one of two parameter files of the same name",
+                    ride.display()
+                ),
+                Some(other) => bail!(
+                    "the outputs of {} and {} would both be written into {name}; rename one of them, or ride each with a --report \
+                     of its own",
+                    other.display(),
+                    ride.display()
+                ),
+                None => (),
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Writes the tables of outputs and the page; returns their names.
 fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (index, outcome) in outcomes.iter().enumerate() {
-        // The first is the ride's; those beside it are told apart by their parameters.
-        let name = match index {
-            0 => format!("{}.csv", ride.name),
-            _ => format!("{}.{}.csv", ride.name, outcome.setup.parameters_name),
-        };
-        let file = directory.join(name);
+        let file = directory.join(table_name(&ride.name, index, &outcome.setup));
         output_table::write(&file, &outcome.recording)?;
         written.push(file);
     }

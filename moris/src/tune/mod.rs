@@ -82,10 +82,7 @@ fn number_of_folds(options: &Options) -> usize {
 }
 
 fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Judge>> {
-    let mut conventions = options.conventions.load()?;
-    if conventions.fade_in == 0.0 {
-        conventions.fade_in = LEAD_IN;
-    }
+    let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
     let judge = |file: &PathBuf| {
         let ride = Ride::read(file, &conventions)?;
         Ok(Judge::new(ride, &setup.parameters, &options.weights, options.constraints())?)
@@ -118,6 +115,7 @@ fn results(tuner: &Tuner, judges: &[&Judge], held_out: &[&Judge], tuned: &Setup)
             before: tuner::full_cost(judge, tuner.setup)?,
             tuned: (!is_held_out).then_some(after),
             unseen: is_held_out.then_some(after),
+            nothing_found_without: false,
         })
     };
     let tuned_on = judges.par_iter().map(|judge| result(judge, false));

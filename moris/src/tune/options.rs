@@ -46,7 +46,7 @@ pub struct Options {
     #[arg(long, value_name = "METRES", value_parser = reserve, default_value = "0.01")]
     pub stroke_reserve: f64,
 
-    /// Parameter sets to try in each search
+    /// Parameter sets that each search tries after its coarse scan, whose sets are not counted
     #[arg(long, value_name = "NUMBER", default_value_t = 3000)]
     pub evaluations: usize,
 

@@ -19,6 +19,8 @@ pub struct RideResult {
     pub tuned: Option<Cost>,
     /// With parameters that were tuned without this ride.
     pub unseen: Option<Cost>,
+    /// No parameters that keep the limits were found without this ride.
+    pub nothing_found_without: bool,
 }
 
 /// The channels' names.
@@ -62,8 +64,13 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
             .expect("a string takes whatever is written"),
         }
     }
+    text.push_str(&without_result(results));
     let Some(unseen) = unseen else {
-        text.push_str(" No ride was held out: nothing is known of other rides.");
+        text.push_str(if results.iter().any(|result| result.nothing_found_without) {
+            " Nothing is known of other rides."
+        } else {
+            " No ride was held out: nothing is known of other rides."
+        });
         return text;
     };
     let Comparison { rides, before, after, better, .. } = unseen;
@@ -81,6 +88,20 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
         " **It does not clearly beat the parameters that it started from**: these rides have too little in common, or are too few."
     });
     text
+}
+
+/// Without which rides nothing was found; empty where there are none.
+fn without_result(results: &[RideResult]) -> String {
+    let rides: Vec<&str> =
+        results.iter().filter(|result| result.nothing_found_without).map(|result| result.name.as_str()).collect();
+    if rides.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\n\nTuned without {}, no parameters were found that keep the limits on the others: nothing is known of it as a ride not tuned on. \
+         More --evaluations may find some.",
+        rides.join(", or ")
+    )
 }
 
 /// Errors before and after over some rides.
@@ -118,9 +139,13 @@ impl Comparison {
 
 fn errors(results: &[RideResult]) -> String {
     let cell = |cost: &Option<Cost>| cost.map_or_else(|| "–".to_owned(), |cost| with_limits(&cost));
+    let unseen = |result: &RideResult| match result.nothing_found_without {
+        true => "none found".to_owned(),
+        false => cell(&result.unseen),
+    };
     let rows = results
         .iter()
-        .map(|result| [result.name.clone(), with_limits(&result.before), cell(&result.tuned), cell(&result.unseen)]);
+        .map(|result| [result.name.clone(), with_limits(&result.before), cell(&result.tuned), unseen(result)]);
     table(["ride", "before", "tuned", "tuned without it"], rows)
 }
 
@@ -182,7 +207,7 @@ mod tests {
 
     fn result(before: Cost, unseen: Option<Cost>) -> RideResult {
         let tuned = Some(cost(0.5, 0.0));
-        RideResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen }
+        RideResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen, nothing_found_without: false }
     }
 
     const BEATS: &str = "**It beats the parameters that it started from.**";
@@ -210,6 +235,18 @@ mod tests {
         assert!(text.contains("No ride was held out: nothing is known of other rides."), "{text}");
         assert!(text.contains("default let the platform's limits act, or the reserve be touched, on 1 of 1"), "{text}");
         assert!(!text.contains(BEATS));
+    }
+
+    #[test]
+    fn a_ride_without_which_nothing_was_found_is_named_and_does_not_count() {
+        let found = result(cost(0.8, 0.0), Some(cost(0.6, 0.0)));
+        let not = RideResult { name: "wild".to_owned(), nothing_found_without: true, ..result(cost(0.9, 0.0), None) };
+        let text = verdict(&[found.clone(), not.clone()], "default");
+        assert!(text.contains("Tuned without wild, no parameters were found"), "{text}");
+        assert!(text.contains("better on 1 of 1"), "{text}");
+        assert!(errors(&[found, not.clone()]).lines().any(|line| line.contains("wild") && line.contains("none found")));
+        let text = verdict(&[not], "default");
+        assert!(text.ends_with("Nothing is known of other rides.") && !text.contains("held out"), "{text}");
     }
 
     #[test]

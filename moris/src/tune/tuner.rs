@@ -1,9 +1,11 @@
 //! One tuning: search, and see whether what was found holds in the steps that it will be used with.
 
+use std::error::Error;
+use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use indicatif::ProgressBar;
 use moris_washout::Parameters;
 use rayon::prelude::*;
@@ -14,6 +16,18 @@ use super::search::{Budget, Searched, search};
 use super::space::Space;
 use super::summary::RideResult;
 use crate::run::Recording;
+
+/// No parameters were found that keep the constraints; the text says where, and what to do.
+#[derive(Debug)]
+pub struct NothingFound(String);
+
+impl fmt::Display for NothingFound {
+    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
+        formatter.write_str(&self.0)
+    }
+}
+
+impl Error for NothingFound {}
 
 /// Tunes on rides, as often as asked.
 pub struct Tuner<'a> {
@@ -38,7 +52,7 @@ impl Tuner<'_> {
     /// The best parameters for these rides that keep all constraints, also in the internal steps that they will be used with.
     ///
     /// # Errors
-    /// None were found, or parameters cannot be used.
+    /// None were found ([`NothingFound`]), or parameters cannot be used.
     pub fn tune(&self, judges: &[&Judge], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
         let searched = search(judges, &self.space, self.budget, |tried, least| {
@@ -55,12 +69,13 @@ impl Tuner<'_> {
             }
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
-        bail!(
+        let text = format!(
             "no parameters were found with which every ride stays clear of the safety units and the actuators' limits{}; leave out the ride \
              that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, where it vibrates, \
              --tune splitter,angular,scale,cutoff",
             self.held_up(judges, &nearest)?
-        )
+        );
+        Err(NothingFound(text).into())
     }
 
     /// What to try in the steps that it will be used with, one after the other: what the search found to be best, and, where none of that
@@ -89,7 +104,8 @@ impl Tuner<'_> {
         Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
     }
 
-    /// Tunes without these rides and adds to their results what they come to then. Does nothing once the user wants it to end:
+    /// Tunes without these rides and adds to their results what they come to then, or that nothing was found: what was tuned on all rides
+    /// is worth no less for it. Does nothing once the user wants it to end:
     /// a search that was broken off says nothing.
     ///
     /// # Errors
@@ -105,11 +121,19 @@ impl Tuner<'_> {
         if self.was_interrupted() {
             return Ok(());
         }
-        let tuned = tuned?;
-        for &k in fold {
-            results[k].unseen = Some(full_cost(judges[k], &tuned)?);
+        match tuned {
+            Ok(tuned) => {
+                for &k in fold {
+                    results[k].unseen = Some(full_cost(judges[k], &tuned)?);
+                }
+                Ok(())
+            }
+            Err(error) if error.is::<NothingFound>() => {
+                fold.iter().for_each(|&k| results[k].nothing_found_without = true);
+                Ok(())
+            }
+            Err(error) => Err(error),
         }
-        Ok(())
     }
 }
 
