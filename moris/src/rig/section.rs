@@ -1,8 +1,8 @@
 //! Sections through the workspace of the level platform.
 //!
 //! With the platform level, each leg keeps its origin inside a shell: a ball of its longest about the point where its joints
-//! would meet, less a ball of its shortest. A section of a shell is a ring, and so the drawing is exact: six discs clipped by
-//! one another, less six others.
+//! would meet, less a ball of its shortest. A section of a shell is a ring, and so the drawing is exact: what six discs
+//! have in common, less six others.
 
 use std::fmt::Write;
 
@@ -81,34 +81,23 @@ fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option
     (0..6).map(ring).collect()
 }
 
-/// What is inside all rings, filled. The discs clip one another in a chain; the holes are masked out.
+/// What is inside all rings, filled: groups within groups, each clipped by one disc, with the holes masked out. (A clip of a
+/// clip would say the same, but not every viewer follows it.)
 fn shape(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
     let circle = |ring: &Ring, radius: f64| {
         let [x, y] = window.pixel(ring.centre);
-        format!(r#"cx="{x:.2}" cy="{y:.2}" r="{:.2}""#, radius * window.scale())
+        format!(r#"<circle cx="{x:.2}" cy="{y:.2}" r="{:.2}"/>"#, radius * window.scale())
     };
-    let mut text = format!(r#"<clipPath id="{name}w"><rect {}/></clipPath>"#, window.area());
-    let mut within = format!("{name}w");
+    let area = window.area();
+    let (mut discs, mut open, mut holes) = (String::new(), String::new(), String::new());
     for (leg, ring) in rings.iter().enumerate() {
-        let id = format!("{name}c{leg}");
-        write!(
-            text,
-            r#"<clipPath id="{id}" clip-path="url(#{within})"><circle {}/></clipPath>"#,
-            circle(ring, ring.outer)
-        )
-        .expect("a string takes it");
-        within = id;
+        discs += &format!(r#"<clipPath id="{name}c{leg}">{}</clipPath>"#, circle(ring, ring.outer));
+        open += &format!(r#"<g clip-path="url(#{name}c{leg})">"#);
+        holes += &circle(ring, ring.inner);
     }
-    write!(text, r##"<mask id="{name}h" maskUnits="userSpaceOnUse" {0}><rect {0} fill="#fff"/>"##, window.area())
-        .expect("a string takes it");
-    for ring in rings {
-        write!(text, r##"<circle {} fill="#000"/>"##, circle(ring, ring.inner)).expect("a string takes it");
-    }
-    write!(
-        text,
-        r#"</mask><g mask="url(#{name}h)"><g clip-path="url(#{within})"><rect {} fill="{colour}"/></g></g>"#,
-        window.area()
-    )
-    .expect("a string takes it");
-    text
+    let close = "</g>".repeat(rings.len());
+    let mask = format!(
+        r##"<mask id="{name}h" maskUnits="userSpaceOnUse" {area}><rect {area} fill="#fff"/><g fill="#000">{holes}</g></mask>"##
+    );
+    format!(r#"{discs}{mask}<g mask="url(#{name}h)">{open}<rect {area} fill="{colour}"/>{close}</g>"#)
 }
