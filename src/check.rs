@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Kind, Refusal, Row, Variability, Writer, slot_count};
+use model_interface::{Group, Kind, Refusal, Row, Variability, Writer, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, leg_lengths, survey};
@@ -42,10 +42,6 @@ fn values(parameters: &Parameters) -> Values {
     let mut values = [0.0; slot_count(Parameters::ROWS)];
     parameters.write(&mut Writer::new(&mut values));
     values
-}
-
-fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, Refusal> {
-    Err(Refusal { variable: variable.into(), reason: reason.into() })
 }
 
 /// What a value must be on its own.

@@ -13,15 +13,7 @@ const IDENTITY: Identity = Washout::IDENTITY;
 
 /// The library, which `cargo test` has put beside the test.
 fn library() -> PathBuf {
-    let name = format!("{}shared_library_fmi3{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let test = std::env::current_exe().unwrap();
-    let path = test.parent().and_then(|deps| deps.parent()).unwrap().join("examples").join(name);
-    assert!(
-        path.is_file(),
-        "{} is missing: run `cargo test` without choosing a target, or `cargo build --examples`",
-        path.display()
-    );
-    path
+    fmu_host::example_library("shared_library_fmi3")
 }
 
 /// An instance of the washout, freed when it is dropped.

@@ -21,7 +21,7 @@ pub use serde;
 
 pub use field::Field;
 pub use guid::{guid, guid_of};
-pub use model::{Identity, Model, Refusal};
+pub use model::{Identity, Model, Refusal, refuse};
 pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, concat_rows, row_count};
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
 pub use start::{read_start_values, start_values, write_start_values};

@@ -44,6 +44,14 @@ pub struct Refusal {
     pub reason: String,
 }
 
+/// An error: this variable cannot be used, for this reason.
+///
+/// # Errors
+/// Always.
+pub fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, Refusal> {
+    Err(Refusal { variable: variable.into(), reason: reason.into() })
+}
+
 /// A model that a host steps.
 ///
 /// The host keeps the values, one `f64` a slot. It gives the model the slots when parameters matter ([`Model::new`],

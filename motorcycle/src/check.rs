@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Kind, Refusal, Row, Writer, slot_count};
+use model_interface::{Group, Kind, Refusal, Row, Writer, refuse, slot_count};
 
 use nalgebra::{Complex, SVector};
 
@@ -136,10 +136,6 @@ fn fastest_lag(parameters: &Parameters) -> f64 {
 const SPEEDS: u32 = 200;
 
 type Values = [f64; slot_count(Parameters::ROWS)];
-
-fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, Refusal> {
-    Err(Refusal { variable: variable.into(), reason: reason.into() })
-}
 
 /// What a value must be on its own.
 enum Rule {

@@ -1,12 +1,12 @@
 //! How the platform comes to rest: the plan that has to fit before a motion is allowed.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{Coordinates, Geometry, Legs, inverse_kinematics, leg_accelerations};
 use crate::governor::Limits;
 use crate::interface::SafetyParameters;
 use crate::motions::Motions;
-use nalgebra::Vector3;
 
 /// The decelerations of the coordinates on the way to rest, none of them negative: of surge, sway and heave \[m/s2\] and
 /// of roll, pitch and yaw \[rad/s2\].

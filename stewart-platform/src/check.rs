@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Refusal, Row, Writer, slot_count};
+use model_interface::{Group, Refusal, Row, Writer, refuse, slot_count};
 use moris_washout::interface::StructureParameters;
 use nalgebra::Vector6;
 
@@ -26,10 +26,6 @@ pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refu
     };
     moris_washout::check(&moris_washout::Parameters { rig: *rig, structure, ..Default::default() })?;
     check_force_limit(actuators.force_limit, at_rest)
-}
-
-fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, Refusal> {
-    Err(Refusal { variable: variable.into(), reason: reason.into() })
 }
 
 /// The least and the largest value that a variable may have.

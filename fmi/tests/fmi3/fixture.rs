@@ -18,15 +18,7 @@ pub const ERROR: c_int = 3;
 
 /// The library, which `cargo test` has put beside the test.
 pub fn library() -> PathBuf {
-    let name = format!("{}lags{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let test = std::env::current_exe().unwrap();
-    let path = test.parent().and_then(|deps| deps.parent()).unwrap().join("examples").join(name);
-    assert!(
-        path.is_file(),
-        "{} is missing: run `cargo test` without choosing a target, or `cargo build --examples`",
-        path.display()
-    );
-    path
+    fmu_host::example_library("lags")
 }
 
 pub fn open() -> Library {

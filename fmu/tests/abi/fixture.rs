@@ -11,20 +11,7 @@ pub const IDENTITY: Identity = Washout::IDENTITY;
 
 /// The library, which `cargo test` has put beside the test.
 pub fn library() -> PathBuf {
-    library_named("shared_library")
-}
-
-/// A library made of the example of this name.
-pub fn library_named(example: &str) -> PathBuf {
-    let name = format!("{}{example}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
-    let test = std::env::current_exe().unwrap();
-    let path = test.parent().and_then(|deps| deps.parent()).unwrap().join("examples").join(name);
-    assert!(
-        path.is_file(),
-        "{} is missing: run `cargo test` without choosing a target, or `cargo build --examples`",
-        path.display()
-    );
-    path
+    fmu_host::example_library("shared_library")
 }
 
 pub fn open() -> Fmu {

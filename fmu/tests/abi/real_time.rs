@@ -4,7 +4,7 @@
 use fmu_host::{Fmu, Instance, Status};
 use libloading::{Library, Symbol};
 
-use crate::fixture::{IDENTITY, input, library_named, open_library, real_inputs, reference};
+use crate::fixture::{IDENTITY, input, open_library, real_inputs, reference};
 
 const STEP: f64 = 1e-3;
 
@@ -62,7 +62,7 @@ impl Loop {
 
 #[test]
 fn no_set_step_or_get_touches_memory() {
-    let path = library_named("counting_library");
+    let path = fmu_host::example_library("counting_library");
     let mut running = Loop::new(&open_library(&path));
     // SAFETY: the library is the one just opened, and the function is declared as it is defined there.
     let library = unsafe { Library::new(&path) }.unwrap();
