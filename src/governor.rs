@@ -70,14 +70,8 @@ impl Limits {
     /// [`Limits::follow`].
     pub fn at_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
-        // Where the step would end if the velocity at its end were zero; each metre per second adds half a step.
-        let coasted = position + 0.5 * velocity * step;
-        let reserve = self.reserve(step);
-        let fastest = approach_velocity(self.max - coasted, self.acceleration, reserve).min(self.velocity);
-        let slowest = approach_velocity(self.min - coasted, self.acceleration, reserve).max(-self.velocity);
-        let change = self.acceleration * step;
-        let next = wanted.min(fastest).max(slowest).clamp(velocity - change, velocity + change);
-        let arrived = coasted + 0.5 * next * step;
+        let next = self.nearest_velocity(motion, wanted, step);
+        let arrived = position + 0.5 * velocity * step + 0.5 * next * step;
         let inside = (self.min..=self.max).contains(&position);
         Motion {
             // The law keeps the limits but for rounding; this removes the rounding.
@@ -85,6 +79,18 @@ impl Limits {
             velocity: next,
             acceleration: ((next - velocity) / step).clamp(-self.acceleration, self.acceleration),
         }
+    }
+
+    /// The velocity nearest to the wanted one that a motion can have after one step and still keep the limits.
+    pub fn nearest_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> f64 {
+        let Motion { position, velocity, .. } = *motion;
+        // Where the step would end if the velocity at its end were zero; each metre per second adds half a step.
+        let coasted = position + 0.5 * velocity * step;
+        let reserve = self.reserve(step);
+        let fastest = approach_velocity(self.max - coasted, self.acceleration, reserve).min(self.velocity);
+        let slowest = approach_velocity(self.min - coasted, self.acceleration, reserve).max(-self.velocity);
+        let change = self.acceleration * step;
+        wanted.min(fastest).max(slowest).clamp(velocity - change, velocity + change)
     }
 
     /// The step that [`approach_velocity`] needs where the one after this may be longer.

@@ -1,6 +1,6 @@
 //! A leg's drive: a second-order response to the command, within limits of speed, acceleration and stroke.
 
-use moris_washout::governor::{Motion, approach_velocity};
+use moris_washout::governor::{Limits, Motion, approach_velocity};
 
 use crate::interface::Parameters;
 
@@ -13,16 +13,6 @@ pub struct Drive {
     damping: f64,
     response: Response,
     limits: Limits,
-}
-
-/// What a drive keeps to.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Limits {
-    min: f64,
-    max: f64,
-    velocity: f64,
-    acceleration: f64,
-    longest_step: f64,
 }
 
 /// Where a drive wants its leg at a step's end.
@@ -65,10 +55,22 @@ impl Drive {
             velocity: slope + rate_after,
             acceleration: self.acceleration(offset_after, rate_after),
         };
-        if self.acceleration(offset, rate).abs() <= self.limits.acceleration && self.limits.allow(&motion) {
+        if self.acceleration(offset, rate).abs() <= self.limits.acceleration && allowed(&self.limits, &motion) {
             return Aim { motion, limited: false };
         }
-        Aim { motion: self.limits.within(length, velocity, motion.velocity, self.step), limited: true }
+        Aim { motion: self.held(length, velocity, motion.velocity), limited: true }
+    }
+
+    /// The motion after the step that comes nearest to the wanted velocity within the limits.
+    fn held(&self, length: f64, velocity: f64, wanted: f64) -> Motion {
+        let now = Motion { position: length, velocity, acceleration: 0.0 };
+        let next = self.limits.nearest_velocity(&now, wanted, self.step);
+        let coasted = length + 0.5 * velocity * self.step;
+        Motion {
+            position: coasted + 0.5 * next * self.step,
+            velocity: next,
+            acceleration: (next - velocity) / self.step,
+        }
     }
 
     /// x'' = -2 z w x' - w^2 x.
@@ -77,28 +79,14 @@ impl Drive {
     }
 }
 
-impl Limits {
-    /// Whether a leg may move so: within all limits, and able to stop ahead of the ends.
-    fn allow(&self, motion: &Motion) -> bool {
-        let Motion { position, velocity, acceleration } = *motion;
-        let ahead = if velocity > 0.0 { self.max - position } else { position - self.min };
-        velocity.abs() <= self.velocity
-            && acceleration.abs() <= self.acceleration
-            && (self.min..=self.max).contains(&position)
-            && velocity.abs() <= approach_velocity(ahead, self.acceleration, self.longest_step)
-    }
-
-    /// The motion after a step that comes nearest to the wanted velocity within the limits.
-    fn within(&self, length: f64, velocity: f64, wanted: f64, step: f64) -> Motion {
-        // Where the step would end if the velocity at its end were zero; see the washout's braking law.
-        let coasted = length + 0.5 * velocity * step;
-        let reserve = 0.5 * (step + self.longest_step);
-        let fastest = approach_velocity(self.max - coasted, self.acceleration, reserve).min(self.velocity);
-        let slowest = approach_velocity(self.min - coasted, self.acceleration, reserve).max(-self.velocity);
-        let change = self.acceleration * step;
-        let next = wanted.min(fastest).max(slowest).clamp(velocity - change, velocity + change);
-        Motion { position: coasted + 0.5 * next * step, velocity: next, acceleration: (next - velocity) / step }
-    }
+/// Whether a leg may move so: within all limits, and able to stop ahead of the ends.
+fn allowed(limits: &Limits, motion: &Motion) -> bool {
+    let Motion { position, velocity, acceleration } = *motion;
+    let ahead = if velocity > 0.0 { limits.max - position } else { position - limits.min };
+    velocity.abs() <= limits.velocity
+        && acceleration.abs() <= limits.acceleration
+        && (limits.min..=limits.max).contains(&position)
+        && velocity.abs() <= approach_velocity(ahead, limits.acceleration, limits.longest_step)
 }
 
 /// The free motion of x'' + 2 z w x' + w^2 x = 0 over a step, exact: (x, x') after it from (x, x') before.
