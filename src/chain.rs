@@ -6,8 +6,8 @@
 //! integrator runs free, nothing drifts.
 
 use nalgebra::{SMatrix, Vector3};
-use wide::f64x4;
 use serde::{Deserialize, Serialize};
+use wide::f64x4;
 
 /// The coefficients c1..c4 of D(s); those beyond the order are zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -6,6 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::extremes::{larger, smaller};
+
 /// Position, velocity and acceleration of something that moves along a line, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion {
@@ -59,6 +61,7 @@ impl Limits {
     ///
     /// If the motion is already outside its limits (they may have been lowered), it comes back inside as fast as the
     /// acceleration limit allows.
+    #[inline]
     pub fn follow(&self, motion: &Motion, target: &Motion, catch_up: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
         let behind = target.position - position - 0.5 * (velocity + target.velocity) * step;
@@ -68,6 +71,7 @@ impl Limits {
 
     /// The motion after one step at whose end this velocity is wanted. The limits hold whatever it is, as in
     /// [`Limits::follow`].
+    #[inline]
     pub fn at_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
         let next = self.nearest_velocity(motion, wanted, step);
@@ -87,10 +91,10 @@ impl Limits {
         // Where the step would end if the velocity at its end were zero; each metre per second adds half a step.
         let coasted = position + 0.5 * velocity * step;
         let reserve = self.reserve(step);
-        let fastest = approach_velocity(self.max - coasted, self.acceleration, reserve).min(self.velocity);
-        let slowest = approach_velocity(self.min - coasted, self.acceleration, reserve).max(-self.velocity);
+        let fastest = smaller(approach_velocity(self.max - coasted, self.acceleration, reserve), self.velocity);
+        let slowest = larger(approach_velocity(self.min - coasted, self.acceleration, reserve), -self.velocity);
         let change = self.acceleration * step;
-        wanted.min(fastest).max(slowest).clamp(velocity - change, velocity + change)
+        larger(smaller(wanted, fastest), slowest).clamp(velocity - change, velocity + change)
     }
 
     /// The step that [`approach_velocity`] needs where the one after this may be longer.

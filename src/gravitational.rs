@@ -29,9 +29,12 @@ pub struct Tilt {
 /// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside the angle limit, and so is
 /// the roll after the lean is taken off. Also returns whether they had to be.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
-    let nose_up = libm::asin((force.x / gravity).clamp(-1.0, 1.0));
+    let sine = (force.x / gravity).clamp(-1.0, 1.0);
+    let nose_up = libm::asin(sine);
     let pitch = (-nose_up).clamp(-angle_limit, angle_limit);
-    let head_roll = libm::asin((force.y / (gravity * libm::cos(pitch))).clamp(-1.0, 1.0));
+    // The cosine of an arcsine is a root, which need not wait for the arcsine.
+    let cos_pitch = if pitch == -nose_up { (1.0 - sine * sine).sqrt() } else { libm::cos(pitch) };
+    let head_roll = libm::asin((force.y / (gravity * cos_pitch)).clamp(-1.0, 1.0));
     let roll = (head_roll.clamp(-angle_limit, angle_limit) - lean).clamp(-angle_limit, angle_limit);
     (Tilt { roll, pitch }, pitch != -nose_up || roll != head_roll - lean)
 }
@@ -71,6 +74,7 @@ const LAGGING: f64 = 2e-5;
 
 /// One step of one angle behind its target, whose rate is known from its last two values: a target inside the limits is
 /// tracked without lag, any other in nearly the shortest time and without overshoot.
+#[inline(always)]
 fn track(motion: &Motion, previous: f64, target: f64, limits: &Limits, step: f64) -> (Motion, bool) {
     let rate = ((target - previous) / step).clamp(-limits.velocity, limits.velocity);
     let goal = Motion { position: target, velocity: rate, acceleration: 0.0 };

@@ -12,6 +12,13 @@ impl Input {
     /// The input with every number finite: one that is not a number counts as at rest, and any other beyond
     /// +-1e9 as that.
     pub fn made_finite(&self) -> Input {
+        let usable = |value: f64| value.abs() <= LARGEST;
+        let Input { specific_force: f, angular_velocity: w, orientation, speed, lean, .. } = self;
+        let angles = orientation.to_vector();
+        // One look at all of them: it is rare that one has to be changed.
+        if [f, w, &angles].into_iter().flatten().chain([speed, lean]).fold(true, |all, &value| all & usable(value)) {
+            return *self;
+        }
         let rest = Input::default();
         self.map2(&rest, |value, rest| if value.is_nan() { rest } else { value.clamp(-LARGEST, LARGEST) })
     }

@@ -34,6 +34,7 @@ pub mod conditioning;
 mod default_rig;
 pub mod direct_linear;
 pub mod evaluator;
+mod extremes;
 pub mod governor;
 pub mod gravitational;
 pub mod head;

@@ -48,8 +48,6 @@ pub struct Washout {
     gravitational: GravitationalStrategy,
     angular: AngularChannel,
     direct_linear: DirectLinearMotion,
-    /// What the washout wants of the platform; the guard says what it gets.
-    wanted: Coordinates,
     guard: ActuatorGuard,
     felt: Felt,
     limited: Limited,
@@ -102,7 +100,6 @@ impl Washout {
             gravitational: GravitationalStrategy::default(),
             angular: AngularChannel::new(angular, structure.angular_order),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
-            wanted: Coordinates::default(),
             guard,
             felt: at_rest,
             limited: Limited::default(),
@@ -164,9 +161,9 @@ impl Washout {
 
     /// One step of Fig. 4, from left to right.
     fn internal_step(&mut self, start: &Input, end: &Input, step: f64) {
-        let head = Head::new(&self.parameters.structure, start.lean);
-        let head_at_end = if start == end { head } else { Head::new(&self.parameters.structure, end.lean) };
-        let (mut cue_start, mut cue_end) = self.conditioned((start, &head), (end, &head_at_end), step);
+        let (head, cue_start) = self.seen(start);
+        let (head_at_end, cue_end) = if start == end { (head, cue_start) } else { self.seen(end) };
+        let (mut cue_start, mut cue_end) = self.conditioned(cue_start, cue_end, start.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, end, step);
 
         let rotation = self.guard.motion().orientation.rotation;
@@ -193,10 +190,10 @@ impl Washout {
             step,
         );
 
-        self.wanted = Coordinates { linear: *linear, angles };
+        let wanted = Coordinates { linear: *linear, angles };
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance(&self.wanted, &motion, safety, step);
+        self.guard.advance(&wanted, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
         self.input = *end;
         self.limited.tilt |= self.gravitational.limited;
@@ -204,16 +201,20 @@ impl Washout {
         self.limited.actuator |= self.guard.acting();
     }
 
-    /// The cue at the step's start and end, faded while the washout is being engaged or disengaged.
-    fn conditioned(&mut self, start: (&Input, &Head), end: (&Input, &Head), step: f64) -> (Cue, Cue) {
+    /// The head, and the cue there, with this input.
+    fn seen(&self, input: &Input) -> (Head, Cue) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
+        let head = Head::new(structure, input.lean);
+        (head, cue(input, conditioning, structure.gravity, head.lean))
+    }
+
+    /// The cue at the step's start and end as the channels get it: faded while the washout is being engaged or
+    /// disengaged, and filtered.
+    fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
         let faded_before = self.engagement;
-        self.engagement = faded(faded_before, start.0.engaged, step);
-        let cue_of = |(input, head): (&Input, &Head)| cue(input, conditioning, structure.gravity, head.lean);
-        let cue_start = cue_of(start);
-        let cue_end = if start.0 == end.0 { cue_start } else { cue_of(end) };
-        let (cue_start, cue_end) = (cue_start.scaled(faded_before), cue_end.scaled(self.engagement));
-        self.input_filter.advance(cue_start, cue_end, conditioning.cutoff, step)
+        self.engagement = faded(faded_before, engaged, step);
+        let (start, end) = (start.scaled(faded_before), end.scaled(self.engagement));
+        self.input_filter.advance(start, end, self.parameters.conditioning.cutoff, step)
     }
 
     /// Changes the cue ahead of a stop, if that is wanted.
@@ -257,7 +258,7 @@ impl Washout {
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let head = Head::new(&self.parameters.structure, self.input.lean);
         let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
-        let Turning { orientation, velocity, acceleration } = Turning::new(&self.wanted.angles);
+        let Turning { orientation, velocity, acceleration } = Turning::new(&self.guard.wanted().angles);
         let arm = orientation.rotation * head.point;
         let compensation = self.parameters.conditioning.compensation;
         (force - compensated(compensation, velocity, acceleration, arm), cue.rates)

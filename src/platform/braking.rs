@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{Coordinates, Geometry, Legs, inverse_kinematics, leg_accelerations};
+use crate::extremes::larger;
 use crate::governor::Limits;
 use crate::interface::SafetyParameters;
 use crate::motions::Motions;
@@ -26,15 +27,10 @@ const POINTS: usize = 8;
 /// The time in which all coordinates brake that need not do it sooner \[s\].
 pub fn braking_time(velocity: &Vector3<f64>, fastest_leg: f64, legs: &Limits, safety: &SafetyParameters) -> f64 {
     let legs_need = fastest_leg / (LEG_SHARE * legs.acceleration);
-    velocity.abs().component_div(&safety.acceleration_limit).max().max(legs_need)
+    (0..3).fold(legs_need, |time, k| larger(velocity[k].abs() / safety.acceleration_limit[k], time))
 }
 
 impl Braking {
-    /// The plan at rest.
-    pub fn none() -> Self {
-        Braking { linear: Vector3::zeros(), angles: Vector3::zeros() }
-    }
-
     /// The plan from here: every coordinate in about the same time, so that the platform stays on its path, in a time that
     /// the fastest leg \[m/s\] and the safety limits on the accelerations allow; a coordinate near its safety limit stops
     /// before that.

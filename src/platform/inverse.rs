@@ -17,6 +17,7 @@ pub struct Legs {
 const SHORTEST: f64 = 1e-9;
 
 /// Lengths and rates of the legs for a motion of the platform.
+#[inline(always)]
 pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
     let Geometry { base, platform } = geometry;
     let arm = platform.turned(&motion.orientation.rotation);

@@ -18,6 +18,7 @@ impl Joints {
     }
 
     /// The joints turned about the origin of their frame.
+    #[inline(always)]
     pub fn turned(&self, rotation: &Matrix3<f64>) -> Joints {
         let row = |k: usize| {
             let (a, b, c) = (rotation[(k, 0)], rotation[(k, 1)], rotation[(k, 2)]);
