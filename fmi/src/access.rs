@@ -7,7 +7,7 @@ use std::mem::MaybeUninit;
 
 use model_interface::{Kind, Model};
 
-use crate::{Complaint, Instance, Mode, Role, Scalar};
+use crate::{Complaint, Instance, Mode, Role, Scalar, VariableCheck};
 
 /// The slots that a call is about; it can be gone through several times.
 pub trait Slots: Iterator<Item = u32> + Clone {}
@@ -24,19 +24,13 @@ impl<M: Model> Instance<M> {
     /// A slot of no variable, or of one of another type; then nothing is written.
     #[inline]
     pub fn get<S: Scalar>(&mut self, slots: impl Slots, values: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
-        let mut output = false;
-        for slot in slots.clone() {
-            match self.tables.checks.get(slot as usize) {
-                Some(check) if S::is(check.value_type) => output |= matches!(check.role, Role::Output { .. }),
-                _ => return Err(self.why_not_readable::<S>(slots)),
-            }
+        if !slots.clone().all(|slot| self.check::<S>(slot).is_some()) {
+            return Err(self.why_not_readable::<S>(slots));
         }
-        if output && self.run.untried {
-            self.try_values();
+        if self.run.untried {
+            return self.try_and_read(slots, values);
         }
-        for (slot, value) in slots.zip(values) {
-            value.write(S::from_slot(self.run.values[slot as usize]));
-        }
+        self.read(slots, values);
         Ok(())
     }
 
@@ -48,23 +42,15 @@ impl<M: Model> Instance<M> {
     /// range, or that the model refuses. Then nothing has changed.
     #[inline]
     pub fn set<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
-        let mode = self.run.mode;
-        let mut parameter = false;
-        for (slot, value) in slots.clone().zip(values) {
-            match self.tables.checks.get(slot as usize) {
-                Some(check)
-                    if S::is(check.value_type) && check.settable.contains(mode) && check.accepts(value.to_slot()) =>
-                {
-                    parameter |= matches!(check.role, Role::Parameter);
-                }
-                _ => return Err(self.why_not_settable(slots, values)),
-            }
+        // Inputs can be set in every mode in which anything can.
+        let is_for_input = |(slot, value): (u32, &S)| {
+            self.check::<S>(slot)
+                .is_some_and(|check| matches!(check.role, Role::Input { .. }) && check.accepts(value.to_slot()))
+        };
+        if !slots.clone().zip(values).all(is_for_input) {
+            return self.set_others(slots, values);
         }
-        if mode == Mode::StepComplete {
-            if parameter {
-                return self.set_and_retune(slots, values);
-            }
-        } else {
+        if self.run.mode != Mode::StepComplete {
             self.run.untried = true;
         }
         self.write(slots, values);
@@ -135,6 +121,31 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
+    /// What may be done with the slot, if there is such a one and it is of this type.
+    #[inline]
+    fn check<S: Scalar>(&self, slot: u32) -> Option<&'static VariableCheck> {
+        self.tables.checks.get(slot as usize).filter(|check| S::is(check.value_type))
+    }
+
+    #[inline]
+    fn read<S: Scalar>(&self, slots: impl Slots, values: &mut [MaybeUninit<S>]) {
+        for (slot, value) in slots.zip(values) {
+            value.write(S::from_slot(self.run.values[slot as usize]));
+        }
+    }
+
+    /// Reads variables during initialization: outputs are those of the values set so far.
+    #[cold]
+    #[inline(never)]
+    fn try_and_read<S: Scalar>(&mut self, slots: impl Slots, values: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
+        let is_output = |slot| matches!(self.tables.checks[slot as usize].role, Role::Output { .. });
+        if slots.clone().any(is_output) {
+            self.try_values();
+        }
+        self.read(slots, values);
+        Ok(())
+    }
+
     #[inline]
     fn write<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) {
         for (slot, value) in slots.zip(values) {
@@ -142,8 +153,25 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    /// Writes values of which some are tunable parameters, and tells the model if any of these has changed.
+    /// Sets variables that are not all inputs, or refuses to. Out of the way of the calls that set inputs at every step.
     #[inline(never)]
+    fn set_others<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
+        let mode = self.run.mode;
+        let is_settable = |(slot, value): (u32, &S)| {
+            self.check::<S>(slot).is_some_and(|check| check.settable.contains(mode) && check.accepts(value.to_slot()))
+        };
+        if !slots.clone().zip(values).all(is_settable) {
+            return Err(self.why_not_settable(slots, values));
+        }
+        if mode == Mode::StepComplete {
+            return self.set_and_retune(slots, values);
+        }
+        self.run.untried = true;
+        self.write(slots, values);
+        Ok(())
+    }
+
+    /// Writes values of which some are tunable parameters, and tells the model if any of these has changed.
     fn set_and_retune<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
         self.old_values.copy_from_slice(&self.run.values);
         self.write(slots.clone(), values);

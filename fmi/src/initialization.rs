@@ -61,8 +61,6 @@ impl<M: Model> Instance<M> {
 
     /// Makes the outputs those of the values set so far. If the model refuses these, the outputs stay as they are, and
     /// the end of the initialization will say why.
-    #[cold]
-    #[inline(never)]
     pub(crate) fn try_values(&mut self) {
         self.run.model = M::new(&self.run.values).ok();
         self.run.untried = false;

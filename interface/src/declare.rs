@@ -57,10 +57,14 @@ macro_rules! interface {
                     concat!($($text),+),
                 ), )+
             ];
+            #[inline]
             fn read(reader: &mut $crate::Reader) -> Self {
+                let mut reader = reader.part(const { $crate::slot_count(Self::ROWS) });
                 $group { $( $field: reader.take(), )+ }
             }
+            #[inline]
             fn write(&self, writer: &mut $crate::Writer) {
+                let mut writer = writer.part(const { $crate::slot_count(Self::ROWS) });
                 $( writer.put(self.$field); )+
             }
         }

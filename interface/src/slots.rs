@@ -44,14 +44,23 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
+    #[inline]
     pub fn new(slots: &'a [f64]) -> Self {
         Reader { slots }
     }
 
-    pub fn take<F: Field>(&mut self) -> F {
-        let (mine, rest) = self.slots.split_at(F::COUNT * F::COMPONENTS.len());
+    /// A reader of the next `count` slots. A struct that reads its fields from a reader of its own has the number of slots
+    /// checked once and not for each field.
+    #[inline]
+    pub fn part(&mut self, count: usize) -> Self {
+        let (mine, rest) = self.slots.split_at(count);
         self.slots = rest;
-        F::read(mine)
+        Reader::new(mine)
+    }
+
+    #[inline]
+    pub fn take<F: Field>(&mut self) -> F {
+        F::read(self.part(F::COUNT * F::COMPONENTS.len()).slots)
     }
 }
 
@@ -61,14 +70,21 @@ pub struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
+    #[inline]
     pub fn new(slots: &'a mut [f64]) -> Self {
         Writer { slots }
     }
 
-    pub fn put<F: Field>(&mut self, field: F) {
-        let slots = std::mem::take(&mut self.slots);
-        let (mine, rest) = slots.split_at_mut(F::COUNT * F::COMPONENTS.len());
-        field.write(mine);
+    /// A writer of the next `count` slots; see [`Reader::part`].
+    #[inline]
+    pub fn part(&mut self, count: usize) -> Self {
+        let (mine, rest) = std::mem::take(&mut self.slots).split_at_mut(count);
         self.slots = rest;
+        Writer::new(mine)
+    }
+
+    #[inline]
+    pub fn put<F: Field>(&mut self, field: F) {
+        field.write(self.part(F::COUNT * F::COMPONENTS.len()).slots);
     }
 }

@@ -87,19 +87,24 @@ pub unsafe fn call<M: Model, H: Host>(
     }
     match panics::contain(|| body(component)) {
         Ok(Ok(())) => H::OK,
-        Ok(Err(complaint)) => component.complain(function, &complaint),
-        Err(complaint) => {
-            component.instance.fail();
-            component.complain(function, &complaint)
-        }
+        Ok(Err(complaint)) => component.complain(function, complaint),
+        Err(complaint) => component.break_off(function, complaint),
     }
 }
 
 impl<M: Model, H: Host> Component<M, H> {
     #[cold]
     #[inline(never)]
-    fn complain(&self, function: &Function, complaint: &Complaint) -> H::Status {
+    fn complain(&self, function: &Function, complaint: Complaint) -> H::Status {
         self.logger.failure(complaint.severity, &format!("{}: {}", function.name, complaint.text))
+    }
+
+    /// Complains of a panic, after which the instance cannot be used.
+    #[cold]
+    #[inline(never)]
+    fn break_off(&mut self, function: &Function, complaint: Complaint) -> H::Status {
+        self.instance.fail();
+        self.complain(function, complaint)
     }
 
     #[cold]
@@ -110,6 +115,6 @@ impl<M: Model, H: Host> Component<M, H> {
         let allowed = if allowed.is_empty() { "none".into() } else { allowed.join(", ") };
         let state = H::mode_name(self.instance.mode());
         let text = format!("not allowed in state '{state}'; the states in which it is: {allowed}");
-        self.complain(function, &Complaint::error(text))
+        self.complain(function, Complaint::error(text))
     }
 }

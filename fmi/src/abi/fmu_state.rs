@@ -125,7 +125,8 @@ pub unsafe fn serialized_size<M: Model, H: Host>(
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
         let length = state.run.to_bytes(component.instance.tables().guid)?.len();
         // SAFETY: the host's room for the answer.
-        unsafe { answer(size, length) }
+        unsafe { answer(size, length) }?;
+        Ok(())
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }

@@ -5,17 +5,24 @@ use std::mem::MaybeUninit;
 
 use crate::Complaint;
 
+/// A pointer that does not lead to as many values as the host says. It becomes a complaint out of the way of the calls that
+/// have nothing to complain about.
+#[derive(Debug)]
+pub struct NotAnArray {
+    length: usize,
+}
+
 /// `length` elements from `pointer` on; null will do for none.
 ///
 /// # Safety
 /// Unless null, `pointer` leads to `length` elements that nothing else changes during `'a`.
 #[inline]
-pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], Complaint> {
+pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], NotAnArray> {
     if length == 0 {
         return Ok(&[]);
     }
     if !is_array(pointer, length) {
-        return Err(not_an_array(length));
+        return Err(NotAnArray { length });
     }
     // SAFETY: not null, aligned, not longer than memory can be; for the rest the caller vouches.
     Ok(unsafe { std::slice::from_raw_parts(pointer, length) })
@@ -26,12 +33,12 @@ pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], 
 /// # Safety
 /// Unless null, `pointer` leads to room for `length` elements that nothing else uses during `'a`.
 #[inline]
-pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [MaybeUninit<T>], Complaint> {
+pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [MaybeUninit<T>], NotAnArray> {
     if length == 0 {
         return Ok(&mut []);
     }
     if !is_array(pointer, length) {
-        return Err(not_an_array(length));
+        return Err(NotAnArray { length });
     }
     // SAFETY: as in `slice`; the elements need not be initialized.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), length) })
@@ -41,9 +48,9 @@ pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [May
 ///
 /// # Safety
 /// Unless null, `pointer` leads to a `T` that nothing else uses during `'a`.
-pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, Complaint> {
+pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray> {
     if !is_array(pointer, 1) {
-        return Err(not_an_array(1));
+        return Err(NotAnArray { length: 1 });
     }
     // SAFETY: not null and aligned; for the rest the caller vouches.
     Ok(unsafe { &mut *pointer })
@@ -53,9 +60,9 @@ pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, Complaint> {
 ///
 /// # Safety
 /// Unless null, `pointer` leads to room for a `T` that nothing else uses.
-pub unsafe fn answer<T>(pointer: *mut T, answer: T) -> Result<(), Complaint> {
+pub unsafe fn answer<T>(pointer: *mut T, answer: T) -> Result<(), NotAnArray> {
     if !is_array(pointer, 1) {
-        return Err(not_an_array(1));
+        return Err(NotAnArray { length: 1 });
     }
     // SAFETY: not null and aligned; for the rest the caller vouches.
     unsafe { pointer.write(answer) };
@@ -82,7 +89,10 @@ fn is_array<T>(pointer: *const T, length: usize) -> bool {
     !pointer.is_null() && pointer.is_aligned() && length <= isize::MAX as usize / size_of::<T>()
 }
 
-#[cold]
-fn not_an_array(length: usize) -> Complaint {
-    Complaint::error(format!("a pointer to {length} values is null or leads nowhere"))
+impl From<NotAnArray> for Complaint {
+    #[cold]
+    #[inline(never)]
+    fn from(refused: NotAnArray) -> Self {
+        Complaint::error(format!("a pointer to {} values is null or leads nowhere", refused.length))
+    }
 }

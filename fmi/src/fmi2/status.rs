@@ -17,7 +17,8 @@ pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, v
             return Err(not_known(kind));
         }
         // SAFETY: the host's room for the answer.
-        unsafe { answer(value, component.instance.time()) }
+        unsafe { answer(value, component.instance.time()) }?;
+        Ok(())
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::GET_REAL_STATUS, body) }
@@ -34,7 +35,8 @@ pub unsafe fn get_boolean_status<M: Model>(
             return Err(not_known(kind));
         }
         // SAFETY: the host's room for the answer.
-        unsafe { answer(value, fmi2Boolean(0)) }
+        unsafe { answer(value, fmi2Boolean(0)) }?;
+        Ok(())
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::GET_BOOLEAN_STATUS, body) }

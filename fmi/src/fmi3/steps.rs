@@ -28,7 +28,8 @@ pub unsafe fn do_step<M: Model>(instance: fmi3Instance, time: f64, step: f64, an
         }
         component.instance.step(time, step)?;
         // SAFETY: as above.
-        unsafe { answer(answers.last_successful_time, component.instance.time()) }
+        unsafe { answer(answers.last_successful_time, component.instance.time()) }?;
+        Ok(())
     };
     // SAFETY: the host's component.
     unsafe { call(instance, &function::DO_STEP, body) }
