@@ -81,6 +81,7 @@ impl Chains {
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end`.
+    #[inline(always)]
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) {
         if step != self.step {
             self.prepare(step);
@@ -89,7 +90,8 @@ impl Chains {
             let [x1, x2, x3, x4] = self.states[k].to_array();
             let [a, b, c, d, u, v] = self.transitions[k];
             let state = (a * x1 + b * x2) + (c * x3 + d * x4) + (u * start[k] + v * end[k]);
-            self.states[k] = state & state.abs().simd_ge(REST);
+            let at_rest = state.abs().simd_lt(REST);
+            self.states[k] = !at_rest & state;
         }
     }
 
@@ -102,7 +104,10 @@ impl Chains {
 
     /// The low-pass 1 - s^n/D of the input.
     pub fn low_pass(&self) -> Vector3<f64> {
-        Vector3::from_fn(|k, _| (self.denominators[k].coefficients * self.states[k]).reduce_add())
+        Vector3::from_fn(|k, _| {
+            let [a, b, c, d] = (self.denominators[k].coefficients * self.states[k]).to_array();
+            (a + b) + (c + d)
+        })
     }
 
     /// The high-pass s^n/D of the input, whose value is `input` now.
@@ -138,11 +143,9 @@ impl Chains {
     /// What is kept is what the platform's motion is made of; the later states only remember, and are rescaled so that
     /// what the filter has already washed out stays so.
     pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
-        for k in 0..3 {
-            let (old, new) = (self.denominators[k].coefficients.to_array(), denominators[k].coefficients.to_array());
-            let state = self.states[k].as_mut_array();
-            for i in kept..denominators[k].order {
-                state[i] *= old[i] / new[i];
+        for ((old, new), state) in self.denominators.iter().zip(&denominators).zip(&mut self.states) {
+            for i in kept..new.order {
+                state.as_mut_array()[i] *= old.coefficients.as_array()[i] / new.coefficients.as_array()[i];
             }
         }
         self.denominators = denominators;

@@ -61,7 +61,7 @@ impl Limits {
     ///
     /// If the motion is already outside its limits (they may have been lowered), it comes back inside as fast as the
     /// acceleration limit allows.
-    #[inline]
+    #[inline(always)]
     pub fn follow(&self, motion: &Motion, target: &Motion, catch_up: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
         let behind = target.position - position - 0.5 * (velocity + target.velocity) * step;
@@ -71,7 +71,7 @@ impl Limits {
 
     /// The motion after one step at whose end this velocity is wanted. The limits hold whatever it is, as in
     /// [`Limits::follow`].
-    #[inline]
+    #[inline(always)]
     pub fn at_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
         let next = self.nearest_velocity(motion, wanted, step);

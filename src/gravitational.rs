@@ -27,14 +27,14 @@ pub struct Tilt {
 /// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in head axes) along x and y.
 ///
 /// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside the angle limit, and so is
-/// the roll after the lean is taken off. Also returns whether they had to be.
+/// the roll after the lean is taken off. Also returns whether they had to be. The limit is below 90 degrees.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
-    let sine = (force.x / gravity).clamp(-1.0, 1.0);
-    let nose_up = libm::asin(sine);
+    let nose_up = libm::asin((force.x / gravity).clamp(-1.0, 1.0));
     let pitch = (-nose_up).clamp(-angle_limit, angle_limit);
-    // The cosine of an arcsine is a root, which need not wait for the arcsine.
-    let cos_pitch = if pitch == -nose_up { (1.0 - sine * sine).sqrt() } else { libm::cos(pitch) };
-    let head_roll = libm::asin((force.y / (gravity * cos_pitch)).clamp(-1.0, 1.0));
+    // g cos(pitch): short of the limit a root, which need not wait for the arcsine.
+    let across =
+        if pitch == -nose_up { (gravity * gravity - force.x * force.x).sqrt() } else { gravity * libm::cos(pitch) };
+    let head_roll = libm::asin((force.y / across).clamp(-1.0, 1.0));
     let roll = (head_roll.clamp(-angle_limit, angle_limit) - lean).clamp(-angle_limit, angle_limit);
     (Tilt { roll, pitch }, pitch != -nose_up || roll != head_roll - lean)
 }

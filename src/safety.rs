@@ -101,7 +101,6 @@ impl SafetyUnits {
     /// with this share of the acceleration limit for the change of velocity; and for whoever sees positions only, in its
     /// mean velocity, and in the change of that from one step to the next. Where a wanted velocity jumps within a step,
     /// its values at the steps' ends do not tell.
-    #[inline(always)]
     fn keeps_limits(&self, k: usize, wanted: &Motions, limits: &SafetyParameters, share: f64, step: f64) -> bool {
         let (farthest, fastest) = (limits.position_limit[k], limits.velocity_limit[k]);
         let most = limits.acceleration_limit[k];

@@ -124,7 +124,7 @@ impl Washout {
     /// nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         let input = input.made_finite();
-        self.divided(step, |_| (input, input));
+        self.divided(step, |washout, _, step| washout.internal_step(&input, None, step));
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order hold); whether it is
@@ -132,15 +132,15 @@ impl Washout {
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         let (start, end) = (start.made_finite(), end.made_finite());
         let mut from = start;
-        self.divided(step, |share| {
+        self.divided(step, |washout, share, step| {
             let to = start.towards(&end, share);
-            (std::mem::replace(&mut from, to), to)
+            washout.internal_step(&from, Some(&to), step);
+            from = to;
         });
     }
 
-    /// Divides a step into internal ones. `inputs` gives the inputs at the start and the end of the internal step that
-    /// ends at this share of the whole.
-    fn divided(&mut self, step: f64, mut inputs: impl FnMut(f64) -> (Input, Input)) {
+    /// Divides a step into internal ones. `advance` does one of them, which ends at this share of the whole and is so long.
+    fn divided(&mut self, step: f64, mut advance: impl FnMut(&mut Self, f64, f64)) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
         }
@@ -148,21 +148,22 @@ impl Washout {
         let internal_step = (step / count).min(self.parameters.structure.max_step);
         self.limited = Limited::default();
         for k in 1..=count as usize {
-            let (start, end) = inputs(k as f64 / count);
-            self.internal_step(&start, &end, internal_step);
+            advance(self, k as f64 / count, internal_step);
         }
     }
 
     /// How many internal steps a step is divided into. A step a rounding error longer than the longest is not divided.
     fn internal_steps(&self, step: f64) -> f64 {
         const ROUNDING: f64 = 1e-9;
-        (step / self.parameters.structure.max_step * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS)
+        let longest = self.parameters.structure.max_step;
+        if step <= longest { 1.0 } else { (step / longest * (1.0 - ROUNDING)).ceil().min(MOST_INTERNAL_STEPS) }
     }
 
-    /// One step of Fig. 4, from left to right.
-    fn internal_step(&mut self, start: &Input, end: &Input, step: f64) {
+    /// One step of Fig. 4, from left to right. The input goes linearly from `start` to `end`, or stays what it is.
+    fn internal_step(&mut self, start: &Input, end: Option<&Input>, step: f64) {
         let (head, cue_start) = self.seen(start);
-        let (head_at_end, cue_end) = if start == end { (head, cue_start) } else { self.seen(end) };
+        let (head_at_end, cue_end) = end.map_or((head, cue_start), |end| self.seen(end));
+        let end = end.unwrap_or(start);
         let (mut cue_start, mut cue_end) = self.conditioned(cue_start, cue_end, start.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, end, step);
 
