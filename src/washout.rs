@@ -168,18 +168,18 @@ impl Washout {
         self.preact(&mut cue_start, &mut cue_end, end, step);
 
         let rotation = self.guard.motion().orientation.rotation;
-        let turn = self.guard.motion().turn(step);
+        let rotation_at_end = self.guard.motion().rotation_after(step);
         let force_start = rotation * head.to_platform_axes(cue_start.force);
-        let force_end = turn.apply(rotation * head_at_end.to_platform_axes(cue_end.force));
-        let low_frequency = turn.undo(self.low_pass.advance(force_start, force_end, step));
+        let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
+        let low_frequency = self.low_pass.advance(force_start, force_end, step);
 
         let Parameters { conditioning, tilt, safety, structure, rig, .. } = &self.parameters;
-        let low_frequency = head_at_end.to_head_axes(rotation.tr_mul(&low_frequency));
+        let mut angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
+        let low_frequency = head_at_end.to_head_axes(rotation_at_end.tr_mul(&low_frequency));
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * self.engagement;
         self.gravitational.advance(low_frequency, structure.gravity, lean, tilt, structure.max_step, step);
 
-        let mut angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
         self.gravitational.add_to(&mut angles);
         let turning = Turning::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;

@@ -9,7 +9,7 @@ mod jacobian;
 mod joints;
 mod survey;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 pub use coordinates::Coordinates;
@@ -88,30 +88,16 @@ impl PlatformMotion {
         }
     }
 
-    /// How the platform goes on turning over the next `step` seconds.
-    pub fn turn(&self, step: f64) -> Turn {
-        Turn(step * (self.angular_velocity + 0.5 * step * self.angular_acceleration))
+    /// The rotation `step` seconds later, if the platform goes on turning as it does: to second order.
+    pub fn rotation_after(&self, step: f64) -> Matrix3<f64> {
+        let turn = step * (self.angular_velocity + 0.5 * step * self.angular_acceleration);
+        let cross = turn.cross_matrix();
+        let second = 0.5 * turn * turn.transpose() - Matrix3::from_diagonal_element(0.5 * turn.norm_squared());
+        self.orientation.rotation + (cross + second) * self.orientation.rotation
     }
 
     /// The pose alone.
     pub fn pose(&self) -> Pose {
         Pose { position: self.position, orientation: self.orientation }
-    }
-}
-
-/// A small rotation, as a vector along its axis in the base frame \[rad\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn(pub Vector3<f64>);
-
-impl Turn {
-    /// A vector turned with it, to second order.
-    pub fn apply(self, v: Vector3<f64>) -> Vector3<f64> {
-        let first = self.0.cross(&v);
-        v + first + 0.5 * self.0.cross(&first)
-    }
-
-    /// A vector turned back, to second order.
-    pub fn undo(self, v: Vector3<f64>) -> Vector3<f64> {
-        Turn(-self.0).apply(v)
     }
 }
