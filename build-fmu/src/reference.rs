@@ -85,7 +85,6 @@ pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
     let outputs: Vec<usize> = (0..identity.slots.len()).filter(is_recorded).collect();
 
     let mut slots = start.to_vec();
-    let derivatives = vec![0.0; slots.len()];
     let set = |slots: &mut [f64], time: f64| {
         for (&slot, value) in inputs.iter().zip(input.at(time).into_iter().skip(1)) {
             slots[slot] = value;
@@ -101,7 +100,7 @@ pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
     for step in 0..=(input.end() * RATE as f64).round() as usize {
         if step > 0 {
             set(&mut slots, time(step - 1));
-            model.step(&slots, &derivatives, time(step) - time(step - 1));
+            model.step(&slots, None, time(step) - time(step - 1));
         }
         if step.is_multiple_of(STEPS_PER_ROW) {
             model.outputs(&mut slots);

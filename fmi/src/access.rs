@@ -1,59 +1,52 @@
-//! Getting and setting variables. All slots and values of a call are checked before any is written.
-//!
-//! A call's slots come as an iterator, for they are the host's value references in FMI 2.0, and in FMI 3.0 those of the
-//! arrays to which the references belong.
+//! Getting and setting variables. All variables and values of a call are checked before any is written.
 
 use std::mem::MaybeUninit;
 
 use model_interface::{Kind, Model};
 
-use crate::{Complaint, Instance, Mode, Role, Scalar, VariableCheck};
-
-/// The slots that a call is about; it can be gone through several times.
-pub trait Slots: Iterator<Item = u32> + Clone {}
-impl<I: Iterator<Item = u32> + Clone> Slots for I {}
+use crate::{Complaint, Instance, Mode, Role, Scalar, VariableCheck, Variables};
 
 /// The slots of output derivatives, each with the derivative's order.
 pub trait OrderedSlots: Iterator<Item = (u32, i32)> + Clone {}
 impl<I: Iterator<Item = (u32, i32)> + Clone> OrderedSlots for I {}
 
 impl<M: Model> Instance<M> {
-    /// Reads the variables of `slots` into `values`, which has as many.
+    /// Reads the variables into `room`, which is for as many values as they have.
     ///
     /// # Errors
     /// A slot of no variable, or of one of another type; then nothing is written.
     #[inline]
-    pub fn get<S: Scalar>(&mut self, slots: impl Slots, values: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
-        if !slots.clone().all(|slot| self.check::<S>(slot).is_some()) {
-            return Err(self.why_not_readable::<S>(slots));
+    pub fn get<S: Scalar>(&mut self, variables: impl Variables, room: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
+        if !variables.slots().all(|slot| self.check::<S>(slot).is_some()) {
+            return Err(self.why_not_readable::<S>(variables));
         }
         if self.run.untried {
-            return self.try_and_read(slots, values);
+            return self.try_and_read(variables, room);
         }
-        self.read(slots, values);
+        self.read(variables, room);
         Ok(())
     }
 
-    /// Writes `values` into the variables of `slots`, of which there are as many. Tunable parameters that change between
-    /// steps take effect at once, all of the call together.
+    /// Writes `values`, of which there are as many as the variables have. Tunable parameters that change between steps take
+    /// effect at once, all of the call together.
     ///
     /// # Errors
     /// A slot of no variable, of one of another type, or of one that cannot be set now; a value outside the variable's
     /// range, or that the model refuses. Then nothing has changed.
     #[inline]
-    pub fn set<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
+    pub fn set<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), Complaint> {
         // Inputs can be set in every mode in which anything can.
-        let is_for_input = |(slot, value): (u32, &S)| {
+        let is_for_input = |(slot, values): (u32, &[S])| {
             self.check::<S>(slot)
-                .is_some_and(|check| matches!(check.role, Role::Input { .. }) && check.accepts(value.to_slot()))
+                .is_some_and(|check| matches!(check.role, Role::Input { .. }) && accepts(check, values))
         };
-        if !slots.clone().zip(values).all(is_for_input) {
-            return self.set_others(slots, values);
+        if !variables.with_values(values).all(is_for_input) {
+            return self.set_others(variables, values);
         }
         if self.run.mode != Mode::StepComplete {
             self.run.untried = true;
         }
-        self.write(slots, values);
+        self.write(variables, values);
         Ok(())
     }
 
@@ -128,54 +121,62 @@ impl<M: Model> Instance<M> {
     }
 
     #[inline]
-    fn read<S: Scalar>(&self, slots: impl Slots, values: &mut [MaybeUninit<S>]) {
-        for (slot, value) in slots.zip(values) {
-            value.write(S::from_slot(self.run.values[slot as usize]));
+    fn read<S: Scalar>(&self, variables: impl Variables, room: &mut [MaybeUninit<S>]) {
+        for (first, places) in variables.with_room(room) {
+            for (slot, place) in (first as usize..).zip(places) {
+                place.write(S::from_slot(self.run.values[slot]));
+            }
         }
     }
 
     /// Reads variables during initialization: outputs are those of the values set so far.
     #[cold]
     #[inline(never)]
-    fn try_and_read<S: Scalar>(&mut self, slots: impl Slots, values: &mut [MaybeUninit<S>]) -> Result<(), Complaint> {
+    fn try_and_read<S: Scalar>(
+        &mut self,
+        variables: impl Variables,
+        room: &mut [MaybeUninit<S>],
+    ) -> Result<(), Complaint> {
         let is_output = |slot| matches!(self.tables.checks[slot as usize].role, Role::Output { .. });
-        if slots.clone().any(is_output) {
+        if variables.slots().any(is_output) {
             self.try_values();
         }
-        self.read(slots, values);
+        self.read(variables, room);
         Ok(())
     }
 
     #[inline]
-    fn write<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) {
-        for (slot, value) in slots.zip(values) {
-            self.run.values[slot as usize] = value.to_slot();
+    fn write<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
+        for (first, values) in variables.with_values(values) {
+            for (slot, value) in (first as usize..).zip(values) {
+                self.run.values[slot] = value.to_slot();
+            }
         }
     }
 
     /// Sets variables that are not all inputs, or refuses to. Out of the way of the calls that set inputs at every step.
     #[inline(never)]
-    fn set_others<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
+    fn set_others<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), Complaint> {
         let mode = self.run.mode;
-        let is_settable = |(slot, value): (u32, &S)| {
-            self.check::<S>(slot).is_some_and(|check| check.settable.contains(mode) && check.accepts(value.to_slot()))
+        let is_settable = |(slot, values): (u32, &[S])| {
+            self.check::<S>(slot).is_some_and(|check| check.settable.contains(mode) && accepts(check, values))
         };
-        if !slots.clone().zip(values).all(is_settable) {
-            return Err(self.why_not_settable(slots, values));
+        if !variables.with_values(values).all(is_settable) {
+            return Err(self.why_not_settable(variables, values));
         }
         if mode == Mode::StepComplete {
-            return self.set_and_retune(slots, values);
+            return self.set_and_retune(variables, values);
         }
         self.run.untried = true;
-        self.write(slots, values);
+        self.write(variables, values);
         Ok(())
     }
 
     /// Writes values of which some are tunable parameters, and tells the model if any of these has changed.
-    fn set_and_retune<S: Scalar>(&mut self, slots: impl Slots, values: &[S]) -> Result<(), Complaint> {
+    fn set_and_retune<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), Complaint> {
         self.old_values.copy_from_slice(&self.run.values);
-        self.write(slots.clone(), values);
-        let changed = slots.map(|slot| slot as usize).any(|slot| {
+        self.write(variables, values);
+        let changed = one_by_one(variables, values).map(|(slot, _)| slot as usize).any(|slot| {
             self.tables.checks[slot].role == Role::Parameter && self.run.values[slot] != self.old_values[slot]
         });
         let Some(model) = self.run.model.as_mut().filter(|_| changed) else { return Ok(()) };
@@ -203,8 +204,8 @@ impl<M: Model> Instance<M> {
 
     #[cold]
     #[inline(never)]
-    fn why_not_readable<S: Scalar>(&self, slots: impl Slots) -> Complaint {
-        let complaints = slots.filter_map(|slot| match self.tables.checks.get(slot as usize) {
+    fn why_not_readable<S: Scalar>(&self, variables: impl Variables) -> Complaint {
+        let complaints = variables.slots().filter_map(|slot| match self.tables.checks.get(slot as usize) {
             None => Some(self.no_such_variable(slot)),
             Some(check) => (!S::is(check.value_type)).then(|| self.wrong_type::<S>(slot)),
         });
@@ -214,10 +215,10 @@ impl<M: Model> Instance<M> {
     /// The first wrong slot or, where all are right, the first wrong value.
     #[cold]
     #[inline(never)]
-    fn why_not_settable<S: Scalar>(&self, slots: impl Slots, values: &[S]) -> Complaint {
-        let about_slots = slots.clone().filter_map(|slot| self.why_slot_not_settable::<S>(slot));
+    fn why_not_settable<S: Scalar>(&self, variables: impl Variables, values: &[S]) -> Complaint {
+        let about_slots = variables.slots().filter_map(|slot| self.why_slot_not_settable::<S>(slot));
         let about_values =
-            slots.clone().zip(values).filter_map(|(slot, value)| self.why_value_not_taken(slot, value.to_slot()));
+            one_by_one(variables, values).filter_map(|(slot, value)| self.why_value_not_taken(slot, value.to_slot()));
         first(about_slots.chain(about_values))
     }
 
@@ -264,6 +265,18 @@ impl<M: Model> Instance<M> {
             "{name} = {value} is {wanted}. No value of this call has been taken; {name} is still {old}"
         )))
     }
+}
+
+/// Whether a variable takes these values.
+#[inline]
+fn accepts<S: Scalar>(check: &VariableCheck, values: &[S]) -> bool {
+    values.iter().all(|value| check.accepts(value.to_slot()))
+}
+
+/// The variables' slots, all of them, each with its value.
+fn one_by_one<S>(variables: impl Variables, values: &[S]) -> impl Iterator<Item = (u32, &S)> {
+    let parts = variables.with_values(values);
+    parts.flat_map(|(first, values)| (0..).zip(values).map(move |(element, value)| (first + element, value)))
 }
 
 /// The first of some complaints, of which there is one.

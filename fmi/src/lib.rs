@@ -22,6 +22,7 @@ mod serialisation;
 mod step;
 mod tables;
 mod variable_check;
+mod variables;
 
 pub use complaint::{Complaint, Severity};
 pub use instance::Instance;
@@ -30,3 +31,4 @@ pub use mode::{Mode, Modes};
 pub use run::Run;
 pub use tables::{Guid, SharedTables, Tables, slot_count};
 pub use variable_check::{Role, Scalar, ValueType, VariableCheck};
+pub use variables::{Scalars, Variables};

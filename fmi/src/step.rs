@@ -32,7 +32,8 @@ impl<M: Model> Instance<M> {
         if !fits {
             return Err(self.why_no_step(time, step));
         }
-        model.step(&self.run.values, &self.run.derivatives, step);
+        let derivatives = self.run.derivatives_given.then_some(&*self.run.derivatives);
+        model.step(&self.run.values, derivatives, step);
         model.outputs(&mut self.run.values);
         if self.run.derivatives_given {
             self.run.derivatives.fill(0.0);

@@ -64,6 +64,7 @@ pub struct Callbacks {
 macro_rules! api {
     ($($field:ident $symbol:ident ($($argument:ty),*) $(-> $result:ty)?;)+) => {
         /// The C functions of an FMU. Calling one is as safe as the FMU and the arguments are.
+        #[derive(Clone, Copy)]
         pub struct Api {
             $( #[doc = concat!("`", stringify!($symbol), "`")] pub $field: unsafe extern "C" fn($($argument),*) $(-> $result)?, )+
         }

@@ -79,9 +79,10 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
         f64::INFINITY
     }
 
-    /// Advances by `step` seconds. `derivatives` has a slot for each of `slots`: the inputs' time derivatives, zero
-    /// where the host gives none. Inputs are read from `slots` as they are at the beginning of the step.
-    fn step(&mut self, slots: &[f64], derivatives: &[f64], step: f64);
+    /// Advances by `step` seconds. Inputs are read from `slots` as they are at the beginning of the step, and hold until its
+    /// end unless the host gives `derivatives`: a slot for each of `slots`, the inputs' time derivatives, zero where it gives
+    /// none.
+    fn step(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64);
 
     /// Writes the outputs into their slots.
     fn outputs(&self, slots: &mut [f64]);

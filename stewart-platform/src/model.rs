@@ -51,8 +51,9 @@ impl Model for StewartPlatform {
     }
 
     /// Lengths go on at the slopes that the host gives; at the commanded rates where it gives none.
-    fn step(&mut self, slots: &[f64], derivatives: &[f64], step: f64) {
+    fn step(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64) {
         let start: Input = read(slots, INPUT);
+        let Some(derivatives) = derivatives else { return StewartPlatform::step(self, &start, step) };
         let slope: Input = read(derivatives, INPUT);
         let end = Input {
             length: std::array::from_fn(|i| {

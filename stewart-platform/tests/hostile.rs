@@ -133,7 +133,7 @@ fn slopes_rates_and_smaller_steps_say_the_same() {
                     slots[slot(format!("command[{i}].velocity"))] = rate;
                 }
             }
-            Model::step(&mut platform, &slots, &derivatives, 1.0 / steps as f64);
+            Model::step(&mut platform, &slots, Some(&derivatives), 1.0 / steps as f64);
         }
         numbers(&platform.output())
     };

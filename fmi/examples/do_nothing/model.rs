@@ -68,7 +68,7 @@ impl Model for DoNothing {
         Ok(())
     }
 
-    fn step(&mut self, _slots: &[f64], _derivatives: &[f64], _step: f64) {}
+    fn step(&mut self, _slots: &[f64], _derivatives: Option<&[f64]>, _step: f64) {}
 
     fn outputs(&self, _slots: &mut [f64]) {}
 

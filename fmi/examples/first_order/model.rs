@@ -168,10 +168,10 @@ impl Model for FirstOrder {
         1.0
     }
 
-    fn step(&mut self, slots: &[f64], derivatives: &[f64], step: f64) {
+    fn step(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64) {
         let v = variables(slots);
         let before = self.y;
-        let slope = self.gain * derivatives[1];
+        let slope = self.gain * derivatives.map_or(0.0, |derivatives| derivatives[1]);
         let target = self.gain * (v.input.u + f64::from(v.switch.offset));
         self.euler = v.tunable.method == Method::Euler;
         if !v.switch.frozen {

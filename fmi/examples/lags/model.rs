@@ -157,7 +157,7 @@ impl Model for Lags {
         accept(&variables(slots))
     }
 
-    fn step(&mut self, slots: &[f64], _: &[f64], step: f64) {
+    fn step(&mut self, slots: &[f64], _: Option<&[f64]>, step: f64) {
         let v = variables(slots);
         assert!(!v.tunable.trap, "trapped in step");
         self.euler = v.tunable.method == Method::Euler;

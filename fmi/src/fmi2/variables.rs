@@ -6,7 +6,7 @@ use super::types::*;
 use super::{Component, calling_sequence as function};
 use crate::abi::pointers::{room, slice};
 use crate::abi::{Function, call};
-use crate::{Complaint, Scalar};
+use crate::{Complaint, Scalar, Scalars};
 
 /// `fmi2GetReal`, `fmi2GetInteger`, `fmi2GetBoolean`
 #[inline]
@@ -20,7 +20,7 @@ pub unsafe fn get<M: Model, S: Scalar>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
         let (references, values) = unsafe { (slice(references, count)?, room(values, count)?) };
-        component.instance.get(references.iter().copied(), values)
+        component.instance.get(Scalars(references), values)
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }
@@ -38,7 +38,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
         let (references, values) = unsafe { (slice(references, count)?, slice(values, count)?) };
-        component.instance.set(references.iter().copied(), values)
+        component.instance.set(Scalars(references), values)
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }

@@ -9,6 +9,7 @@
 
 #![allow(clippy::missing_safety_doc)] // said above, once for all
 
+mod arrays;
 pub mod calling_sequence;
 mod export;
 pub mod lifecycle;

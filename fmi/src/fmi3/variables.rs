@@ -1,12 +1,15 @@
 //! Getting and setting variables.
 
+use std::ops::Range;
+
 use model_interface::Model;
 
+use super::arrays::Arrays;
 use super::types::*;
 use super::{Component, calling_sequence as function};
 use crate::abi::pointers::{room, slice};
 use crate::abi::{Function, call};
-use crate::{Complaint, Scalar, VariableCheck};
+use crate::{Complaint, Scalar, Scalars, VariableCheck};
 
 /// `fmi3GetFloat64`, `fmi3GetInt32`, `fmi3GetInt64`, `fmi3GetBoolean`
 #[inline]
@@ -23,7 +26,11 @@ pub unsafe fn get<M: Model, S: Scalar>(
         let (references, values) = unsafe { (slice(references, count)?, room(values, value_count)?) };
         let checks = component.instance.tables().checks;
         check_length::<M>(checks, references, value_count)?;
-        component.instance.get(slots(checks, references), values)
+        // A value each: there is no array among them.
+        if references.len() == value_count {
+            return component.instance.get(Scalars(references), values);
+        }
+        component.instance.get(Arrays { checks, references }, values)
     };
     // SAFETY: the host's component.
     unsafe { call(instance, function, body) }
@@ -44,7 +51,11 @@ pub unsafe fn set<M: Model, S: Scalar>(
         let (references, values) = unsafe { (slice(references, count)?, slice(values, value_count)?) };
         let checks = component.instance.tables().checks;
         check_length::<M>(checks, references, value_count)?;
-        component.instance.set(slots(checks, references), values)
+        // A value each: there is no array among them.
+        if references.len() == value_count {
+            return component.instance.set(Scalars(references), values);
+        }
+        component.instance.set(Arrays { checks, references }, values)
     };
     // SAFETY: the host's component.
     unsafe { call(instance, function, body) }
@@ -101,14 +112,9 @@ fn check_length<M: Model>(
     if expected == value_count { Ok(()) } else { Err(wrong_length::<M>(references, expected, value_count)) }
 }
 
-/// The slots of variables that are there, those of an array in order.
+/// The slots of a variable that is there.
 #[inline]
-fn slots(checks: &'static [VariableCheck], references: &[fmi3ValueReference]) -> impl Iterator<Item = u32> + Clone {
-    references.iter().flat_map(move |&reference| row_slots(checks, reference))
-}
-
-#[inline]
-fn row_slots(checks: &[VariableCheck], reference: fmi3ValueReference) -> std::ops::Range<u32> {
+fn row_slots(checks: &[VariableCheck], reference: fmi3ValueReference) -> Range<u32> {
     reference..reference + checks[reference as usize].row_slots
 }
 

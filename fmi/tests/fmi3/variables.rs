@@ -28,6 +28,25 @@ fn arrays_are_set_and_read_as_a_whole_and_several_together() {
 }
 
 #[test]
+fn several_scalars_are_set_and_read_together_or_not_at_all() {
+    let instance = initializing();
+    let [time, tau, count] = ["time", "tau", "count"].map(reference);
+    assert_eq!(instance.set(&[tau, tau], &[2.0, 3.0]), OK, "the last one counts");
+    let mut values = [-1.0; 3];
+    assert_eq!(instance.get(&[tau, time, tau], &mut values), OK);
+    assert_eq!(values, [3.0, 0.0, 3.0]);
+    let before = instance.bytes();
+    let status = instance.set(&[tau, tau], &[4.0, f64::NAN]);
+    instance.assert_complaint(status, DISCARD, &["fmi3SetFloat64", "'tau'", "finite"]);
+    let status = instance.set(&[tau, time], &[4.0, 5.0]);
+    instance.assert_complaint(status, ERROR, &["'time'"]);
+    assert_eq!(instance.bytes(), before);
+    let status = instance.get(&[tau, time, count], &mut values);
+    instance.assert_complaint(status, ERROR, &["fmi3GetFloat64", "'count'", "Int32"]);
+    assert_eq!(values, [3.0, 0.0, 3.0]);
+}
+
+#[test]
 fn lengths_have_to_fit() {
     let instance = stepping();
     let before = instance.bytes();
@@ -42,6 +61,9 @@ fn lengths_have_to_fit() {
     }
     assert_eq!(instance.get(&[y, time, gain], &mut [0.0; 6]), ERROR);
     assert_eq!(instance.get(&[y, time, gain], &mut [0.0; 7]), OK);
+    let mut room = [-1.0; 4];
+    instance.assert_complaint(instance.get(&[y, reference("count")], &mut room), ERROR, &["'count'", "Int32"]);
+    assert_eq!(room, [-1.0; 4]);
     assert_eq!(instance.get(&[], &mut [0.0]), ERROR);
     instance.assert_complaint(instance.set(&[], &[0.0]), ERROR, &["no variables"]);
     assert_eq!(instance.bytes(), before);

@@ -105,7 +105,7 @@ impl Model for Small {
         Ok(())
     }
 
-    fn step(&mut self, _: &[f64], _: &[f64], _: f64) {}
+    fn step(&mut self, _: &[f64], _: Option<&[f64]>, _: f64) {}
 
     fn outputs(&self, _: &mut [f64]) {}
 

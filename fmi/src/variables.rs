@@ -1,0 +1,36 @@
+//! The variables that a call gets or sets, whatever a version of FMI takes a variable for.
+
+use std::mem::MaybeUninit;
+use std::slice::{from_mut, from_ref};
+
+/// The variables that a call is about. Each is known by its first slot and has a part of the call's values: one value in
+/// FMI 2.0, where a variable is a slot, and in FMI 3.0, where it is a row, as many as the row has slots.
+pub trait Variables: Copy {
+    /// The variables' first slots.
+    fn slots(self) -> impl Iterator<Item = u32>;
+    /// The variables, each with its part of the values.
+    fn with_values<S>(self, values: &[S]) -> impl Iterator<Item = (u32, &[S])>;
+    /// The variables, each with room for its part of the values.
+    fn with_room<S>(self, room: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])>;
+}
+
+/// Variables of one slot each.
+#[derive(Clone, Copy)]
+pub struct Scalars<'a>(pub &'a [u32]);
+
+impl Variables for Scalars<'_> {
+    #[inline]
+    fn slots(self) -> impl Iterator<Item = u32> {
+        self.0.iter().copied()
+    }
+
+    #[inline]
+    fn with_values<S>(self, values: &[S]) -> impl Iterator<Item = (u32, &[S])> {
+        self.slots().zip(values.iter().map(from_ref))
+    }
+
+    #[inline]
+    fn with_room<S>(self, room: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])> {
+        self.slots().zip(room.iter_mut().map(from_mut))
+    }
+}
