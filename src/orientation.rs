@@ -68,20 +68,8 @@ impl Orientation {
         Orientation { angles, rotation, sin_pitch: sp, cos_pitch: cp, sin_yaw: sy, cos_yaw: cy }
     }
 
-    /// The matrix E of eq. (10), with its columns in the order roll, pitch, yaw: omega = E (roll, pitch, yaw)'.
-    ///
-    /// The columns are the axes, in the reference frame, about which the three angles turn.
-    pub fn rate_matrix(&self) -> Matrix3<f64> {
-        #[rustfmt::skip]
-        let matrix = Matrix3::new(
-            self.cos_yaw * self.cos_pitch, -self.sin_yaw, 0.0,
-            self.sin_yaw * self.cos_pitch,  self.cos_yaw, 0.0,
-            -self.sin_pitch,                0.0,          1.0,
-        );
-        matrix
-    }
-
-    /// Angular velocity in the reference frame from the angles' rates, eq. (10).
+    /// Angular velocity in the reference frame from the angles' rates, eq. (10): omega = E (roll, pitch, yaw)', where E's
+    /// columns are the axes about which the three angles turn. In axes that turn with the heading.
     pub fn angular_velocity(&self, rates: RollPitchYaw) -> Vector3<f64> {
         self.out_of_heading(Vector3::new(
             self.cos_pitch * rates.roll,

@@ -1,6 +1,6 @@
 //! Forward kinematics: from leg lengths to the pose, by Newton's method from a pose nearby.
 
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Vector3, Vector6};
 
 use super::{Geometry, Legs, PlatformMotion, Pose, jacobian, leg_accelerations, leg_lengths};
 use crate::orientation::{Orientation, RollPitchYaw};
@@ -38,31 +38,24 @@ pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose)
         if residual <= TOLERANCE || (stalled && residual <= ACCEPTABLE) {
             return Ok(pose);
         }
-        let Some(change) = pose_jacobian(geometry, &pose).lu().solve(&error) else { break };
-        pose = moved(&pose, &change);
+        let Some(twist) = jacobian(geometry, &pose).lu().solve(&error) else { break };
+        pose = moved(&pose, &twist);
     }
     Err(NotConverged { residual })
-}
-
-/// The Jacobian with respect to the coordinates of a pose, position and roll, pitch, yaw: eq. (10) turns the angles'
-/// rates into angular velocity.
-fn pose_jacobian(geometry: &Geometry, pose: &Pose) -> Matrix6<f64> {
-    let mut matrix = jacobian(geometry, pose);
-    let angular = matrix.fixed_view::<6, 3>(0, 3) * pose.orientation.rate_matrix();
-    matrix.fixed_view_mut::<6, 3>(0, 3).copy_from(&angular);
-    matrix
 }
 
 /// The largest change of an angle in one iteration \[rad\] and of the position \[m\]: keeps a bad guess from jumping
 /// to another branch.
 const LARGEST_CHANGE: f64 = 0.3;
 
-fn moved(pose: &Pose, change: &Vector6<f64>) -> Pose {
-    let change = change * (LARGEST_CHANGE / change.amax()).min(1.0);
-    let angles = pose.orientation.angles.to_vector() + change.fixed_rows::<3>(3);
+/// The pose moved by a small translation and a small rotation, which eq. (10) turns into changes of the angles.
+fn moved(pose: &Pose, twist: &Vector6<f64>) -> Pose {
+    let angles = pose.orientation.rates(twist.fixed_rows::<3>(3).into()).to_vector();
+    let position: Vector3<f64> = twist.fixed_rows::<3>(0).into();
+    let share = (LARGEST_CHANGE / position.amax().max(angles.amax())).min(1.0);
     Pose {
-        position: pose.position + change.fixed_rows::<3>(0),
-        orientation: Orientation::new(RollPitchYaw::from_vector(angles)),
+        position: pose.position + share * position,
+        orientation: Orientation::new(RollPitchYaw::from_vector(pose.orientation.angles.to_vector() + share * angles)),
     }
 }
 

@@ -1,6 +1,5 @@
 //! Inverse kinematics: L_i = |v_p + R a_i - b_i| and its derivatives.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{Geometry, PlatformMotion, Pose};
@@ -55,10 +54,7 @@ pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 
 
 /// Lengths of the legs in a pose.
 pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
-    std::array::from_fn(|i| leg(geometry, pose, i).norm())
-}
-
-/// The leg from base joint to platform joint, in the base frame.
-pub(super) fn leg(geometry: &Geometry, pose: &Pose, i: usize) -> Vector3<f64> {
-    pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)
+    std::array::from_fn(|i| {
+        (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
+    })
 }
