@@ -27,16 +27,26 @@ pub struct Tilt {
 /// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in head axes) along x and y.
 ///
 /// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside the angle limit, and so is
-/// the roll after the lean is taken off. Also returns whether they had to be. The limit is below 90 degrees.
+/// the roll after the lean is taken off. Also returns whether they had to be.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
-    let nose_up = libm::asin((force.x / gravity).clamp(-1.0, 1.0));
-    let pitch = (-nose_up).clamp(-angle_limit, angle_limit);
-    // g cos(pitch): short of the limit a root, which need not wait for the arcsine.
-    let across =
-        if pitch == -nose_up { (gravity * gravity - force.x * force.x).sqrt() } else { gravity * libm::cos(pitch) };
-    let head_roll = libm::asin((force.y / across).clamp(-1.0, 1.0));
-    let roll = (head_roll.clamp(-angle_limit, angle_limit) - lean).clamp(-angle_limit, angle_limit);
-    (Tilt { roll, pitch }, pitch != -nose_up || roll != head_roll - lean)
+    let pitch = -libm::asin(force.x / gravity);
+    // g cos(pitch), as a root that need not wait for the arcsine.
+    let head_roll = libm::asin(force.y / (gravity * gravity - force.x * force.x).sqrt());
+    let roll = head_roll - lean;
+    // An angle that does not exist is not a number, and not inside.
+    let inside = |angle: f64| angle.abs() <= angle_limit;
+    if inside(pitch) && inside(head_roll) && inside(roll) {
+        (Tilt { roll, pitch }, false)
+    } else {
+        (limited_tilt_target(force, gravity, lean, angle_limit), true)
+    }
+}
+
+fn limited_tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> Tilt {
+    let limited_arcsine = |sine: f64| libm::asin(sine.clamp(-1.0, 1.0)).clamp(-angle_limit, angle_limit);
+    let pitch = -limited_arcsine(force.x / gravity);
+    let head_roll = limited_arcsine(force.y / (gravity * libm::cos(pitch)));
+    Tilt { roll: (head_roll - lean).clamp(-angle_limit, angle_limit), pitch }
 }
 
 impl GravitationalStrategy {
