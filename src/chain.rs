@@ -148,8 +148,10 @@ impl Chains {
                 state.as_mut_array()[i] *= old.coefficients.as_array()[i] / new.coefficients.as_array()[i];
             }
         }
-        self.denominators = denominators;
-        // Of no step yet: the next one computes it.
-        self.step = 0.0;
+        if denominators != self.denominators {
+            self.denominators = denominators;
+            // There are no transitions for these yet: the next step computes them.
+            self.step = 0.0;
+        }
     }
 }

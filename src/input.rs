@@ -13,7 +13,7 @@ impl Input {
     /// +-1e9 as that.
     pub fn made_finite(&self) -> Input {
         let usable = |value: f64| value.abs() <= LARGEST;
-        let Input { specific_force: f, angular_velocity: w, orientation, speed, lean, .. } = self;
+        let Input { specific_force: f, angular_velocity: w, orientation, speed, lean, engaged: _ } = self;
         let angles = orientation.to_vector();
         // One look at all of them: it is rare that one has to be changed.
         if [f, w, &angles].into_iter().flatten().chain([speed, lean]).fold(true, |all, &value| all & usable(value)) {

@@ -99,7 +99,14 @@ impl Orientation {
     ///
     /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is kept [`away_from_zero`].
     pub fn rates(&self, angular_velocity: Vector3<f64>) -> RollPitchYaw {
-        rates_from_reference(angular_velocity, (self.sin_yaw, self.cos_yaw), (self.sin_pitch, self.cos_pitch))
+        let pitch = (self.sin_pitch, away_from_zero(self.cos_pitch));
+        rates_from_reference(angular_velocity, (self.sin_yaw, self.cos_yaw), pitch)
+    }
+
+    /// The angles' changes by a small rotation in the reference frame: the inverse of eq. (10) as it is, without a bound near
+    /// a pitch of 90 degrees.
+    pub fn changes(&self, rotation: Vector3<f64>) -> RollPitchYaw {
+        rates_from_reference(rotation, (self.sin_yaw, self.cos_yaw), (self.sin_pitch, self.cos_pitch))
     }
 }
 
@@ -125,13 +132,14 @@ impl Turning {
     }
 }
 
-/// The inverse of eq. (10), from sine and cosine of yaw and of pitch: see [`Orientation::rates`].
+/// The inverse of eq. (10), from sine and cosine of yaw and of pitch; the latter's cosine is divided by: see
+/// [`away_from_zero`].
 pub fn rates_from_reference(
     omega: Vector3<f64>,
     (sin_yaw, cos_yaw): (f64, f64),
     (sin_pitch, cos_pitch): (f64, f64),
 ) -> RollPitchYaw {
-    let roll = (cos_yaw * omega.x + sin_yaw * omega.y) / away_from_zero(cos_pitch);
+    let roll = (cos_yaw * omega.x + sin_yaw * omega.y) / cos_pitch;
     RollPitchYaw::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
 }
 

@@ -156,7 +156,7 @@ impl Washout {
     fn internal_steps(&self, step: f64) -> f64 {
         const ROUNDING: f64 = 1e-9;
         let longest = self.parameters.structure.max_step;
-        if step <= longest { 1.0 } else { (step / longest * (1.0 - ROUNDING)).ceil().min(MOST_INTERNAL_STEPS) }
+        if step <= longest { 1.0 } else { (step / longest * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS) }
     }
 
     /// One step of Fig. 4, from left to right. The input goes linearly from `start` to `end`, or stays what it is.

@@ -21,9 +21,10 @@ impl<M: Model> Instance<M> {
             return Err(self.why_not_readable::<S>(variables));
         }
         if self.run.untried {
-            return self.try_and_read(variables, room);
+            self.try_and_read(variables, room);
+        } else {
+            self.read(variables, room);
         }
-        self.read(variables, room);
         Ok(())
     }
 
@@ -35,7 +36,7 @@ impl<M: Model> Instance<M> {
     /// range, or that the model refuses. Then nothing has changed.
     #[inline]
     pub fn set<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), Complaint> {
-        // Inputs can be set in every mode in which anything can.
+        // Inputs can be set in every mode in which anything can, and the calling sequences let nothing be set in others.
         let is_for_input = |(slot, values): (u32, &[S])| {
             self.check::<S>(slot)
                 .is_some_and(|check| matches!(check.role, Role::Input { .. }) && accepts(check, values))
@@ -132,17 +133,12 @@ impl<M: Model> Instance<M> {
     /// Reads variables during initialization: outputs are those of the values set so far.
     #[cold]
     #[inline(never)]
-    fn try_and_read<S: Scalar>(
-        &mut self,
-        variables: impl Variables,
-        room: &mut [MaybeUninit<S>],
-    ) -> Result<(), Complaint> {
+    fn try_and_read<S: Scalar>(&mut self, variables: impl Variables, room: &mut [MaybeUninit<S>]) {
         let is_output = |slot| matches!(self.tables.checks[slot as usize].role, Role::Output { .. });
         if variables.slots().any(is_output) {
             self.try_values();
         }
         self.read(variables, room);
-        Ok(())
     }
 
     #[inline]

@@ -50,7 +50,7 @@ const LARGEST_CHANGE: f64 = 0.3;
 
 /// The pose moved by a small translation and a small rotation, which eq. (10) turns into changes of the angles.
 fn moved(pose: &Pose, twist: &Vector6<f64>) -> Pose {
-    let angles = pose.orientation.rates(twist.fixed_rows::<3>(3).into()).to_vector();
+    let angles = pose.orientation.changes(twist.fixed_rows::<3>(3).into()).to_vector();
     let position: Vector3<f64> = twist.fixed_rows::<3>(0).into();
     let share = (LARGEST_CHANGE / position.amax().max(angles.amax())).min(1.0);
     Pose {

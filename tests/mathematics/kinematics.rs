@@ -150,6 +150,23 @@ fn inverts(target: [f64; 6], random: &mut Random) {
 }
 
 #[test]
+fn forward_kinematics_converges_near_a_pitch_of_90_degrees() {
+    for degrees in [60.0_f64, 80.0, 85.0, 87.0, 88.5] {
+        let pitch = degrees.to_radians();
+        let target = lengths([0.05, 0.02, 1.0], [0.1, pitch, 0.05]);
+        let guess = pose([0.051, 0.021, 1.001], [0.102, pitch - 0.002, 0.053]);
+        let found = forward_kinematics(&geometry(), &target, &guess).expect("a pose");
+        let again = leg_lengths(&geometry(), &found);
+        assert!((0..6).all(|i| (again[i] - target[i]).abs() < 1e-12), "at {degrees} degrees");
+        assert!(
+            (found.orientation.angles.pitch - pitch).abs() < 1e-8,
+            "at {degrees} degrees: {:?}",
+            found.orientation.angles
+        );
+    }
+}
+
+#[test]
 fn forward_kinematics_inverts_on_a_grid_of_the_whole_box() {
     let mut random = Random::new(3);
     for index in 0..4_usize.pow(6) {

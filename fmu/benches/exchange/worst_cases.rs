@@ -13,7 +13,7 @@ pub fn smooth_ride(_: &mut Criterion) {
     println!("10 million exchanges, one clock reading each: {}", distribution(nanoseconds));
 }
 
-/// A million steps of a ride in jumps, on actuators so slow that the guard has to hold them back most of the time.
+/// A million steps of a ride in jumps, on actuators so slow that the guard has to hold them back all the time.
 pub fn limited_ride(_: &mut Criterion) {
     const STEPS: usize = 1_000_000;
     let slow = [("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 5.0)];
