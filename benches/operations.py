@@ -6,6 +6,7 @@ Needs valgrind and objdump, and an x86-64 machine. The figures do not depend on 
 """
 
 import collections
+import os
 import pathlib
 import re
 import subprocess
@@ -13,6 +14,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 SHORT, LONG = 1_000, 11_000
 
 # Mnemonics, from the most special to the most general. `pd` is two numbers at once, `sd` one.
@@ -77,9 +79,7 @@ def load_address(addresses: list[int], mnemonics: dict[int, str]) -> int:
 
 def main() -> None:
     subprocess.run(["cargo", "build", "--quiet", "--release", "--example", "steps"], cwd=ROOT, check=True)
-    metadata = subprocess.run(["cargo", "metadata", "--format-version=1", "--no-deps"], cwd=ROOT, check=True, capture_output=True, text=True)
-    target = re.search(r'"target_directory":"([^"]*)"', metadata.stdout).group(1)
-    program = pathlib.Path(target) / "release/examples/steps"
+    program = TARGET / "release/examples/steps"
     (short, short_elsewhere), (long, long_elsewhere) = (executed(program, steps) for steps in (SHORT, LONG))
     mnemonics = disassembled(program)
     base = load_address(list(long), mnemonics)

@@ -31,8 +31,9 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
         + gravity * removed_gravity(parameters.gravity_removal, input.orientation.roll + lean, pitch);
     let rates = match parameters.angular_velocity_frame {
         AngularVelocityFrame::World => {
-            let pitch = (pitch.0, away_from_zero(pitch.1));
-            rates_from_reference(input.angular_velocity, libm::sincos(input.orientation.yaw), pitch).to_vector()
+            let (sin_pitch, cos_pitch) = pitch;
+            let (yaw, pitch) = (libm::sincos(input.orientation.yaw), (sin_pitch, away_from_zero(cos_pitch)));
+            rates_from_reference(input.angular_velocity, yaw, pitch).to_vector()
         }
         AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, input.orientation.roll, pitch),
     };

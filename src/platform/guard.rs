@@ -43,6 +43,14 @@ struct HeldBack {
     leg_accelerations: [f64; 6],
 }
 
+/// Where the platform may be next: its coordinates, the same as a motion in the base frame, and its legs.
+#[derive(Clone, Copy)]
+struct Candidate<'a> {
+    coordinates: &'a Coordinates,
+    motion: &'a PlatformMotion,
+    legs: &'a Legs,
+}
+
 impl ActuatorGuard {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
@@ -74,7 +82,7 @@ impl ActuatorGuard {
     #[inline(always)]
     pub fn advance(&mut self, wanted: &Coordinates, motion: &PlatformMotion, safety: &SafetyParameters, step: f64) {
         let legs = inverse_kinematics(&self.geometry, motion);
-        if self.may_join(wanted, motion, &legs, safety, step) {
+        if self.may_join(Candidate { coordinates: wanted, motion, legs: &legs }, safety, step) {
             self.held_back = None;
             self.take(motion, &legs, step);
         } else {
@@ -85,17 +93,10 @@ impl ActuatorGuard {
 
     /// Whether the motion at the step's end can be the wanted one.
     #[inline(always)]
-    fn may_join(
-        &self,
-        wanted: &Coordinates,
-        motion: &PlatformMotion,
-        legs: &Legs,
-        safety: &SafetyParameters,
-        step: f64,
-    ) -> bool {
-        let joined = !self.acting() || self.has_caught_up(wanted, legs, safety, step);
+    fn may_join(&self, wanted: Candidate, safety: &SafetyParameters, step: f64) -> bool {
+        let joined = !self.acting() || self.has_caught_up(wanted.coordinates, wanted.legs, safety, step);
         let share = if self.acting() { REJOIN_SHARE } else { FULL_SHARE };
-        joined && self.legs_can_go(legs, share, step) && self.can_stop(wanted, motion, legs, safety)
+        joined && self.legs_can_go(wanted.legs, share, step) && self.can_stop(wanted, safety)
     }
 
     /// Whether nobody would notice if the platform were where it is wanted.
@@ -134,14 +135,8 @@ impl ActuatorGuard {
 
     /// Whether the platform can come to rest from there within all limits.
     #[inline(always)]
-    fn can_stop(
-        &self,
-        coordinates: &Coordinates,
-        motion: &PlatformMotion,
-        legs: &Legs,
-        safety: &SafetyParameters,
-    ) -> bool {
-        self.can_plainly_stop(coordinates, motion, legs, safety) || self.can_stop_by_plan(coordinates, legs, safety)
+    fn can_stop(&self, candidate: Candidate, safety: &SafetyParameters) -> bool {
+        self.can_plainly_stop(candidate, safety) || self.can_stop_by_plan(candidate.coordinates, candidate.legs, safety)
     }
 
     #[cold]
@@ -157,13 +152,8 @@ impl ActuatorGuard {
     /// Whether it can so plainly that there is no need to look along the way: all coordinates brake in the same time, and
     /// no leg can get near an end of its stroke in that, nor to its limits of speed and acceleration.
     #[inline(always)]
-    fn can_plainly_stop(
-        &self,
-        coordinates: &Coordinates,
-        motion: &PlatformMotion,
-        legs: &Legs,
-        safety: &SafetyParameters,
-    ) -> bool {
+    fn can_plainly_stop(&self, candidate: Candidate, safety: &SafetyParameters) -> bool {
+        let Candidate { coordinates, motion, legs } = candidate;
         let Limits { min, max, velocity, acceleration, .. } = self.limits;
         let fastest = fastest(legs);
         let linear = &coordinates.linear;

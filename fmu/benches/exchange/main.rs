@@ -10,6 +10,10 @@
 // The model's own file, for its GUID and its names.
 #[path = "../../../fmi/examples/do_nothing/model.rs"]
 mod do_nothing;
+// The tests' random numbers, of which no choice among several is needed here.
+#[allow(dead_code)]
+#[path = "../../../tests/mathematics/common/random.rs"]
+mod random;
 mod running;
 mod worst_cases;
 

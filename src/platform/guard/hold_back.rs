@@ -2,18 +2,24 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::{ActuatorGuard, HeldBack};
+use super::{ActuatorGuard, Candidate, HeldBack};
 use crate::governor::{CATCH_UP_SHARE, FULL_SHARE, Limits, Motion};
 use crate::interface::SafetyParameters;
 use crate::motions::Motions;
 use crate::platform::braking::Braking;
 use crate::platform::{Coordinates, Legs, PlatformMotion, inverse_kinematics, jacobian, motion_of_legs};
 
-/// Where the platform may be next: its coordinates, the same as a motion in the base frame, and its legs.
-struct Candidate {
+/// What is tried: a [`Candidate`] of its own.
+struct Try {
     coordinates: Coordinates,
     motion: PlatformMotion,
     legs: Legs,
+}
+
+impl Try {
+    fn candidate(&self) -> Candidate<'_> {
+        Candidate { coordinates: &self.coordinates, motion: &self.motion, legs: &self.legs }
+    }
 }
 
 /// Between braking and following, the best is found to a part in 2^6.
@@ -45,16 +51,15 @@ impl ActuatorGuard {
         wanted: &Legs,
         safety: &SafetyParameters,
         step: f64,
-    ) -> (Candidate, Braking) {
+    ) -> (Try, Braking) {
         let braked = planned.after(now, step);
         let followed = self.followed(now, wanted, safety, step);
-        let between = |share: f64| self.candidate(braked.towards(&followed, share, now, step));
-        let allowed = |Candidate { coordinates, motion, legs }: &Candidate| {
-            self.legs_can_go(legs, 1.0, step) && self.can_stop(coordinates, motion, legs, safety)
-        };
-        if let Some(candidate) = farthest(between, allowed) {
-            let braking = self.braking_from(&candidate.coordinates, &candidate.legs, safety);
-            return (candidate, braking);
+        let between = |share: f64| self.tried(braked.towards(&followed, share, now, step));
+        let allowed =
+            |tried: &Try| self.legs_can_go(&tried.legs, 1.0, step) && self.can_stop(tried.candidate(), safety);
+        if let Some(found) = farthest(between, allowed) {
+            let braking = self.braking_from(&found.coordinates, &found.legs, safety);
+            return (found, braking);
         }
         let as_planned = between(0.0);
         if self.legs_can_go(&as_planned.legs, FULL_SHARE, step) {
@@ -102,24 +107,24 @@ impl ActuatorGuard {
     /// What is left if the plan of braking itself does not fit: each leg on its own keeps its limits, and the platform
     /// makes what they make. If forward kinematics does not find that (in a rig free of singularities it always does), the
     /// last pose known is reported.
-    fn each_leg_alone(&self, now: &Coordinates, target: &Legs, step: f64) -> Candidate {
+    fn each_leg_alone(&self, now: &Coordinates, target: &Legs, step: f64) -> Try {
         let followed = self.each_leg_followed(target, step);
         let legs = Legs { length: followed.map(|leg| leg.position), velocity: followed.map(|leg| leg.velocity) };
         let accelerations = followed.map(|leg| leg.acceleration);
         let motion = motion_of_legs(&self.geometry, &legs, &accelerations, &self.motion.pose())
             .unwrap_or_else(|_| PlatformMotion::at_rest(self.motion.pose()));
         let coordinates = Coordinates::reached(&motion, self.neutral_height, now, step);
-        Candidate { coordinates, motion, legs }
+        Try { coordinates, motion, legs }
     }
 
-    fn candidate(&self, coordinates: Coordinates) -> Candidate {
+    fn tried(&self, coordinates: Coordinates) -> Try {
         let motion = coordinates.motion(self.neutral_height);
-        Candidate { coordinates, motion, legs: inverse_kinematics(&self.geometry, &motion) }
+        Try { coordinates, motion, legs: inverse_kinematics(&self.geometry, &motion) }
     }
 }
 
-/// The candidate farthest on the way from braking (share 0) to following (1) that is allowed, if any but braking is.
-fn farthest(between: impl Fn(f64) -> Candidate, allowed: impl Fn(&Candidate) -> bool) -> Option<Candidate> {
+/// The farthest on the way from braking (share 0) to following (1) that is allowed, if any but braking is.
+fn farthest(between: impl Fn(f64) -> Try, allowed: impl Fn(&Try) -> bool) -> Option<Try> {
     let all_the_way = between(1.0);
     if allowed(&all_the_way) {
         return Some(all_the_way);
@@ -127,9 +132,9 @@ fn farthest(between: impl Fn(f64) -> Candidate, allowed: impl Fn(&Candidate) -> 
     let (mut low, mut high, mut found) = (0.0, 1.0, None);
     for _ in 0..BISECTIONS {
         let share = 0.5 * (low + high);
-        let candidate = between(share);
-        if allowed(&candidate) {
-            (low, found) = (share, Some(candidate));
+        let tried = between(share);
+        if allowed(&tried) {
+            (low, found) = (share, Some(tried));
         } else {
             high = share;
         }
