@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::interface::Input;
-use crate::orientation::RollPitchYaw;
+use crate::motion::orientation::RollPitchYaw;
 
 /// No vehicle comes near this in SI units; beyond it arithmetic would.
 const LARGEST: f64 = 1e9;

@@ -3,12 +3,12 @@
 //! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed: users and their
 //! scripts rely on them. A new variable goes at the end of its group.
 
-use model_interface::units::{M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
-use model_interface::{enumeration, interface, interface_tree};
+use moris_interface::units::{M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
+use moris_interface::{enumeration, interface, interface_tree};
 use nalgebra::Vector3;
 
 use crate::default_rig;
-pub use crate::orientation::RollPitchYaw;
+pub use crate::motion::orientation::RollPitchYaw;
 
 /// Standard gravity \[m/s2\].
 pub const STANDARD_GRAVITY: f64 = 9.80665;

@@ -1,7 +1,7 @@
 //! The washout as a model with variables, for whoever hosts it.
 
-use model_interface::{Group, Identity, Model, Reader, Refusal, Row, Slot, Writer};
-use model_interface::{concat_rows, row_count, slot_count, slot_table};
+use moris_interface::{Group, Identity, Model, Reader, Refusal, Row, Slot, Writer};
+use moris_interface::{concat_rows, row_count, slot_count, slot_table};
 
 use crate::interface::{Clock, Input, Output, Parameters};
 use crate::washout::{MOST_INTERNAL_STEPS, Washout};

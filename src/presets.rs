@@ -1,6 +1,6 @@
 //! Parameter sets shipped beside the default, as names and values of the interface's variables.
 
-use model_interface::{Causality, Model};
+use moris_interface::{Causality, Model};
 
 use crate::interface::{Parameters, Preaction};
 use crate::model::parameters_in;

@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Kind, Refusal, Row, Variability, Writer, refuse, slot_count};
+use moris_interface::{Group, Kind, Refusal, Row, Variability, Writer, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, leg_lengths, survey};

@@ -1,22 +1,22 @@
 //! The whole washout, the paper's Fig. 4: an input, an output, one step.
 
-use model_interface::Refusal;
+use moris_interface::Refusal;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::angular::AngularChannel;
-use crate::check::{check, check_change};
-use crate::conditioning::{Cue, InputFilter, cue, forward_acceleration};
-use crate::direct_linear::DirectLinearMotion;
-use crate::evaluator::{Felt, felt};
-use crate::gravitational::GravitationalStrategy;
-use crate::head::Head;
+use crate::cueing::angular::AngularChannel;
+use crate::cueing::compensation::compensated;
+use crate::cueing::conditioning::{Cue, InputFilter, cue, forward_acceleration};
+use crate::cueing::direct_linear::DirectLinearMotion;
+use crate::cueing::evaluator::{Felt, felt};
+use crate::cueing::gravitational::GravitationalStrategy;
+use crate::cueing::preaction::StopPreaction;
+use crate::cueing::splitter::LowPass;
 use crate::interface::{Input, Output, Parameters, Preaction};
-use crate::orientation::Turning;
+use crate::motion::orientation::Turning;
+use crate::platform::head::Head;
 use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
-use crate::preaction::StopPreaction;
-use crate::splitter::LowPass;
-use crate::spurious::compensated;
+use crate::validate::{check, check_change};
 
 /// The washout filter with its platform.
 ///

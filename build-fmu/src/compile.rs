@@ -5,7 +5,7 @@ use std::fmt;
 use std::fs;
 use std::process::Command;
 
-use crate::{Error, FmiVersion, Model, Platform, Start, apple_names, tools, workspace};
+use crate::{Error, FmiVersion, Model, Platform, Start, macos_stub, tools, workspace};
 
 /// The oldest glibc on which a library for Linux runs when zig links it: that of RHEL 7, and of what Rust itself needs.
 const OLDEST_GLIBC: &str = "2.17";
@@ -72,7 +72,7 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
     Ok(Plan { platform, linker })
 }
 
-/// The variable that tells `fmi_export`'s macros of start values in place of the model's own.
+/// The variable that tells `moris_fmi`'s macros of start values in place of the model's own.
 const START_VALUES: &str = "FMU_START_VALUES";
 
 /// Compiles the model's library for a version of FMI, with these start values, and returns it.
@@ -88,7 +88,7 @@ pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Re
         None => command.env_remove(START_VALUES),
     };
     if plan.linker == Linker::Lld {
-        command.env("SDKROOT", apple_names::development_kit(plan.platform)?);
+        command.env("SDKROOT", macos_stub::development_kit(plan.platform)?);
     }
     let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
     if !status.success() {

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use model_interface::Refusal;
+use moris_interface::Refusal;
 
 use crate::Platform;
 use crate::library::Flaw;
@@ -42,7 +42,7 @@ pub enum Error {
     NotTaken { option: &'static str, who: &'static str },
     /// A rig or parameter file cannot be used.
     #[error("{0}")]
-    Setup(#[from] washout_setup::Error),
+    Setup(#[from] moris_setup::Error),
     /// The archive cannot be made.
     #[error("cannot pack the archive: {0}")]
     Archive(#[from] zip::result::ZipError),

@@ -4,7 +4,6 @@
 //! the models that there are in [`model`], the platforms in [`platform`], the versions of FMI in [`fmi_version`]. [`ssp`]
 //! packs several FMUs into a system.
 
-mod apple_names;
 pub mod archive;
 pub mod compile;
 pub mod contents;
@@ -14,11 +13,12 @@ pub mod fmi_version;
 pub mod functions;
 pub mod icon;
 pub mod library;
+mod macos_stub;
 pub mod model;
 pub mod platform;
 pub mod reference;
 pub mod ssp;
-mod start;
+mod start_values;
 mod tools;
 pub mod workspace;
 
@@ -29,7 +29,7 @@ pub use error::Error;
 pub use fmi_version::FmiVersion;
 pub use model::{MODELS, Model};
 pub use platform::Platform;
-pub use start::Start;
+pub use start_values::Start;
 
 /// An FMU that has been written.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use build_fmu::model::WASHOUT;
-use build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, workspace};
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
-use washout_setup::{NamedValues, load_rig, load_set};
+use moris_build_fmu::model::WASHOUT;
+use moris_build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, workspace};
+use moris_setup::{NamedValues, load_rig, load_set};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and documentation.
 ///

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use model_interface::{Causality, Kind, Model};
+use moris_interface::{Causality, Kind, Model};
 
 use crate::archive::Contents;
 

@@ -1,8 +1,8 @@
 //! What an FMU starts with: the model's own values, or others baked into it in their place.
 
-use model_interface::{Causality, write_start_values};
+use moris_interface::{Causality, write_start_values};
+use moris_setup::{NamedValues, contradiction, overlaid, parameter_file, values_of};
 use moris_washout::Parameters;
-use washout_setup::{NamedValues, contradiction, overlaid, parameter_file, values_of};
 
 use crate::{Error, Model};
 

@@ -2,16 +2,16 @@
 
 use std::path::Path;
 
-use build_fmu::model::WASHOUT;
-use build_fmu::{FmiVersion, Start, build_with};
-use fmu_host::Fmu;
-use model_interface::guid;
+use moris_build_fmu::model::WASHOUT;
+use moris_build_fmu::{FmiVersion, Start, build_with};
+use moris_fmu_host::Fmu;
+use moris_interface::guid;
+use moris_setup::{load_rig, load_set, overlaid};
 use moris_washout::{Input, Parameters, Washout};
-use washout_setup::{load_rig, load_set, overlaid};
 
 #[test]
 fn the_fmu_starts_with_the_values_and_runs_as_the_crate_does_with_them() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../moris/rigs/narrow.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/moris/rigs/narrow.toml");
     let mut values = load_rig(&file).unwrap().values();
     values.extend(load_set("wake", WASHOUT.made.identity.rows).unwrap());
     let start = Start::with(&WASHOUT, &values).unwrap();
@@ -41,7 +41,7 @@ fn the_fmu_starts_with_the_values_and_runs_as_the_crate_does_with_them() {
         instance.set("vehicle.specificForce.x", input.specific_force.x).unwrap();
         instance.set("vehicle.specificForce.y", input.specific_force.y).unwrap();
         instance.set("vehicle.angularVelocity.z", input.angular_velocity.z).unwrap();
-        assert_eq!(instance.do_step(time, 0.001), fmu_host::Status::Ok);
+        assert_eq!(instance.do_step(time, 0.001), moris_fmu_host::Status::Ok);
         washout.step(&input, 0.001);
         let output = washout.output();
         for leg in 0..6 {

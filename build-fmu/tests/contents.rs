@@ -2,13 +2,13 @@
 
 use std::io::{Cursor, Read};
 
-use build_fmu::archive::{Contents, pack};
-use build_fmu::contents::contents;
-use build_fmu::model::WASHOUT;
-use build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
-use build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
 use clap::ValueEnum;
-use model_description::scalar_variable::{ScalarVariable, Values};
+use moris_build_fmu::archive::{Contents, pack};
+use moris_build_fmu::contents::contents;
+use moris_build_fmu::model::WASHOUT;
+use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
+use moris_build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
+use moris_model_description::fmi2::scalar_variable::{ScalarVariable, Values};
 use zip::ZipArchive;
 
 fn with_every_platform(model: &Model, fmi: FmiVersion) -> Contents {
@@ -156,7 +156,7 @@ fn the_documentation_of_fmi_3_has_its_names() {
     for model in MODELS {
         let page = documentation(model, FmiVersion::Fmi3).replace("<wbr>", "").replace('\u{a0}', " ");
         for row in model.made.identity.rows {
-            if row.causality != model_interface::Causality::Independent {
+            if row.causality != moris_interface::Causality::Independent {
                 assert!(page.contains(&format!("<td><code>{}</code>", row.array_name())), "{}", row.name);
             }
         }

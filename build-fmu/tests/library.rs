@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-use build_fmu::functions::{FMI2_FUNCTIONS, FMI3_FUNCTIONS};
-use build_fmu::library::{Facts, Flaw, examine};
+use moris_build_fmu::functions::{FMI2_FUNCTIONS, FMI3_FUNCTIONS};
+use moris_build_fmu::library::{Facts, Flaw, examine};
 
 /// A library that exports these names.
 fn library(test: &str, names: &[&str], more: &str, arguments: &[&str]) -> Vec<u8> {

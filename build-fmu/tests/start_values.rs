@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use build_fmu::contents::contents;
-use build_fmu::model::{STEWART_PLATFORM, WASHOUT};
-use build_fmu::{FmiVersion, MODELS, Model, Start};
 use clap::ValueEnum;
-use washout_setup::rig_file::RigFile;
-use washout_setup::{NamedValues, load_rig, load_set};
+use moris_build_fmu::contents::contents;
+use moris_build_fmu::model::{STEWART_PLATFORM, WASHOUT};
+use moris_build_fmu::{FmiVersion, MODELS, Model, Start};
+use moris_setup::rig_file::RigFile;
+use moris_setup::{NamedValues, load_rig, load_set};
 
 fn rig(name: &str) -> RigFile {
-    let file: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../moris/rigs").join(name);
+    let file: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/moris/rigs").join(name);
     load_rig(&file).unwrap()
 }
 

@@ -4,14 +4,14 @@
 
 use std::sync::LazyLock;
 
-use fmu_host::Api;
 use libfuzzer_sys::fuzz_target;
+use moris_fmu_host::Api;
 
 #[allow(dead_code, unused_imports)] // what only the tests use
-#[path = "../../fmu/tests/abi/hostile/driver/mod.rs"]
+#[path = "../../crates/fmus/washout-fmi2/tests/abi/hostile/driver/mod.rs"]
 mod driver;
 mod library;
-#[path = "../../fmi/tests/abi/standard.rs"]
+#[path = "../../crates/fmi/tests/abi/standard.rs"]
 mod standard;
 
 static API: LazyLock<Api> = LazyLock::new(library::open);

@@ -5,8 +5,8 @@ mod small_model;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use model_description::{describe, fmi3, to_xml};
-use model_interface::{Causality, Identity, Kind, Model, Row};
+use moris_interface::{Causality, Identity, Kind, Model, Row};
+use moris_model_description::{fmi2::describe, fmi3, to_xml};
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
@@ -47,7 +47,7 @@ fn it_begins_as_fmi_asks<M: Model>() {
     let document = Document::parse(&xml).unwrap();
     let root = document.root_element();
     assert_eq!(root.attribute("fmiVersion"), Some("3.0"));
-    assert_eq!(root.attribute("instantiationToken"), Some(model_interface::guid::<M>().as_str()));
+    assert_eq!(root.attribute("instantiationToken"), Some(moris_interface::guid::<M>().as_str()));
     assert_eq!(root.attribute("modelName"), Some(M::IDENTITY.name));
     assert_eq!(root.attribute("variableNamingConvention"), Some("structured"));
     assert!(!xml.contains("NaN") && !xml.contains("inf\"") && !xml.contains("INF"));

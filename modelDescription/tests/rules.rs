@@ -5,8 +5,8 @@ mod small_model;
 
 use std::collections::{BTreeSet, HashMap};
 
-use model_description::{describe, to_xml};
-use model_interface::{Causality, Kind, Model};
+use moris_interface::{Causality, Kind, Model};
+use moris_model_description::{fmi2::describe, to_xml};
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
@@ -45,7 +45,7 @@ fn it_begins_as_fmi_asks<M: Model>() {
     let document = Document::parse(&xml).unwrap();
     let root = document.root_element();
     assert_eq!(root.attribute("fmiVersion"), Some("2.0"));
-    assert_eq!(root.attribute("guid"), Some(model_interface::guid::<M>().as_str()));
+    assert_eq!(root.attribute("guid"), Some(moris_interface::guid::<M>().as_str()));
     assert_eq!(root.attribute("modelName"), Some(M::IDENTITY.name));
     assert_eq!(root.attribute("variableNamingConvention"), Some("structured"));
     let date = root.attribute("generationDateAndTime").unwrap();
@@ -237,7 +237,7 @@ fn initial_unknowns_are_the_calculated_variables_in_order<M: Model>() {
 
 fn it_reads_back_as_what_was_written<M: Model>() {
     let description = describe::<M>();
-    let read: model_description::ModelDescription = quick_xml::de::from_str(&to_xml(&description)).unwrap();
+    let read: moris_model_description::fmi2::ModelDescription = quick_xml::de::from_str(&to_xml(&description)).unwrap();
     assert_eq!(read, description);
 }
 

@@ -2,8 +2,8 @@
 
 mod small_model;
 
-use model_description::variables_html;
-use model_interface::start_values;
+use moris_interface::start_values;
+use moris_model_description::fmi2::variables_html;
 use roxmltree::Document;
 use small_model::Small;
 

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::bump::Bump;
-use crate::chain::{Chains, Denominator};
+use crate::filter::bumpless::Bump;
+use crate::filter::chain::{Chains, Denominator};
 use crate::interface::AngularParameters;
-use crate::motions::Motions;
+use crate::motion::Motions;
 
 /// The angular channel with its state: roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

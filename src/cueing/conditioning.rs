@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
-use crate::orientation::{away_from_zero, rates_from_reference};
+use crate::motion::orientation::{away_from_zero, rates_from_reference};
 
 /// What is left to cue: zero at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -4,13 +4,13 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::bump::Bump;
-use crate::chain::Chains;
-use crate::governor::Motion;
+use crate::cueing::safety::SafetyUnits;
+use crate::cueing::splitter::high_pass_denominators;
+use crate::filter::bumpless::Bump;
+use crate::filter::chain::Chains;
 use crate::interface::{SafetyParameters, SplitterParameters};
-use crate::motions::Motions;
-use crate::safety::SafetyUnits;
-use crate::splitter::high_pass_denominators;
+use crate::motion::Motions;
+use crate::motion::braking_law::Motion;
 
 /// The linear channel with its state: surge, sway and heave, along x, y and z of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::head::Head;
+use crate::cueing::compensation::{centripetal, tangential};
 use crate::platform::PlatformMotion;
-use crate::spurious::{centripetal, tangential};
+use crate::platform::head::Head;
 
 /// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in the axes of the frame there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

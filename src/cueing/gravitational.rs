@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::governor::{Limits, Motion};
 use crate::interface::TiltParameters;
-use crate::motions::Motions;
+use crate::motion::Motions;
+use crate::motion::braking_law::{Limits, Motion};
 
 /// The tilt of the platform that the gravitational strategy commands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

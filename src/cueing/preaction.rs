@@ -8,8 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::governor::{Limits, Motion};
 use crate::interface::{SafetyParameters, TiltParameters};
+use crate::motion::braking_law::{Limits, Motion};
 
 /// Watches the vehicle brake, and acts ahead of its stop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

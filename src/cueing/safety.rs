@@ -4,9 +4,9 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::governor::{CATCH_UP_SHARE, FULL_SHARE, Limits, REJOIN_DISTANCE, REJOIN_SHARE, ROUNDING};
 use crate::interface::SafetyParameters;
-use crate::motions::Motions;
+use crate::motion::Motions;
+use crate::motion::braking_law::{CATCH_UP_SHARE, FULL_SHARE, Limits, REJOIN_DISTANCE, REJOIN_SHARE, ROUNDING};
 
 /// One safety unit for each axis of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

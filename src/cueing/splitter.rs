@@ -1,13 +1,13 @@
 //! Block (1), second half: the low-frequency part of the specific force, which tilt coordination reproduces.
 //!
-//! The high-frequency part is in [`crate::direct_linear`], where it is also integrated. With the complementary
+//! The high-frequency part is in [`crate::cueing::direct_linear`], where it is also integrated. With the complementary
 //! low-pass both are the same chain, D(s) xi = u, and add up to the input exactly, eq. (6); they are kept apart because
 //! the compensation of spurious accelerations enters only the high-pass.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::chain::{Chains, Denominator};
+use crate::filter::chain::{Chains, Denominator};
 use crate::interface::{LowPassKind, SplitterParameters};
 
 /// The low-pass filters, one for each axis of the base frame.

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::extremes::{larger, smaller};
+use crate::motion::extremes::{larger, smaller};
 
 /// Position, velocity and acceleration of something that moves along a line, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

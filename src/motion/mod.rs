@@ -1,9 +1,15 @@
-//! Three motions side by side: along x, y, z or in roll, pitch, yaw.
+//! Motion along lines and about axes, and the braking law that keeps it within limits.
+//!
+//! [`Motions`] has three motions side by side: along x, y, z or in roll, pitch, yaw.
+
+pub mod braking_law;
+pub(crate) mod extremes;
+pub mod orientation;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::governor::Motion;
+use crate::motion::braking_law::Motion;
 
 /// Position, velocity and acceleration of three things that move along lines, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

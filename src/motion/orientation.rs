@@ -1,10 +1,10 @@
 //! Orientation as roll, pitch, yaw: eq. (2) for the rotation, eq. (10) for the rates.
 
-use model_interface::{Field, Kind, units};
+use moris_interface::{Field, Kind, units};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::motions::Motions;
+use crate::motion::Motions;
 
 /// Roll about x, pitch about y (nose down is positive), yaw about z, or three quantities that belong to them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

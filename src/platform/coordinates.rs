@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::PlatformMotion;
-use crate::motions::Motions;
-use crate::orientation::Turning;
+use crate::motion::Motions;
+use crate::motion::orientation::Turning;
 
 /// Surge, sway and heave from neutral in the base frame \[m\]; roll, pitch and yaw \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

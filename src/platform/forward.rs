@@ -3,7 +3,7 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::{Geometry, Legs, PlatformMotion, Pose, jacobian, leg_accelerations, leg_lengths};
-use crate::orientation::{Orientation, RollPitchYaw};
+use crate::motion::orientation::{Orientation, RollPitchYaw};
 
 /// Newton's method is given up after this many iterations. From a pose one step away it takes two or three.
 pub const MAX_ITERATIONS: usize = 20;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Geometry, PlatformMotion, Pose};
-use crate::spurious::{centripetal, tangential};
+use crate::cueing::compensation::{centripetal, tangential};
 
 /// The six legs: length \[m\] and rate \[m/s\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

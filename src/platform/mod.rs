@@ -1,12 +1,13 @@
 //! The Stewart platform: its geometry, and the way from pose to legs and back.
 
-mod braking;
 mod coordinates;
 mod forward;
 mod guard;
+pub mod head;
 mod inverse;
 mod jacobian;
 mod joints;
+mod stop_plan;
 mod survey;
 
 use nalgebra::{Matrix3, Vector3};
@@ -21,8 +22,8 @@ pub use joints::Joints;
 pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;
-use crate::motions::Motions;
-use crate::orientation::{Orientation, RollPitchYaw, Turning};
+use crate::motion::Motions;
+use crate::motion::orientation::{Orientation, RollPitchYaw, Turning};
 
 /// Where the joints are: on the base in the base frame, on the platform in the platform frame \[m\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

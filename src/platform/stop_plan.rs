@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::{Coordinates, Geometry, Legs, inverse_kinematics, leg_accelerations};
-use crate::extremes::larger;
-use crate::governor::Limits;
 use crate::interface::SafetyParameters;
-use crate::motions::Motions;
+use crate::motion::Motions;
+use crate::motion::braking_law::Limits;
+use crate::motion::extremes::larger;
 
 /// The decelerations of the coordinates on the way to rest, none of them negative: of surge, sway and heave \[m/s2\] and
 /// of roll, pitch and yaw \[rad/s2\].

@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 HOST = "x86_64-unknown-linux-gnu"
-PACKAGES = ["-p", "fmi-export", "-p", "moris-washout-fmu"]
+PACKAGES = ["-p", "moris-fmi", "-p", "moris-washout-fmi2"]
 # Valgrind is fifty times slower: of the washout's tests those that call most in least time.
 UNDER_VALGRIND = [
     "rounds::a_few_rounds_do_no_harm",
@@ -76,7 +76,7 @@ def valgrind():
     """The washout's library in the tests' hands."""
     if shutil.which("valgrind") is None:
         raise Missing("apt install valgrind")
-    output = run(["cargo", "test", "-p", "moris-washout-fmu", "--no-run", "--message-format=json"])
+    output = run(["cargo", "test", "-p", "moris-washout-fmi2", "--no-run", "--message-format=json"])
     lines = [json.loads(line) for line in output.splitlines() if line.startswith("{")]
     (test,) = {
         line["executable"] for line in lines

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import LinearConstraint, minimize
 
 ROOT = Path(__file__).resolve().parents[2]
-# The limits of measures/examples/bound.rs: the default rig's surge.
+# The limits of crates/measures/examples/bound.rs: the default rig's surge.
 TRAVEL, SPEED, ACCELERATION = 0.45, 1.0, 10.0
 GRAVITY, HEAD = 9.80665, 1.2
 ANGLE, RATE, TILT_ACCELERATION = 0.38, np.radians(3.0), 0.2
@@ -15,7 +15,7 @@ ANGLE, RATE, TILT_ACCELERATION = 0.38, np.radians(3.0), 0.2
 
 def bound(desired, step, interval):
     """The bound and what is attained, by the crate."""
-    command = ["cargo", "run", "--quiet", "--release", "--package", "cue-measures", "--example", "bound", "--"]
+    command = ["cargo", "run", "--quiet", "--release", "--package", "moris-measures", "--example", "bound", "--"]
     text = "\n".join(repr(float(value)) for value in desired)
     done = subprocess.run(
         [*command, str(step), str(interval)], cwd=ROOT, input=text, capture_output=True, text=True, check=True

@@ -3,7 +3,7 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of report/examples/pages.rs. Without Chromium or Playwright nothing is run, and that is said; with --require it
+The pages are those of crates/moris/report/examples/pages.rs. Without Chromium or Playwright nothing is run, and that is said; with --require it
 is an error. With --install both are installed first (apt and pip; for Debian and Ubuntu). Pictures are left in target/report/.
 """
 
@@ -67,7 +67,7 @@ def main():
         print(f"report pages: not run, missing ({what}; or run with --install)")
         sys.exit(1 if arguments.require else 0)
     pages = WORK / "pages"
-    check_call("cargo", "run", "--quiet", "--release", "--package", "ride-report", "--example", "pages", "--", pages)
+    check_call("cargo", "run", "--quiet", "--release", "--package", "moris-report", "--example", "pages", "--", pages)
     sys.exit(subprocess.run([interpreter, HERE / "checks.py", chromium, pages, WORK / "pictures"]).returncode)
 
 

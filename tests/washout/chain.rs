@@ -1,6 +1,6 @@
 //! The filter chain against closed forms, an integration of its equation, and itself.
 
-use moris_washout::chain::Denominator;
+use moris_washout::filter::chain::Denominator;
 use proptest::prelude::*;
 
 use crate::common::chain::Chain;

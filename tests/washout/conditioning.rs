@@ -1,7 +1,7 @@
 //! What is done to the vehicle's motion before it is filtered.
 
 use moris_washout::Input;
-use moris_washout::conditioning::{Cue, InputFilter, cue, soft_limit};
+use moris_washout::cueing::conditioning::{Cue, InputFilter, cue, soft_limit};
 use moris_washout::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, RollPitchYaw};
 use nalgebra::Vector3;
 use proptest::prelude::*;

@@ -1,8 +1,8 @@
 //! Where the paper is silent, contradicts itself or errs, and what the washout does: one test for each erratum.
 
-use moris_washout::head::Head;
+use moris_washout::cueing::compensation::{centripetal, tangential};
 use moris_washout::interface::StructureParameters;
-use moris_washout::spurious::{centripetal, tangential};
+use moris_washout::platform::head::Head;
 use moris_washout::{Input, Washout};
 use nalgebra::Vector3;
 

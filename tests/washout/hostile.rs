@@ -1,7 +1,7 @@
 //! Whatever the washout is fed, the platform and the legs stay within their limits and come back to neutral.
 
 use moris_washout::interface::RollPitchYaw;
-use moris_washout::{Input, Washout, parameter_sets};
+use moris_washout::{Input, Washout, presets};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -67,7 +67,7 @@ const SETS: [&[(&str, f64)]; 7] = [
     &[("solver.maxStep", 0.02)],
     &[("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 3.0)],
     &[("safety.x.velocityLimit", 0.2), ("safety.y.accelerationLimit", 2.0), ("safety.z.positionLimit", 0.1)],
-    parameter_sets::WAKE,
+    presets::WAKE,
 ];
 
 /// Rides through `count` steps of hostile input, then rests until the platform is neutral, within limits all the time.

@@ -2,7 +2,7 @@
 
 use moris_washout::Rig;
 use moris_washout::interface::RollPitchYaw;
-use moris_washout::orientation::Orientation;
+use moris_washout::motion::orientation::Orientation;
 use moris_washout::platform::{
     Geometry, PlatformMotion, Pose, forward_kinematics, inverse_kinematics, jacobian, leg_accelerations, leg_lengths,
     motion_of_legs,

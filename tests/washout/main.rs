@@ -3,13 +3,13 @@
 //!
 //! One binary for all topics: they share helpers, and are linked once.
 
+mod braking_law;
 mod chain;
 mod common;
 mod communication_steps;
 mod conditioning;
 mod errata;
 mod evaluator;
-mod governor;
 mod hostile;
 mod kinematics;
 mod paper_runs;

@@ -1,6 +1,6 @@
 //! The paper's three runs, and what it claims of them.
 
-use moris_washout::{Input, Output, Washout, parameter_sets};
+use moris_washout::{Input, Output, Washout, presets};
 
 use crate::common::manoeuvres::*;
 use crate::common::{correlation, from_neutral, parameters, rms_difference, washout};
@@ -77,7 +77,7 @@ fn the_wake_is_ridden_inside_the_stroke_with_the_default_set() {
 
 #[test]
 fn the_wake_is_tracked_with_its_own_set() {
-    let mut washout = Washout::new(&parameter_sets::parameters(parameter_sets::WAKE)).unwrap();
+    let mut washout = Washout::new(&presets::parameters(presets::WAKE)).unwrap();
     let (mut felt, mut desired) = ([vec![], vec![]], [vec![], vec![]]);
     for k in 0..(WAKE_TIME / STEP) as usize {
         let t = k as f64 * STEP;

@@ -1,7 +1,7 @@
 //! Preaction: a brusque stop is felt far better, and a braking that is released is felt as without it.
 
 use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::{Input, Output, Parameters, Washout, parameter_sets};
+use moris_washout::{Input, Output, Parameters, Washout, presets};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -11,7 +11,7 @@ use crate::common::{cases, displacement, parameters};
 
 const STEP: f64 = 0.001;
 fn preaction(on: bool) -> Parameters {
-    parameters(if on { parameter_sets::PREACTION } else { &[] })
+    parameters(if on { presets::PREACTION } else { &[] })
 }
 
 /// How a vehicle goes: acceleration \[m/s2\] and speed \[m/s\] at a time \[s\].

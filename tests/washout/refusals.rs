@@ -1,6 +1,6 @@
 //! Parameters that cannot be used are refused with the variable's name and the reason.
 
-use model_interface::{Causality, Kind, Model, Refusal};
+use moris_interface::{Causality, Kind, Model, Refusal};
 use moris_washout::{Input, Washout, check};
 
 use crate::common::parameters;

@@ -1,6 +1,6 @@
 //! Tunable parameters changed in the middle of a ride, engaging and disengaging: nothing jumps.
 
-use model_interface::{Causality, Kind, Model, Variability};
+use moris_interface::{Causality, Kind, Model, Variability};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Output, Parameters, Washout};
 use nalgebra::Vector3;

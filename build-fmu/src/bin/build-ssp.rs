@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
-use build_fmu::{Platform, workspace};
 use clap::Parser;
+use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
+use moris_build_fmu::{Platform, workspace};
 
 /// Builds MotorcycleSimulator.ssp: motorcycle, washout filter and platform as FMUs, connected, with their parameters.
 ///

@@ -6,8 +6,8 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use build_fmu::{FmiVersion, MODELS, Start, workspace};
 use clap::ValueEnum;
+use moris_build_fmu::{FmiVersion, MODELS, Start, workspace};
 
 fn main() -> ExitCode {
     for model in MODELS {

@@ -4,7 +4,7 @@ mod canvas;
 
 use canvas::{Canvas, Colour, Point};
 use moris_washout::Rig;
-use moris_washout::orientation::{Orientation, RollPitchYaw};
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::platform::Pose;
 use nalgebra::Vector3;
 

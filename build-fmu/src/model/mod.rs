@@ -6,10 +6,10 @@ mod washout;
 
 use std::path::PathBuf;
 
-use model_description::{ModelDescription, describe_with, fmi3, to_xml, variables_html};
-use model_interface::{Identity, Model as Interface, Refusal, start_values};
+use moris_interface::{Identity, Model as Interface, Refusal, start_values};
+use moris_model_description::{fmi2, fmi3, to_xml};
 
-use washout_setup::NamedValues;
+use moris_setup::NamedValues;
 
 use crate::documentation::Section;
 use crate::reference::{self, Stimuli};
@@ -56,7 +56,7 @@ pub struct Made {
     /// Whether the model can start with these values.
     pub check: fn(start: &[f64]) -> Result<(), Refusal>,
     /// The model description of FMI 2.0.
-    pub description: fn(start: &[f64]) -> ModelDescription,
+    pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
     /// That of FMI 3.0.
     pub fmi3_description: fn(start: &[f64]) -> fmi3::ModelDescription,
     /// The documentation's tables of variables for FMI 2.0 and for FMI 3.0.
@@ -72,9 +72,9 @@ impl Made {
             identity: M::IDENTITY,
             start: start_values::<M>,
             check: |start| M::new(start).map(drop),
-            description: describe_with::<M>,
+            description: fmi2::describe_with::<M>,
             fmi3_description: fmi3::describe_with::<M>,
-            variables: [variables_html::<M>, fmi3::variables_html::<M>],
+            variables: [fmi2::variables_html::<M>, fmi3::variables_html::<M>],
             reference_output: reference::output::<M>,
         }
     }
@@ -97,7 +97,7 @@ impl Model {
     }
 
     /// The model description of FMI 2.0 with the model's own start values.
-    pub fn description(&self) -> ModelDescription {
+    pub fn description(&self) -> fmi2::ModelDescription {
         (self.made.description)(Start::own(self).slots())
     }
 

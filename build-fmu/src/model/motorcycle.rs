@@ -2,7 +2,7 @@
 
 use moris_motorcycle::Motorcycle;
 
-use washout_setup::NamedValues;
+use moris_setup::NamedValues;
 
 use super::{Made, Model};
 use crate::documentation::Section;
@@ -11,7 +11,7 @@ use crate::icon;
 /// The motorcycle's FMU.
 pub const MOTORCYCLE: Model = Model {
     name: "Motorcycle",
-    packages: ["moris-motorcycle-fmu", "moris-motorcycle-fmu3"],
+    packages: ["moris-motorcycle-fmi2", "moris-motorcycle-fmi3"],
     libraries: ["Motorcycle", "Motorcycle_fmi3"],
     title: "Motorcycle: a vehicle and its rider",
     made: Made::from::<Motorcycle>(),

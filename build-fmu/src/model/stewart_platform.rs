@@ -1,9 +1,9 @@
 //! The Stewart platform with dynamics.
 
+use moris_setup::{NamedValues, overlaid, values_of};
 use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
-use washout_setup::{NamedValues, overlaid, values_of};
 
 use super::{Made, Model};
 use crate::documentation::Section;
@@ -12,7 +12,7 @@ use crate::icon;
 /// The platform's FMU.
 pub const STEWART_PLATFORM: Model = Model {
     name: "StewartPlatform",
-    packages: ["moris-stewart-platform-fmu", "moris-stewart-platform-fmu3"],
+    packages: ["moris-stewart-platform-fmi2", "moris-stewart-platform-fmi3"],
     libraries: ["StewartPlatform", "StewartPlatform_fmi3"],
     title: "Stewart platform: a motion base with dynamics",
     made: Made::from::<StewartPlatform>(),

@@ -2,7 +2,7 @@
 
 use moris_washout::Washout;
 
-use washout_setup::NamedValues;
+use moris_setup::NamedValues;
 
 use super::{Made, Model};
 use crate::documentation::Section;
@@ -11,7 +11,7 @@ use crate::icon;
 /// The washout's FMU.
 pub const WASHOUT: Model = Model {
     name: "MorisWashout",
-    packages: ["moris-washout-fmu", "moris-washout-fmu3"],
+    packages: ["moris-washout-fmi2", "moris-washout-fmi3"],
     libraries: ["MorisWashout", "MorisWashout_fmi3"],
     title: "MORIS washout: motion cueing for a motorcycle simulator",
     made: Made::from::<Washout>(),

@@ -1,7 +1,7 @@
 //! From a system to its description.
 
-use model_description::ModelDescription;
-use model_interface::{Causality, Identity, Kind};
+use moris_interface::{Causality, Identity, Kind};
+use moris_model_description::fmi2::ModelDescription;
 use quick_xml::se::Serializer;
 use serde::Serialize;
 
@@ -157,7 +157,7 @@ fn connector(identity: &Identity, name: &str, kind: schema::ConnectorKind) -> sc
 }
 
 /// A unit's name; none for what has none.
-pub fn unit_name(unit: &model_interface::Unit) -> Option<String> {
+pub fn unit_name(unit: &moris_interface::Unit) -> Option<String> {
     (!unit.name.is_empty()).then(|| unit.name.to_owned())
 }
 
@@ -186,7 +186,7 @@ fn units(system: &System) -> schema::Units {
             && !unit.name.is_empty()
             && units.iter().all(|known| known.name != unit.name)
         {
-            let unit = model_description::units::Unit::from(unit);
+            let unit = moris_model_description::common::units::Unit::from(unit);
             units.push(schema::Unit { name: unit.name, base_unit: unit.base_unit });
         }
     }

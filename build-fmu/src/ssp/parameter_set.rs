@@ -1,6 +1,6 @@
 //! From a system's parameters in TOML to a parameter set.
 
-use model_interface::{Causality, Identity, Kind};
+use moris_interface::{Causality, Identity, Kind};
 use toml::{Table, Value};
 
 use super::describe::unit_name;

@@ -2,7 +2,7 @@
 //!
 //! The order of the fields is the order that the schemas prescribe.
 
-use model_description::units::BaseUnit;
+use moris_model_description::common::units::BaseUnit;
 use serde::Serialize;
 
 /// `SystemStructureDescription`: the root of `SystemStructure.ssd`.

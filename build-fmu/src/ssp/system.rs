@@ -1,6 +1,6 @@
 //! The systems of which there are packages.
 
-use model_interface::{Causality, Identity};
+use moris_interface::{Causality, Identity};
 
 use crate::model::{MOTORCYCLE, Model, STEWART_PLATFORM, WASHOUT};
 

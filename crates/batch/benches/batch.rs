@@ -3,10 +3,10 @@
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use moris_batch::{Fit, Manoeuvre, rides};
 use moris_washout::{Input, Parameters};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
-use washout_batch::{Fit, Manoeuvre, rides};
 
 fn manoeuvre(duration: f64) -> Manoeuvre {
     Manoeuvre::sampled(0.001, duration, |time| {

@@ -7,7 +7,7 @@
 //! ```
 //! use moris_washout::{Input, Parameters};
 //! use rayon::prelude::*;
-//! use washout_batch::{Fit, Manoeuvre, rides};
+//! use moris_batch::{Fit, Manoeuvre, rides};
 //!
 //! let accelerate = Manoeuvre::sampled(0.01, 20.0, |time| {
 //!     let mut input = Input::default();

@@ -1,9 +1,9 @@
 //! A batch gives what single rides give, whatever the number of cores, and refuses what cannot be ridden.
 
+use moris_batch::{Fit, Manoeuvre, ride, rides};
 use moris_washout::{Input, Parameters, Washout};
 use nalgebra::Vector3;
 use rayon::prelude::*;
-use washout_batch::{Fit, Manoeuvre, ride, rides};
 
 fn surge_and_back() -> Manoeuvre {
     Manoeuvre::sampled(0.01, 8.0, |time| {

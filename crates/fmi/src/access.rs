@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use model_interface::{Kind, Model};
+use moris_interface::{Kind, Model};
 
 use crate::{Complaint, Instance, Mode, Role, Scalar, VariableCheck, Variables};
 

@@ -1,6 +1,6 @@
 //! From the start values to the first step.
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use crate::run::Experiment;
 use crate::{Complaint, Instance, Mode};

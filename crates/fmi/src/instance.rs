@@ -1,6 +1,6 @@
 //! An instance of a model, for any version of FMI. The version's own layer checks in which mode a call is allowed.
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use crate::{Mode, Run, Tables};
 

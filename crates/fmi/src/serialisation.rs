@@ -1,6 +1,6 @@
 //! A run as bytes that another process can restore: no pointers in them, and nothing in them taken on trust.
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use crate::{Complaint, Guid, Mode, Run, Tables};
 

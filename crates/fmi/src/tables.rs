@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use model_interface::{Model, guid_of, read_start_values, start_values};
+use moris_interface::{Model, guid_of, read_start_values, start_values};
 
 use crate::variable_check::{Role, VariableCheck, variable_checks};
 
@@ -20,7 +20,7 @@ pub struct SharedTables<const N: usize> {
 
 impl<const N: usize> SharedTables<N> {
     /// The tables of the model `M`, which has `N` slots. `baked` are start values in place of the model's own, as
-    /// [`write_start_values`](model_interface::write_start_values) gives them.
+    /// [`write_start_values`](moris_interface::write_start_values) gives them.
     pub const fn new<M: Model>(baked: Option<&'static str>) -> Self {
         assert!(M::IDENTITY.slots.len() == N);
         let checks = variable_checks(&M::IDENTITY);

@@ -1,6 +1,6 @@
 //! What may be done with each variable, worked out when the library is compiled, so that get and set are a tight loop.
 
-use model_interface::{Causality, Identity, Kind, Row, Variability};
+use moris_interface::{Causality, Identity, Kind, Row, Variability};
 
 use crate::{Mode, Modes};
 

@@ -2,8 +2,8 @@
 //! does, and knows nothing of how they are made.
 //!
 //! ```no_run
-//! # fn main() -> Result<(), fmu_host::HostError> {
-//! let fmu = fmu_host::Fmu::open("MorisWashout.fmu".as_ref())?;
+//! # fn main() -> Result<(), moris_fmu_host::HostError> {
+//! let fmu = moris_fmu_host::Fmu::open("MorisWashout.fmu".as_ref())?;
 //! let mut washout = fmu.instantiate("washout")?;
 //! washout.initialize(&[("tilt.angleLimit", 0.3)], None)?;
 //! washout.set("vehicle.speed", 20.0)?;

@@ -7,7 +7,7 @@
 /// variable's description everywhere: write one sentence, without markup.
 ///
 /// ```
-/// use model_interface::{interface, units::*, Group};
+/// use moris_interface::{interface, units::*, Group};
 /// interface! {
 ///     /// What a spring is told.
 ///     pub struct Spring: Parameter, Fixed {
@@ -33,7 +33,7 @@ macro_rules! interface {
     ) => {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
-        #[serde(crate = "model_interface::serde")]
+        #[serde(crate = "moris_interface::serde")]
         pub struct $group {
             $( $(#[doc = $text])+ #[doc = concat!("\n\nFMI: `", $name, "`", $(" \\[", stringify!($unit), "\\]",)? ".")] pub $field: $type, )+
         }
@@ -84,7 +84,7 @@ macro_rules! interface_tree {
     ) => {
         $(#[$attribute])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
-        #[serde(crate = "model_interface::serde")]
+        #[serde(crate = "moris_interface::serde")]
         pub struct $group {
             $( $(#[$field_attribute])* pub $field: $type, )+
         }
@@ -116,7 +116,7 @@ macro_rules! enumeration {
     ) => {
         $(#[doc = $text])+
         #[derive(Clone, Copy, Debug, PartialEq, Eq, $crate::serde::Serialize, $crate::serde::Deserialize)]
-        #[serde(crate = "model_interface::serde")]
+        #[serde(crate = "moris_interface::serde")]
         pub enum $name {
             $( $(#[doc = $item_text])+ #[doc = concat!("\n\nFMI: `", $item_name, "`.")] $item, )+
         }

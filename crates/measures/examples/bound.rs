@@ -1,11 +1,11 @@
 //! The bound for a desired specific force that is read from standard input, a number a line, on the default rig's surge:
 //!
-//!     cargo run --release --package cue-measures --example bound -- <seconds between samples> <seconds an interval>
+//!     cargo run --release --package moris-measures --example bound -- <seconds between samples> <seconds an interval>
 
 use std::error::Error;
 use std::io::{Read, stdin};
 
-use cue_measures::bound::{AxisLimits, TiltLimits, bound};
+use moris_measures::bound::{AxisLimits, TiltLimits, bound};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let numbers: Vec<f64> = std::env::args().skip(1).map(|number| number.parse()).collect::<Result<_, _>>()?;

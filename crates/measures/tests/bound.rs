@@ -1,6 +1,6 @@
 //! The bound against closed forms, against motions that keep the limits, and against its own refinement.
 
-use cue_measures::bound::{AxisLimits, Bound, NoBound, TiltLimits, Trajectory, bound};
+use moris_measures::bound::{AxisLimits, Bound, NoBound, TiltLimits, Trajectory, bound};
 
 const STEP: f64 = 0.01;
 

@@ -2,7 +2,7 @@
 //!
 //! A command each: [`rig`] looks at a platform, [`run`] rides a recording on it, [`tune`] finds better parameters,
 //! [`respond`] measures a frequency response, [`parameters`] lists what can be tuned.
-//! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by the crate `washout-setup`.
+//! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by the crate `moris-setup`.
 
 #![forbid(unsafe_code)]
 

@@ -4,9 +4,9 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use model_interface::Group;
+use moris_interface::Group;
+use moris_setup::{all, changed, parameter_file};
 use moris_washout::Parameters;
-use washout_setup::{all, changed, parameter_file};
 
 use crate::setup_options::SetupOptions;
 

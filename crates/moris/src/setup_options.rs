@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use washout_setup::{Error, Setup};
+use moris_setup::{Error, Setup};
 
 /// Which rig, and which parameters.
 #[derive(Clone, Debug, Default, clap::Args)]

@@ -10,7 +10,7 @@ use moris::respond::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Ya
 use moris::respond::excitation::{Amplitudes, frequencies};
 use moris::respond::{Measured, Response, picture, response, table};
 use moris_washout::nalgebra::Complex;
-use moris_washout::{Parameters, parameter_sets};
+use moris_washout::{Parameters, presets};
 
 const GRAVITY: f64 = 9.80665;
 const HEAD: f64 = 1.2;
@@ -84,7 +84,7 @@ fn a_rate_is_felt_as_a_force_through_gravity() {
 
 #[test]
 fn another_set_has_its_own_response() {
-    let parameters = parameter_sets::parameters(parameter_sets::WAKE);
+    let parameters = presets::parameters(presets::WAKE);
     for frequency in [0.1, 0.398_107_170_553_497_3, 1.0, 10.0] {
         let s = Complex::new(0.0, frequency);
         let found = small_signal(&parameters, Heave, frequency);

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use moris::ride::conventions::{AngleUnit, Axes, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, TimeUnit};
 use moris::ride::{ConventionOptions, Conventions, Ride};
 use moris_washout::Parameters;
-use moris_washout::conditioning::cue;
+use moris_washout::cueing::conditioning::cue;
 use moris_washout::interface::{AngularVelocityFrame, GravityRemoval};
 use moris_washout::nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;

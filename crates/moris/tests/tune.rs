@@ -11,10 +11,10 @@ use moris::run::Recording;
 use moris::tune::cost::{Constraints, Judge};
 use moris::tune::search::{Budget, search};
 use moris::tune::space::{Group, Space};
+use moris_batch::Manoeuvre;
+use moris_setup::Setup;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
-use washout_batch::Manoeuvre;
-use washout_setup::Setup;
 
 const STEP: f64 = 0.01;
 const EQUAL: [f64; 6] = [1.0; 6];

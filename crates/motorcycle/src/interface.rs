@@ -3,11 +3,11 @@
 //! The structs here are the Rust API, and their rows are the FMU's variables. What the washout reads of a vehicle stands
 //! first among the outputs, by the washout's own names, so that the two connect one to one.
 
-use model_interface::units::{
+use moris_interface::units::{
     KG, KG_M2, KG_PER_M3, M, M_PER_S, M_PER_S2, M2, N, N_M, N_M_S_PER_RAD, N_PER_M, N_S_PER_M, PER_RAD, RAD, RAD_PER_S,
     S, W,
 };
-use model_interface::{interface, interface_tree};
+use moris_interface::{interface, interface_tree};
 use moris_washout::interface::{AngularVelocityFrame, RollPitchYaw, STANDARD_GRAVITY};
 use nalgebra::Vector3;
 

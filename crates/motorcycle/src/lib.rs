@@ -36,5 +36,5 @@ pub mod suspension;
 pub mod whipple;
 
 pub use interface::{Input, Output, Parameters};
-pub use model_interface::Refusal;
+pub use moris_interface::Refusal;
 pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, SHORTEST_STEP, STRONGEST_WIND};

@@ -1,8 +1,8 @@
 //! The whole: parameters, state, and a step.
 
-use model_interface::Refusal;
-use moris_washout::governor::Motion;
+use moris_interface::Refusal;
 use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::motion::braking_law::Motion;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! The outputs' time derivatives, as hosts ask for them.
 
-use model_interface::{Group, Reader, Writer, slot_count};
+use moris_interface::{Group, Reader, Writer, slot_count};
 
 use crate::interface::Output;
 

@@ -7,9 +7,9 @@
 //! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, heave) + R (head - (x_c, 0, 0)), and the head's own axes are
 //! R Rx(torso's lean).
 
-use moris_washout::governor::Motion;
-use moris_washout::motions::Motions;
-use moris_washout::orientation::{Orientation, Turning};
+use moris_washout::motion::Motions;
+use moris_washout::motion::braking_law::Motion;
+use moris_washout::motion::orientation::{Orientation, Turning};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 

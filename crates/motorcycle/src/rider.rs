@@ -5,7 +5,7 @@
 //! that minimise a quadratic cost (LQR), computed at the beginning for speeds from walking pace to the top and
 //! interpolated. Below walking pace they give way to feet and hands ([`crate::lateral::feet_share`]).
 
-use model_interface::Refusal;
+use moris_interface::Refusal;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 

@@ -4,15 +4,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use build_fmu::{FmiVersion, model, workspace};
 use clap::Parser;
-use fmu_host::Fmu;
-use paper_runs::figures::{write_figures, write_readme_picture};
-use paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre};
-use paper_runs::parameter_set::{DEFAULT, PREACTION, ParameterSet, WAKE};
-use paper_runs::recording::Recording;
-use paper_runs::simulate::simulate;
-use paper_runs::table::{force_table, platform_table, rate_table};
+use moris_build_fmu::{FmiVersion, model, workspace};
+use moris_fmu_host::Fmu;
+use moris_paper_runs::figures::{write_figures, write_readme_picture};
+use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre};
+use moris_paper_runs::parameter_set::{DEFAULT, PREACTION, ParameterSet, WAKE};
+use moris_paper_runs::recording::Recording;
+use moris_paper_runs::simulate::simulate;
+use moris_paper_runs::table::{force_table, platform_table, rate_table};
 
 /// Steps the washout's FMU through the runs of the paper, prints how well the rider is served, and draws its figures 5 to 9.
 #[derive(Parser)]
@@ -57,7 +57,7 @@ fn main() -> Result<()> {
 
 /// Builds the FMU for this machine, as `cargo build-fmu` does, and says so on standard error.
 fn build_fmu() -> Result<PathBuf> {
-    let built = build_fmu::build(&model::WASHOUT, FmiVersion::Fmi2, &[], &workspace::default_output(), |line| {
+    let built = moris_build_fmu::build(&model::WASHOUT, FmiVersion::Fmi2, &[], &workspace::default_output(), |line| {
         eprintln!("{line}")
     })?;
     eprintln!("{}\n", built.file.display());

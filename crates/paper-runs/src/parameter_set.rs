@@ -13,8 +13,7 @@ pub struct ParameterSet {
 pub const DEFAULT: ParameterSet = ParameterSet { name: "default", values: &[] };
 
 /// For small quick motion, as in run b.
-pub const WAKE: ParameterSet = ParameterSet { name: "wake", values: moris_washout::parameter_sets::WAKE };
+pub const WAKE: ParameterSet = ParameterSet { name: "wake", values: moris_washout::presets::WAKE };
 
 /// As delivered, and ahead of a stop.
-pub const PREACTION: ParameterSet =
-    ParameterSet { name: "preaction", values: moris_washout::parameter_sets::PREACTION };
+pub const PREACTION: ParameterSet = ParameterSet { name: "preaction", values: moris_washout::presets::PREACTION };

@@ -1,7 +1,7 @@
 //! What one run on the FMU leaves behind.
 
-use cue_measures::effort::{Effort, effort};
-use cue_measures::{Limited, Platform};
+use moris_measures::effort::{Effort, effort};
+use moris_measures::{Limited, Platform};
 
 /// Everything that the tables and figures need of one communication point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

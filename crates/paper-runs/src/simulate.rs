@@ -1,8 +1,8 @@
 //! Steps the FMU through a run as a host does: through its C functions, one value reference at a time.
 
 use anyhow::{Context, Result, ensure};
-use cue_measures::Limited;
-use fmu_host::{Fmu, Instance, Status};
+use moris_fmu_host::{Fmu, Instance, Status};
+use moris_measures::Limited;
 
 use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use cue_measures::fidelity::{Fidelity, fidelity};
+use moris_measures::fidelity::{Fidelity, fidelity};
 
 use crate::recording::Recording;
 

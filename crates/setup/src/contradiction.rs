@@ -1,6 +1,6 @@
 //! Limits that contradict each other: each can be used, but one of them is not what its author thinks.
 
-use model_interface::Refusal;
+use moris_interface::Refusal;
 use moris_washout::Parameters;
 
 use crate::ranges::{Axis, single_axis_range};

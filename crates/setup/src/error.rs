@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use model_interface::Refusal;
+use moris_interface::Refusal;
 
 use crate::names::suggestion;
 

@@ -1,6 +1,6 @@
 //! Values by the names of variables: what files come down to.
 
-use model_interface::{Group, Identity, Reader, Row, Writer, slot_count};
+use moris_interface::{Group, Identity, Reader, Row, Writer, slot_count};
 
 /// Names of variables with their values, as they lie in slots: enumerations counted from 1, booleans as 0 and 1. A later
 /// value of the same name stands over an earlier one.

@@ -12,7 +12,7 @@
 
 use std::fmt::Write;
 
-use model_interface::{Causality, Kind, Row};
+use moris_interface::{Causality, Kind, Row};
 use toml::{Table, Value};
 
 use crate::named_values::variable_names;

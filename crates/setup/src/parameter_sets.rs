@@ -1,6 +1,6 @@
 //! The shipped parameter sets, by name.
 
-use moris_washout::parameter_sets::{PREACTION, WAKE};
+use moris_washout::presets::{PREACTION, WAKE};
 
 /// A parameter set: names and values of variables.
 pub type ParameterSet = &'static [(&'static str, f64)];

@@ -1,8 +1,8 @@
 //! How far a platform goes along one axis alone.
 
 use moris_washout::Rig;
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::orientation::{Orientation, RollPitchYaw};
 use moris_washout::platform::{Geometry, Pose, leg_lengths};
 
 /// An axis of the platform's motion: a translation in the base frame or a rotation from level.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use model_interface::{Group, Row};
+use moris_interface::{Group, Row};
 use moris_washout::{Parameters, check};
 
 use crate::named_values::{changed, overlaid};

@@ -2,12 +2,12 @@
 
 use std::fs;
 
-use model_interface::{Group, Kind};
+use moris_interface::{Group, Kind};
+use moris_setup::parameter_file::{read, write};
+use moris_setup::{NamedValues, Setup, all, changed, load_set, overlaid};
 use moris_washout::Parameters;
 use moris_washout::interface::{GravityRemoval, LowPassKind};
-use moris_washout::parameter_sets;
-use washout_setup::parameter_file::{read, write};
-use washout_setup::{NamedValues, Setup, all, changed, load_set, overlaid};
+use moris_washout::presets;
 
 fn values(text: &str) -> NamedValues {
     read(text, "my.toml", Parameters::ROWS).unwrap_or_else(|error| panic!("{error}"))
@@ -44,9 +44,9 @@ fn every_parameter_survives_being_written_and_read() {
 #[test]
 fn only_what_has_changed_can_be_written() {
     assert!(changed(&Parameters::default()).is_empty());
-    let wake = parameter_sets::parameters(parameter_sets::WAKE);
+    let wake = presets::parameters(presets::WAKE);
     let text = write("", &changed(&wake), Parameters::ROWS);
-    assert_eq!(text.matches(" = ").count(), parameter_sets::WAKE.len());
+    assert_eq!(text.matches(" = ").count(), presets::WAKE.len());
     assert_eq!(overlaid(&Parameters::default(), &values(&text)), wake);
 }
 

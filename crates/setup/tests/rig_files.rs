@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use moris_setup::ranges::{Axis, single_axis_range};
+use moris_setup::rig_file::{SAFETY_SHARE, read};
+use moris_setup::{load_rig, overlaid};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Parameters, Rig};
-use washout_setup::ranges::{Axis, single_axis_range};
-use washout_setup::rig_file::{SAFETY_SHARE, read};
-use washout_setup::{load_rig, overlaid};
 
 fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../moris/rigs").join(name)

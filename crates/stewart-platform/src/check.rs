@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use model_interface::{Group, Refusal, Row, Writer, refuse, slot_count};
+use moris_interface::{Group, Refusal, Row, Writer, refuse, slot_count};
 use moris_washout::interface::StructureParameters;
 use nalgebra::Vector6;
 

@@ -1,6 +1,6 @@
 //! A leg's drive: a second-order response to the command, within limits of speed, acceleration and stroke.
 
-use moris_washout::governor::{Limits, Motion, approach_velocity};
+use moris_washout::motion::braking_law::{Limits, Motion, approach_velocity};
 
 use crate::interface::Parameters;
 

@@ -3,8 +3,8 @@
 //! The structs here are the Rust API, and their rows are the FMU's variables. Names that the washout has too mean the
 //! same here, so that its outputs connect and its rig can be given to both.
 
-use model_interface::units::{KG, KG_M2, M, M_PER_S, M_PER_S2, N, RAD, RAD_PER_S, RAD_PER_S2, S, W};
-use model_interface::{Field, Kind, interface, interface_tree, units};
+use moris_interface::units::{KG, KG_M2, M, M_PER_S, M_PER_S2, N, RAD, RAD_PER_S, RAD_PER_S2, S, W};
+use moris_interface::{Field, Kind, interface, interface_tree, units};
 use moris_washout::Rig;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::platform::{Geometry, Pose, leg_lengths};

@@ -30,5 +30,5 @@ mod stewart_platform;
 
 pub use check::check;
 pub use interface::{Input, Output, Parameters};
-pub use model_interface::Refusal;
+pub use moris_interface::Refusal;
 pub use stewart_platform::{MOST_INTERNAL_STEPS, SHORTEST_STEP, StewartPlatform};

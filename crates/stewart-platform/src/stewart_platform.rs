@@ -1,10 +1,10 @@
 //! The whole platform: commands in, one step, the real motion out.
 
-use model_interface::Refusal;
-use moris_washout::evaluator::{Felt, felt};
-use moris_washout::head::Head;
+use moris_interface::Refusal;
+use moris_washout::cueing::evaluator::{Felt, felt};
 use moris_washout::interface::StructureParameters;
-use moris_washout::orientation::{Orientation, RollPitchYaw};
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
+use moris_washout::platform::head::Head;
 use moris_washout::platform::{Geometry, Legs, PlatformMotion, Pose, motion_of_legs};
 use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};

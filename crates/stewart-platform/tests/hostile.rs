@@ -1,7 +1,7 @@
 //! Whatever is commanded, the legs stay inside their stroke, the drives inside their force, and all is finite; and a state
 //! continues as its copy does.
 
-use model_interface::Model;
+use moris_interface::Model;
 use moris_stewart_platform::{Input, Output, Parameters, StewartPlatform};
 use proptest::prelude::*;
 
@@ -53,7 +53,7 @@ fn heaviest_load(parameters: &Parameters) -> f64 {
 }
 
 fn numbers(output: &Output) -> Vec<f64> {
-    use model_interface::{Group, Writer, slot_count};
+    use moris_interface::{Group, Writer, slot_count};
     let mut values = vec![0.0; slot_count(Output::ROWS)];
     output.write(&mut Writer::new(&mut values));
     values

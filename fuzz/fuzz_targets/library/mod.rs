@@ -3,9 +3,9 @@
 use std::mem::transmute;
 use std::ptr::null;
 
-use fmu_host::Api;
+use moris_fmu_host::Api;
 
-fmi_export::export_fmi2!(moris_washout::Washout);
+moris_fmi::export_fmi2!(moris_washout::Washout);
 
 macro_rules! api {
     ($($field:ident $function:ident;)+) => {

@@ -36,16 +36,16 @@ pub struct DisplayUnit {
     pub factor: f64,
 }
 
-impl From<&model_interface::Unit> for Unit {
-    fn from(unit: &model_interface::Unit) -> Self {
-        let model_interface::BaseUnit { kg, m, s, rad } = unit.base;
+impl From<&moris_interface::Unit> for Unit {
+    fn from(unit: &moris_interface::Unit) -> Self {
+        let moris_interface::BaseUnit { kg, m, s, rad } = unit.base;
         Unit { name: unit.name.to_owned(), base_unit: BaseUnit { kg, m, s, rad }, display_unit: display_unit(unit) }
     }
 }
 
 /// Degrees for angles; none for the rest, for filters' break frequencies are given in rad/s and share that unit with
 /// angular velocities.
-pub fn display_unit(unit: &model_interface::Unit) -> Option<DisplayUnit> {
+pub fn display_unit(unit: &moris_interface::Unit) -> Option<DisplayUnit> {
     (unit.name == "rad").then(|| DisplayUnit { name: "deg".to_owned(), factor: 180.0 / std::f64::consts::PI })
 }
 

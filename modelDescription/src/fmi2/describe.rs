@@ -1,16 +1,16 @@
 //! From a model's rows to its description.
 
-use fmi_export::LOG_CATEGORIES;
-use model_interface::{Causality, Identity, Kind, Model, guid_of, start_values};
+use moris_fmi::LOG_CATEGORIES;
+use moris_interface::{Causality, Identity, Kind, Model, guid_of, start_values};
 
-use crate::model_description::{
+use crate::common::units::{Unit, display_unit};
+use crate::fmi2::model_description::{
     Category, CoSimulation, DefaultExperiment, LogCategories, ModelDescription, ModelVariables, TypeDefinitions,
     UnitDefinitions,
 };
-use crate::model_structure::{ModelStructure, Unknowns};
-use crate::scalar_variable::{Initial, ScalarVariable, Values};
-use crate::type_definitions::SimpleType;
-use crate::units::{Unit, display_unit};
+use crate::fmi2::model_structure::{ModelStructure, Unknowns};
+use crate::fmi2::scalar_variable::{Initial, ScalarVariable, Values};
+use crate::fmi2::type_definitions::SimpleType;
 
 /// Whom the FMU is from and who may use it.
 const AUTHOR: &str = "MORIS washout contributors";
@@ -59,7 +59,7 @@ pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
     }
 }
 
-/// What the C ABI of the crate fmi-export can do, for any model.
+/// What the C ABI of the crate moris-fmi can do, for any model.
 fn co_simulation(identity: &Identity) -> CoSimulation {
     CoSimulation {
         model_identifier: identity.name.to_owned(),

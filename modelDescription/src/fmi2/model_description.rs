@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::model_structure::ModelStructure;
-use crate::scalar_variable::ScalarVariable;
-use crate::type_definitions::SimpleType;
-use crate::units::Unit;
+use crate::common::units::Unit;
+use crate::fmi2::model_structure::ModelStructure;
+use crate::fmi2::scalar_variable::ScalarVariable;
+use crate::fmi2::type_definitions::SimpleType;
 
 /// `fmiModelDescription`: the order of the fields is the order that the schema prescribes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

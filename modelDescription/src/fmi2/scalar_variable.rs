@@ -92,24 +92,24 @@ pub enum Values {
     },
 }
 
-impl From<model_interface::Causality> for Causality {
-    fn from(causality: model_interface::Causality) -> Self {
+impl From<moris_interface::Causality> for Causality {
+    fn from(causality: moris_interface::Causality) -> Self {
         match causality {
-            model_interface::Causality::Independent => Causality::Independent,
-            model_interface::Causality::Input => Causality::Input,
-            model_interface::Causality::Output => Causality::Output,
-            model_interface::Causality::Parameter => Causality::Parameter,
+            moris_interface::Causality::Independent => Causality::Independent,
+            moris_interface::Causality::Input => Causality::Input,
+            moris_interface::Causality::Output => Causality::Output,
+            moris_interface::Causality::Parameter => Causality::Parameter,
         }
     }
 }
 
-impl From<model_interface::Variability> for Variability {
-    fn from(variability: model_interface::Variability) -> Self {
+impl From<moris_interface::Variability> for Variability {
+    fn from(variability: moris_interface::Variability) -> Self {
         match variability {
-            model_interface::Variability::Continuous => Variability::Continuous,
-            model_interface::Variability::Discrete => Variability::Discrete,
-            model_interface::Variability::Tunable => Variability::Tunable,
-            model_interface::Variability::Fixed => Variability::Fixed,
+            moris_interface::Variability::Continuous => Variability::Continuous,
+            moris_interface::Variability::Discrete => Variability::Discrete,
+            moris_interface::Variability::Tunable => Variability::Tunable,
+            moris_interface::Variability::Fixed => Variability::Fixed,
         }
     }
 }

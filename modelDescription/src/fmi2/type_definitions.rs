@@ -32,8 +32,8 @@ pub struct Item {
     pub description: String,
 }
 
-impl From<&model_interface::Enumeration> for SimpleType {
-    fn from(enumeration: &model_interface::Enumeration) -> Self {
+impl From<&moris_interface::Enumeration> for SimpleType {
+    fn from(enumeration: &moris_interface::Enumeration) -> Self {
         let items = enumeration.items.iter().zip(1..).map(|(item, value)| Item {
             name: item.name.to_owned(),
             value,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use model_interface::{Causality, Identity, Kind, Model, Row, Variability};
+use moris_interface::{Causality, Identity, Kind, Model, Row, Variability};
 
 /// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters that can be changed
 /// while the simulation runs, and those that cannot, with a row for each row of the interface. Names and types are those

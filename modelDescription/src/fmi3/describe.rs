@@ -1,14 +1,14 @@
 //! From a model's rows to its description.
 
-use fmi_export::fmi3::LOG_CATEGORIES;
-use model_interface::{Causality, Identity, Kind, Model, Row, start_values};
+use moris_fmi::fmi3::LOG_CATEGORIES;
+use moris_interface::{Causality, Identity, Kind, Model, Row, start_values};
 
 use super::model_description::{CoSimulation, EnumerationType, ModelDescription, ModelVariables, TypeDefinitions};
 use super::model_structure::{ModelStructure, Unknown};
 use super::variable::{Dimension, TypedVariable, Variable};
-use crate::model_description::{Category, LogCategories};
-use crate::scalar_variable::Initial;
-use crate::units::display_unit;
+use crate::common::units::display_unit;
+use crate::fmi2::model_description::{Category, LogCategories};
+use crate::fmi2::scalar_variable::Initial;
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
 pub fn describe<M: Model>() -> ModelDescription {
@@ -21,7 +21,7 @@ pub fn describe<M: Model>() -> ModelDescription {
 pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
     let identity = M::IDENTITY;
     // Who made the FMU and the units are as in FMI 2.0.
-    let fmi2 = crate::describe_with::<M>(start);
+    let fmi2 = crate::fmi2::describe_with::<M>(start);
     ModelDescription {
         fmi_version: "3.0".to_owned(),
         model_name: fmi2.model_name,
@@ -46,7 +46,7 @@ pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
     }
 }
 
-/// What the C ABI of the crate fmi-export can do, for any model.
+/// What the C ABI of the crate moris-fmi can do, for any model.
 fn co_simulation(identity: &Identity) -> CoSimulation {
     CoSimulation {
         model_identifier: identity.name.to_owned(),
@@ -64,14 +64,14 @@ fn co_simulation(identity: &Identity) -> CoSimulation {
     }
 }
 
-impl From<crate::type_definitions::SimpleType> for EnumerationType {
-    fn from(simple: crate::type_definitions::SimpleType) -> Self {
+impl From<crate::fmi2::type_definitions::SimpleType> for EnumerationType {
+    fn from(simple: crate::fmi2::type_definitions::SimpleType) -> Self {
         EnumerationType { name: simple.name, description: simple.description, items: simple.enumeration.items }
     }
 }
 
 fn log_categories() -> LogCategories {
-    let category = |&(category, description): &(fmi_export::LogCategory, &str)| Category {
+    let category = |&(category, description): &(moris_fmi::LogCategory, &str)| Category {
         name: category.name().to_owned(),
         description: description.to_owned(),
     };

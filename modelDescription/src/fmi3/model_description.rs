@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::model_structure::ModelStructure;
 use super::variable::TypedVariable;
-use crate::model_description::{DefaultExperiment, LogCategories, UnitDefinitions};
-use crate::type_definitions::Item;
+use crate::fmi2::model_description::{DefaultExperiment, LogCategories, UnitDefinitions};
+use crate::fmi2::type_definitions::Item;
 
 /// `fmiModelDescription`: the order of the fields is the order that the schema prescribes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,11 @@
 //! The documentation's tables of variables.
 
-use model_interface::{Kind, Model, Row};
+use moris_interface::{Kind, Model, Row};
 
 use super::describe::dimensions;
-use crate::variables_html::{Notation, breakable, html};
+use crate::fmi2::variables_html::{Notation, breakable, html};
 
-/// The tables of a model's variables as HTML, as [`crate::variables_html`] makes them, with the names and types of FMI
+/// The tables of a model's variables as HTML, as [`crate::fmi2::variables_html`] makes them, with the names and types of FMI
 /// 3.0.
 pub fn variables_html<M: Model>(start: &[f64]) -> String {
     html(&M::IDENTITY, start, &Notation { name: name_html, type_name })

@@ -1,7 +1,7 @@
 //! A model with a variable of every kind, for the tests.
 
-use model_interface::units::{M, RAD_PER_S, S};
-use model_interface::{
+use moris_interface::units::{M, RAD_PER_S, S};
+use moris_interface::{
     Group, Identity, Model, Refusal, Slot, Writer, enumeration, interface, interface_tree, slot_count, slot_table,
 };
 use nalgebra::Vector3;

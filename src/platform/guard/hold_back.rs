@@ -3,10 +3,10 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::{ActuatorGuard, Candidate, HeldBack};
-use crate::governor::{CATCH_UP_SHARE, FULL_SHARE, Limits, Motion};
 use crate::interface::SafetyParameters;
-use crate::motions::Motions;
-use crate::platform::braking::Braking;
+use crate::motion::Motions;
+use crate::motion::braking_law::{CATCH_UP_SHARE, FULL_SHARE, Limits, Motion};
+use crate::platform::stop_plan::Braking;
 use crate::platform::{Coordinates, Legs, PlatformMotion, inverse_kinematics, jacobian, motion_of_legs};
 
 /// What is tried: a [`Candidate`] of its own.

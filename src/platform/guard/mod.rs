@@ -9,11 +9,11 @@ mod hold_back;
 
 use serde::{Deserialize, Serialize};
 
-use super::braking::{ACCELERATION_SHARE, Braking, LEG_SHARE, braking_time};
+use super::stop_plan::{ACCELERATION_SHARE, Braking, LEG_SHARE, braking_time};
 use super::{Coordinates, Geometry, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
-use crate::extremes::{larger, smaller};
-use crate::governor::{FULL_SHARE, Limits, REJOIN_DISTANCE, REJOIN_SHARE, ROUNDING};
 use crate::interface::{Rig, SafetyParameters};
+use crate::motion::braking_law::{FULL_SHARE, Limits, REJOIN_DISTANCE, REJOIN_SHARE, ROUNDING};
+use crate::motion::extremes::{larger, smaller};
 
 /// The guard with the motion that the platform is commanded, and with its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,6 +1,6 @@
 //! One chain out of the three that run side by side.
 
-use moris_washout::chain::{Chains, Denominator};
+use moris_washout::filter::chain::{Chains, Denominator};
 use nalgebra::Vector3;
 
 /// The middle one of three chains, whose neighbours are of another kind and are fed something else: they must not matter.

@@ -7,7 +7,7 @@ pub mod random;
 pub mod rotation;
 
 use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::{Input, Output, Parameters, Washout, parameter_sets};
+use moris_washout::{Input, Output, Parameters, Washout, presets};
 use nalgebra::Vector3;
 use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 
@@ -15,7 +15,7 @@ pub const G: f64 = STANDARD_GRAVITY;
 
 /// The default parameters with these variables changed.
 pub fn parameters(changed: &[(&str, f64)]) -> Parameters {
-    parameter_sets::parameters(changed)
+    presets::parameters(changed)
 }
 
 /// A washout with these variables changed from the default.

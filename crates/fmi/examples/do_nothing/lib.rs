@@ -2,4 +2,4 @@
 
 pub mod model;
 
-fmi_export::export_fmi2!(super::model::DoNothing);
+moris_fmi::export_fmi2!(super::model::DoNothing);

@@ -1,6 +1,6 @@
 //! As many inputs and outputs as a washout has at a step, and nothing between them.
 
-use model_interface::{
+use moris_interface::{
     Group, Identity, Model, Refusal, Row, Slot, concat_rows, interface, row_count, slot_count, slot_table, units::S,
 };
 use nalgebra::Vector3;

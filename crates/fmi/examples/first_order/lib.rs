@@ -2,4 +2,4 @@
 
 pub mod model;
 
-fmi_export::export_fmi2!(super::model::FirstOrder);
+moris_fmi::export_fmi2!(super::model::FirstOrder);

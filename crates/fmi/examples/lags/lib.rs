@@ -2,4 +2,4 @@
 
 pub mod model;
 
-fmi_export::export_fmi3!(super::model::Lags);
+moris_fmi::export_fmi3!(super::model::Lags);

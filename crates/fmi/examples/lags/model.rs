@@ -1,7 +1,7 @@
 //! Three first-order lags, with arrays of every shape, at least one variable of every kind, values that are refused, and
 //! a trap.
 
-use model_interface::{
+use moris_interface::{
     Group, Identity, Model, Reader, Refusal, Row, Slot, Writer, enumeration, interface, interface_tree, slot_count,
     slot_table, units::S,
 };

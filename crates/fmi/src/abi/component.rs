@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::Function;
 use crate::{Complaint, Instance, Mode, Severity, panics};

@@ -3,7 +3,7 @@
 use std::ffi::c_void;
 use std::ptr::null_mut;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::pointers::{answer, place, room, slice};
 use super::{Component, Function, Host, call};

@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::{Component, Function, Host, call};
 use crate::panics;

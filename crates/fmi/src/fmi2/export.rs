@@ -1,10 +1,10 @@
 //! The macro that makes the library's functions.
 
-/// Exports a [`Model`](model_interface::Model) by all functions of fmi2Functions.h, those of model exchange included,
+/// Exports a [`Model`](moris_interface::Model) by all functions of fmi2Functions.h, those of model exchange included,
 /// which fail. Use it once, in a `cdylib`:
 ///
 /// ```ignore
-/// fmi_export::export_fmi2!(my_crate::MyModel);
+/// moris_fmi::export_fmi2!(my_crate::MyModel);
 /// ```
 ///
 /// Where the variable `FMU_START_VALUES` is set when the library is compiled, it holds start values in place of the model's

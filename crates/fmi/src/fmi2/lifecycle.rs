@@ -3,7 +3,7 @@
 use std::ffi::{CStr, CString, c_int};
 use std::ptr::null_mut;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, Logger, calling_sequence as function};

@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};

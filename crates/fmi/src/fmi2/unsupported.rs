@@ -1,7 +1,7 @@
 //! A function that has to be there and cannot be used. Those that are never allowed are
 //! [`abi::lifecycle::never`](crate::abi::lifecycle::never).
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};

@@ -1,10 +1,10 @@
 //! The macro that makes the library's functions.
 
-/// Exports a [`Model`](model_interface::Model) by all functions of fmi3Functions.h. Those of model exchange, of scheduled
+/// Exports a [`Model`](moris_interface::Model) by all functions of fmi3Functions.h. Those of model exchange, of scheduled
 /// execution, of event mode and of clocks fail. Use it once, in a `cdylib`:
 ///
 /// ```ignore
-/// fmi_export::export_fmi3!(my_crate::MyModel);
+/// moris_fmi::export_fmi3!(my_crate::MyModel);
 /// ```
 #[macro_export]
 macro_rules! export_fmi3 {

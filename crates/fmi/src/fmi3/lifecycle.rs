@@ -4,7 +4,7 @@
 use std::ffi::CStr;
 use std::ptr::null_mut;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, LOG_CATEGORIES, Logger, calling_sequence as function};

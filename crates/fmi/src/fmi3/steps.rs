@@ -1,6 +1,6 @@
 //! Communication steps.
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};

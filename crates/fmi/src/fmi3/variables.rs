@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use model_interface::Model;
+use moris_interface::Model;
 
 use super::arrays::Arrays;
 use super::types::*;

@@ -2,7 +2,7 @@
 
 use std::ptr::{null, null_mut};
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 use crate::standard::CALLING_SEQUENCE;
@@ -32,7 +32,7 @@ fn every_function_is_allowed_where_the_standard_says() {
         }
     }
     // All functions but fmi2Instantiate and fmi2FreeInstance.
-    assert_eq!(checked, (fmu_host::Api::SYMBOLS.len() - 2) * STATES.len());
+    assert_eq!(checked, (moris_fmu_host::Api::SYMBOLS.len() - 2) * STATES.len());
 }
 
 fn check(function: &str, states: &str, letter: &str, state: &str, mut instance: Instance) {

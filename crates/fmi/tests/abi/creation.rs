@@ -4,8 +4,8 @@ use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
-use fmu_host::Status;
-use fmu_host::api::{Callbacks, Text};
+use moris_fmu_host::Status;
+use moris_fmu_host::api::{Callbacks, Text};
 
 use crate::fixture::*;
 

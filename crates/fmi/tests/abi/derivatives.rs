@@ -1,6 +1,6 @@
 //! Derivatives of inputs and outputs.
 
-use fmu_host::Status;
+use moris_fmu_host::Status;
 
 use crate::fixture::*;
 

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::ffi::CString;
 use std::path::PathBuf;
 
-use fmu_host::{Fmu, Instance, Message, Status, Variable, VariableKind};
-use model_interface::{Identity, Kind, Model};
+use moris_fmu_host::{Fmu, Instance, Message, Status, Variable, VariableKind};
+use moris_interface::{Identity, Kind, Model};
 
 use crate::model::FirstOrder;
 
@@ -13,11 +13,11 @@ pub const IDENTITY: Identity = FirstOrder::IDENTITY;
 
 /// The library, which `cargo test` has put beside the test.
 pub fn library() -> PathBuf {
-    fmu_host::example_library("first_order")
+    moris_fmu_host::example_library("first_order")
 }
 
 pub fn guid() -> String {
-    model_interface::guid::<FirstOrder>()
+    moris_interface::guid::<FirstOrder>()
 }
 
 pub fn open() -> Fmu {

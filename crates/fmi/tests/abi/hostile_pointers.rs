@@ -18,7 +18,7 @@ fn memory_that_is_no_instance_is_told_from_one() {
     let mut instance = instantiated();
     let state = instance.get_state().unwrap();
     assert_refused_as_instance(state.pointer());
-    assert_eq!(instance.free_state(state), fmu_host::Status::Ok);
+    assert_eq!(instance.free_state(state), moris_fmu_host::Status::Ok);
 }
 
 /// Every function refuses the pointer.
@@ -71,7 +71,7 @@ fn assert_refused_as_instance(c: *mut c_void) {
         ];
         assert!(statuses.iter().all(|&status| status == 3), "{statuses:?}");
         // With the four that take no instance, these are all.
-        assert_eq!(statuses.len(), fmu_host::Api::SYMBOLS.len() - 4);
+        assert_eq!(statuses.len(), moris_fmu_host::Api::SYMBOLS.len() - 4);
         (api.free_instance)(c);
     }
 }

@@ -1,6 +1,6 @@
 //! From the start values to the first step.
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 

@@ -14,7 +14,7 @@ fn exports_the_functions_of_the_standard_and_nothing_else() {
     // On macOS, C functions have an underscore in front.
     let name = |name: &[u8]| String::from_utf8_lossy(name).trim_start_matches('_').to_string();
     let exported: BTreeSet<_> = file.exports().unwrap().iter().map(|export| name(export.name())).collect();
-    let expected: BTreeSet<_> = fmu_host::Api::SYMBOLS.iter().map(|symbol| symbol.to_string()).collect();
+    let expected: BTreeSet<_> = moris_fmu_host::Api::SYMBOLS.iter().map(|symbol| symbol.to_string()).collect();
     assert_eq!(exported, expected);
     let defined = file.dynamic_symbols().filter(|symbol| symbol.is_definition()).count();
     assert_eq!(defined, expected.len());
@@ -29,7 +29,7 @@ fn load_and_unload_alone() {
         assert!(is_mapped() != Some(false));
         let mut instance = fmu.instantiate("again").unwrap();
         instance.initialize(&[("trap", 3.0)], None).unwrap();
-        assert_eq!(instance.do_step(0.0, 0.1), fmu_host::Status::Error, "the trap");
+        assert_eq!(instance.do_step(0.0, 0.1), moris_fmu_host::Status::Error, "the trap");
         drop(instance);
         drop(fmu);
         assert!(is_mapped() != Some(true));

@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 

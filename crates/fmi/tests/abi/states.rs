@@ -1,6 +1,6 @@
 //! Saving and restoring states, as memory and as bytes.
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 

@@ -1,6 +1,6 @@
 //! Communication steps.
 
-use fmu_host::Status;
+use moris_fmu_host::Status;
 
 use crate::fixture::*;
 

@@ -1,7 +1,7 @@
 //! Getting and setting.
 
-use fmu_host::{Instance, Status};
-use model_interface::{Causality, Kind, Model, Variability};
+use moris_fmu_host::{Instance, Status};
+use moris_interface::{Causality, Kind, Model, Variability};
 
 use crate::fixture::*;
 use crate::model::FirstOrder;

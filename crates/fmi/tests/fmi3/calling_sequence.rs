@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 use std::ptr::{null, null_mut};
 
-use fmu_host::fmi3::Api;
+use moris_fmu_host::fmi3::Api;
 
 use crate::fixture::*;
 

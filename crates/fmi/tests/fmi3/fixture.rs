@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
-use fmu_host::fmi3::{self, Api, FmuState, Library, Text};
-use model_interface::{Identity, Model};
+use moris_fmu_host::fmi3::{self, Api, FmuState, Library, Text};
+use moris_interface::{Identity, Model};
 
 use crate::model::Lags;
 
@@ -18,7 +18,7 @@ pub const ERROR: c_int = 3;
 
 /// The library, which `cargo test` has put beside the test.
 pub fn library() -> PathBuf {
-    fmu_host::example_library("lags")
+    moris_fmu_host::example_library("lags")
 }
 
 pub fn open() -> Library {
@@ -26,7 +26,7 @@ pub fn open() -> Library {
 }
 
 pub fn token() -> CString {
-    CString::new(model_interface::guid::<Lags>()).unwrap()
+    CString::new(moris_interface::guid::<Lags>()).unwrap()
 }
 
 /// The value reference of the variable, or array, of this name.

@@ -2,7 +2,7 @@
 
 use std::ffi::c_int;
 
-use model_interface::{Causality, Kind, Variability};
+use moris_interface::{Causality, Kind, Variability};
 
 use crate::fixture::*;
 

@@ -1,4 +1,4 @@
 //! The shared library of the Stewart platform's FMU for FMI 3.0.
 #![allow(non_snake_case)] // named as the model
 
-fmi_export::export_fmi3!(moris_stewart_platform::StewartPlatform);
+moris_fmi::export_fmi3!(moris_stewart_platform::StewartPlatform);

@@ -4,8 +4,8 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::ptr::{null, null_mut};
 
-use fmu_host::fmi3::{self, Api, Library};
-use model_interface::{Identity, Kind, Model};
+use moris_fmu_host::fmi3::{self, Api, Library};
+use moris_interface::{Identity, Kind, Model};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Parameters, Washout};
 
@@ -13,7 +13,7 @@ const IDENTITY: Identity = Washout::IDENTITY;
 
 /// The library, which `cargo test` has put beside the test.
 fn library() -> PathBuf {
-    fmu_host::example_library("shared_library_fmi3")
+    moris_fmu_host::example_library("shared_library_fmi3")
 }
 
 /// An instance of the washout, freed when it is dropped.
@@ -26,7 +26,7 @@ impl Instance {
     /// An instance in initialization mode.
     fn new() -> Self {
         let library = Library::open(&library()).unwrap();
-        let token = CString::new(model_interface::guid::<Washout>()).unwrap();
+        let token = CString::new(moris_interface::guid::<Washout>()).unwrap();
         let instantiate = library.api().instantiate_co_simulation;
         let name = c"washout".as_ptr();
         // SAFETY: the strings live during the call.

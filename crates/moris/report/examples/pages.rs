@@ -1,5 +1,5 @@
 //! Writes pages to look at and to test with, and beside each what is in it, as plain JSON:
-//! `cargo run -p ride-report --example pages -- DIRECTORY`.
+//! `cargo run -p moris-report --example pages -- DIRECTORY`.
 //!
 //! The ride brings up everything that a report can show: all axes, and each kind of limit.
 
@@ -7,10 +7,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_washout::{Input, Parameters, Washout, parameter_sets};
-use ride_report::{
+use moris_report::{
     Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight, html,
 };
+use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 
 const GRAVITY: f64 = 9.80665;
@@ -56,7 +56,7 @@ fn two_runs() -> Report {
     let mut soft = shipped;
     soft.conditioning.force_scale.fill(0.7);
     soft.conditioning.rate_scale.fill(0.3);
-    let wake = parameter_sets::parameters(parameter_sets::WAKE);
+    let wake = presets::parameters(presets::WAKE);
     Report {
         title: "Out of town and a brusque stop".into(),
         subtitle: "A computed ride of 60 s on the default rig, with the shipped parameters and two others".into(),

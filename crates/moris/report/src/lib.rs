@@ -2,7 +2,7 @@
 //! their stroke, what was limited and when, a table of measures; and beside it the platform itself, moving in 3D.
 //!
 //! Plain data in ([`Report`]), text out ([`html`]). The page needs no network and no other file: its script and style are
-//! those of `report/page/`, its numbers are inside it.
+//! those of `crates/moris/report/page/`, its numbers are inside it.
 
 #![forbid(unsafe_code)]
 

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use moris_washout::interface::{GravityRemoval, RollPitchYaw};
+use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::orientation::Orientation;
 use moris_washout::{Input, Parameters};
 
 use super::channel::Channel;

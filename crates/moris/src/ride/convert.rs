@@ -2,8 +2,8 @@
 
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::orientation::{Orientation, RollPitchYaw};
 
 use super::conventions::{Conventions, Gravity, Quantity};
 use super::sampling::at;

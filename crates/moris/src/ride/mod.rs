@@ -24,9 +24,9 @@ pub mod table;
 
 use std::path::Path;
 
+use moris_batch::Manoeuvre;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
-use washout_batch::Manoeuvre;
 
 pub use conventions::{ConventionOptions, Conventions};
 pub use error::RideError;

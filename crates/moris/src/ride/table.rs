@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use csv::{ByteRecord, ReaderBuilder};
-use washout_setup::nearest;
+use moris_setup::nearest;
 
 use super::RideError;
 use super::conventions::{Conventions, Quantity};

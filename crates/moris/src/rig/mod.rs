@@ -15,7 +15,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
-use washout_setup::load_rig;
+use moris_setup::load_rig;
 
 use survey::{Singularities, Survey};
 
@@ -33,7 +33,7 @@ pub enum Command {
 /// Which rig to check.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckOptions {
-    /// Rig file; moris/rigs has examples
+    /// Rig file; crates/moris/rigs has examples
     rig: PathBuf,
 
     /// Directory for the picture

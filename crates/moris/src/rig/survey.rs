@@ -2,11 +2,11 @@
 
 use std::fmt;
 
+use moris_setup::ranges::{Axis, Range, single_axis_range, stroke_margin};
+use moris_setup::rig_file::RigFile;
 use moris_washout::interface::Parameters;
 use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
 use moris_washout::{Refusal, Rig};
-use washout_setup::ranges::{Axis, Range, single_axis_range, stroke_margin};
-use washout_setup::rig_file::RigFile;
 
 use super::workspace::{TILT, Volume, Workspace};
 use crate::text_table::TextTable;

@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use moris_washout::head::Head;
 use moris_washout::interface::Parameters;
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::head::Head;
 
 use super::svg::Window;
 

@@ -2,14 +2,14 @@
 
 use std::f64::consts::TAU;
 
+use moris_setup::ranges::stroke_margin;
 use moris_washout::Rig;
+use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::orientation::{Orientation, RollPitchYaw};
 use moris_washout::platform::{Geometry, Pose, jacobian};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rayon::prelude::*;
-use washout_setup::ranges::stroke_margin;
 
 /// The tilt for which the workspace is measured beside the level one \[rad\].
 pub const TILT: f64 = 10.0 * TAU / 360.0;

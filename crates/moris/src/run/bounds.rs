@@ -1,12 +1,12 @@
 //! The bound on each axis: how well the ride's specific force could be felt at best on this rig.
 
-use cue_measures::Axes;
-use cue_measures::bound::{AxisLimits, Bound, INTERVAL, NoBound, TiltLimits, bound};
+use moris_measures::Axes;
+use moris_measures::bound::{AxisLimits, Bound, INTERVAL, NoBound, TiltLimits, bound};
+use moris_setup::ranges::{Axis, single_axis_range};
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use rayon::prelude::*;
-use washout_setup::ranges::{Axis, single_axis_range};
 
 use super::Recording;
 
@@ -59,7 +59,7 @@ pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound>
 fn limits(parameters: &Parameters, axis: usize) -> AxisLimits {
     let Parameters { safety, tilt, structure, rig, .. } = parameters;
     let reach = single_axis_range(rig, [Axis::Surge, Axis::Sway, Axis::Heave][axis]);
-    let head = moris_washout::head::Head::new(structure, 0.0).point;
+    let head = moris_washout::platform::head::Head::new(structure, 0.0).point;
     AxisLimits {
         min: reach.min.max(-safety.position_limit[axis]),
         max: reach.max.min(safety.position_limit[axis]),

@@ -1,7 +1,7 @@
 //! What a ride came to, in sentences.
 
-use cue_measures::fidelity::Fidelity;
-use ride_report::{Finding, Weight};
+use moris_measures::fidelity::Fidelity;
+use moris_report::{Finding, Weight};
 
 use super::{Outcome, Recording};
 use moris_washout::Output;

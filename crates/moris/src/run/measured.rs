@@ -1,6 +1,6 @@
 //! The measures of a recording.
 
-use cue_measures::{Limited, Measures, Platform, Run, Unusable};
+use moris_measures::{Limited, Measures, Platform, Run, Unusable};
 use moris_washout::{Input, Output};
 
 use super::Recording;

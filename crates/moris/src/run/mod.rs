@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use cue_measures::{Axes, Measures};
 use indicatif::{ProgressBar, ProgressStyle};
-use washout_setup::Setup;
+use moris_measures::{Axes, Measures};
+use moris_setup::Setup;
 
 use crate::ride::{ConventionOptions, Ride};
 use crate::setup_options::SetupOptions;
@@ -192,7 +192,7 @@ fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Ve
 /// The file cannot be written.
 pub fn write_page(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
     let file = directory.join(format!("{}.html", ride.name));
-    let html = ride_report::html(&page::report(ride, outcomes)).context("the report does not fit together")?;
+    let html = moris_report::html(&page::report(ride, outcomes)).context("the report does not fit together")?;
     fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

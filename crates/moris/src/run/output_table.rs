@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use model_interface::{Group, Writer, slot_count};
+use moris_interface::{Group, Writer, slot_count};
 use moris_washout::{Input, Output};
 
 use super::Recording;

@@ -1,10 +1,10 @@
 //! The report's data.
 
-use cue_measures::Row;
+use moris_measures::Row;
+use moris_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, Parameters};
-use ride_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
 
 use super::{Outcome, Recording, findings};
 use crate::ride::Ride;
@@ -92,7 +92,7 @@ fn bound_rows(outcome: &Outcome) -> Vec<Row> {
     let on_axis = |axis: usize| {
         let bound = outcome.bounds[axis].as_ref()?;
         let felt = outcome.measures.force[axis]?.rms_error;
-        Some(cue_measures::bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
+        Some(moris_measures::bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
     };
     (0..3).filter_map(on_axis).flatten().collect()
 }

@@ -1,10 +1,10 @@
 //! What goes into the washout and comes out of it on a ride.
 
-use moris_washout::head::Head;
 use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::orientation::Orientation;
 use moris_washout::platform::Pose;
+use moris_washout::platform::head::Head;
 use moris_washout::{Input, Output, Parameters, Refusal, Washout};
 
 use crate::ride::Ride;

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use cue_measures::cues::Cues;
-use cue_measures::fidelity::Fidelity;
+use moris_measures::cues::Cues;
+use moris_measures::fidelity::Fidelity;
 
 use super::{Outcome, findings};
 use crate::ride::Ride;

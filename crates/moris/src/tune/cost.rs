@@ -9,8 +9,8 @@
 //! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the ride: to scale everything down to nothing earns
 //! nothing, and false cues on channels on which nothing is desired cost what they are felt.
 
-use cue_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
-use cue_measures::vestibular::{CANALS, OTOLITHS, sensed};
+use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
+use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, Parameters, Refusal, Washout};

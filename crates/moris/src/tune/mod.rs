@@ -20,10 +20,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
-use model_interface::Group as _;
+use moris_interface::Group as _;
+use moris_setup::{NamedValues, Setup, all, parameter_file};
 use moris_washout::Parameters;
 use rayon::prelude::*;
-use washout_setup::{NamedValues, Setup, all, parameter_file};
 
 use crate::ride::Ride;
 use crate::run::{Outcome, write_page};

@@ -1,8 +1,8 @@
 //! What is searched: break frequencies, dampings and scales, by their logarithms.
 
 use moris_washout::Parameters;
+use moris_washout::motion::orientation::RollPitchYaw;
 use moris_washout::nalgebra::{DVector, Vector3};
-use moris_washout::orientation::RollPitchYaw;
 
 /// A group of parameters that may be tuned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -166,12 +166,12 @@ mod tests {
     fn every_coordinate_moves_one_parameter_and_no_two_the_same() {
         let start = Parameters::default();
         let space = Space::new(&start, &DEFAULT);
-        let before = washout_setup::all(&start);
+        let before = moris_setup::all(&start);
         let mut moved = Vec::new();
         for k in 0..space.dimension() {
             let mut point = DVector::zeros(space.dimension());
             point[k] = -0.5;
-            let after = washout_setup::all(&space.parameters(&point));
+            let after = moris_setup::all(&space.parameters(&point));
             let changed: Vec<&str> =
                 before.iter().zip(&after).filter(|(b, a)| b.1 != a.1).map(|(b, _)| b.0.as_str()).collect();
             assert_eq!(changed.len(), 1, "{changed:?}");
@@ -216,7 +216,7 @@ mod tests {
         let point = space.with_channel(&DVector::zeros(30), 1, 0.5, 0.2);
         let found = space.parameters(&space.with_channel(&point, 5, 2.0, 1.0));
         let close = |(a, b): (&(String, f64), &(String, f64))| (a.1 - b.1).abs() < 1e-12;
-        assert!(washout_setup::all(&found).iter().zip(&washout_setup::all(&expected)).all(close));
+        assert!(moris_setup::all(&found).iter().zip(&moris_setup::all(&expected)).all(close));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use washout_setup::{Setup, all};
+use moris_setup::{Setup, all};
 
 use super::cost::{Channels, Cost};
 

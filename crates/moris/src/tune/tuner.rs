@@ -7,9 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Result;
 use indicatif::ProgressBar;
+use moris_setup::Setup;
 use moris_washout::Parameters;
 use rayon::prelude::*;
-use washout_setup::Setup;
 
 use super::cost::{Cost, Judge};
 use super::search::{Budget, Searched, search};

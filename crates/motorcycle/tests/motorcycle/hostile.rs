@@ -1,6 +1,6 @@
 //! Whatever it is fed, the motorcycle stays upright and its numbers finite.
 
-use model_interface::{Group, Writer, slot_count};
+use moris_interface::{Group, Writer, slot_count};
 use moris_motorcycle::{Input, Output, Parameters};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -81,7 +81,7 @@ proptest! {
         for (place, factor) in changes {
             values[place] *= factor;
         }
-        let parameters = Parameters::read(&mut model_interface::Reader::new(&values));
+        let parameters = Parameters::read(&mut moris_interface::Reader::new(&values));
         if let Ok(mut ridden) = moris_motorcycle::Motorcycle::new(&parameters, &Input::default()) {
             for k in 0..6000 {
                 let throttle = if k < 3000 { 0.5 } else { 0.0 };

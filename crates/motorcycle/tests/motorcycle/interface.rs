@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use model_interface::{Causality, Kind, Model};
+use moris_interface::{Causality, Kind, Model};
 use moris_motorcycle::Motorcycle;
 use moris_washout::Washout;
 

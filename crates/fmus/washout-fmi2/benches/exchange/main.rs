@@ -3,16 +3,16 @@
 //! The C functions' own share is the exchange with an FMU that does nothing less the loop alone.
 //!
 //! ```sh
-//! cargo build-fmu && cargo build --release -p fmi-export --example do_nothing
-//! cargo bench -p moris-washout-fmu
+//! cargo build-fmu && cargo build --release -p moris-fmi --example do_nothing
+//! cargo bench -p moris-washout-fmi2
 //! ```
 
 // The model's own file, for its GUID and its names.
-#[path = "../../../fmi/examples/do_nothing/model.rs"]
+#[path = "../../../../fmi/examples/do_nothing/model.rs"]
 mod do_nothing;
 // The tests' random numbers, of which no choice among several is needed here.
 #[allow(dead_code)]
-#[path = "../../../tests/mathematics/common/random.rs"]
+#[path = "../../../../../tests/washout/common/random.rs"]
 mod random;
 mod running;
 mod worst_cases;
@@ -21,17 +21,17 @@ use std::path::{Path, PathBuf};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use do_nothing::DoNothing;
-use fmu_host::Fmu;
-use model_interface::guid;
+use moris_fmu_host::Fmu;
+use moris_interface::guid;
 use running::Running;
 
 fn target() -> PathBuf {
-    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target");
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../target");
     std::env::var_os("CARGO_TARGET_DIR").map_or(beside, PathBuf::from)
 }
 
 fn washout_fmu() -> Fmu {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/fmu/MorisWashout.fmu");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../target/fmu/MorisWashout.fmu");
     Fmu::open(&path).unwrap_or_else(|error| panic!("{error}: run `cargo build-fmu`"))
 }
 
@@ -39,7 +39,7 @@ fn do_nothing_fmu() -> Fmu {
     let file = format!("{}do_nothing{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let library = target().join("release/examples").join(file);
     Fmu::from_library(&library, &guid::<DoNothing>())
-        .unwrap_or_else(|error| panic!("{error}: run `cargo build --release -p fmi-export --example do_nothing`"))
+        .unwrap_or_else(|error| panic!("{error}: run `cargo build --release -p moris-fmi --example do_nothing`"))
 }
 
 fn exchange(c: &mut Criterion) {

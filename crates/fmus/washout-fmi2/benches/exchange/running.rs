@@ -3,8 +3,8 @@
 use std::ffi::c_int;
 use std::hint::black_box;
 
-use fmu_host::api::Component;
-use fmu_host::{Api, Fmu, Instance};
+use moris_fmu_host::api::Component;
+use moris_fmu_host::{Api, Fmu, Instance};
 
 const STEP: f64 = 0.001;
 /// fmi2OK

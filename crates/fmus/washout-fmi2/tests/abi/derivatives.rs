@@ -1,6 +1,6 @@
 //! Derivatives of inputs and outputs, against motion that is known in closed form.
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 

@@ -3,15 +3,15 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use fmu_host::{Fmu, Instance, Variable, VariableKind};
-use model_interface::{Identity, Kind, Model};
+use moris_fmu_host::{Fmu, Instance, Variable, VariableKind};
+use moris_interface::{Identity, Kind, Model};
 use moris_washout::Washout;
 
 pub const IDENTITY: Identity = Washout::IDENTITY;
 
 /// The library, which `cargo test` has put beside the test.
 pub fn library() -> PathBuf {
-    fmu_host::example_library("shared_library")
+    moris_fmu_host::example_library("shared_library")
 }
 
 pub fn open() -> Fmu {
@@ -29,7 +29,7 @@ pub fn open_library(path: &Path) -> Fmu {
         (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
     };
     let variables: HashMap<_, _> = (0..IDENTITY.slots.len()).map(variable).collect();
-    Fmu::with_variables(path, &model_interface::guid::<Washout>(), variables).unwrap()
+    Fmu::with_variables(path, &moris_interface::guid::<Washout>(), variables).unwrap()
 }
 
 pub fn initialized(parameters: &[(&str, f64)]) -> Instance {
@@ -64,7 +64,7 @@ pub fn reference(name: &str) -> u32 {
 pub fn bytes(instance: &mut Instance) -> Vec<u8> {
     let state = instance.get_state().unwrap();
     let bytes = instance.serialize(&state).unwrap();
-    assert_eq!(instance.free_state(state), fmu_host::Status::Ok);
+    assert_eq!(instance.free_state(state), moris_fmu_host::Status::Ok);
     bytes
 }
 
@@ -73,7 +73,7 @@ pub fn ride(instance: &mut Instance, from: u32, count: u32) -> Vec<u64> {
     let references = real_inputs();
     for step in from..from + count {
         let time = f64::from(step) * 1e-3;
-        assert_eq!(instance.set_real(&references, &input(time)), fmu_host::Status::Ok);
+        assert_eq!(instance.set_real(&references, &input(time)), moris_fmu_host::Status::Ok);
         instance.step(time, 1e-3).unwrap();
     }
     all_values(instance)

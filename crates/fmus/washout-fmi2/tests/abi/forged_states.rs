@@ -1,6 +1,6 @@
 //! Serialized states that somebody made up: refused with a reason, and harmless where they are not.
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 use crate::hostile::driver::Choices;

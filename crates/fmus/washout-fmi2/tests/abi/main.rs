@@ -12,7 +12,7 @@ mod real_time;
 mod resources;
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 mod rounds;
-#[path = "../../../fmi/tests/abi/standard.rs"]
+#[path = "../../../../fmi/tests/abi/standard.rs"]
 mod standard;
 mod steps;
 mod threads;

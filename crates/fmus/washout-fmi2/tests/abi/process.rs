@@ -1,6 +1,6 @@
 //! The process that the library finds itself in is left as it was.
 
-use fmu_host::Fmu;
+use moris_fmu_host::Fmu;
 
 use crate::fixture::*;
 use crate::hostile::driver::{Choices, run};

@@ -1,8 +1,8 @@
 //! What a real-time loop must not do: ask for memory, or call the operating system. That it takes no lock follows: an
 //! instance is its caller's alone, and a contended lock would call the system.
 
-use fmu_host::{Fmu, Instance, Status};
 use libloading::{Library, Symbol};
+use moris_fmu_host::{Fmu, Instance, Status};
 
 use crate::fixture::{IDENTITY, input, open_library, real_inputs, reference};
 
@@ -62,7 +62,7 @@ impl Loop {
 
 #[test]
 fn no_set_step_or_get_touches_memory() {
-    let path = fmu_host::example_library("counting_library");
+    let path = moris_fmu_host::example_library("counting_library");
     let mut running = Loop::new(&open_library(&path));
     // SAFETY: the library is the one just opened, and the function is declared as it is defined there.
     let library = unsafe { Library::new(&path) }.unwrap();

@@ -3,8 +3,8 @@
 use std::ffi::CString;
 use std::ptr::null_mut;
 
-use fmu_host::Fmu;
-use fmu_host::api::Callbacks;
+use moris_fmu_host::Fmu;
+use moris_fmu_host::api::Callbacks;
 use moris_washout::Washout;
 
 use crate::fixture::*;
@@ -25,7 +25,7 @@ fn any_directory_and_any_form_of_its_location_will_do() {
             locations.extend([Some(format!("{form}{path}")), Some(format!("{form}{path}/resources/"))]);
         }
     }
-    let guid = CString::new(model_interface::guid::<Washout>()).unwrap();
+    let guid = CString::new(moris_interface::guid::<Washout>()).unwrap();
     let nothing = null_mut();
     let callbacks =
         Callbacks { logger: None, allocate_memory: None, free_memory: None, step_finished: None, environment: nothing };

@@ -1,6 +1,6 @@
 //! What comes is freed again.
 
-use fmu_host::Status;
+use moris_fmu_host::Status;
 
 use crate::fixture::*;
 

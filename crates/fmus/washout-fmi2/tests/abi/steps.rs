@@ -1,6 +1,6 @@
 //! Communication points over long rides.
 
-use fmu_host::{Instance, Status};
+use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 

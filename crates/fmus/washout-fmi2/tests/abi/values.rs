@@ -1,7 +1,7 @@
 //! Every variable of the washout with values that it cannot take, and where it cannot be set.
 
-use fmu_host::{Instance, Status};
-use model_interface::{Causality, Kind, Variability};
+use moris_fmu_host::{Instance, Status};
+use moris_interface::{Causality, Kind, Variability};
 
 use crate::fixture::*;
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use fmu_host::{Api, Status};
-use model_interface::Model;
+use moris_fmu_host::{Api, Status};
+use moris_interface::Model;
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Parameters, Washout};
 use object::Object;

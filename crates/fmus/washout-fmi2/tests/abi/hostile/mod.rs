@@ -1,6 +1,6 @@
 //! The washout's library in the hands of a host that does everything wrong.
 
-use fmu_host::Api;
+use moris_fmu_host::Api;
 
 use crate::fixture::library;
 use crate::standard;
@@ -16,7 +16,7 @@ fn calls(tally: &Tally) -> u64 {
 /// Four times 250 000 calls, by seeds that stay the same.
 #[test]
 fn a_million_calls_do_no_harm() {
-    let fmu = fmu_host::Fmu::from_library(&library(), "").unwrap();
+    let fmu = moris_fmu_host::Fmu::from_library(&library(), "").unwrap();
     let mut total = Tally::new();
     for seed in 0..4 {
         let tally = run(fmu.api(), Choices::Seed(seed), 250_000);
@@ -41,7 +41,7 @@ fn a_million_calls_do_no_harm() {
 /// As the fuzzer does it, see fuzz/.
 #[test]
 fn bytes_lead_the_host_too() {
-    let fmu = fmu_host::Fmu::from_library(&library(), "").unwrap();
+    let fmu = moris_fmu_host::Fmu::from_library(&library(), "").unwrap();
     let mut seed = Choices::Seed(1);
     for _ in 0..100 {
         let bytes: Vec<u8> = (0..2000).map(|_| seed.bits() as u8).collect();

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_int};
 use std::ptr::{null, null_mut};
 
-use fmu_host::api::Text;
+use moris_fmu_host::api::Text;
 use moris_washout::Washout;
 
 use super::expected::{DISCARD, ERROR, Expected, OK};
@@ -21,7 +21,7 @@ pub fn instantiate(world: &mut World) {
         world.players.push(Player::new(world.api, name, with_logger, events));
         return world.count("fmi2Instantiate", OK);
     }
-    let guid = c_string(&model_interface::guid::<Washout>());
+    let guid = c_string(&moris_interface::guid::<Washout>());
     let mut log = Log { name: "refused".into(), ..Log::default() };
     let callbacks = callbacks(Some(&mut log));
     let (mut name, mut kind, mut guid_pointer, mut callbacks_pointer) =

@@ -1,6 +1,6 @@
 //! What an instance has to be after the calls so far: a second, plain account of the standard.
 
-use model_interface::{Causality, Identity, Kind, Model, Variability};
+use moris_interface::{Causality, Identity, Kind, Model, Variability};
 use moris_washout::Washout;
 
 use crate::standard::CALLING_SEQUENCE;

@@ -2,7 +2,7 @@
 
 use std::ffi::{CStr, c_int, c_void};
 
-use fmu_host::api::Text;
+use moris_fmu_host::api::Text;
 
 /// What was said in one call of the logger.
 #[derive(Debug)]

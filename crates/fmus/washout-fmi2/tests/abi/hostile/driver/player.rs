@@ -4,8 +4,8 @@ use std::ffi::{CString, c_int};
 use std::ptr::{null, null_mut};
 use std::sync::LazyLock;
 
-use fmu_host::Api;
-use fmu_host::api::{Callbacks, Component, FmuState};
+use moris_fmu_host::Api;
+use moris_fmu_host::api::{Callbacks, Component, FmuState};
 use moris_washout::Washout;
 
 use super::expected::{ERROR, Expected, IDENTITY, OK, Type, is_set_by_host, slot, type_of};
@@ -59,7 +59,7 @@ impl Player {
     pub fn new(api: &Api, name: &str, with_logger: bool, events: bool) -> Self {
         let mut log = with_logger.then(|| Box::new(Log { name: name.into(), ..Log::default() }));
         let callbacks = callbacks(log.as_deref_mut());
-        let (name, guid) = (c_string(name), c_string(&model_interface::guid::<Washout>()));
+        let (name, guid) = (c_string(name), c_string(&moris_interface::guid::<Washout>()));
         // SAFETY: strings and callbacks live during the call, the log as long as the instance.
         let component =
             unsafe { (api.instantiate)(name.as_ptr(), 1, guid.as_ptr(), null(), &callbacks, 0, c_int::from(events)) };
@@ -194,7 +194,7 @@ impl Player {
 
 /// The host's functions, with this log or without a logger.
 pub fn callbacks(log_of_instance: Option<&mut Log>) -> Callbacks {
-    let logger = log_of_instance.is_some().then_some(log as fmu_host::api::Logger);
+    let logger = log_of_instance.is_some().then_some(log as moris_fmu_host::api::Logger);
     let environment = log_of_instance.map_or(null_mut(), |log| (&raw mut *log).cast());
     Callbacks { logger, allocate_memory: None, free_memory: None, step_finished: None, environment }
 }

@@ -2,7 +2,7 @@
 
 use std::ptr::null_mut;
 
-use fmu_host::api::FmuState;
+use moris_fmu_host::api::FmuState;
 
 use super::expected::{ERROR, Expected, OK};
 use super::player::Player;
@@ -79,7 +79,7 @@ pub fn free(world: &mut World, who: usize) -> i32 {
 }
 
 /// A state's bytes, by any instance.
-fn bytes_of(player: &Player, api: &fmu_host::Api, state: FmuState) -> Vec<u8> {
+fn bytes_of(player: &Player, api: &moris_fmu_host::Api, state: FmuState) -> Vec<u8> {
     let mut size = 0;
     // SAFETY: the instance and the state are alive, and there is room for `size` bytes.
     unsafe {

@@ -3,7 +3,7 @@
 use std::ffi::c_int;
 use std::ptr::{null, null_mut};
 
-use model_interface::{Causality, Variability};
+use moris_interface::{Causality, Variability};
 
 use super::choices::Choices;
 use super::expected::{DISCARD, ERROR, Expected, IDENTITY, OK, Type, admits, type_of};

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fmu_host::Api;
+use moris_fmu_host::Api;
 
 use super::choices::Choices;
 use super::player::Player;

@@ -1,11 +1,11 @@
 //! The braking law: inviolable, invisible while it has nothing to do, and without a jump in between.
 
-use moris_washout::chain::Denominator;
-use moris_washout::direct_linear::DirectLinearMotion;
-use moris_washout::governor::{Motion, approach_velocity};
+use moris_washout::cueing::direct_linear::DirectLinearMotion;
+use moris_washout::cueing::safety::SafetyUnits;
+use moris_washout::filter::chain::Denominator;
 use moris_washout::interface::{SafetyParameters, SplitterParameters};
-use moris_washout::motions::Motions;
-use moris_washout::safety::SafetyUnits;
+use moris_washout::motion::Motions;
+use moris_washout::motion::braking_law::{Motion, approach_velocity};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 

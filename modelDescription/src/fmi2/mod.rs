@@ -1,0 +1,12 @@
+//! The model description of FMI 2.0.
+
+mod describe;
+pub mod model_description;
+pub mod model_structure;
+pub mod scalar_variable;
+pub mod type_definitions;
+pub(crate) mod variables_html;
+
+pub use describe::{describe, describe_with};
+pub use model_description::ModelDescription;
+pub use variables_html::variables_html;

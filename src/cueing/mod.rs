@@ -1,0 +1,21 @@
+//! Motion cueing: the blocks of the paper's Fig. 4.
+//!
+//! | module | block |
+//! |---|---|
+//! | [`conditioning`], [`splitter`] | (1) strategy splitter: gravity removal, scale, limit; high and low frequencies |
+//! | `preaction` | ahead of (1): begin to end the tilt before a stop (the paper's section 6) |
+//! | [`gravitational`] | (2) gravitational strategy: tilt |
+//! | [`direct_linear`], [`safety`] | (3) direct linear motion with its safety units |
+//! | [`compensation`] | (4) compensation of the accelerations that tilting causes |
+//! | [`angular`] | (5), (6) angular channel |
+//! | [`evaluator`] | specific force and angular velocity at the washout location |
+
+pub mod angular;
+pub mod compensation;
+pub mod conditioning;
+pub mod direct_linear;
+pub mod evaluator;
+pub mod gravitational;
+pub(crate) mod preaction;
+pub mod safety;
+pub mod splitter;
