@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use moris::{parameters, respond, rig, run, tune};
+use moris::{measure, parameters, respond, rig, run, tune};
 
 /// The washout's workbench: does this ride fit my rig, how good are the cues, what limits them, which parameters are better?
 #[derive(Parser)]
@@ -19,6 +19,7 @@ enum Command {
     #[command(subcommand)]
     Rig(rig::Command),
     Run(run::Options),
+    Measure(measure::Options),
     Tune(tune::Options),
     Respond(respond::Options),
     Parameters(parameters::Options),
@@ -29,6 +30,7 @@ fn main() -> ExitCode {
     let result = match Arguments::parse().command {
         Command::Rig(command) => rig::main(&command, out),
         Command::Run(options) => run::main(&options, out),
+        Command::Measure(options) => measure::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
         Command::Respond(options) => respond::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),

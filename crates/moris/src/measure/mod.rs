@@ -1,0 +1,156 @@
+//! `moris measure`: rides times channels, in one table.
+//!
+//! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] compares with what is asked, [`table`]
+//! prints.
+
+pub mod channel;
+pub mod host;
+pub mod table;
+pub mod targets;
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use moris_washout::Parameters;
+use rayon::prelude::*;
+
+use crate::ride::{ConventionOptions, Ride};
+use crate::run::{bounds, measured};
+use crate::setup_options::SetupOptions;
+use channel::{Channel, channels};
+use host::{Host, Inputs};
+use targets::Targets;
+
+/// Measure rides channel by channel and say which targets are missed
+///
+/// A line for each ride and channel: the error of a platform at rest, the bound where asked for, the RMS error, the RMS
+/// error as sensed, and the fractions of the time with a cue in the vehicle, with a false and with a missing one on the
+/// platform. Then what was limited on each ride, and the targets. Recordings are led in from rest over 1 s unless
+/// --fade-in says otherwise.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    /// Recordings (CSV), or folders of them; see `moris run --help` for their columns
+    #[arg(required = true, value_name = "RIDE|FOLDER")]
+    rides: Vec<PathBuf>,
+
+    #[command(flatten)]
+    setup: SetupOptions,
+
+    /// Communication step of the host, in s, a divisor or a multiple of the recording's [default: the recording's]
+    #[arg(long, value_name = "SECONDS", value_parser = step)]
+    step: Option<f64>,
+
+    /// What the host says of an input within a step
+    #[arg(long, value_enum, default_value_t)]
+    inputs: Inputs,
+
+    /// Compute the bound, the least error that any controller could reach; it takes some seconds a ride
+    #[arg(long)]
+    bound: bool,
+
+    #[command(flatten)]
+    targets: Targets,
+
+    /// Fail (exit status 1) where a target is missed
+    #[arg(long)]
+    check: bool,
+
+    #[command(flatten)]
+    conventions: ConventionOptions,
+}
+
+/// Time over which recordings are led in from rest \[s\].
+const LEAD_IN: f64 = 1.0;
+
+/// The figures of a ride.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeasuredRide {
+    /// The recording's name.
+    pub name: String,
+    /// Duration \[s\].
+    pub duration: f64,
+    /// The channels on which something is desired or felt.
+    pub channels: Vec<Channel>,
+    /// Fractions of the steps in which tilt coordination, a safety unit and the actuator guard were limited.
+    pub limits: [f64; 3],
+    /// Fraction of the steps in which a safety unit or the actuator guard limited the platform.
+    pub limited: f64,
+    /// Fraction of the stroke used.
+    pub stroke_used: f64,
+}
+
+impl MeasuredRide {
+    /// Replays and measures a ride.
+    ///
+    /// # Errors
+    /// The parameters cannot be used, the steps do not fit, or there is no bound.
+    pub fn of(ride: &Ride, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
+        let recording = host.replay(ride, &ride.parameters(parameters))?;
+        let measures = measured::measures(&recording)?;
+        let bounds = if with_bound { bounds::bounds(&recording)? } else { [const { None }; 3] };
+        let effort = &measures.effort;
+        let steps = recording.outputs.len().max(2) - 1;
+        let limited = recording.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
+        Ok(MeasuredRide {
+            name: ride.name.clone(),
+            duration: ride.manoeuvre.duration(),
+            channels: channels(&recording, &measures, &bounds),
+            limits: [effort.tilt_limited, effort.safety_active, effort.actuator_limited],
+            limited: limited.count() as f64 / steps as f64,
+            stroke_used: effort.stroke_used,
+        })
+    }
+}
+
+/// Does what the command says.
+///
+/// # Errors
+/// A ride, a rig or parameters that cannot be used.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    let setup = options.setup.load()?;
+    let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
+    let host = Host { step: options.step, inputs: options.inputs };
+    let measure = |file: &PathBuf| {
+        let ride = Ride::read(file, &conventions)?;
+        MeasuredRide::of(&ride, &setup.parameters, &host, options.bound).with_context(|| ride.name.clone())
+    };
+    let rides: Vec<MeasuredRide> = recordings(&options.rides)?.par_iter().map(measure).collect::<Result<_>>()?;
+    let missed = options.targets.missed(&rides);
+    write!(out, "{}", table::text(&setup, &host, &rides, &missed))?;
+    Ok(if options.check && !missed.is_empty() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+}
+
+/// The files named, and those with the extension csv in the folders named, by name.
+fn recordings(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            files.extend(recordings_in(path)?);
+        } else {
+            files.push(path.clone());
+        }
+    }
+    Ok(files)
+}
+
+fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
+    let read = || format!("cannot read {}", folder.display());
+    let entries: Result<Vec<_>, _> = fs::read_dir(folder).with_context(read)?.collect();
+    let mut files: Vec<PathBuf> = entries.with_context(read)?.into_iter().map(|entry| entry.path()).collect();
+    files.retain(|file| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")));
+    files.sort();
+    if files.is_empty() {
+        bail!("there is no recording (*.csv) in {}", folder.display());
+    }
+    Ok(files)
+}
+
+fn step(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|step: &f64| (1e-6..=1.0).contains(step))
+        .ok_or_else(|| "a time from 1e-6 to 1 s is needed, such as 0.001".to_owned())
+}

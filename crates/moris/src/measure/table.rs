@@ -1,0 +1,122 @@
+//! The tables that `moris measure` prints.
+
+use std::fmt::Write;
+
+use moris_setup::Setup;
+
+use super::MeasuredRide;
+use super::channel::{Channel, Quantity};
+use super::host::{Host, Inputs};
+use super::targets::{geometric_mean, wrong_cues};
+use crate::text_table::TextTable;
+
+/// Stands where a number was not computed.
+const NONE: &str = "–";
+
+/// Everything: the channels, the limits, the summary and the targets missed.
+pub fn text(setup: &Setup, host: &Host, rides: &[MeasuredRide], missed: &[String]) -> String {
+    let mut text = format!("{}, parameters {}, {}\n\n", setup.rig_name, setup.parameters_name, host_text(host));
+    let mut add = |part: &dyn std::fmt::Display| write!(text, "{part}").expect("a string takes whatever is written");
+    add(&channel_table(rides));
+    add(&"\n");
+    add(&limit_table(rides));
+    add(&"\n");
+    add(&summary(rides));
+    match missed {
+        [] => add(&"All targets are met.\n"),
+        missed => {
+            add(&"Targets missed:\n");
+            missed.iter().for_each(|sentence| add(&format!("  {sentence}\n")));
+        }
+    }
+    text
+}
+
+fn host_text(host: &Host) -> String {
+    let inputs = match host.inputs {
+        Inputs::Slopes => "with slopes",
+        Inputs::Values => "without slopes",
+    };
+    match host.step {
+        Some(step) => format!("host steps of {} ms {inputs}", (1e9 * step).round() / 1e6),
+        None => format!("host steps as recorded, {inputs}"),
+    }
+}
+
+fn channel_table(rides: &[MeasuredRide]) -> TextTable {
+    let mut table = TextTable::new([
+        "ride",
+        "channel",
+        "unit",
+        "at rest",
+        "bound",
+        "RMS",
+        "ratio",
+        "sensed",
+        "cues %",
+        "false %",
+        "missing %",
+    ]);
+    for ride in rides {
+        for (index, channel) in ride.channels.iter().enumerate() {
+            let name = if index == 0 { ride.name.clone() } else { String::new() };
+            table.push([name].into_iter().chain(row(channel)).collect());
+        }
+    }
+    table
+}
+
+fn row(channel: &Channel) -> [String; 10] {
+    let (unit, factor) = match channel.quantity {
+        Quantity::Force(_) => ("m/s²", 1.0),
+        Quantity::Rate(_) => ("°/s", 1f64.to_degrees()),
+    };
+    let number = |value: f64| format!("{:.3}", factor * value);
+    let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
+    // Where hardly anything is desired a ratio means nothing.
+    let ratio = if factor * channel.at_rest >= 0.03 { format!("{:.2}", channel.ratio()) } else { NONE.to_owned() };
+    [
+        channel.quantity.name().to_owned(),
+        unit.to_owned(),
+        number(channel.at_rest),
+        channel.bound.map_or_else(|| NONE.to_owned(), number),
+        number(channel.error),
+        ratio,
+        number(channel.sensed_error),
+        percent(channel.cues.desired),
+        percent(channel.cues.false_cues),
+        percent(channel.cues.missing_cues),
+    ]
+}
+
+fn limit_table(rides: &[MeasuredRide]) -> TextTable {
+    let mut table = TextTable::new([
+        "limited, % of the steps",
+        "tilt",
+        "safety units",
+        "actuator guard",
+        "units or guard",
+        "stroke used %",
+    ]);
+    for ride in rides {
+        let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
+        let [tilt, safety, guard] = ride.limits.map(percent);
+        table.push(vec![ride.name.clone(), tilt, safety, guard, percent(ride.limited), percent(ride.stroke_used)]);
+    }
+    table
+}
+
+fn summary(rides: &[MeasuredRide]) -> String {
+    let (mean, count) = geometric_mean(rides);
+    let mut text = format!("Geometric mean of the RMS errors of surge and sway, {count} channels: {mean:.3} m/s²\n");
+    for axis in 0..3 {
+        let [wrong, at_rest] = wrong_cues(rides, axis).map(|fraction| 100.0 * fraction);
+        writeln!(
+            text,
+            "{}: false or missing cues for {wrong:.1} % of the time, {at_rest:.1} % on a platform at rest",
+            ["Roll rate", "Pitch rate", "Yaw rate"][axis]
+        )
+        .expect("a string takes whatever is written");
+    }
+    text
+}
