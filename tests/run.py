@@ -45,6 +45,7 @@ def main():
     passed_on = [f"--{name}" for name in ("install", "require") if getattr(arguments, name)]
     run("cargo", "build-fmu")
     run("cargo", "build-fmu", "--fmi", "3")
+    run("cargo", "build-fmu", "--fmi", "3", "--arrays")
     run("cargo", "build-ssp")
     run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--quiet")

@@ -21,7 +21,7 @@ pub fn contents(model: &Model, start: &Start, fmi: FmiVersion, libraries: Vec<(P
     contents.insert(fmi.icon_file().to_owned(), (model.icon)());
     contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi, start).into_bytes());
     // The tables' columns are scalar variables.
-    if fmi == FmiVersion::Fmi2 {
+    if fmi.choose_names(true, false) {
         let input = Stimuli::new(model.reference_input);
         let output = (model.made.reference_output)(&input, start.slots());
         contents.extend(reference::files(model.name, &input, output));

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::model::Wording;
 use crate::{FmiVersion, Model, Start};
 
 /// A part of the documentation.
@@ -21,6 +22,10 @@ const STYLE: &str = include_str!("../documentation/style.css");
 pub fn page(model: &Model, start: &Start, fmi: FmiVersion) -> String {
     let variables = model.variables(fmi, start);
     let description = (model.made.description)(start.slots());
+    let token = match fmi {
+        FmiVersion::Fmi2 => description.guid.clone(),
+        FmiVersion::Fmi3(layout) => layout.token(&description.guid),
+    };
     let sections = || {
         let written = model.sections.iter().map(|section| (section.anchor, section.heading, section.html));
         written.chain([("variables", "Variables", variables.as_str())])
@@ -39,12 +44,10 @@ pub fn page(model: &Model, start: &Start, fmi: FmiVersion) -> String {
         .replace("{{name}}", &description.model_name)
         .replace("{{version}}", &description.version)
         .replace("{{token_name}}", fmi.choose("GUID", "instantiation token"))
-        .replace("{{token}}", &description.guid)
+        .replace("{{token}}", &token)
         .replace("{{icon}}", fmi.icon_file())
         .replace("{{discard}}", fmi.choose("fmi2Discard", "fmi3Discard"))
         .replace("{{fmi}}", &fmi.to_string());
-    let word = |page: String, (place, for_fmi2, for_fmi3): &(&str, &str, &str)| {
-        page.replace(&format!("{{{{{place}}}}}"), fmi.choose(for_fmi2, for_fmi3))
-    };
+    let word = |page: String, wording: &Wording| page.replace(&format!("{{{{{}}}}}", wording.place), wording.text(fmi));
     model.wording.iter().fold(page, word)
 }

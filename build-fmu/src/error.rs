@@ -40,6 +40,9 @@ pub enum Error {
         "--{option} would do nothing: none of the models to build takes it ({who}); choose others with --model, or leave it out"
     )]
     NotTaken { option: &'static str, who: &'static str },
+    /// Array variables were asked for in a version of FMI without them.
+    #[error("--arrays needs --fmi 3: FMI 2.0 has no array variables")]
+    NoArrays,
     /// A rig or parameter file cannot be used.
     #[error("{0}")]
     Setup(#[from] moris_setup::Error),

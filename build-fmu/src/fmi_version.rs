@@ -3,50 +3,71 @@
 use std::fmt;
 
 use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use moris_model_description::fmi3::Layout;
 
 use crate::functions::{FMI2_FUNCTIONS, FMI3_FUNCTIONS};
 
-/// A version of FMI.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+/// A version of FMI and, where it has array variables, whether vectors are such.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FmiVersion {
-    /// FMI 2.0: scalar variables; what most tools load
-    #[value(name = "2")]
     Fmi2,
-    /// FMI 3.0: vectors are array variables
-    #[value(name = "3")]
-    Fmi3,
+    Fmi3(Layout),
+}
+
+/// The versions without array variables. Option `--arrays` makes arrays of the vectors.
+impl ValueEnum for FmiVersion {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[FmiVersion::Fmi2, FmiVersion::Fmi3(Layout::Scalars)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            FmiVersion::Fmi2 => Some(PossibleValue::new("2").help("FMI 2.0")),
+            FmiVersion::Fmi3(Layout::Scalars) => Some(PossibleValue::new("3").help("FMI 3.0")),
+            FmiVersion::Fmi3(Layout::Arrays) => None,
+        }
+    }
 }
 
 impl FmiVersion {
-    /// The names that a shared library exports.
-    pub fn functions(self) -> &'static [&'static str] {
-        match self {
-            FmiVersion::Fmi2 => FMI2_FUNCTIONS,
-            FmiVersion::Fmi3 => FMI3_FUNCTIONS,
-        }
+    /// Every version with every layout.
+    pub const ALL: &[Self] = &[FmiVersion::Fmi2, FmiVersion::Fmi3(Layout::Scalars), FmiVersion::Fmi3(Layout::Arrays)];
+
+    /// The same version with vectors as array variables; `None` if it has none.
+    pub fn with_arrays(self) -> Option<Self> {
+        self.choose(None, Some(FmiVersion::Fmi3(Layout::Arrays)))
     }
 
-    /// The name of a model's FMU. FMUs of both versions can lie beside each other.
+    /// The names that a shared library exports.
+    pub fn functions(self) -> &'static [&'static str] {
+        self.choose(FMI2_FUNCTIONS, FMI3_FUNCTIONS)
+    }
+
+    /// The name of a model's FMU. FMUs of all kinds can lie beside each other.
     pub fn fmu_file(self, model_name: &str) -> String {
-        match self {
-            FmiVersion::Fmi2 => format!("{model_name}.fmu"),
-            FmiVersion::Fmi3 => format!("{model_name}.fmi3.fmu"),
-        }
+        let kind = self.choose("", self.choose_names(".fmi3", ".fmi3.arrays"));
+        format!("{model_name}{kind}.fmu")
     }
 
     /// Where the picture of the model is in the FMU.
     pub fn icon_file(self) -> &'static str {
-        match self {
-            FmiVersion::Fmi2 => "model.png",
-            FmiVersion::Fmi3 => "terminalsAndIcons/icon.png",
-        }
+        self.choose("model.png", "terminalsAndIcons/icon.png")
     }
 
     /// The one of two things that is for this version.
     pub fn choose<T>(self, for_fmi2: T, for_fmi3: T) -> T {
         match self {
             FmiVersion::Fmi2 => for_fmi2,
-            FmiVersion::Fmi3 => for_fmi3,
+            FmiVersion::Fmi3(_) => for_fmi3,
+        }
+    }
+
+    /// The one of two things that fits the variables' names.
+    pub fn choose_names<T>(self, for_scalars: T, for_arrays: T) -> T {
+        match self {
+            FmiVersion::Fmi2 | FmiVersion::Fmi3(Layout::Scalars) => for_scalars,
+            FmiVersion::Fmi3(Layout::Arrays) => for_arrays,
         }
     }
 }

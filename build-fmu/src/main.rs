@@ -27,6 +27,10 @@ struct Arguments {
     #[arg(long, value_name = "VERSION", default_value = "2")]
     fmi: FmiVersion,
 
+    /// With FMI 3.0: make array variables of vectors, for tools that have them
+    #[arg(long)]
+    arrays: bool,
+
     /// Platforms that the FMUs shall run on, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
@@ -59,6 +63,7 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let output = arguments.output.clone().unwrap_or_else(workspace::default_output);
     let chosen = |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
     let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
+    let fmi = fmi_version(arguments)?;
     // Before anything is compiled.
     check_taken(arguments, &models)?;
     let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
@@ -68,10 +73,18 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
             println!("{}: starts with {} values in place of its own", model.name, start.count());
         }
         let report = |line: &str| println!("{line}");
-        let built = build_with(model, start, arguments.fmi, &arguments.platform, &output, report)?;
+        let built = build_with(model, start, fmi, &arguments.platform, &output, report)?;
         println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
     }
     Ok(())
+}
+
+/// The version of FMI, with or without arrays.
+fn fmi_version(arguments: &Arguments) -> Result<FmiVersion, Error> {
+    match arguments.arrays {
+        true => arguments.fmi.with_arrays().ok_or(Error::NoArrays),
+        false => Ok(arguments.fmi),
+    }
 }
 
 /// Whether each of the options that give start values is taken by one of the models.
@@ -135,5 +148,14 @@ mod tests {
         assert_eq!(refusal(&["--rig", "rig.toml", "--parameters", "wake"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
+    }
+    #[test]
+    fn arrays_are_for_fmi_3() {
+        let version = |arguments: &[&str]| fmi_version(&Arguments::parse_from([&["build-fmu"], arguments].concat()));
+        let fmi3 = version(&["--fmi", "3", "--arrays"]).unwrap();
+        assert_eq!(fmi3.fmu_file("Model"), "Model.fmi3.arrays.fmu");
+        assert_eq!(version(&["--fmi", "3"]).unwrap().fmu_file("Model"), "Model.fmi3.fmu");
+        assert_eq!(version(&[]).unwrap().fmu_file("Model"), "Model.fmu");
+        assert!(version(&["--arrays"]).unwrap_err().to_string().contains("--fmi 3"));
     }
 }

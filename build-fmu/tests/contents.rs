@@ -1,5 +1,6 @@
 //! What is in an FMU and how it is packed, with stand-ins for the libraries.
 
+use std::collections::BTreeSet;
 use std::io::{Cursor, Read};
 
 use clap::ValueEnum;
@@ -9,6 +10,7 @@ use moris_build_fmu::model::WASHOUT;
 use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
 use moris_build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
 use moris_model_description::fmi2::scalar_variable::{ScalarVariable, Values};
+use moris_model_description::fmi3::Layout;
 use zip::ZipArchive;
 
 fn with_every_platform(model: &Model, fmi: FmiVersion) -> Contents {
@@ -30,8 +32,10 @@ fn documentation(model: &Model, fmi: FmiVersion) -> String {
 fn variable_names(model: &Model, fmi: FmiVersion) -> Vec<String> {
     let identity = model.made.identity;
     match fmi {
-        FmiVersion::Fmi2 => (0..identity.slots.len()).map(|slot| identity.variable_name(slot)).collect(),
-        FmiVersion::Fmi3 => identity.rows.iter().map(|row| row.array_name()).collect(),
+        FmiVersion::Fmi2 | FmiVersion::Fmi3(Layout::Scalars) => {
+            (0..identity.slots.len()).map(|slot| identity.variable_name(slot)).collect()
+        }
+        FmiVersion::Fmi3(Layout::Arrays) => identity.rows.iter().map(|row| row.array_name()).collect(),
     }
 }
 
@@ -59,8 +63,12 @@ fn an_fmu_holds_what_fmi_asks_for() {
 
 #[test]
 fn an_fmu_holds_what_fmi_3_asks_for() {
-    let contents = with_every_platform(&WASHOUT, FmiVersion::Fmi3);
-    let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
+    let ride = [
+        "extra/org.fmi-standard.fmi-ls-ref/MorisWashout.exp",
+        "extra/org.fmi-standard.fmi-ls-ref/MorisWashout_in.csv",
+        "extra/org.fmi-standard.fmi-ls-ref/MorisWashout_ref.csv",
+        "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
+    ];
     let expected = [
         "binaries/aarch64-darwin/MorisWashout.dylib",
         "binaries/aarch64-linux/MorisWashout.so",
@@ -72,7 +80,11 @@ fn an_fmu_holds_what_fmi_3_asks_for() {
         "modelDescription.xml",
         "terminalsAndIcons/icon.png",
     ];
-    assert_eq!(paths, expected);
+    for (layout, ride) in [(Layout::Scalars, &ride[..]), (Layout::Arrays, &[])] {
+        let contents = with_every_platform(&WASHOUT, FmiVersion::Fmi3(layout));
+        let paths: BTreeSet<&str> = contents.keys().map(String::as_str).collect();
+        assert_eq!(paths, expected.iter().chain(ride).copied().collect());
+    }
 }
 
 #[test]
@@ -97,9 +109,11 @@ fn names_agree() {
         let description = model.description();
         assert_eq!(description.model_name, model.name);
         assert_eq!(description.co_simulation.model_identifier, model.name);
-        let description = (model.made.fmi3_description)(Start::own(model).slots());
-        assert_eq!(description.model_name, model.name);
-        assert_eq!(description.co_simulation.model_identifier, model.name);
+        for layout in [Layout::Scalars, Layout::Arrays] {
+            let description = (model.made.fmi3_description)(Start::own(model).slots(), layout);
+            assert_eq!(description.model_name, model.name);
+            assert_eq!(description.co_simulation.model_identifier, model.name);
+        }
     }
 }
 
@@ -127,7 +141,8 @@ fn the_archive_gives_back_what_was_put_in() {
 #[test]
 fn the_documentation_is_complete_and_needs_no_network() {
     for model in MODELS {
-        for (fmi, icon) in [(FmiVersion::Fmi2, "model.png"), (FmiVersion::Fmi3, "terminalsAndIcons/icon.png")] {
+        for &fmi in FmiVersion::ALL {
+            let icon = fmi.choose("model.png", "terminalsAndIcons/icon.png");
             let page = documentation(model, fmi);
             check_page(model, &page);
             assert!(page.contains(&format!("src=\"../{icon}\"")) && with_every_platform(model, fmi).contains_key(icon));
@@ -152,9 +167,9 @@ fn check_page(model: &Model, page: &str) {
 }
 
 #[test]
-fn the_documentation_of_fmi_3_has_its_names() {
+fn the_documentation_of_arrays_has_their_names() {
     for model in MODELS {
-        let page = documentation(model, FmiVersion::Fmi3).replace("<wbr>", "").replace('\u{a0}', " ");
+        let page = documentation(model, FmiVersion::Fmi3(Layout::Arrays)).replace("<wbr>", "").replace('\u{a0}', " ");
         for row in model.made.identity.rows {
             if row.causality != moris_interface::Causality::Independent {
                 assert!(page.contains(&format!("<td><code>{}</code>", row.array_name())), "{}", row.name);
@@ -162,14 +177,16 @@ fn the_documentation_of_fmi_3_has_its_names() {
         }
         assert!(!page.contains("actuator[1]"));
     }
-    assert!(documentation(&WASHOUT, FmiVersion::Fmi3).replace('\u{a0}', " ").contains("<td>Float64 [6, 3]</td>"));
+    let page = |layout| documentation(&WASHOUT, FmiVersion::Fmi3(layout)).replace('\u{a0}', " ");
+    assert!(page(Layout::Arrays).contains("<td>Float64 [6, 3]</td>"));
+    assert!(page(Layout::Scalars).contains("<td>Float64</td>") && page(Layout::Scalars).contains("actuator[1]"));
 }
 
 /// Variables that the hand-written sections name, as far as they are named in full.
 #[test]
 fn the_documentation_names_variables_that_exist() {
     for model in MODELS {
-        for &fmi in FmiVersion::value_variants() {
+        for &fmi in FmiVersion::ALL {
             let names = variable_names(model, fmi);
             let page = documentation(model, fmi);
             let (_, body) = page.split_once("<main>").unwrap();
@@ -209,8 +226,8 @@ fn the_licences_are_there() {
 }
 
 /// A model's reference ride: the files' texts by their names, the manifest's first.
-fn reference_ride(model: &Model) -> [String; 4] {
-    let contents = with_every_platform(model, FmiVersion::Fmi2);
+fn reference_ride(model: &Model, fmi: FmiVersion) -> [String; 4] {
+    let contents = with_every_platform(model, fmi);
     let file = |name: &str| {
         let path = format!("extra/org.fmi-standard.fmi-ls-ref/{name}");
         String::from_utf8(contents.get(&path).unwrap_or_else(|| panic!("{path} is missing")).clone()).unwrap()
@@ -236,7 +253,9 @@ fn table(text: &str) -> (Vec<&str>, Vec<Vec<f64>>) {
 #[test]
 fn a_reference_ride_is_there_and_has_every_real_output() {
     for model in MODELS {
-        let [_, _, input, output] = reference_ride(model);
+        let ride = reference_ride(model, FmiVersion::Fmi2);
+        assert_eq!(reference_ride(model, FmiVersion::Fmi3(Layout::Scalars)), ride, "names and values are the same");
+        let [_, _, input, output] = ride;
         assert_eq!(input, model.reference_input);
         let (_, inputs) = table(&input);
         let (names, rows) = table(&output);
@@ -253,7 +272,7 @@ fn a_reference_ride_is_there_and_has_every_real_output() {
 
 #[test]
 fn the_washouts_reference_ride_is_as_expected() {
-    let [_, _, _, output] = reference_ride(&WASHOUT);
+    let [_, _, _, output] = reference_ride(&WASHOUT, FmiVersion::Fmi2);
     let (names, rows) = table(&output);
     let column = |name: &str| names.iter().position(|&other| other == name).unwrap_or_else(|| panic!("no {name}"));
     assert_eq!(rows.last().unwrap()[0], 10.0);

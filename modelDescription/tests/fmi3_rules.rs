@@ -4,22 +4,25 @@
 mod small_model;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::ops::Range;
 
 use moris_interface::{Causality, Identity, Kind, Model, Row};
-use moris_model_description::{fmi2::describe, fmi3, to_xml};
+use moris_model_description::fmi2::describe;
+use moris_model_description::fmi3::{self, Layout};
+use moris_model_description::to_xml;
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
 use roxmltree::{Document, Node};
 use small_model::Small;
 
-/// Every check, on each model that there is and on one with a variable of every kind.
+/// Every check, on both descriptions of each model that there is and of one with a variable of every kind.
 macro_rules! on_every_model {
     ($($check:ident)+) => {
-        mod washout { $( #[test] fn $check() { super::$check::<super::Washout>(); } )+ }
-        mod motorcycle { $( #[test] fn $check() { super::$check::<super::Motorcycle>(); } )+ }
-        mod stewart_platform { $( #[test] fn $check() { super::$check::<super::StewartPlatform>(); } )+ }
-        mod small { $( #[test] fn $check() { super::$check::<super::Small>(); } )+ }
+        mod washout { $( #[test] fn $check() { super::both(super::$check::<super::Washout>); } )+ }
+        mod motorcycle { $( #[test] fn $check() { super::both(super::$check::<super::Motorcycle>); } )+ }
+        mod stewart_platform { $( #[test] fn $check() { super::both(super::$check::<super::StewartPlatform>); } )+ }
+        mod small { $( #[test] fn $check() { super::both(super::$check::<super::Small>); } )+ }
     };
 }
 
@@ -27,7 +30,7 @@ on_every_model! {
     it_begins_as_fmi_asks
     its_parts_are_in_the_order_of_the_schema
     variables_are_the_rows_in_order
-    arrays_are_the_scalars_of_fmi_2
+    variables_have_the_values_of_fmi_2
     start_values_are_the_models_bit_for_bit
     every_unit_and_every_type_used_is_defined
     causality_variability_and_initial_go_together
@@ -36,26 +39,31 @@ on_every_model! {
     it_reads_back_as_what_was_written
 }
 
-fn xml<M: Model>() -> String {
-    to_xml(&fmi3::describe::<M>())
+fn both(check: fn(Layout)) {
+    check(Layout::Scalars);
+    check(Layout::Arrays);
 }
 
-fn it_begins_as_fmi_asks<M: Model>() {
-    let xml = xml::<M>();
+fn xml<M: Model>(layout: Layout) -> String {
+    to_xml(&fmi3::describe::<M>(layout))
+}
+
+fn it_begins_as_fmi_asks<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     assert!(xml.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription "));
     assert!(xml.ends_with("</fmiModelDescription>\n"));
     let document = Document::parse(&xml).unwrap();
     let root = document.root_element();
     assert_eq!(root.attribute("fmiVersion"), Some("3.0"));
-    assert_eq!(root.attribute("instantiationToken"), Some(moris_interface::guid::<M>().as_str()));
+    assert_eq!(root.attribute("instantiationToken"), Some(layout.token(&moris_interface::guid::<M>()).as_str()));
     assert_eq!(root.attribute("modelName"), Some(M::IDENTITY.name));
     assert_eq!(root.attribute("variableNamingConvention"), Some("structured"));
     assert!(!xml.contains("NaN") && !xml.contains("inf\"") && !xml.contains("INF"));
     assert_eq!(child(root, "CoSimulation").attribute("modelIdentifier"), Some(M::IDENTITY.name));
 }
 
-fn its_parts_are_in_the_order_of_the_schema<M: Model>() {
-    let xml = xml::<M>();
+fn its_parts_are_in_the_order_of_the_schema<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let parts: Vec<_> = elements(document.root_element()).map(|part| part.tag_name().name()).collect();
     let order = [
@@ -72,33 +80,44 @@ fn its_parts_are_in_the_order_of_the_schema<M: Model>() {
     assert!(elements(document.root_element()).all(|part| elements(part).count() > 0 || part.attributes().count() > 0));
 }
 
-/// The rows, each with its first slot.
-fn rows(identity: &Identity) -> Vec<(usize, &'static Row)> {
+/// The variables that the description is to have: each with its name, its row and its slots.
+fn places(identity: &Identity, layout: Layout) -> Vec<(String, &'static Row, Range<usize>)> {
     let mut first = 0;
-    let mut rows = Vec::new();
+    let mut places = Vec::new();
     for row in identity.rows {
-        rows.push((first, row));
-        first += row.count * row.components.len();
+        let slots = first..first + row.count * row.components.len();
+        first = slots.end;
+        match layout {
+            Layout::Scalars => {
+                places.extend(slots.enumerate().map(|(k, slot)| (row.variable_name(k), row, slot..slot + 1)));
+            }
+            Layout::Arrays => places.push((row.array_name(), row, slots)),
+        }
     }
-    rows
+    places
 }
 
-fn variables_are_the_rows_in_order<M: Model>() {
-    let xml = xml::<M>();
+fn variables_are_the_rows_in_order<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
-    let (variables, rows) = (variables(&document), rows(&M::IDENTITY));
-    assert_eq!(variables.len(), rows.len());
+    let (variables, places) = (variables(&document), places(&M::IDENTITY, layout));
+    assert_eq!(variables.len(), places.len());
     let mut names = BTreeSet::new();
-    for (variable, (slot, row)) in variables.iter().zip(rows) {
+    for (variable, (expected_name, row, slots)) in variables.iter().zip(places) {
         let name = variable.attribute("name").unwrap();
-        assert_eq!(name, row.array_name());
+        assert_eq!(name, expected_name);
         assert!(names.insert(name), "{name} appears twice");
         let identifier = |part: &str| {
             part.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
                 && part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
         };
-        assert!(name.split('.').all(identifier), "{name}");
-        assert_eq!(variable.attribute("valueReference"), Some(slot.to_string().as_str()), "{name}");
+        // An array's name has no index, a scalar's one from 1.
+        let without_index = |part: &str| part.split('[').next().unwrap().to_owned();
+        let is_indexed = name.contains('[');
+        assert_eq!(is_indexed, layout == Layout::Scalars && row.count > 1, "{name}");
+        assert!(name.split('.').all(|part| identifier(&without_index(part))), "{name}");
+        assert_eq!(variable.attribute("valueReference"), Some(slots.start.to_string().as_str()), "{name}");
+        assert_eq!(size(*variable), slots.len(), "{name}");
         assert!(variable.attribute("description").unwrap().starts_with(row.text()), "{name}");
         let type_name = match row.kind {
             Kind::Real(_) => "Float64",
@@ -120,10 +139,10 @@ fn size(variable: Node) -> usize {
         .product()
 }
 
-/// The elements of the arrays, in their order, are the scalar variables that FMI 2.0 has under the same value references,
+/// The variables' elements, in their order, are the scalar variables that FMI 2.0 has under the same value references,
 /// with the same start values, units, ranges, causality and variability.
-fn arrays_are_the_scalars_of_fmi_2<M: Model>() {
-    let (xml2, xml3) = (to_xml(&describe::<M>()), xml::<M>());
+fn variables_have_the_values_of_fmi_2<M: Model>(layout: Layout) {
+    let (xml2, xml3) = (to_xml(&describe::<M>()), xml::<M>(layout));
     let (document2, document3) = (Document::parse(&xml2).unwrap(), Document::parse(&xml3).unwrap());
     let mut scalars = variables(&document2).into_iter();
     for variable in variables(&document3) {
@@ -147,12 +166,12 @@ fn arrays_are_the_scalars_of_fmi_2<M: Model>() {
     assert!(scalars.next().is_none());
 }
 
-fn start_values_are_the_models_bit_for_bit<M: Model>() {
-    let xml = xml::<M>();
+fn start_values_are_the_models_bit_for_bit<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let mut start = vec![f64::NAN; M::IDENTITY.slots.len()];
     M::start(&mut start);
-    for (variable, (slot, row)) in variables(&document).into_iter().zip(rows(&M::IDENTITY)) {
+    for (variable, (_, row, slots)) in variables(&document).into_iter().zip(places(&M::IDENTITY, layout)) {
         let name = variable.attribute("name").unwrap();
         let Some(list) = variable.attribute("start") else {
             assert!(matches!(row.causality, Causality::Independent | Causality::Output), "{name}");
@@ -164,14 +183,13 @@ fn start_values_are_the_models_bit_for_bit<M: Model>() {
             number => number.parse::<f64>().unwrap(),
         };
         let read: Vec<u64> = list.split(' ').map(|text| read(text).to_bits()).collect();
-        let expected: Vec<u64> = start[slot..slot + read.len()].iter().map(|value| value.to_bits()).collect();
+        let expected: Vec<u64> = start[slots.clone()].iter().map(|value| value.to_bits()).collect();
         assert_eq!(read, expected, "{name}");
-        assert_eq!(read.len(), row.count * row.components.len(), "{name}");
     }
 }
 
-fn every_unit_and_every_type_used_is_defined<M: Model>() {
-    let xml = xml::<M>();
+fn every_unit_and_every_type_used_is_defined<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let root = document.root_element();
     let units: HashMap<_, _> = elements(child(root, "UnitDefinitions"))
@@ -207,8 +225,8 @@ fn every_unit_and_every_type_used_is_defined<M: Model>() {
     assert_eq!(types_used, types.keys().copied().collect());
 }
 
-fn causality_variability_and_initial_go_together<M: Model>() {
-    let xml = xml::<M>();
+fn causality_variability_and_initial_go_together<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     for variable in variables(&document) {
         let is_real = variable.has_tag_name("Float64");
@@ -226,8 +244,8 @@ fn causality_variability_and_initial_go_together<M: Model>() {
     assert_eq!(variables(&document).iter().filter(is_time).count(), 1);
 }
 
-fn outputs_and_initial_unknowns_are_the_outputs_in_order<M: Model>() {
-    let xml = xml::<M>();
+fn outputs_and_initial_unknowns_are_the_outputs_in_order<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let is_output = |node: &Node| node.attribute("causality") == Some("output");
     let expected: Vec<_> =
@@ -242,8 +260,8 @@ fn outputs_and_initial_unknowns_are_the_outputs_in_order<M: Model>() {
     }
 }
 
-fn log_categories_have_names_of_the_standard<M: Model>() {
-    let xml = xml::<M>();
+fn log_categories_have_names_of_the_standard<M: Model>(layout: Layout) {
+    let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let standard = ["logEvents", "logStatusWarning", "logStatusDiscard", "logStatusError", "logStatusFatal"];
     for category in elements(child(document.root_element(), "LogCategories")) {
@@ -252,8 +270,8 @@ fn log_categories_have_names_of_the_standard<M: Model>() {
     }
 }
 
-fn it_reads_back_as_what_was_written<M: Model>() {
-    let description = fmi3::describe::<M>();
+fn it_reads_back_as_what_was_written<M: Model>(layout: Layout) {
+    let description = fmi3::describe::<M>(layout);
     let read: fmi3::ModelDescription = quick_xml::de::from_str(&to_xml(&description)).unwrap();
     assert_eq!(read, description);
 }
@@ -261,7 +279,7 @@ fn it_reads_back_as_what_was_written<M: Model>() {
 /// Names and shapes that users of the washout rely on.
 #[test]
 fn the_washout_s_vectors_are_arrays() {
-    let xml = xml::<Washout>();
+    let xml = xml::<Washout>(Layout::Arrays);
     let document = Document::parse(&xml).unwrap();
     let dimensions = |name: &str| -> Vec<_> {
         let variables = variables(&document);
@@ -277,12 +295,31 @@ fn the_washout_s_vectors_are_arrays() {
     assert!(xml.contains("Components: roll, pitch, yaw."));
 }
 
+/// An importer that joins FMUs of both versions finds the same names, under the same value references.
+#[test]
+fn scalars_have_the_names_and_value_references_of_fmi_2() {
+    fn names<M: Model>() -> [Vec<(String, String)>; 2] {
+        [to_xml(&describe::<M>()), xml::<M>(Layout::Scalars)].map(|xml| {
+            let document = Document::parse(&xml).unwrap();
+            let attribute = |node: &Node, name: &str| node.attribute(name).unwrap().to_owned();
+            let pair = |node: Node| (attribute(&node, "name"), attribute(&node, "valueReference"));
+            variables(&document).into_iter().map(pair).collect()
+        })
+    }
+    for [fmi2, fmi3] in [names::<Washout>(), names::<Motorcycle>(), names::<StewartPlatform>(), names::<Small>()] {
+        assert_eq!(fmi2, fmi3);
+        assert!(!fmi3.is_empty());
+    }
+}
+
 #[test]
 fn a_changed_variable_is_one_changed_line() {
-    let xml = xml::<Small>();
-    let variables = xml.lines().filter(|line| line.contains(" causality="));
-    assert!(variables.clone().all(|line| line.ends_with("</Float64>") || line.ends_with("/>")));
-    assert_eq!(variables.count(), Small::IDENTITY.rows.len());
+    for layout in [Layout::Scalars, Layout::Arrays] {
+        let xml = xml::<Small>(layout);
+        let variables = xml.lines().filter(|line| line.contains(" causality="));
+        assert!(variables.clone().all(|line| line.ends_with("</Float64>") || line.ends_with("/>")));
+        assert_eq!(variables.count(), places(&Small::IDENTITY, layout).len());
+    }
 }
 
 /// Whether the model has a variable that is an enumeration; only then are there types to define.

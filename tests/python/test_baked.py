@@ -41,7 +41,9 @@ def test_the_descriptions_have_the_values_and_are_valid(baked):
     assert float(fmi2["rig.neutralHeight"]) == float(fmi3["rig.neutralHeight"]) == 1.02
     assert float(fmi2["rig.platform[1].z"]) == 0.05
     assert [float(fmi2[f"splitter.{axis}.omega1"]) for axis in "xyz"] == [0.35] * 3
-    assert [float(value) for value in np.ravel(str(fmi3["splitter.omega1"]).split())] == [0.35] * 3
+    assert {name: float(v) for name, v in fmi3.items() if "." in name and "omega" in name} == {
+        name: float(v) for name, v in fmi2.items() if "." in name and "omega" in name
+    }
 
 
 def test_baked_values_are_as_good_as_values_that_are_set(baked, fmu):
@@ -52,8 +54,7 @@ def test_baked_values_are_as_good_as_values_that_are_set(baked, fmu):
     expected = simulate(fmu, LEGS, others | moving)
     assert (simulate(baked[0], LEGS, moving) == expected).all()
     assert np.ptp(expected, axis=0).min() > 1e-4
-    moving = {"vehicle.specificForce": [1.0, 0.0, 9.80665]}
-    assert (simulate(baked[1], ["actuator.length"], moving) == expected).all()
+    assert (simulate(baked[1], LEGS, moving) == expected).all()
 
 
 def test_every_set_of_values_has_a_guid_of_its_own(baked, fmu):

@@ -14,12 +14,12 @@ MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 
 def fmu(name):
     path = ROOT / "target" / "fmu" / name
-    assert path.exists(), f"{path} is missing: run `cargo build-fmu` and `cargo build-fmu --fmi 3`"
+    assert path.exists(), f"{path} is missing: run `cargo build-fmu`, `cargo build-fmu --fmi 3` and `cargo build-fmu --fmi 3 --arrays`"
     return path
 
 
 @pytest.mark.parametrize("model", MODELS)
-@pytest.mark.parametrize("version", ["fmu", "fmi3.fmu"])
+@pytest.mark.parametrize("version", ["fmu", "fmi3.fmu", "fmi3.arrays.fmu"])
 def test_fmpy_finds_nothing_to_complain_of_and_steps_it(model, version):
     path = fmu(f"{model}.{version}")
     assert validate_fmu(str(path)) == []

@@ -38,13 +38,38 @@ pub struct Model {
     pub following: fn(start: &[f64]) -> NamedValues,
     /// The documentation's hand-written sections, in order; the variables follow them.
     pub sections: &'static [Section],
-    /// What the sections say differently: a place in them, what stands there for FMI 2.0, and what for FMI 3.0. Further
-    /// places are `fmi`, the version's name, and `discard`, its status for a value that is not taken.
-    pub wording: &'static [(&'static str, &'static str, &'static str)],
+    /// Texts of the sections that depend on the version. Further places are `fmi`, the version's name, and `discard`, its
+    /// status for a value that is not taken.
+    pub wording: &'static [Wording],
     /// Draws `model.png`.
     pub icon: fn() -> Vec<u8>,
     /// The input of the reference ride: a table for [`Stimuli::new`].
     pub reference_input: &'static str,
+}
+
+/// A place in the documentation's sections, and the text that stands there.
+pub struct Wording {
+    pub place: &'static str,
+    pub fmi2: &'static str,
+    pub fmi3: &'static str,
+    pub fmi3_arrays: &'static str,
+}
+
+impl Wording {
+    /// Names of variables: those of scalars, or of array variables.
+    const fn names(place: &'static str, scalars: &'static str, arrays: &'static str) -> Self {
+        Wording { place, fmi2: scalars, fmi3: scalars, fmi3_arrays: arrays }
+    }
+
+    /// A text for FMI 2.0 only.
+    const fn fmi2_only(place: &'static str, text: &'static str) -> Self {
+        Wording { place, fmi2: text, fmi3: "", fmi3_arrays: "" }
+    }
+
+    /// The text for a version.
+    pub fn text(&self, fmi: FmiVersion) -> &'static str {
+        fmi.choose(self.fmi2, fmi.choose_names(self.fmi3, self.fmi3_arrays))
+    }
 }
 
 /// What is made from a model itself. `start` has the start value of each slot.
@@ -58,9 +83,11 @@ pub struct Made {
     /// The model description of FMI 2.0.
     pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
     /// That of FMI 3.0.
-    pub fmi3_description: fn(start: &[f64]) -> fmi3::ModelDescription,
-    /// The documentation's tables of variables for FMI 2.0 and for FMI 3.0.
-    pub variables: [fn(start: &[f64]) -> String; 2],
+    pub fmi3_description: fn(start: &[f64], fmi3::Layout) -> fmi3::ModelDescription,
+    /// The documentation's tables of variables for FMI 2.0.
+    pub variables: fn(start: &[f64]) -> String,
+    /// Those for FMI 3.0.
+    pub fmi3_variables: fn(start: &[f64], fmi3::Layout) -> String,
     /// The output that belongs to a reference ride's input.
     pub reference_output: fn(input: &Stimuli, start: &[f64]) -> String,
 }
@@ -74,7 +101,8 @@ impl Made {
             check: |start| M::new(start).map(drop),
             description: fmi2::describe_with::<M>,
             fmi3_description: fmi3::describe_with::<M>,
-            variables: [fmi2::variables_html::<M>, fmi3::variables_html::<M>],
+            variables: fmi2::variables_html::<M>,
+            fmi3_variables: fmi3::variables_html::<M>,
             reference_output: reference::output::<M>,
         }
     }
@@ -105,11 +133,11 @@ impl Model {
     pub fn model_description(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
             FmiVersion::Fmi2 => to_xml(&(self.made.description)(start.slots())),
-            FmiVersion::Fmi3 => to_xml(&(self.made.fmi3_description)(start.slots())),
+            FmiVersion::Fmi3(layout) => to_xml(&(self.made.fmi3_description)(start.slots(), layout)),
         }
     }
 
-    /// Where that text is checked in, in the workspace.
+    /// Where that text is checked in, in the workspace; that of FMI 3.0 with scalars.
     pub fn checked_in_description(&self, fmi: FmiVersion) -> PathBuf {
         let file = fmi.choose("modelDescription.xml", "modelDescription.fmi3.xml");
         ["modelDescription", self.name, file].iter().collect()
@@ -117,7 +145,9 @@ impl Model {
 
     /// The documentation's tables of variables.
     pub fn variables(&self, fmi: FmiVersion, start: &Start) -> String {
-        let [fmi2, fmi3] = self.made.variables;
-        fmi.choose(fmi2, fmi3)(start.slots())
+        match fmi {
+            FmiVersion::Fmi2 => (self.made.variables)(start.slots()),
+            FmiVersion::Fmi3(layout) => (self.made.fmi3_variables)(start.slots(), layout),
+        }
     }
 }

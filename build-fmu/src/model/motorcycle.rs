@@ -4,7 +4,7 @@ use moris_motorcycle::Motorcycle;
 
 use moris_setup::NamedValues;
 
-use super::{Made, Model};
+use super::{Made, Model, Wording};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -28,11 +28,12 @@ pub const MOTORCYCLE: Model = Model {
             html: include_str!("../../documentation/Motorcycle/connect.html"),
         },
     ],
-    wording: &[(
-        "example",
-        include_str!("../../documentation/Motorcycle/example.fmi2.html"),
-        include_str!("../../documentation/Motorcycle/example.fmi3.html"),
-    )],
+    wording: &[Wording {
+        place: "example",
+        fmi2: include_str!("../../documentation/Motorcycle/example.fmi2.html"),
+        fmi3: include_str!("../../documentation/Motorcycle/example.fmi3.html"),
+        fmi3_arrays: include_str!("../../documentation/Motorcycle/example.fmi3.arrays.html"),
+    }],
     icon: icon::motorcycle,
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),
 };

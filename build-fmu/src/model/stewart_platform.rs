@@ -5,7 +5,7 @@ use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
-use super::{Made, Model};
+use super::{Made, Model, Wording};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -40,26 +40,26 @@ pub const STEWART_PLATFORM: Model = Model {
         },
     ],
     wording: &[
-        (
+        Wording::names(
             "commands",
             "<code>command[1].length</code> to <code>command[6].length</code>",
             "the six elements of <code>command.length</code>",
         ),
-        (
+        Wording::names(
             "rates",
             "<code>command[1].velocity</code> to <code>command[6].velocity</code>",
             "the six elements of <code>command.velocity</code>",
         ),
-        (
+        Wording::fmi2_only(
             "slopes",
             " Where the host gives the lengths' derivatives (<code>fmi2SetRealInputDerivatives</code>), those count instead.",
-            "",
         ),
-        (
-            "example",
-            include_str!("../../documentation/StewartPlatform/example.fmi2.html"),
-            include_str!("../../documentation/StewartPlatform/example.fmi3.html"),
-        ),
+        Wording {
+            place: "example",
+            fmi2: include_str!("../../documentation/StewartPlatform/example.fmi2.html"),
+            fmi3: include_str!("../../documentation/StewartPlatform/example.fmi3.html"),
+            fmi3_arrays: include_str!("../../documentation/StewartPlatform/example.fmi3.arrays.html"),
+        },
     ],
     icon: icon::stewart_platform,
     reference_input: include_str!("../../reference/StewartPlatform_in.csv"),

@@ -4,7 +4,7 @@ use moris_washout::Washout;
 
 use moris_setup::NamedValues;
 
-use super::{Made, Model};
+use super::{Made, Model, Wording};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -44,21 +44,21 @@ pub const WASHOUT: Model = Model {
         },
     ],
     wording: &[
-        (
+        Wording::names(
             "actuators",
             "<code>actuator[1].length</code> to <code>actuator[6].length</code>",
             "the six elements of <code>actuator.length</code>",
         ),
-        (
+        Wording::fmi2_only(
             "slopes",
             ", or followed linearly where the host gives their derivatives (<code>fmi2SetRealInputDerivatives</code>)",
-            "",
         ),
-        (
-            "example",
-            include_str!("../../documentation/MorisWashout/example.fmi2.html"),
-            include_str!("../../documentation/MorisWashout/example.fmi3.html"),
-        ),
+        Wording {
+            place: "example",
+            fmi2: include_str!("../../documentation/MorisWashout/example.fmi2.html"),
+            fmi3: include_str!("../../documentation/MorisWashout/example.fmi3.html"),
+            fmi3_arrays: include_str!("../../documentation/MorisWashout/example.fmi3.arrays.html"),
+        },
     ],
     icon: icon::motorcycle_on_platform,
     reference_input: include_str!("../../reference/MorisWashout_in.csv"),

@@ -86,7 +86,7 @@ fn row_html(row: &Row, start: &[f64], notation: &Notation) -> String {
 }
 
 /// The template with what its places stand for: `rig.base[1…6].{x, y, z}`.
-fn name_html(row: &Row) -> String {
+pub(crate) fn name_html(row: &Row) -> String {
     let components = format!("<i>{{{}}}</i>", row.components.join(",\u{a0}"));
     let index = format!("<i>1…{}</i>", row.count);
     let name = breakable(row.name).replace('#', &index).replace('@', &components);

@@ -1,6 +1,6 @@
 //! From a model's rows to its description.
 
-use moris_fmi::fmi3::LOG_CATEGORIES;
+use moris_fmi::fmi3::{LOG_CATEGORIES, Layout};
 use moris_interface::{Causality, Identity, Kind, Model, Row, start_values};
 
 use super::model_description::{CoSimulation, EnumerationType, ModelDescription, ModelVariables, TypeDefinitions};
@@ -11,21 +11,21 @@ use crate::fmi2::model_description::{Category, LogCategories};
 use crate::fmi2::scalar_variable::Initial;
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
-pub fn describe<M: Model>() -> ModelDescription {
-    describe_with::<M>(&start_values::<M>(&[]))
+pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
+    describe_with::<M>(&start_values::<M>(&[]), layout)
 }
 
 /// The model description of a model that is exported for co-simulation with these start values, one for each slot.
 ///
-/// Variables are listed in the order of the rows, and a value reference is the number of a row's first slot.
-pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
+/// Variables are listed in the order of the slots, and a value reference is the number of a variable's first slot.
+pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> ModelDescription {
     let identity = M::IDENTITY;
     // Who made the FMU and the units are as in FMI 2.0.
     let fmi2 = crate::fmi2::describe_with::<M>(start);
     ModelDescription {
         fmi_version: "3.0".to_owned(),
         model_name: fmi2.model_name,
-        instantiation_token: fmi2.guid,
+        instantiation_token: layout.token(&fmi2.guid),
         description: fmi2.description,
         author: fmi2.author,
         version: fmi2.version,
@@ -41,8 +41,8 @@ pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
         }),
         log_categories: log_categories(),
         default_experiment: fmi2.default_experiment,
-        model_variables: ModelVariables { variables: variables(&identity, start) },
-        model_structure: model_structure(&identity),
+        model_variables: ModelVariables { variables: variables(&identity, start, layout) },
+        model_structure: model_structure(&identity, layout),
     }
 }
 
@@ -78,42 +78,68 @@ fn log_categories() -> LogCategories {
     LogCategories { categories: LOG_CATEGORIES.iter().map(category).collect() }
 }
 
-/// Each row with its first slot.
-fn rows(identity: &Identity) -> impl Iterator<Item = (usize, &'static Row)> {
-    let firsts = (0..identity.slots.len()).filter(|&slot| identity.slots[slot].element == 0);
-    firsts.map(|slot| (slot, identity.row(slot)))
+/// A variable of the description: one or all of a row's slots.
+struct Place {
+    row: &'static Row,
+    name: String,
+    first_slot: usize,
+    dimensions: Vec<Dimension>,
 }
 
-fn variables(identity: &Identity, start: &[f64]) -> Vec<TypedVariable> {
-    rows(identity).map(|(slot, row)| typed_variable(row, slot, &start[slot..slot + row.slots()])).collect()
+fn places(identity: &Identity, layout: Layout) -> Vec<Place> {
+    let slots = 0..identity.slots.len();
+    match layout {
+        Layout::Scalars => slots
+            .map(|slot| Place {
+                row: identity.row(slot),
+                name: identity.variable_name(slot),
+                first_slot: slot,
+                dimensions: Vec::new(),
+            })
+            .collect(),
+        Layout::Arrays => slots
+            .filter(|&slot| identity.slots[slot].element == 0)
+            .map(|slot| {
+                let row = identity.row(slot);
+                Place { row, name: row.array_name(), first_slot: slot, dimensions: dimensions(row) }
+            })
+            .collect(),
+    }
 }
 
-fn typed_variable(row: &Row, slot: usize, start: &[f64]) -> TypedVariable {
-    match row.kind {
+fn variables(identity: &Identity, start: &[f64], layout: Layout) -> Vec<TypedVariable> {
+    places(identity, layout).into_iter().map(|place| typed_variable(place, start)).collect()
+}
+
+fn typed_variable(place: Place, start: &[f64]) -> TypedVariable {
+    match place.row.kind {
         Kind::Real(unit) => TypedVariable::Float64(Variable {
             unit: (!unit.name.is_empty()).then(|| unit.name.to_owned()),
             display_unit: display_unit(unit).map(|display| display.name),
-            ..variable(row, slot, start, |value| value)
+            ..variable(place, start, |value| value)
         }),
-        Kind::Integer => TypedVariable::Int32(variable(row, slot, start, |value| value as i32)),
-        Kind::Boolean => TypedVariable::Boolean(variable(row, slot, start, |value| value != 0.0)),
+        Kind::Integer => TypedVariable::Int32(variable(place, start, |value| value as i32)),
+        Kind::Boolean => TypedVariable::Boolean(variable(place, start, |value| value != 0.0)),
         Kind::Enumeration(enumeration) => TypedVariable::Enumeration(Variable {
             declared_type: Some(enumeration.name.to_owned()),
             min: Some(1),
             max: Some(enumeration.items.len() as i64),
-            ..variable(row, slot, start, |value| value as i64)
+            ..variable(place, start, |value| value as i64)
         }),
     }
 }
 
-/// What variables of all types have alike; `convert` makes values from those of slots.
-fn variable<T>(row: &Row, slot: usize, start: &[f64], convert: fn(f64) -> T) -> Variable<T> {
+/// Attributes that variables of all types have; `convert` makes values from those of slots.
+fn variable<T>(place: Place, start: &[f64], convert: fn(f64) -> T) -> Variable<T> {
+    let Place { row, name, first_slot, dimensions } = place;
+    let size = dimensions.iter().map(|dimension| dimension.start as usize).product::<usize>();
+    let start = &start[first_slot..first_slot + size];
     // Outputs are calculated and the time is the host's: neither may have a start value.
     let has_start = matches!(row.causality, Causality::Input | Causality::Parameter);
     Variable {
-        name: row.array_name(),
-        value_reference: slot as u32,
-        description: description(row),
+        name,
+        value_reference: first_slot as u32,
+        description: description(row, !dimensions.is_empty()),
         causality: row.causality.into(),
         variability: row.variability.into(),
         initial: (row.causality == Causality::Output).then_some(Initial::Calculated),
@@ -123,15 +149,17 @@ fn variable<T>(row: &Row, slot: usize, start: &[f64], convert: fn(f64) -> T) -> 
         min: row.range.map(|(min, _)| convert(min)),
         max: row.range.map(|(_, max)| convert(max)),
         start: has_start.then(|| start.iter().map(|&value| convert(value)).collect()),
-        dimensions: dimensions(row),
+        dimensions,
     }
 }
 
-/// The row's sentence and, where elements have components, which they are: an array's name does not say it.
-fn description(row: &Row) -> String {
+/// The row's sentence and, for an array whose elements have components, their names: the array's name does not say them.
+fn description(row: &Row, is_array: bool) -> String {
     match row.components {
-        [_] => row.text().to_owned(),
-        components => format!("{} Components: {}.", row.text(), components.join(", ")),
+        components if is_array && components.len() > 1 => {
+            format!("{} Components: {}.", row.text(), components.join(", "))
+        }
+        _ => row.text().to_owned(),
     }
 }
 
@@ -142,11 +170,12 @@ pub(super) fn dimensions(row: &Row) -> Vec<Dimension> {
 }
 
 /// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation possibly on everything.
-fn model_structure(identity: &Identity) -> ModelStructure {
+fn model_structure(identity: &Identity, layout: Layout) -> ModelStructure {
     let outputs = |dependencies: Option<Vec<u32>>| {
-        rows(identity)
-            .filter(|(_, row)| row.causality == Causality::Output)
-            .map(|(slot, _)| Unknown { value_reference: slot as u32, dependencies: dependencies.clone() })
+        places(identity, layout)
+            .iter()
+            .filter(|place| place.row.causality == Causality::Output)
+            .map(|place| Unknown { value_reference: place.first_slot as u32, dependencies: dependencies.clone() })
             .collect()
     };
     ModelStructure { outputs: outputs(Some(vec![])), initial_unknowns: outputs(None) }

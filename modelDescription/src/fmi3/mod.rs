@@ -1,7 +1,7 @@
 //! The schema of FMI 3.0, as far as a co-simulation FMU of ours uses it, and its description of a model.
 //!
-//! A row of the interface is one variable here: an array where it has several values. What is as in FMI 2.0 is taken
-//! from there.
+//! A row of the interface with several values is as many scalars or one array: see [`Layout`]. What is as in FMI 2.0 is
+//! taken from there.
 
 mod describe;
 pub mod model_description;
@@ -11,4 +11,5 @@ mod variables_html;
 
 pub use describe::{describe, describe_with};
 pub use model_description::ModelDescription;
+pub use moris_fmi::fmi3::Layout;
 pub use variables_html::variables_html;

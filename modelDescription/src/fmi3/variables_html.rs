@@ -2,13 +2,18 @@
 
 use moris_interface::{Kind, Model, Row};
 
+use super::Layout;
 use super::describe::dimensions;
-use crate::fmi2::variables_html::{Notation, breakable, html};
+use crate::fmi2::variables_html::{Notation, breakable, html, name_html as scalar_name_html};
 
 /// The tables of a model's variables as HTML, as [`crate::fmi2::variables_html`] makes them, with the names and types of FMI
 /// 3.0.
-pub fn variables_html<M: Model>(start: &[f64]) -> String {
-    html(&M::IDENTITY, start, &Notation { name: name_html, type_name })
+pub fn variables_html<M: Model>(start: &[f64], layout: Layout) -> String {
+    let notation = match layout {
+        Layout::Scalars => Notation { name: scalar_name_html, type_name: |row| element_type_name(row.kind).to_owned() },
+        Layout::Arrays => Notation { name: name_html, type_name },
+    };
+    html(&M::IDENTITY, start, &notation)
 }
 
 /// The array's name and what its components are: `rig.base (x, y, z)`.
@@ -22,12 +27,16 @@ fn name_html(row: &Row) -> String {
 
 /// The type, and the dimensions of an array: `Float64 [6, 3]`.
 fn type_name(row: &Row) -> String {
-    let name = match row.kind {
+    let name = element_type_name(row.kind);
+    let sizes: Vec<String> = dimensions(row).iter().map(|dimension| dimension.start.to_string()).collect();
+    if sizes.is_empty() { name.to_owned() } else { format!("{name} [{}]", sizes.join(",\u{a0}")) }
+}
+
+fn element_type_name(kind: Kind) -> &'static str {
+    match kind {
         Kind::Real(_) => "Float64",
         Kind::Integer => "Int32",
         Kind::Boolean => "Boolean",
         Kind::Enumeration(_) => "Enumeration",
-    };
-    let sizes: Vec<String> = dimensions(row).iter().map(|dimension| dimension.start.to_string()).collect();
-    if sizes.is_empty() { name.to_owned() } else { format!("{name} [{}]", sizes.join(",\u{a0}")) }
+    }
 }

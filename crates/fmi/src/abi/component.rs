@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use moris_interface::Model;
+use moris_interface::{Identity, Model};
 
 use super::Function;
 use crate::{Complaint, Instance, Mode, Severity, panics};
@@ -17,6 +17,10 @@ pub trait Host {
     const ERROR: Self::Status;
     /// What the version calls a mode.
     fn mode_name(mode: Mode) -> &'static str;
+    /// Replaces the names of scalar variables in a message by those of the model description that the host has read.
+    fn rename(&self, _identity: &Identity, text: String) -> String {
+        text
+    }
     /// Tells the host of a stage in the instance's life, if it wants to know.
     fn event(&self, text: &str);
     /// Tells the host why a call does not do what was asked; gives back how the call ends.
@@ -96,7 +100,8 @@ impl<M: Model, H: Host> Component<M, H> {
     #[cold]
     #[inline(never)]
     fn complain(&self, function: &Function, complaint: Complaint) -> H::Status {
-        self.logger.failure(complaint.severity, &format!("{}: {}", function.name, complaint.text))
+        let text = self.logger.rename(&M::IDENTITY, complaint.text);
+        self.logger.failure(complaint.severity, &format!("{}: {text}", function.name))
     }
 
     /// Complains of a panic, after which the instance cannot be used.

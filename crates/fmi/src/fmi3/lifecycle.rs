@@ -7,10 +7,10 @@ use std::ptr::null_mut;
 use moris_interface::Model;
 
 use super::types::*;
-use super::{Component, LOG_CATEGORIES, Logger, calling_sequence as function};
+use super::{Component, LOG_CATEGORIES, Layout, Logger, calling_sequence as function};
 use crate::abi::pointers::{slice, string};
 use crate::abi::{Host, call};
-use crate::{Complaint, Instance, Severity, SharedTables, panics};
+use crate::{Complaint, Guid, Instance, Severity, SharedTables, panics};
 
 /// What a host asks for when it makes an instance.
 pub struct Request {
@@ -25,17 +25,18 @@ pub struct Request {
 pub unsafe fn instantiate<M: Model, const N: usize>(
     tables: &'static SharedTables<N>,
     request: &Request,
-    logger: Logger,
+    mut logger: Logger,
 ) -> fmi3Instance {
     panics::silence();
     let new = || {
         let tables = tables.get::<M>();
         // SAFETY: the host's strings live during the call.
-        unsafe { check_request(request, &tables.guid[..]) }?;
-        Ok(Instance::<M>::new(tables))
+        let layout = unsafe { check_request(request, tables.guid) }?;
+        Ok((Instance::<M>::new(tables), layout))
     };
-    match panics::contain(new).and_then(|instance| instance) {
-        Ok(instance) => {
+    match panics::contain(new).and_then(|made| made) {
+        Ok((instance, layout)) => {
+            logger.layout = layout;
             logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
             Component::into_pointer(instance, logger)
         }
@@ -46,24 +47,24 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
     }
 }
 
-/// Refuses what cannot be had.
+/// Refuses what cannot be had; gives back the layout of the host's description.
 ///
 /// # Safety
 /// The request's strings are null, or ended by a zero.
-unsafe fn check_request(request: &Request, expected_token: &[u8]) -> Result<(), Complaint> {
+unsafe fn check_request(request: &Request, guid: &Guid) -> Result<Layout, Complaint> {
     // SAFETY: the caller vouches for it.
     let (name, token) = unsafe { (string(request.instance_name), string(request.instantiation_token)) };
     if name.is_none_or(|name| name.to_bytes().trim_ascii().is_empty()) {
         return Err(Complaint::error("the instance has no name"));
     }
-    if token.map(CStr::to_bytes) != Some(expected_token) {
+    let Some(layout) = token.and_then(|token| Layout::of_token(token.to_bytes(), guid)) else {
         let given = token.map_or("none".into(), CStr::to_string_lossy);
-        let expected = String::from_utf8_lossy(expected_token);
+        let expected = String::from_utf8_lossy(guid);
         return Err(Complaint::error(format!(
             "the instantiation token is {given}, not {expected}: \
              modelDescription.xml and the shared library do not belong together"
         )));
-    }
+    };
     if request.event_mode_used.is_true() {
         return Err(Complaint::error("there is no event mode, as hasEventMode in modelDescription.xml says"));
     }
@@ -72,7 +73,7 @@ unsafe fn check_request(request: &Request, expected_token: &[u8]) -> Result<(), 
             "variables cannot be accessed within a step, as providesIntermediateUpdate in modelDescription.xml says",
         ));
     }
-    Ok(())
+    Ok(layout)
 }
 
 /// `fmi3InstantiateModelExchange`, `fmi3InstantiateScheduledExecution`
@@ -81,7 +82,7 @@ pub fn refuse_to_instantiate(function: &str, logger: &Logger) -> fmi3Instance {
     null_mut()
 }
 
-/// `fmi3SetDebugLogging`
+/// `fmi3SetDebugLogging`: switches the categories named, or all. Errors are switched off by name only.
 pub unsafe fn set_debug_logging<M: Model>(
     instance: fmi3Instance,
     logging_on: fmi3Boolean,

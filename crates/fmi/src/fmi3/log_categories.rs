@@ -6,5 +6,5 @@ use crate::LogCategory;
 pub const LOG_CATEGORIES: &[(LogCategory, &str)] = &[
     (LogCategory::Events, "Stages of the instance's life: instantiated, initialized, terminated, reset"),
     (LogCategory::Discard, "Values that were not taken"),
-    (LogCategory::Error, "Calls that failed; sent even with debug logging off"),
+    (LogCategory::Error, "Calls that failed; sent unless this category is switched off by its name"),
 ];

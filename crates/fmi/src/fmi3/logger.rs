@@ -1,41 +1,56 @@
 //! Messages to the host.
 
+use moris_interface::Identity;
+
+use super::Layout;
 use super::log_categories::LOG_CATEGORIES;
 use super::types::{fmi3InstanceEnvironment, fmi3LogMessageCallback, fmi3Status};
 use crate::abi::Host;
 use crate::abi::pointers::c_string;
 use crate::{LogCategory, Mode, Severity};
 
-/// Where an instance's messages go. Errors always do, the others when the host wants them.
+/// Destination of an instance's messages: errors unless the host switches them off by name, the others when it wants them.
 pub struct Logger {
     callback: Option<fmi3LogMessageCallback>,
     environment: fmi3InstanceEnvironment,
     events: bool,
     discards: bool,
+    errors: bool,
+    /// Layout of the model description that the host has read.
+    pub layout: Layout,
 }
 
 impl Logger {
-    /// A logger of all categories or of errors alone.
+    /// A logger of all categories or of errors alone, for a description with scalars until it is told otherwise.
     pub fn new(
         callback: Option<fmi3LogMessageCallback>,
         environment: fmi3InstanceEnvironment,
         logging_on: bool,
     ) -> Self {
-        Logger { callback, environment, events: logging_on, discards: logging_on }
+        Logger {
+            callback,
+            environment,
+            events: logging_on,
+            discards: logging_on,
+            errors: true,
+            layout: Layout::Scalars,
+        }
     }
 
-    /// Switches a category on or off. Errors are sent even when they are off.
+    /// Switches a category on or off.
     pub fn switch(&mut self, category: LogCategory, on: bool) {
         match category {
             LogCategory::Events => self.events = on,
             LogCategory::Discard => self.discards = on,
+            LogCategory::Error => self.errors = on,
             _ => {}
         }
     }
 
-    /// Switches every category on or off.
+    /// Switches every category on, or all but errors off.
     pub fn switch_all(&mut self, on: bool) {
-        LOG_CATEGORIES.iter().for_each(|&(category, _)| self.switch(category, on));
+        let switched = LOG_CATEGORIES.iter().filter(|&&(category, _)| on || category != LogCategory::Error);
+        switched.for_each(|&(category, _)| self.switch(category, on));
     }
 
     fn send(&self, status: fmi3Status, category: LogCategory, text: &str) {
@@ -57,6 +72,10 @@ impl Host for Logger {
         if mode == Mode::StepComplete { "step mode" } else { mode.name() }
     }
 
+    fn rename(&self, identity: &Identity, text: String) -> String {
+        self.layout.rename(identity, text)
+    }
+
     fn event(&self, text: &str) {
         if self.events {
             self.send(fmi3Status::fmi3OK, LogCategory::Events, text);
@@ -72,7 +91,9 @@ impl Host for Logger {
                 fmi3Status::fmi3Discard
             }
             Severity::Error => {
-                self.send(fmi3Status::fmi3Error, LogCategory::Error, text);
+                if self.errors {
+                    self.send(fmi3Status::fmi3Error, LogCategory::Error, text);
+                }
                 fmi3Status::fmi3Error
             }
         }

@@ -1,8 +1,8 @@
 //! The C functions of FMI 3.0 for co-simulation. [`export_fmi3!`](crate::export_fmi3) makes them, each a line that calls
 //! into here.
 //!
-//! Where a row of the interface has several values it is one array variable, row-major; its value reference is its first
-//! slot.
+//! A row of the interface with several values is as many scalar variables, or one array variable, row-major, with the
+//! row's first slot as its value reference: see [`Layout`].
 //!
 //! # Safety
 //! As said in [`abi`](crate::abi).
@@ -12,6 +12,7 @@
 mod arrays;
 pub mod calling_sequence;
 mod export;
+mod layout;
 pub mod lifecycle;
 mod log_categories;
 mod logger;
@@ -20,6 +21,7 @@ pub mod types;
 pub mod unsupported;
 pub mod variables;
 
+pub use layout::Layout;
 pub use log_categories::LOG_CATEGORIES;
 pub use logger::Logger;
 

@@ -1,12 +1,12 @@
 //! Getting and setting variables.
 
-use std::ops::Range;
+use std::ops::RangeInclusive;
 
 use moris_interface::Model;
 
 use super::arrays::Arrays;
 use super::types::*;
-use super::{Component, calling_sequence as function};
+use super::{Component, Layout, calling_sequence as function};
 use crate::abi::pointers::{room, slice};
 use crate::abi::{Function, call};
 use crate::{Complaint, Scalar, Scalars, VariableCheck};
@@ -25,7 +25,7 @@ pub unsafe fn get<M: Model, S: Scalar>(
         // SAFETY: the host's arrays have `count` and `value_count` elements.
         let (references, values) = unsafe { (slice(references, count)?, room(values, value_count)?) };
         let checks = component.instance.tables().checks;
-        check_length::<M>(checks, references, value_count)?;
+        check_length::<M>(component.logger.layout, checks, references, value_count)?;
         // A value each: there is no array among them.
         if references.len() == value_count {
             return component.instance.get(Scalars(references), values);
@@ -50,7 +50,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
         // SAFETY: the host's arrays have `count` and `value_count` elements.
         let (references, values) = unsafe { (slice(references, count)?, slice(values, value_count)?) };
         let checks = component.instance.tables().checks;
-        check_length::<M>(checks, references, value_count)?;
+        check_length::<M>(component.logger.layout, checks, references, value_count)?;
         // A value each: there is no array among them.
         if references.len() == value_count {
             return component.instance.set(Scalars(references), values);
@@ -85,37 +85,52 @@ pub unsafe fn get_output_derivatives<M: Model>(
         let (references, orders, values) =
             unsafe { (slice(references, count)?, slice(orders, count)?, room(values, value_count)?) };
         let checks = component.instance.tables().checks;
-        check_length::<M>(checks, references, value_count)?;
+        let layout = component.logger.layout;
+        check_length::<M>(layout, checks, references, value_count)?;
         let pairs = references.iter().zip(orders);
         let requests =
-            pairs.flat_map(move |(reference, &order)| row_slots(checks, *reference).map(move |slot| (slot, order)));
+            pairs.flat_map(move |(&reference, &order)| slots(layout, checks, reference).map(move |slot| (slot, order)));
         component.instance.get_output_derivatives(requests, values)
     };
     // SAFETY: the host's component.
     unsafe { call(instance, &function::GET_OUTPUT_DERIVATIVES, body) }
 }
 
-/// Checks that the references are variables', and that these have as many values as the host.
+/// Checks that the host has as many values as the variables; with arrays, that the references are variables', too.
 #[inline]
 fn check_length<M: Model>(
+    layout: Layout,
     checks: &[VariableCheck],
     references: &[fmi3ValueReference],
     value_count: usize,
 ) -> Result<(), Complaint> {
-    let mut expected = 0;
+    let expected = match layout {
+        Layout::Scalars => references.len(),
+        Layout::Arrays => total_length::<M>(checks, references)?,
+    };
+    if expected == value_count { Ok(()) } else { Err(wrong_length::<M>(layout, references, expected, value_count)) }
+}
+
+/// Number of values that array variables have together.
+#[inline]
+fn total_length<M: Model>(checks: &[VariableCheck], references: &[fmi3ValueReference]) -> Result<usize, Complaint> {
+    let mut total = 0;
     for &reference in references {
         match checks.get(reference as usize) {
-            Some(check) if check.row_slots > 0 => expected += check.row_slots as usize,
+            Some(check) if check.row_slots > 0 => total += check.row_slots as usize,
             _ => return Err(no_such_variable::<M>(reference)),
         }
     }
-    if expected == value_count { Ok(()) } else { Err(wrong_length::<M>(references, expected, value_count)) }
+    Ok(total)
 }
 
-/// The slots of a variable that is there.
-#[inline]
-fn row_slots(checks: &[VariableCheck], reference: fmi3ValueReference) -> Range<u32> {
-    reference..reference + checks[reference as usize].row_slots
+/// The slots of a variable. With arrays, the variable has to be there.
+fn slots(layout: Layout, checks: &[VariableCheck], reference: fmi3ValueReference) -> RangeInclusive<u32> {
+    let others = match layout {
+        Layout::Scalars => 0,
+        Layout::Arrays => checks[reference as usize].row_slots - 1,
+    };
+    reference..=reference + others
 }
 
 #[cold]
@@ -133,8 +148,17 @@ fn no_such_variable<M: Model>(reference: fmi3ValueReference) -> Complaint {
 }
 
 #[cold]
-fn wrong_length<M: Model>(references: &[fmi3ValueReference], expected: usize, value_count: usize) -> Complaint {
-    let name = |&reference: &u32| format!("'{}'", M::IDENTITY.row(reference as usize).array_name());
+fn wrong_length<M: Model>(
+    layout: Layout,
+    references: &[fmi3ValueReference],
+    expected: usize,
+    value_count: usize,
+) -> Complaint {
+    let identity = M::IDENTITY;
+    if let Some(unknown) = references.iter().find(|&&reference| reference as usize >= identity.slots.len()) {
+        return no_such_variable::<M>(*unknown);
+    }
+    let name = |&reference: &u32| format!("'{}'", layout.variable_name(&identity, reference as usize));
     let names: Vec<_> = references.iter().take(5).map(name).collect();
     let who = match (references.len(), names.join(", ")) {
         (0, _) => "no variables have".to_owned(),

@@ -149,13 +149,16 @@ fn debug_logging_switches_categories_one_by_one() {
         unsafe { (instance.api().set_debug_logging)(instance.pointer, on, pointers.len(), pointers.as_ptr()) }
     };
     assert_eq!(logged(&instance), [true; 3], "all categories are on at first");
-    // Each with whether events, discarded values and errors are logged then; errors always are.
-    let cases: [(u8, &[&CStr], [bool; 3]); 6] = [
+    // Each with whether events, discarded values and errors are logged then; errors are, unless switched off by name.
+    let cases: [(u8, &[&CStr], [bool; 3]); 9] = [
         (0, &[c"logEvents"], [false, true, true]),
         (0, &[], [false, false, true]),
         (1, &[c"logStatusDiscard", c"logStatusError"], [false, true, true]),
         (1, &[c"logEvents"], [true, true, true]),
-        (0, &[c"logStatusError", c"logStatusDiscard"], [true, false, true]),
+        (0, &[c"logStatusError"], [true, true, false]),
+        (0, &[c"logStatusDiscard"], [true, false, false]),
+        (0, &[], [false, false, false]),
+        (1, &[c"logEvents", c"logStatusError"], [true, false, true]),
         (1, &[], [true, true, true]),
     ];
     for (on, categories, expected) in cases {

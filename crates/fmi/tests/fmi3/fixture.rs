@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
+use moris_fmi::fmi3::Layout;
 use moris_fmu_host::fmi3::{self, Api, FmuState, Library, Text};
 use moris_interface::{Identity, Model};
 
@@ -25,8 +26,13 @@ pub fn open() -> Library {
     Library::open(&library()).unwrap()
 }
 
+/// The token of the description with arrays.
 pub fn token() -> CString {
-    CString::new(moris_interface::guid::<Lags>()).unwrap()
+    token_of(Layout::Arrays)
+}
+
+pub fn token_of(layout: Layout) -> CString {
+    CString::new(layout.token(&moris_interface::guid::<Lags>())).unwrap()
 }
 
 /// The value reference of the variable, or array, of this name.
@@ -63,13 +69,18 @@ pub struct Instance {
 }
 
 impl Instance {
+    /// An instance with array variables.
     pub fn new() -> Self {
+        Self::with(Layout::Arrays)
+    }
+
+    pub fn with(layout: Layout) -> Self {
         let library = open();
         let messages = Box::new(Messages::default());
         // SAFETY: strings live during the call, the messages longer than the instance.
         let pointer = unsafe {
             let environment = environment(&messages);
-            let (name, token) = (c"test".as_ptr(), token());
+            let (name, token) = (c"test".as_ptr(), token_of(layout));
             let instantiate = library.api().instantiate_co_simulation;
             instantiate(name, token.as_ptr(), null(), 0, 1, 0, 0, null(), 0, environment, Some(log), None)
         };

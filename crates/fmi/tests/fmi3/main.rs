@@ -1,4 +1,4 @@
-//! The C functions of FMI 3.0, tested as a host sees them: the shared library of a small model with arrays, whose
+//! The C functions of FMI 3.0, tested as a host sees them: the shared library of a small model with vectors, whose
 //! behaviour is known in closed form, is loaded and called.
 //!
 //! What all versions of FMI share is tested through the functions of FMI 2.0, in `tests/abi`.
@@ -11,6 +11,7 @@ mod initialization;
 mod library;
 #[path = "../../examples/lags/model.rs"]
 mod model;
+mod scalars;
 mod states;
 mod steps;
 mod variables;

@@ -99,7 +99,7 @@ fn only_what_exists_has_derivatives() {
     }
     for order in [0, 2, -1] {
         let status = output_derivatives(&instance, &[y], &[order], &mut [0.0; 3]);
-        instance.assert_complaint(status, ERROR, &["'y.x'", "order"]);
+        instance.assert_complaint(status, ERROR, &["'y[1]'", "order"]);
     }
     let status = output_derivatives(&instance, &[y], &[1], &mut [0.0; 2]);
     instance.assert_complaint(status, ERROR, &["'y'", "3 values"]);

@@ -4,6 +4,7 @@ use std::ffi::CString;
 use std::path::PathBuf;
 use std::ptr::{null, null_mut};
 
+use moris_fmi::fmi3::Layout;
 use moris_fmu_host::fmi3::{self, Api, Library};
 use moris_interface::{Identity, Kind, Model};
 use moris_washout::interface::RollPitchYaw;
@@ -26,7 +27,7 @@ impl Instance {
     /// An instance in initialization mode.
     fn new() -> Self {
         let library = Library::open(&library()).unwrap();
-        let token = CString::new(moris_interface::guid::<Washout>()).unwrap();
+        let token = CString::new(Layout::Arrays.token(&moris_interface::guid::<Washout>())).unwrap();
         let instantiate = library.api().instantiate_co_simulation;
         let name = c"washout".as_ptr();
         // SAFETY: the strings live during the call.

@@ -1,4 +1,4 @@
-"""The FMU of FMI 3.0, against the one of FMI 2.0: the same numbers, bit for bit, under array variables."""
+"""The FMU of FMI 3.0 with array variables, against the one of FMI 2.0: the same numbers, bit for bit."""
 
 import os
 import shutil
@@ -58,8 +58,8 @@ PARAMETERS = {
 
 @pytest.fixture(scope="module")
 def fmu3():
-    path = Path(os.environ.get("MORIS_FMU3", ROOT / "target" / "fmu" / "MorisWashout.fmi3.fmu"))
-    assert path.exists(), f"{path} is missing: run `cargo build-fmu --fmi 3`"
+    path = Path(os.environ.get("MORIS_FMU3_ARRAYS", ROOT / "target" / "fmu" / "MorisWashout.fmi3.arrays.fmu"))
+    assert path.exists(), f"{path} is missing: run `cargo build-fmu --fmi 3 --arrays`"
     return path
 
 
@@ -271,6 +271,9 @@ def test_what_is_wrong_is_refused_with_a_reason_and_the_instance_lives_on(washou
     with pytest.raises(FMICallException):
         w.slave.setFloat64([w.reference("vehicle.specificForce")], [1.0, 2.0])
     assert "'vehicle.specificForce' has 3 values, and the call comes with 2" in w.said[-1]
+    w.said.clear()
+    with pytest.raises(FMICallException):
+        w.set("tilt.rateLimit", [np.nan])
     with pytest.raises(FMICallException):
         w.set("vehicle.angularVelocity", [0.0, np.nan, 0.0])
     with pytest.raises(FMICallException):
