@@ -3,7 +3,7 @@
 use moris_interface::{Group, Kind, Refusal, Row, Variability, Writer, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
-use crate::platform::{Geometry, Pose, leg_lengths, survey};
+use crate::platform::{Geometry, Pose, leg_lengths, stroke_reserve, survey};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
@@ -12,7 +12,7 @@ use crate::platform::{Geometry, Pose, leg_lengths, survey};
 pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
     check_each(parameters)?;
     check_head(parameters)?;
-    check_rig(&parameters.rig)
+    check_rig(&parameters.rig, parameters.structure.max_step)
 }
 
 /// Checks parameters that are to follow others, of which the tunable ones may change. No survey: the rig is the same.
@@ -120,7 +120,7 @@ fn check_head(parameters: &Parameters) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn check_rig(rig: &Rig) -> Result<(), Refusal> {
+fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
     let Rig { min_length, max_length, .. } = *rig;
     if min_length >= max_length {
         return refuse("actuator.minLength", format!("is {min_length}, not below actuator.maxLength, {max_length}"));
@@ -139,6 +139,7 @@ fn check_rig(rig: &Rig) -> Result<(), Refusal> {
             );
         }
     }
+    check_stroke_reserve(rig, longest_step, &neutral)?;
     if is_default(rig) {
         return Ok(());
     }
@@ -153,6 +154,23 @@ fn check_rig(rig: &Rig) -> Result<(), Refusal> {
             ),
         ),
     }
+}
+
+/// Rest at neutral is certified only if no leg can leave its stroke from there between two ends of a step.
+fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), Refusal> {
+    let reserve = stroke_reserve(rig, longest_step);
+    let least = neutral.iter().map(|length| (length - rig.min_length).min(rig.max_length - length));
+    let room = least.fold(f64::INFINITY, f64::min);
+    if room > reserve {
+        return Ok(());
+    }
+    refuse(
+        "solver.maxStep",
+        format!(
+            "is {longest_step} s: in half such a step an actuator moves {reserve:.4} m by its limits, and at neutral one is \
+             {room:.4} m from an end of its stroke; take shorter steps, slower actuators or a longer stroke"
+        ),
+    )
 }
 
 /// Whether the rig's legs and joints are the default's, of which it is known that they have no singularity.

@@ -15,7 +15,7 @@ use crate::cueing::splitter::LowPass;
 use crate::interface::{Input, Output, Parameters, Preaction};
 use crate::motion::orientation::Turning;
 use crate::platform::head::Head;
-use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
+use crate::platform::{ActuatorGuard, Coordinates, LimitedBy, PlatformMotion};
 use crate::validate::{check, check_change};
 
 /// The washout filter with its platform.
@@ -199,7 +199,11 @@ impl Washout {
         self.input = *end;
         self.limited.tilt |= self.gravitational.limited;
         self.limited.safety |= self.direct_linear.limited();
-        self.limited.actuator |= self.guard.acting();
+        if let Some(by) = self.guard.limited_by() {
+            self.limited.safety |= by == LimitedBy::Safety;
+            self.limited.actuator = true;
+            self.direct_linear.continue_from(&self.guard.coordinates().linear);
+        }
     }
 
     /// The head, and the cue there, with this input.
@@ -259,7 +263,7 @@ impl Washout {
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let head = Head::new(&self.parameters.structure, self.input.lean);
         let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
-        let Turning { orientation, velocity, acceleration } = Turning::new(&self.guard.wanted().angles);
+        let Turning { orientation, velocity, acceleration } = Turning::new(&self.guard.demand().angles);
         let arm = orientation.rotation * head.point;
         let compensation = self.parameters.conditioning.compensation;
         (force - compensated(compensation, velocity, acceleration, arm), cue.rates)

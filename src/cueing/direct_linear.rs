@@ -64,8 +64,13 @@ impl DirectLinearMotion {
         self.safety.motion()
     }
 
-    /// Whether a safety unit acted in the last step.
+    /// Goes on from the motion that the platform really makes.
+    pub fn continue_from(&mut self, motion: &Motions) {
+        self.safety.continue_from(motion);
+    }
+
+    /// Whether a safety unit limited the motion in the last step.
     pub fn limited(&self) -> bool {
-        self.safety.acting()
+        self.safety.active()
     }
 }

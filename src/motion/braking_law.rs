@@ -21,21 +21,6 @@ impl Motion {
     pub fn at_rest(position: f64) -> Self {
         Motion { position, velocity: 0.0, acceleration: 0.0 }
     }
-
-    /// The motion after braking for `time` seconds with this deceleration, and resting from when it stands.
-    pub fn braked(&self, deceleration: f64, time: f64) -> Self {
-        let speed = self.velocity.abs();
-        if speed <= deceleration * time {
-            let way = self.velocity * speed / (2.0 * deceleration).max(f64::MIN_POSITIVE);
-            return Motion::at_rest(self.position + way);
-        }
-        let change = (deceleration * time).copysign(self.velocity);
-        Motion {
-            position: self.position + (self.velocity - 0.5 * change) * time,
-            velocity: self.velocity - change,
-            acceleration: -deceleration.copysign(self.velocity),
-        }
-    }
 }
 
 /// What a motion may not exceed.
@@ -116,13 +101,12 @@ pub fn approach_velocity(distance: f64, acceleration: f64, step: f64) -> f64 {
     magnitude.copysign(distance)
 }
 
-/// A governor that has caught up takes the target over again at this share of what one step at the acceleration limit
-/// covers: far below what can be measured, and inside the share of the limit that [`REJOIN_SHARE`] leaves.
+/// A motion that has caught up joins its target when it is this fraction of what one step at the acceleration limit covers
+/// away from where its velocity takes it: far below what can be measured.
 pub const REJOIN_DISTANCE: f64 = 0.01;
-pub const REJOIN_SHARE: f64 = 0.95;
 /// Allows a change of velocity to reach the limit but for rounding.
 pub const FULL_SHARE: f64 = 1.0 + 1e-9;
 /// What rounding may add to a difference of positions \[m\].
-pub const ROUNDING: f64 = 1e-14;
+pub const ROUNDING: f64 = f64::EPSILON;
 /// Catching up uses half the acceleration; the other half is for the target's own.
 pub const CATCH_UP_SHARE: f64 = 0.5;

@@ -43,9 +43,4 @@ impl Motions {
             acceleration: (velocity - self.velocity) / step,
         }
     }
-
-    /// The motions after braking for `time` seconds with these decelerations, each resting from when it stands.
-    pub fn braked(&self, decelerations: &Vector3<f64>, time: f64) -> Self {
-        Motions::from_axes(|k| self.axis(k).braked(decelerations[k], time))
-    }
 }

@@ -121,7 +121,12 @@ pub struct Turning {
 impl Turning {
     /// From roll, pitch and yaw as they move.
     pub fn new(angles: &Motions) -> Self {
-        let orientation = Orientation::new(RollPitchYaw::from_vector(angles.position));
+        Turning::with_orientation(Orientation::new(RollPitchYaw::from_vector(angles.position)), angles)
+    }
+
+    /// As [`Turning::new`], where the orientation at these angles is known.
+    #[inline(always)]
+    pub fn with_orientation(orientation: Orientation, angles: &Motions) -> Self {
         let rates = RollPitchYaw::from_vector(angles.velocity);
         let accelerations = RollPitchYaw::from_vector(angles.acceleration);
         Turning {

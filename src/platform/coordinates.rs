@@ -1,6 +1,5 @@
 //! The platform's six coordinates, each with its velocity and acceleration.
 
-use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::PlatformMotion;
@@ -18,21 +17,6 @@ impl Coordinates {
     /// The platform's motion with these coordinates.
     pub fn motion(&self, neutral_height: f64) -> PlatformMotion {
         PlatformMotion::new(&self.linear, &Turning::new(&self.angles), neutral_height)
-    }
-
-    /// The coordinates and velocities with which the platform moves like this, reached in `step` seconds from `before`.
-    pub fn reached(motion: &PlatformMotion, neutral_height: f64, before: &Coordinates, step: f64) -> Self {
-        let neutral = Vector3::new(0.0, 0.0, neutral_height);
-        let rates = motion.orientation.rates(motion.angular_velocity).to_vector();
-        let reached = |position, velocity, before: &Motions| Motions {
-            position,
-            velocity,
-            acceleration: (velocity - before.velocity) / step,
-        };
-        Coordinates {
-            linear: reached(motion.position - neutral, motion.velocity, &before.linear),
-            angles: reached(motion.orientation.angles.to_vector(), rates, &before.angles),
-        }
     }
 
     /// The coordinates at `share` of the way from these to others, both reached from `before` in `step` seconds.

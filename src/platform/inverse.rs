@@ -58,3 +58,17 @@ pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
         (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
     })
 }
+
+/// The six legs with their accelerations \[m/s2\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LegMotion {
+    pub length: [f64; 6],
+    pub velocity: [f64; 6],
+    pub acceleration: [f64; 6],
+}
+
+/// Lengths, rates and accelerations of the legs for a motion of the platform.
+pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
+    let Legs { length, velocity } = inverse_kinematics(geometry, motion);
+    LegMotion { length, velocity, acceleration: leg_accelerations(geometry, motion) }
+}

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 pub use coordinates::Coordinates;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
-pub use guard::ActuatorGuard;
+pub use guard::{ActuatorGuard, LimitedBy, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;

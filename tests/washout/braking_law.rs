@@ -95,7 +95,7 @@ proptest! {
             units.advance(&rest, &limits, step);
         }
         prop_assert_eq!(*units.motion(), rest);
-        prop_assert!(!units.acting());
+        prop_assert!(!units.active());
     }
 
     #[test]

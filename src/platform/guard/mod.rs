@@ -1,60 +1,64 @@
-//! The actuator guard: stroke, speed and acceleration of each leg are limits of the machine, and no command exceeds them.
+//! The actuator guard: stroke, speed and acceleration of each leg, and the safety limits of surge, sway and heave, whatever
+//! is demanded.
 //!
-//! A motion is allowed if the platform can come to rest from it, by a plan of [`Braking`] on which the legs keep their
-//! limits and the platform its safety limits. While what is wanted is allowed, the guard passes it on. When it is not,
-//! the platform goes as far towards it as is allowed; in the worst case it does what it planned before, and brakes. So
-//! there is always something left to do that keeps every limit.
+//! The guard is a reference governor with a backup stop plan. Its invariant: **the state lies on a certified stop plan**, a
+//! trajectory to rest on which every limit holds at every instant. A step does one of two things:
+//!
+//! 1. It accepts a candidate state. Both the transition to it and a stop plan from it are certified; that plan is stored.
+//! 2. It follows the stored plan, which needs no check.
+//!
+//! The first candidate is the demand itself; others lie between the plan's next state and a pursuit of the demand.
 
-mod hold_back;
+mod bounds;
+mod certificate;
+mod pursuit;
 
 use serde::{Deserialize, Serialize};
 
-use super::stop_plan::{ACCELERATION_SHARE, Braking, LEG_SHARE, braking_time};
-use super::{Coordinates, Geometry, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
+pub use self::certificate::stroke_reserve;
+use self::certificate::{Candidate, Machine, Speed, State, axes_keep_limits};
+use super::stop_plan::{StopDurations, StopPlan};
+use super::{Coordinates, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::braking_law::{FULL_SHARE, Limits, REJOIN_DISTANCE, REJOIN_SHARE, ROUNDING};
-use crate::motion::extremes::{larger, smaller};
+use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
+use crate::motion::extremes::smaller;
 
 /// The guard with the motion that the platform is commanded, and with its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ActuatorGuard {
-    geometry: Geometry,
-    neutral_height: f64,
-    /// The farthest joint from the platform's origin \[m\].
-    radius: f64,
+    machine: Machine,
     limits: Limits,
     motion: PlatformMotion,
     legs: Legs,
-    /// The last step \[s\] and the way that each leg made in it \[m\].
-    last_step: f64,
-    last_ways: [f64; 6],
-    /// What was wanted last: the platform's coordinates, unless it is held back.
-    wanted: Coordinates,
-    held_back: Option<HeldBack>,
+    speed: Speed,
+    /// The certified way to rest. It starts at the present state, unless the last step followed it.
+    plan: StopPlan,
+    limited: Option<Limited>,
 }
 
-/// What else there is to know while the platform is not where it is wanted.
+/// What else there is to know while the platform does not do what is demanded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct HeldBack {
+struct Limited {
+    by: LimitedBy,
+    demand: Coordinates,
     coordinates: Coordinates,
-    /// How the platform comes to rest from here.
-    braking: Braking,
     /// Of the legs' lengths, over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
 }
 
-/// Where the platform may be next: its coordinates, the same as a motion in the base frame, and its legs.
-#[derive(Clone, Copy)]
-struct Candidate<'a> {
-    coordinates: &'a Coordinates,
-    motion: &'a PlatformMotion,
-    legs: &'a Legs,
+/// The limits that kept the platform from its demand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LimitedBy {
+    /// The safety limits of surge, sway or heave.
+    Safety,
+    /// The limits of the actuators.
+    Actuators,
 }
 
 impl ActuatorGuard {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
-        let geometry = Geometry::from(rig);
+        let machine = Machine::new(rig, longest_step);
         let motion = PlatformMotion::at_rest(Pose::neutral(rig));
         let limits = Limits {
             min: rig.min_length,
@@ -64,136 +68,99 @@ impl ActuatorGuard {
             longest_step,
         };
         ActuatorGuard {
-            geometry,
-            neutral_height: rig.neutral_height,
-            radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
+            machine,
             limits,
             motion,
-            legs: inverse_kinematics(&geometry, &motion),
-            last_step: 0.0,
-            last_ways: [0.0; 6],
-            wanted: Coordinates::default(),
-            held_back: None,
+            legs: inverse_kinematics(&machine.geometry, &motion),
+            speed: Speed::default(),
+            plan: StopPlan::rest(),
+            limited: None,
         }
     }
 
-    /// Advances by `step` seconds, at whose end the platform is wanted to move as the coordinates say; `motion` is the
-    /// same, in the base frame. `safety` are the limits of surge, sway and heave, which the wanted motion keeps.
+    /// Advances by `step` seconds, at whose end the platform is to move as `demand` says; `motion` is the same, in the base
+    /// frame. `safety` are the limits of surge, sway and heave in force.
     #[inline(always)]
-    pub fn advance(&mut self, wanted: &Coordinates, motion: &PlatformMotion, safety: &SafetyParameters, step: f64) {
-        let legs = inverse_kinematics(&self.geometry, motion);
-        if self.may_join(Candidate { coordinates: wanted, motion, legs: &legs }, safety, step) {
-            self.held_back = None;
-            self.take(motion, &legs, step);
+    pub fn advance(&mut self, demand: &Coordinates, motion: &PlatformMotion, safety: &SafetyParameters, step: f64) {
+        let legs = inverse_kinematics(&self.machine.geometry, motion);
+        let candidate = Candidate { coordinates: demand, motion, legs: &legs };
+        if self.limited.is_none()
+            && let Some(duration) = self.machine.certify_by_bounds(self.state(), candidate, safety, step)
+        {
+            self.accept(candidate, StopPlan::new(demand, StopDurations::common(duration)));
         } else {
-            self.hold_back(&legs, safety, step);
+            self.advance_in_doubt(candidate, safety, step);
         }
-        self.wanted = *wanted;
     }
 
-    /// Whether the motion at the step's end can be the wanted one.
-    #[inline(always)]
-    fn may_join(&self, wanted: Candidate, safety: &SafetyParameters, step: f64) -> bool {
-        let joined = !self.acting() || self.has_caught_up(wanted.coordinates, wanted.legs, safety, step);
-        let share = if self.acting() { REJOIN_SHARE } else { FULL_SHARE };
-        joined && self.legs_can_go(wanted.legs, share, step) && self.can_stop(wanted, safety)
-    }
-
-    /// Whether nobody would notice if the platform were where it is wanted.
-    fn has_caught_up(&self, wanted: &Coordinates, legs: &Legs, safety: &SafetyParameters, step: f64) -> bool {
-        let near = REJOIN_DISTANCE * self.limits.acceleration * step * step;
-        let expected = |i: usize| self.legs.length[i] + 0.5 * (self.legs.velocity[i] + legs.velocity[i]) * step;
-        let change = wanted.linear.velocity - self.motion.velocity;
-        (0..6).all(|i| (legs.length[i] - expected(i)).abs() <= near)
-            && (0..3).all(|k| change[k].abs() <= safety.acceleration_limit[k] * step)
-    }
-
-    /// Whether each leg can go there in this step, for whoever sees velocities and also for whoever sees positions only:
-    /// the way's mean velocity, and the change of that from one step to the next. Where a velocity jumps within a step,
-    /// the velocities at the steps' ends do not tell. `share` of the acceleration limit may be used.
-    #[inline(always)]
-    fn legs_can_go(&self, next: &Legs, share: f64, step: f64) -> bool {
-        let Limits { velocity, acceleration, .. } = self.limits;
-        let change = share * acceleration * step;
-        let farthest = velocity * step + ROUNDING;
-        let half_change = 0.5 * acceleration * step;
-        let (both, last_step) = (step + self.last_step, self.last_step);
-        let bend = (half_change * last_step + ROUNDING) * both;
-        let room = half_change * step + ROUNDING;
-        let mut can = true;
-        for i in 0..6 {
-            let way = next.length[i] - self.legs.length[i];
-            can &= (next.velocity[i] - self.legs.velocity[i]).abs() <= change;
-            can &= way.abs() <= farthest;
-            // The mean velocities way/step, multiplied by both steps.
-            can &= (way * last_step - self.last_ways[i] * step).abs() <= bend;
-            // Leaves room for the step after, which may have to brake.
-            can &= (next.velocity[i] * step - way).abs() <= room;
-        }
-        can
-    }
-
-    /// Whether the platform can come to rest from there within all limits.
-    #[inline(always)]
-    fn can_stop(&self, candidate: Candidate, safety: &SafetyParameters) -> bool {
-        self.can_plainly_stop(candidate, safety) || self.can_stop_by_plan(candidate.coordinates, candidate.legs, safety)
-    }
-
+    /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
-    fn can_stop_by_plan(&self, coordinates: &Coordinates, legs: &Legs, safety: &SafetyParameters) -> bool {
-        let braking = self.braking_from(coordinates, legs, safety);
-        braking.keeps(&self.limits, &self.geometry, coordinates, self.neutral_height)
+    fn advance_in_doubt(&mut self, demand: Candidate, safety: &SafetyParameters, step: f64) {
+        let joined = self.limited.is_none() || self.has_caught_up(demand, safety, step);
+        let plan = if joined { self.machine.certify(self.state(), demand, safety, step) } else { None };
+        if let Some(plan) = plan {
+            self.accept(demand, plan);
+            self.limited = None;
+            return;
+        }
+        let allowed = axes_keep_limits(self.coordinates(), demand.coordinates, safety, step);
+        let by = if allowed { LimitedBy::Actuators } else { LimitedBy::Safety };
+        let before = self.legs;
+        let (coordinates, motion, plan) = self.nearest(demand, safety, step);
+        let legs = inverse_kinematics(&self.machine.geometry, &motion);
+        self.accept(Candidate { coordinates: &coordinates, motion: &motion, legs: &legs }, plan);
+        self.limited = Some(Limited {
+            by,
+            demand: *demand.coordinates,
+            coordinates,
+            leg_accelerations: std::array::from_fn(|i| (legs.velocity[i] - before.velocity[i]) / step),
+        });
     }
 
-    fn braking_from(&self, coordinates: &Coordinates, legs: &Legs, safety: &SafetyParameters) -> Braking {
-        Braking::from(coordinates, fastest(legs), &self.limits, safety)
+    /// Whether the platform may go over to the demand from where it is: the positions differ from what the velocities
+    /// account for by no more than a hundredth of what an acceleration at its limit does in a step.
+    fn has_caught_up(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> bool {
+        let near = REJOIN_DISTANCE * step * step;
+        let (legs, next) = (&self.legs, demand.legs);
+        let (now, linear) = (&self.coordinates().linear, &demand.coordinates.linear);
+        let apart = |before: f64, after: f64, v: f64, w: f64| (after - before - 0.5 * (v + w) * step).abs();
+        (0..6).all(|i| {
+            apart(legs.length[i], next.length[i], legs.velocity[i], next.velocity[i]) <= near * self.limits.acceleration
+        }) && (0..3).all(|k| {
+            apart(now.position[k], linear.position[k], now.velocity[k], linear.velocity[k])
+                <= near * safety.acceleration_limit[k]
+        })
     }
 
-    /// Whether it can so plainly that there is no need to look along the way: all coordinates brake in the same time, and
-    /// no leg can get near an end of its stroke in that, nor to its limits of speed and acceleration.
+    /// Goes on to a state from which this plan is certified, or which lies on it.
     #[inline(always)]
-    fn can_plainly_stop(&self, candidate: Candidate, safety: &SafetyParameters) -> bool {
-        let Candidate { coordinates, motion, legs } = candidate;
-        let Limits { min, max, velocity, acceleration, .. } = self.limits;
-        let fastest = fastest(legs);
-        let linear = &coordinates.linear;
-        let time = braking_time(&linear.velocity, fastest, &self.limits, safety);
-        // What turning may add to the acceleration of a leg: of its own, of its joint's and of the angles' rates.
-        let turning = motion.angular_velocity.norm_squared() * self.radius;
-        let joint_speed_squared = 2.0 * (motion.velocity.norm_squared() + turning * self.radius);
-        let curvature = joint_speed_squared / min + 4.0 * turning;
-        let way = 0.5 * time * (fastest + curvature * time);
-        let mut can = curvature <= (ACCELERATION_SHARE - LEG_SHARE) * acceleration;
-        can &= fastest + curvature * time <= velocity;
-        for length in legs.length {
-            can &= length - way >= min && length + way <= max;
-        }
-        for k in 0..3 {
-            let ahead = linear.position[k] + 0.5 * time * linear.velocity[k];
-            can &= larger(ahead.abs(), linear.position[k].abs()) <= safety.position_limit[k];
-        }
-        can
+    fn accept(&mut self, state: Candidate, plan: StopPlan) {
+        self.motion = *state.motion;
+        self.legs = *state.legs;
+        self.speed = Speed::of(state.coordinates);
+        self.plan = plan;
     }
 
-    /// Moves on.
     #[inline(always)]
-    fn take(&mut self, motion: &PlatformMotion, legs: &Legs, step: f64) {
-        for i in 0..6 {
-            self.last_ways[i] = legs.length[i] - self.legs.length[i];
-        }
-        self.last_step = step;
-        self.motion = *motion;
-        self.legs = *legs;
+    fn state(&self) -> State<'_> {
+        State { coordinates: self.coordinates(), motion: &self.motion, speed: self.speed }
     }
 
     /// The platform's coordinates.
-    fn coordinates(&self) -> &Coordinates {
-        self.held_back.as_ref().map_or(&self.wanted, |held_back| &held_back.coordinates)
+    #[inline(always)]
+    pub fn coordinates(&self) -> &Coordinates {
+        match &self.limited {
+            Some(limited) => &limited.coordinates,
+            None => self.plan.start(),
+        }
     }
 
-    /// The coordinates that were wanted last.
-    pub fn wanted(&self) -> &Coordinates {
-        &self.wanted
+    /// The coordinates that were demanded last.
+    pub fn demand(&self) -> &Coordinates {
+        match &self.limited {
+            Some(limited) => &limited.demand,
+            None => self.plan.start(),
+        }
     }
 
     /// The commanded legs.
@@ -201,11 +168,11 @@ impl ActuatorGuard {
         &self.legs
     }
 
-    /// The accelerations of the commanded legs' lengths \[m/s2\]: over the last step while the guard acts.
+    /// The accelerations of the commanded legs' lengths \[m/s2\]: over the last step while the guard limits the motion.
     pub fn leg_accelerations(&self) -> [f64; 6] {
-        match &self.held_back {
-            Some(held_back) => held_back.leg_accelerations,
-            None => leg_accelerations(&self.geometry, &self.motion),
+        match &self.limited {
+            Some(limited) => limited.leg_accelerations,
+            None => leg_accelerations(&self.machine.geometry, &self.motion),
         }
     }
 
@@ -214,9 +181,9 @@ impl ActuatorGuard {
         &self.motion
     }
 
-    /// Whether the platform was held back in the last step.
-    pub fn acting(&self) -> bool {
-        self.held_back.is_some()
+    /// The limits that kept the platform from its demand in the last step, if any did.
+    pub fn limited_by(&self) -> Option<LimitedBy> {
+        self.limited.as_ref().map(|limited| limited.by)
     }
 
     /// The smallest distance of a leg from either end of its stroke \[m\].
@@ -237,9 +204,4 @@ impl ActuatorGuard {
             [(length[i] - self.limits.min, velocity[i]), (self.limits.max - length[i], -velocity[i])]
         })
     }
-}
-
-/// The speed of the fastest leg \[m/s\].
-fn fastest(legs: &Legs) -> f64 {
-    legs.velocity.iter().fold(0.0, |fastest, velocity| larger(velocity.abs(), fastest))
 }

@@ -1,0 +1,386 @@
+//! The certificate: proof that a transition, and a stop plan after it, keep every limit at every instant.
+//!
+//! A transition from (q0, u0) to (q1, u1) over a step h stands for a trajectory of two halves with the steady
+//! accelerations c + 4 d/h² and c - 4 d/h², where c = (u1 - u0)/h and d = q1 - q0 - (u0 + u1) h/2. It passes through both
+//! states without a jump of position or velocity, and within limits that hold on it at every instant no difference of
+//! sampled positions or velocities exceeds them either.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::bounds::JointBounds;
+use crate::interface::{Rig, SafetyParameters};
+use crate::motion::Motions;
+use crate::motion::braking_law::{FULL_SHARE, ROUNDING};
+use crate::motion::extremes::larger;
+use crate::motion::orientation::Turning;
+use crate::platform::inverse::{LegMotion, leg_motion};
+use crate::platform::stop_plan::{StopDurations, StopPlan};
+use crate::platform::{Coordinates, Geometry, Legs, PlatformMotion};
+
+/// The fraction of the legs' acceleration that stopping takes; the rest is for what the legs do because they turn.
+const STOP_FRACTION: f64 = 0.6;
+/// Stop plans are divided so finely that the bound between two points is about this fraction of the acceleration limit.
+const MARGIN: f64 = 0.05;
+/// The largest number of cells into which the longest piece of a stop plan is divided.
+const MOST_CELLS: f64 = 12.0;
+
+/// The legs with their limits, as the certificate needs them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    pub geometry: Geometry,
+    pub neutral_height: f64,
+    /// The farthest joint from the platform's origin \[m\].
+    radius: f64,
+    /// Lengths between which a leg may come to rest \[m\]: inside the stroke by what a leg can move beyond both ends of a
+    /// transition, A h²/8 for the longest step h.
+    shortest: f64,
+    longest: f64,
+    velocity: f64,
+    acceleration: f64,
+    /// Duration of a stop for each m/s of a leg \[s2/m\].
+    stop_time_per_speed: f64,
+}
+
+/// A state that the platform may have next: its coordinates, the same as a motion in the base frame, and its legs.
+#[derive(Clone, Copy)]
+pub struct Candidate<'a> {
+    pub coordinates: &'a Coordinates,
+    pub motion: &'a PlatformMotion,
+    pub legs: &'a Legs,
+}
+
+/// The state that the platform has.
+#[derive(Clone, Copy)]
+pub struct State<'a> {
+    pub coordinates: &'a Coordinates,
+    pub motion: &'a PlatformMotion,
+    pub speed: Speed,
+}
+
+/// Speed of the platform's origin \[m/s\] and the sum of the angles' rates' magnitudes \[rad/s\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Speed {
+    linear: f64,
+    angular: f64,
+}
+
+impl Speed {
+    #[inline(always)]
+    pub fn of(coordinates: &Coordinates) -> Self {
+        Speed { linear: coordinates.linear.velocity.norm(), angular: sum_of_magnitudes(&coordinates.angles.velocity) }
+    }
+
+    /// A bound on the speed of any joint.
+    #[inline(always)]
+    fn of_joints(self, radius: f64) -> f64 {
+        self.linear + self.angular * radius
+    }
+}
+
+/// The reserve that a stroke keeps at either end for what happens between the ends of a step \[m\].
+pub fn stroke_reserve(rig: &Rig, longest_step: f64) -> f64 {
+    (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
+}
+
+impl Machine {
+    /// The machine of a rig; no step will be longer than `longest_step` \[s\].
+    pub fn new(rig: &Rig, longest_step: f64) -> Self {
+        let reserve = stroke_reserve(rig, longest_step);
+        Machine {
+            geometry: Geometry::from(rig),
+            neutral_height: rig.neutral_height,
+            radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
+            shortest: rig.min_length + reserve,
+            longest: rig.max_length - reserve,
+            velocity: rig.velocity_limit,
+            acceleration: rig.acceleration_limit,
+            stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
+        }
+    }
+
+    /// Durations of a certified stop from the candidate, if bounds on the whole way there and to rest are enough to
+    /// certify it: no point of the way is looked at.
+    ///
+    /// The whole way lies within (stop duration/2 + step) times the largest speed of the candidate.
+    #[inline(always)]
+    pub fn certify_by_bounds(&self, from: State, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<f64> {
+        let (now, next) = (from.coordinates, to.coordinates);
+        let per_step = 1.0 / step;
+        let bend = 4.0 * per_step * per_step;
+        let (change, gap) = change_and_gap(&now.linear, &next.linear, step);
+        let (turn, twist) = change_and_gap(&now.angles, &next.angles, step);
+        let (gap_acceleration, twist_acceleration) = (bend * sum_of_magnitudes(&gap), bend * sum_of_magnitudes(&twist));
+        let speed = Speed::of(next);
+        let rate = larger(speed.angular, from.speed.angular) + 0.5 * step * twist_acceleration;
+        let joint_speed = speed.of_joints(self.radius);
+        let fastest = larger(joint_speed, from.speed.of_joints(self.radius))
+            + 0.5 * step * (gap_acceleration + twist_acceleration * self.radius);
+        let curvature = fastest * fastest / self.shortest + rate * rate * self.radius;
+        let steady = change.norm() * per_step
+            + gap_acceleration
+            + (sum_of_magnitudes(&turn) * per_step + twist_acceleration) * self.radius;
+        let mut duration = joint_speed * self.stop_time_per_speed;
+        for k in 0..3 {
+            let speed = next.linear.velocity[k].abs();
+            if speed > safety.acceleration_limit[k] * duration {
+                duration = speed / safety.acceleration_limit[k];
+            }
+        }
+        let time = 0.5 * duration + step;
+        let reach = fastest * time;
+
+        let mut keeps = curvature <= (1.0 - STOP_FRACTION) * self.acceleration;
+        keeps &= curvature + steady <= self.acceleration;
+        keeps &= fastest <= self.velocity;
+        for length in to.legs.length {
+            keeps &= length - reach >= self.shortest;
+            keeps &= length + reach <= self.longest;
+        }
+        for k in 0..3 {
+            let most = safety.acceleration_limit[k];
+            let ends = larger(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
+            let fastest = ends + 0.5 * bend * step * gap[k].abs();
+            keeps &= change[k].abs() * per_step + bend * gap[k].abs() <= most;
+            keeps &= next.linear.acceleration[k].abs() <= most;
+            keeps &= fastest <= safety.velocity_limit[k];
+            keeps &= next.linear.position[k].abs() + fastest * time <= safety.position_limit[k];
+        }
+        if keeps { Some(duration) } else { None }
+    }
+
+    /// A certified stop plan from the candidate, if the transition to it is certified as well.
+    #[cold]
+    pub fn certify(&self, from: State, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
+        if let Some(duration) = self.certify_by_bounds(from, to, safety, step) {
+            return Some(StopPlan::new(to.coordinates, StopDurations::common(duration)));
+        }
+        let certified = axes_keep_limits(from.coordinates, to.coordinates, safety, step);
+        let plan = if certified { self.stop_plan(from.coordinates, to, safety) } else { None }?;
+        let keeps = self.transition_keeps_legs(from, to, step) && self.plan_keeps_legs(&plan);
+        keeps.then_some(plan)
+    }
+
+    /// The stop from the candidate within the safety limits: all coordinates in one duration that suits the fastest leg
+    /// and the safety limits of acceleration, an axis with less room sooner.
+    fn stop_plan(&self, from: &Coordinates, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
+        let Motions { position, velocity, .. } = to.coordinates.linear;
+        let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| larger(velocity.abs(), fastest));
+        let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
+            larger(velocity[k].abs() / safety.acceleration_limit[k], duration)
+        });
+        let mut durations = StopDurations::common(duration);
+        for k in 0..3 {
+            let speed = velocity[k].abs();
+            let room = farthest(from, safety, k) - position[k] * 1.0_f64.copysign(velocity[k]);
+            if speed * duration > 2.0 * room {
+                durations.linear[k] = 2.0 * room / speed;
+            }
+            let brakes = speed <= safety.acceleration_limit[k] * FULL_SHARE * durations.linear[k];
+            if !(brakes && room >= 0.0) {
+                return None;
+            }
+        }
+        Some(StopPlan::new(to.coordinates, durations))
+    }
+
+    /// Whether the legs keep speed and acceleration at every instant of the transition. Their lengths need no look: both
+    /// ends are inside the stroke by the reserve.
+    fn transition_keeps_legs(&self, from: State, to: Candidate, step: f64) -> bool {
+        let (now, next) = (from.coordinates, to.coordinates);
+        let linear = Halves::new(&now.linear, &next.linear, step);
+        let angles = Halves::new(&now.angles, &next.angles, step);
+        let left = self.leg_motion_with(from.motion, now, &linear.first, &angles.first);
+        let right = self.leg_motion_with(to.motion, next, &linear.second, &angles.second);
+        let speed = |coordinates: &Coordinates| Speed::of(coordinates);
+        let (start, end) = (speed(now), speed(next));
+        let linear_speed = larger(larger(start.linear, end.linear), linear.middle_velocity.norm());
+        let rate = larger(larger(start.angular, end.angular), sum_of_magnitudes(&angles.middle_velocity));
+        let acceleration = larger(linear.first.norm(), linear.second.norm());
+        let turn = larger(sum_of_magnitudes(&angles.first), sum_of_magnitudes(&angles.second));
+        let bounds = JointBounds::new([linear_speed, rate], [acceleration, turn], self.radius);
+        self.interval_keeps_legs(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY))
+    }
+
+    /// Whether the legs keep stroke, speed and acceleration all the way to rest.
+    fn plan_keeps_legs(&self, plan: &StopPlan) -> bool {
+        let stops = plan.durations().breakpoints();
+        let duration = stops[3];
+        let speed = Speed::of(plan.start()).of_joints(self.radius);
+        // Between points d apart the bound is about 1.5 (G1²/L) d/T.
+        let needed = 1.5 * speed * speed / (self.shortest * MARGIN * self.acceleration);
+        let whole = needed.ceil().clamp(1.0, MOST_CELLS);
+        let mut begin = 0.0;
+        for end in stops {
+            if end > begin {
+                let cells = (whole * (end - begin) / duration).ceil();
+                if !self.piece_keeps_legs(plan, begin, end, cells) {
+                    return false;
+                }
+                begin = end;
+            }
+        }
+        let rest = self.leg_motion_of(&plan.at(duration));
+        rest.length.iter().all(|length| (self.shortest..=self.longest).contains(length))
+    }
+
+    /// Whether the legs keep their limits between two breakpoints of a plan, divided into cells.
+    fn piece_keeps_legs(&self, plan: &StopPlan, begin: f64, end: f64, cells: f64) -> bool {
+        let accelerating = plan.at(begin);
+        let (linear, angles) = (accelerating.linear.acceleration, accelerating.angles.acceleration);
+        let at = |time: f64| {
+            let mut coordinates = plan.at(time);
+            (coordinates.linear.acceleration, coordinates.angles.acceleration) = (linear, angles);
+            (self.leg_motion_of(&coordinates), Speed::of(&coordinates))
+        };
+        let cell = (end - begin) / cells;
+        let (mut left, mut speed) = at(begin);
+        for k in 1..=cells as usize {
+            let time = if k as f64 == cells { end } else { begin + k as f64 * cell };
+            let (right, speed_after) = at(time);
+            // Every coordinate decelerates: a cell is fastest at its start.
+            let bounds = JointBounds::new(
+                [speed.linear, speed.angular],
+                [linear.norm(), sum_of_magnitudes(&angles)],
+                self.radius,
+            );
+            if !self.interval_keeps_legs(&left, &right, &bounds, cell, (self.shortest, self.longest)) {
+                return false;
+            }
+            (left, speed) = (right, speed_after);
+        }
+        true
+    }
+
+    /// Whether the legs keep their limits in an interval, from what they do at both ends. The accelerations of the
+    /// coordinates are steady in either half of it.
+    ///
+    /// No instant is farther than half the interval d from the nearer end, from where the leg's jerk J is bounded. So the
+    /// acceleration differs from that end's by at most J d/2; speed and length follow by integration from that end.
+    fn interval_keeps_legs(
+        &self,
+        left: &LegMotion,
+        right: &LegMotion,
+        bounds: &JointBounds,
+        interval: f64,
+        (shortest, longest): (f64, f64),
+    ) -> bool {
+        let half = 0.5 * interval;
+        let least = |lengths: &[f64; 6]| lengths.iter().fold(f64::INFINITY, |a, &b| a.min(b));
+        let length = least(&left.length).min(least(&right.length)) - bounds.velocity * half;
+        if length.is_nan() || length <= 0.0 {
+            return false;
+        }
+        let spread = bounds.leg_jerk(length) * half;
+        let mut keeps = true;
+        for i in 0..6 {
+            let acceleration = larger(left.acceleration[i].abs(), right.acceleration[i].abs()) + spread;
+            let from_left = left.velocity[i] + left.acceleration[i] * half;
+            let from_right = right.velocity[i] - right.acceleration[i] * half;
+            let at_ends = larger(left.velocity[i].abs(), right.velocity[i].abs());
+            let speed = larger(at_ends, larger(from_left.abs(), from_right.abs()) + spread * half);
+            let beyond = 0.5 * acceleration * half * half;
+            keeps &= acceleration <= self.acceleration;
+            keeps &= speed <= self.velocity;
+            keeps &= left.length[i].min(right.length[i]) - beyond >= shortest;
+            keeps &= left.length[i].max(right.length[i]) + beyond <= longest;
+        }
+        keeps
+    }
+
+    /// The legs of a motion whose coordinates have these accelerations.
+    fn leg_motion_with(
+        &self,
+        motion: &PlatformMotion,
+        coordinates: &Coordinates,
+        linear: &Vector3<f64>,
+        angles: &Vector3<f64>,
+    ) -> LegMotion {
+        let turning = Motions { acceleration: *angles, ..coordinates.angles };
+        let Turning { velocity, acceleration, .. } = Turning::with_orientation(motion.orientation, &turning);
+        let motion = PlatformMotion {
+            acceleration: *linear,
+            angular_velocity: velocity,
+            angular_acceleration: acceleration,
+            ..*motion
+        };
+        leg_motion(&self.geometry, &motion)
+    }
+
+    fn leg_motion_of(&self, coordinates: &Coordinates) -> LegMotion {
+        leg_motion(&self.geometry, &coordinates.motion(self.neutral_height))
+    }
+}
+
+/// The trajectory of three coordinates over a step: the accelerations of its halves, and the velocity between them.
+struct Halves {
+    first: Vector3<f64>,
+    second: Vector3<f64>,
+    middle_velocity: Vector3<f64>,
+}
+
+impl Halves {
+    fn new(now: &Motions, next: &Motions, step: f64) -> Self {
+        let (change, gap) = change_and_gap(now, next, step);
+        let gap = gap.map(without_rounding);
+        let (mean, bend) = (change / step, gap * (4.0 / (step * step)));
+        Halves {
+            first: mean + bend,
+            second: mean - bend,
+            middle_velocity: 0.5 * (now.velocity + next.velocity) + gap * (2.0 / step),
+        }
+    }
+}
+
+/// Whether surge, sway and heave keep their safety limits at every instant of the transition.
+///
+/// A coordinate beyond its position limit may come nearer, not go farther: its limit is then where it is.
+pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyParameters, step: f64) -> bool {
+    let (now, next) = (&from.linear, &to.linear);
+    let Halves { first, second, middle_velocity } = Halves::new(now, next, step);
+    let mut keeps = true;
+    for k in 0..3 {
+        let (start, middle, end) = (now.velocity[k], middle_velocity[k], next.velocity[k]);
+        let fastest = larger(larger(start.abs(), end.abs()), middle.abs());
+        let halfway = now.position[k] + 0.25 * step * (start + middle);
+        let beyond = [
+            next.position[k].abs(),
+            turning_point(now.position[k], start, middle, first[k]),
+            turning_point(halfway, middle, end, second[k]),
+        ];
+        let limit = farthest(from, safety, k);
+        keeps &= larger(first[k].abs(), second[k].abs()) <= safety.acceleration_limit[k] * FULL_SHARE;
+        keeps &= next.acceleration[k].abs() <= safety.acceleration_limit[k] * FULL_SHARE;
+        keeps &= fastest <= safety.velocity_limit[k] * FULL_SHARE;
+        keeps &= beyond.iter().all(|position| *position <= limit);
+    }
+    keeps
+}
+
+/// The position limit in force on an axis: where the platform is, if that is beyond the parameter.
+fn farthest(from: &Coordinates, safety: &SafetyParameters, k: usize) -> f64 {
+    const ROUNDING_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
+    larger(from.linear.position[k].abs(), safety.position_limit[k]) * ROUNDING_UP
+}
+
+/// Distance from neutral of the point at which a steady acceleration turns the velocity round between these two, or 0.
+fn turning_point(position: f64, before: f64, after: f64, acceleration: f64) -> f64 {
+    if before * after < 0.0 { (position - 0.5 * before * before / acceleration).abs() } else { 0.0 }
+}
+
+/// Change of velocity over a step, and what the positions' difference has beyond the mean velocity times the step.
+#[inline(always)]
+fn change_and_gap(now: &Motions, next: &Motions, step: f64) -> (Vector3<f64>, Vector3<f64>) {
+    let gap = next.position - now.position - (now.velocity + next.velocity) * (0.5 * step);
+    (next.velocity - now.velocity, gap)
+}
+
+/// A difference of positions without what rounding may have added.
+fn without_rounding(gap: f64) -> f64 {
+    if gap.is_nan() { gap } else { (gap.abs() - ROUNDING).max(0.0).copysign(gap) }
+}
+
+#[inline(always)]
+fn sum_of_magnitudes(vector: &Vector3<f64>) -> f64 {
+    vector.x.abs() + vector.y.abs() + vector.z.abs()
+}

@@ -1,0 +1,104 @@
+//! The candidates of a step whose demand is not certified: between following the stop plan and pursuing the demand.
+
+use nalgebra::{Vector3, Vector6};
+
+use super::ActuatorGuard;
+use super::certificate::Candidate;
+use crate::interface::SafetyParameters;
+use crate::motion::Motions;
+use crate::motion::braking_law::{CATCH_UP_SHARE, Limits, Motion};
+use crate::platform::stop_plan::StopPlan;
+use crate::platform::{Coordinates, Legs, PlatformMotion, inverse_kinematics, jacobian};
+
+/// Between the plan and the pursuit, the farthest certified candidate is found to a part in 2^6.
+const BISECTIONS: usize = 6;
+
+/// A candidate of its own.
+struct Trial {
+    coordinates: Coordinates,
+    motion: PlatformMotion,
+    legs: Legs,
+}
+
+impl ActuatorGuard {
+    /// The state nearest to a pursuit of the demand that is certified, with its plan; else the next state on the plan held.
+    pub(super) fn nearest(
+        &self,
+        demand: Candidate,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> (Coordinates, PlatformMotion, StopPlan) {
+        let now = self.coordinates();
+        let followed = self.plan.advanced(step);
+        let on_plan = followed.now();
+        let pursued = self.pursued(now, demand.legs, safety, step);
+        let certified = |fraction: f64| {
+            let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
+            let candidate = Candidate { coordinates: &trial.coordinates, motion: &trial.motion, legs: &trial.legs };
+            let plan = self.machine.certify(self.state(), candidate, safety, step)?;
+            Some((trial.coordinates, trial.motion, plan))
+        };
+        farthest(certified).unwrap_or_else(|| {
+            let mut coordinates = on_plan;
+            for (after, before) in [(&mut coordinates.linear, &now.linear), (&mut coordinates.angles, &now.angles)] {
+                after.acceleration = (after.velocity - before.velocity) / step;
+            }
+            (coordinates, coordinates.motion(self.machine.neutral_height), followed)
+        })
+    }
+
+    /// The state that the platform gets to if each leg pursues its target under its own limits, and surge, sway and heave
+    /// keep theirs. Nothing depends on its being certified.
+    fn pursued(&self, now: &Coordinates, target: &Legs, safety: &SafetyParameters, step: f64) -> Coordinates {
+        let rates = Vector6::from(self.each_leg_pursued(target, step));
+        // The Jacobian where the platform will be, not where it is: the legs have to arrive without a jump.
+        let ahead = now.coasted(step).motion(self.machine.neutral_height);
+        let twist = jacobian(&self.machine.geometry, &ahead.pose()).lu().solve(&rates).unwrap_or_else(Vector6::zeros);
+        let velocity: Vector3<f64> = twist.fixed_rows::<3>(0).into();
+        let rates = ahead.orientation.rates(twist.fixed_rows::<3>(3).into()).to_vector();
+        let Coordinates { linear, angles } = now;
+        // All change less where one may not change so much: the legs would go elsewhere otherwise.
+        let change = velocity - linear.velocity;
+        let least = Vector3::repeat(f64::MIN_POSITIVE);
+        let fraction = (step * safety.acceleration_limit).component_div(&change.abs().sup(&least)).min().min(1.0);
+        let velocity = linear.velocity + fraction * change;
+        let rates = angles.velocity.lerp(&rates, fraction);
+        let longest_step = self.limits.longest_step;
+        Coordinates {
+            linear: Motions::from_axes(|k| {
+                Limits::safety(safety, k, longest_step).at_velocity(&linear.axis(k), velocity[k], step)
+            }),
+            angles: angles.at_velocity(rates, step),
+        }
+    }
+
+    /// The rates of the legs if each pursues its target as far as its limits allow \[m/s\].
+    fn each_leg_pursued(&self, target: &Legs, step: f64) -> [f64; 6] {
+        std::array::from_fn(|i| {
+            let leg = Motion { position: self.legs.length[i], velocity: self.legs.velocity[i], acceleration: 0.0 };
+            let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };
+            self.limits.follow(&leg, &goal, CATCH_UP_SHARE * self.limits.acceleration, step).velocity
+        })
+    }
+
+    fn trial(&self, coordinates: Coordinates) -> Trial {
+        let motion = coordinates.motion(self.machine.neutral_height);
+        Trial { coordinates, motion, legs: inverse_kinematics(&self.machine.geometry, &motion) }
+    }
+}
+
+/// The result for the largest fraction of the way from the plan (0) to the pursuit (1) for which there is one.
+fn farthest<T>(certified: impl Fn(f64) -> Option<T>) -> Option<T> {
+    let mut found = certified(1.0);
+    let (mut low, mut high) = (0.0, 1.0);
+    if found.is_none() {
+        for _ in 0..BISECTIONS {
+            let fraction = 0.5 * (low + high);
+            match certified(fraction) {
+                Some(result) => (low, found) = (fraction, Some(result)),
+                None => high = fraction,
+            }
+        }
+    }
+    found
+}
