@@ -15,7 +15,7 @@ use crate::cueing::splitter::LowPass;
 use crate::interface::{Input, Output, Parameters, Preaction};
 use crate::motion::orientation::Turning;
 use crate::platform::head::Head;
-use crate::platform::{ActuatorGuard, Coordinates, LimitedBy, PlatformMotion};
+use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
 use crate::validate::{check, check_change};
 
 /// The washout filter with its platform.
@@ -199,10 +199,9 @@ impl Washout {
         self.input = *end;
         self.limited.tilt |= self.gravitational.limited;
         self.limited.safety |= self.direct_linear.limited();
-        if let Some(by) = self.guard.limited_by() {
-            self.limited.safety |= by == LimitedBy::Safety;
-            self.limited.actuator = true;
-            self.direct_linear.continue_from(&self.guard.coordinates().linear);
+        self.limited.actuator |= self.guard.limited();
+        if self.guard.limited() {
+            self.direct_linear.stay_within(safety, &self.guard.coordinates().linear);
         }
     }
 

@@ -64,9 +64,12 @@ impl DirectLinearMotion {
         self.safety.motion()
     }
 
-    /// Goes on from the motion that the platform really makes.
-    pub fn continue_from(&mut self, motion: &Motions) {
-        self.safety.continue_from(motion);
+    /// Goes on from the motion that the platform really makes if the safety units' own has been left beyond limits that
+    /// have become tighter.
+    pub fn stay_within(&mut self, limits: &SafetyParameters, real: &Motions) {
+        if self.safety.beyond_limits(limits) {
+            self.safety.continue_from(real);
+        }
     }
 
     /// Whether a safety unit limited the motion in the last step.

@@ -50,6 +50,17 @@ impl SafetyUnits {
         self.following = [true; 3];
     }
 
+    /// Whether the motion is beyond its limits, or could not stop within them: they have become tighter.
+    pub fn beyond_limits(&self, limits: &SafetyParameters) -> bool {
+        let Motions { position, velocity, .. } = &self.motion;
+        (0..3).any(|k| {
+            let ahead = limits.position_limit[k] - position[k] * 1.0_f64.copysign(velocity[k]);
+            let (speed, most) = (velocity[k].abs(), limits.acceleration_limit[k]);
+            let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * FULL_SHARE;
+            !keeps
+        })
+    }
+
     /// Advances by one step at whose end the motion `demand` is.
     pub fn advance(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) {
         self.motion = if !self.following.contains(&true) && self.all_keep_limits(demand, limits, step) {
@@ -97,8 +108,8 @@ impl SafetyUnits {
 
     /// Whether the demand keeps the limits at the step's end, can stop before them, and is reached within them.
     ///
-    /// The step is a trajectory of two halves with the accelerations c + 4 d/h² and c - 4 d/h², where c is the change of
-    /// velocity per time and d the distance that the positions differ by beyond the mean velocity times h.
+    /// The gap between the positions' difference and the mean velocity times the step h counts as an acceleration of
+    /// 2 gap/h², for who sees positions only.
     fn keeps_limits(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
         let (farthest, fastest) = (limits.position_limit[k], limits.velocity_limit[k]);
         let most = limits.acceleration_limit[k];
@@ -111,9 +122,9 @@ impl SafetyUnits {
         let gap = (position - self.motion.position[k] - 0.5 * sum * step).abs();
         let mut keeps = position.abs() <= farthest;
         keeps &= speed <= fastest;
-        keeps &= (0.5 * sum).abs() * step + 2.0 * gap <= fastest * step * FULL_SHARE + ROUNDING;
+        keeps &= (0.5 * sum).abs() * step + gap <= fastest * step * FULL_SHARE + ROUNDING;
         keeps &= demand.acceleration[k].abs() <= most;
         keeps &= speed * (speed + most * self.longest_step) <= 2.0 * most * ahead;
-        keeps & (change * step + 4.0 * gap <= most * step * step * FULL_SHARE + 4.0 * ROUNDING)
+        keeps & (change * step + 2.0 * gap <= most * step * step * FULL_SHARE + 2.0 * ROUNDING)
     }
 }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 pub use coordinates::Coordinates;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
-pub use guard::{ActuatorGuard, LimitedBy, stroke_reserve};
+pub use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;
@@ -73,6 +73,19 @@ impl PlatformMotion {
             velocity: linear.velocity,
             angular_velocity: turning.velocity,
             acceleration: linear.acceleration,
+            angular_acceleration: turning.acceleration,
+        }
+    }
+
+    /// As `motion` is oriented, with the velocities and accelerations of these coordinates, which have its angles.
+    pub(crate) fn turning(motion: &PlatformMotion, coordinates: &Coordinates) -> Self {
+        let turning = Turning::with_orientation(motion.orientation, &coordinates.angles);
+        PlatformMotion {
+            position: motion.position,
+            orientation: motion.orientation,
+            velocity: coordinates.linear.velocity,
+            angular_velocity: turning.velocity,
+            acceleration: coordinates.linear.acceleration,
             angular_acceleration: turning.acceleration,
         }
     }

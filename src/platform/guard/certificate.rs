@@ -1,9 +1,8 @@
 //! The certificate: proof that a transition, and a stop plan after it, keep every limit at every instant.
 //!
-//! A transition from (q0, u0) to (q1, u1) over a step h stands for a trajectory of two halves with the steady
-//! accelerations c + 4 d/h² and c - 4 d/h², where c = (u1 - u0)/h and d = q1 - q0 - (u0 + u1) h/2. It passes through both
-//! states without a jump of position or velocity, and within limits that hold on it at every instant no difference of
-//! sampled positions or velocities exceeds them either.
+//! A transition from (q0, u0) to (q1, u1) over a step h stands for a trajectory with the steady acceleration
+//! c = (u1 - u0)/h, and a gap d = q1 - q0 - (u0 + u1) h/2 at its end. The gap counts as an acceleration of 2 |d|/h²: limits
+//! that hold on the trajectory with it are exceeded by no difference of the positions or velocities at the steps' ends.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -11,9 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::bounds::JointBounds;
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motions;
-use crate::motion::braking_law::{FULL_SHARE, ROUNDING};
+use crate::motion::braking_law::{FULL_SHARE, Limits, ROUNDING};
 use crate::motion::extremes::larger;
-use crate::motion::orientation::Turning;
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Coordinates, Geometry, Legs, PlatformMotion};
@@ -99,6 +97,20 @@ impl Machine {
         }
     }
 
+    /// The limits within which each leg pursues a demand: a little inside the certified stroke, so that a leg at the end of
+    /// it is drawn back and does not keep the others from moving.
+    pub fn pursuit_limits(&self, longest_step: f64) -> Limits {
+        const INSET: f64 = 1e-5;
+        let inset = INSET * (self.longest - self.shortest);
+        Limits {
+            min: self.shortest + inset,
+            max: self.longest - inset,
+            velocity: self.velocity,
+            acceleration: self.acceleration,
+            longest_step,
+        }
+    }
+
     /// Durations of a certified stop from the candidate, if bounds on the whole way there and to rest are enough to
     /// certify it: no point of the way is looked at.
     ///
@@ -107,19 +119,21 @@ impl Machine {
     pub fn certify_by_bounds(&self, from: State, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<f64> {
         let (now, next) = (from.coordinates, to.coordinates);
         let per_step = 1.0 / step;
-        let bend = 4.0 * per_step * per_step;
+        let bend = 2.0 * per_step * per_step;
         let (change, gap) = change_and_gap(&now.linear, &next.linear, step);
         let (turn, twist) = change_and_gap(&now.angles, &next.angles, step);
-        let (gap_acceleration, twist_acceleration) = (bend * sum_of_magnitudes(&gap), bend * sum_of_magnitudes(&twist));
+        let gap_acceleration = bend * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&twist) * self.radius);
         let speed = Speed::of(next);
-        let rate = larger(speed.angular, from.speed.angular) + 0.5 * step * twist_acceleration;
+        let rate = larger(speed.angular, from.speed.angular);
         let joint_speed = speed.of_joints(self.radius);
-        let fastest = larger(joint_speed, from.speed.of_joints(self.radius))
-            + 0.5 * step * (gap_acceleration + twist_acceleration * self.radius);
+        let fastest = larger(joint_speed, from.speed.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
         let curvature = fastest * fastest / self.shortest + rate * rate * self.radius;
+        // The gap turns the legs a little as well, which changes their rates.
+        let gap_turning = 0.5 * step * gap_acceleration * (fastest / self.shortest + rate);
         let steady = change.norm() * per_step
+            + sum_of_magnitudes(&turn) * per_step * self.radius
             + gap_acceleration
-            + (sum_of_magnitudes(&turn) * per_step + twist_acceleration) * self.radius;
+            + gap_turning;
         let mut duration = joint_speed * self.stop_time_per_speed;
         for k in 0..3 {
             let speed = next.linear.velocity[k].abs();
@@ -140,7 +154,7 @@ impl Machine {
         for k in 0..3 {
             let most = safety.acceleration_limit[k];
             let ends = larger(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
-            let fastest = ends + 0.5 * bend * step * gap[k].abs();
+            let fastest = ends + per_step * gap[k].abs();
             keeps &= change[k].abs() * per_step + bend * gap[k].abs() <= most;
             keeps &= next.linear.acceleration[k].abs() <= most;
             keeps &= fastest <= safety.velocity_limit[k];
@@ -188,18 +202,23 @@ impl Machine {
     /// ends are inside the stroke by the reserve.
     fn transition_keeps_legs(&self, from: State, to: Candidate, step: f64) -> bool {
         let (now, next) = (from.coordinates, to.coordinates);
-        let linear = Halves::new(&now.linear, &next.linear, step);
-        let angles = Halves::new(&now.angles, &next.angles, step);
-        let left = self.leg_motion_with(from.motion, now, &linear.first, &angles.first);
-        let right = self.leg_motion_with(to.motion, next, &linear.second, &angles.second);
-        let speed = |coordinates: &Coordinates| Speed::of(coordinates);
-        let (start, end) = (speed(now), speed(next));
-        let linear_speed = larger(larger(start.linear, end.linear), linear.middle_velocity.norm());
-        let rate = larger(larger(start.angular, end.angular), sum_of_magnitudes(&angles.middle_velocity));
-        let acceleration = larger(linear.first.norm(), linear.second.norm());
-        let turn = larger(sum_of_magnitudes(&angles.first), sum_of_magnitudes(&angles.second));
-        let bounds = JointBounds::new([linear_speed, rate], [acceleration, turn], self.radius);
-        self.interval_keeps_legs(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY))
+        let (linear, angles) =
+            (Transition::new(&now.linear, &next.linear, step), Transition::new(&now.angles, &next.angles, step));
+        let start = Coordinates { linear: linear.start, angles: angles.start };
+        let end = Coordinates { linear: linear.end, angles: angles.end };
+        let left = leg_motion(&self.geometry, &PlatformMotion::turning(from.motion, &start));
+        let right = self.leg_motion_of(&end);
+        let (before, after) = (Speed::of(now), Speed::of(next));
+        let speeds = [larger(before.linear, after.linear), larger(before.angular, after.angular)];
+        let accelerations = [linear.start.acceleration.norm(), sum_of_magnitudes(&angles.start.acceleration)];
+        let bounds = JointBounds::new(speeds, accelerations, self.radius);
+        // The gap at the end, as accelerations for who sees lengths and for who sees rates.
+        let gaps = std::array::from_fn(|i| {
+            let length = without_rounding(to.legs.length[i] - right.length[i]).abs();
+            let rate = without_rounding(to.legs.velocity[i] - right.velocity[i]).abs();
+            2.0 * length / (step * step) + rate / step
+        });
+        self.interval_keeps_legs(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY), &gaps)
     }
 
     /// Whether the legs keep stroke, speed and acceleration all the way to rest.
@@ -244,7 +263,8 @@ impl Machine {
                 [linear.norm(), sum_of_magnitudes(&angles)],
                 self.radius,
             );
-            if !self.interval_keeps_legs(&left, &right, &bounds, cell, (self.shortest, self.longest)) {
+            let stroke = (self.shortest, self.longest);
+            if !self.interval_keeps_legs(&left, &right, &bounds, cell, stroke, &[0.0; 6]) {
                 return false;
             }
             (left, speed) = (right, speed_after);
@@ -252,8 +272,8 @@ impl Machine {
         true
     }
 
-    /// Whether the legs keep their limits in an interval, from what they do at both ends. The accelerations of the
-    /// coordinates are steady in either half of it.
+    /// Whether the legs keep their limits in an interval of steady coordinates' accelerations, from what they do at both
+    /// ends; `gaps` are accelerations that each leg needs besides \[m/s2\].
     ///
     /// No instant is farther than half the interval d from the nearer end, from where the leg's jerk J is bounded. So the
     /// acceleration differs from that end's by at most J d/2; speed and length follow by integration from that end.
@@ -264,6 +284,7 @@ impl Machine {
         bounds: &JointBounds,
         interval: f64,
         (shortest, longest): (f64, f64),
+        gaps: &[f64; 6],
     ) -> bool {
         let half = 0.5 * interval;
         let least = |lengths: &[f64; 6]| lengths.iter().fold(f64::INFINITY, |a, &b| a.min(b));
@@ -280,31 +301,12 @@ impl Machine {
             let at_ends = larger(left.velocity[i].abs(), right.velocity[i].abs());
             let speed = larger(at_ends, larger(from_left.abs(), from_right.abs()) + spread * half);
             let beyond = 0.5 * acceleration * half * half;
-            keeps &= acceleration <= self.acceleration;
-            keeps &= speed <= self.velocity;
+            keeps &= acceleration + gaps[i] <= self.acceleration;
+            keeps &= speed + gaps[i] * half <= self.velocity;
             keeps &= left.length[i].min(right.length[i]) - beyond >= shortest;
             keeps &= left.length[i].max(right.length[i]) + beyond <= longest;
         }
         keeps
-    }
-
-    /// The legs of a motion whose coordinates have these accelerations.
-    fn leg_motion_with(
-        &self,
-        motion: &PlatformMotion,
-        coordinates: &Coordinates,
-        linear: &Vector3<f64>,
-        angles: &Vector3<f64>,
-    ) -> LegMotion {
-        let turning = Motions { acceleration: *angles, ..coordinates.angles };
-        let Turning { velocity, acceleration, .. } = Turning::with_orientation(motion.orientation, &turning);
-        let motion = PlatformMotion {
-            acceleration: *linear,
-            angular_velocity: velocity,
-            angular_acceleration: acceleration,
-            ..*motion
-        };
-        leg_motion(&self.geometry, &motion)
     }
 
     fn leg_motion_of(&self, coordinates: &Coordinates) -> LegMotion {
@@ -312,22 +314,21 @@ impl Machine {
     }
 }
 
-/// The trajectory of three coordinates over a step: the accelerations of its halves, and the velocity between them.
-struct Halves {
-    first: Vector3<f64>,
-    second: Vector3<f64>,
-    middle_velocity: Vector3<f64>,
+/// The trajectory of three coordinates over a step, without the gap at its end.
+struct Transition {
+    start: Motions,
+    end: Motions,
+    gap: Vector3<f64>,
 }
 
-impl Halves {
+impl Transition {
     fn new(now: &Motions, next: &Motions, step: f64) -> Self {
         let (change, gap) = change_and_gap(now, next, step);
-        let gap = gap.map(without_rounding);
-        let (mean, bend) = (change / step, gap * (4.0 / (step * step)));
-        Halves {
-            first: mean + bend,
-            second: mean - bend,
-            middle_velocity: 0.5 * (now.velocity + next.velocity) + gap * (2.0 / step),
+        let acceleration = change / step;
+        Transition {
+            start: Motions { acceleration, ..*now },
+            end: Motions { position: next.position - gap, velocity: next.velocity, acceleration },
+            gap: gap.map(without_rounding),
         }
     }
 }
@@ -337,22 +338,17 @@ impl Halves {
 /// A coordinate beyond its position limit may come nearer, not go farther: its limit is then where it is.
 pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyParameters, step: f64) -> bool {
     let (now, next) = (&from.linear, &to.linear);
-    let Halves { first, second, middle_velocity } = Halves::new(now, next, step);
+    let Transition { start, gap, .. } = Transition::new(now, next, step);
     let mut keeps = true;
     for k in 0..3 {
-        let (start, middle, end) = (now.velocity[k], middle_velocity[k], next.velocity[k]);
-        let fastest = larger(larger(start.abs(), end.abs()), middle.abs());
-        let halfway = now.position[k] + 0.25 * step * (start + middle);
-        let beyond = [
-            next.position[k].abs(),
-            turning_point(now.position[k], start, middle, first[k]),
-            turning_point(halfway, middle, end, second[k]),
-        ];
-        let limit = farthest(from, safety, k);
-        keeps &= larger(first[k].abs(), second[k].abs()) <= safety.acceleration_limit[k] * FULL_SHARE;
-        keeps &= next.acceleration[k].abs() <= safety.acceleration_limit[k] * FULL_SHARE;
-        keeps &= fastest <= safety.velocity_limit[k] * FULL_SHARE;
-        keeps &= beyond.iter().all(|position| *position <= limit);
+        let (before, after) = (now.velocity[k], next.velocity[k]);
+        let gap = gap[k].abs();
+        let turned = turning_point(now.position[k], before, after, start.acceleration[k]);
+        let most = safety.acceleration_limit[k] * FULL_SHARE;
+        keeps &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
+        keeps &= next.acceleration[k].abs() <= most;
+        keeps &= larger(before.abs(), after.abs()) + gap / step <= safety.velocity_limit[k] * FULL_SHARE;
+        keeps &= larger(next.position[k].abs(), turned) <= farthest(from, safety, k);
     }
     keeps
 }

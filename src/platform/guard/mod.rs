@@ -16,7 +16,7 @@ mod pursuit;
 use serde::{Deserialize, Serialize};
 
 pub use self::certificate::stroke_reserve;
-use self::certificate::{Candidate, Machine, Speed, State, axes_keep_limits};
+use self::certificate::{Candidate, Machine, Speed, State};
 use super::stop_plan::{StopDurations, StopPlan};
 use super::{Coordinates, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
@@ -27,7 +27,10 @@ use crate::motion::extremes::smaller;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ActuatorGuard {
     machine: Machine,
-    limits: Limits,
+    /// The shortest and the longest that a leg may be \[m\].
+    stroke: [f64; 2],
+    /// The limits within which each leg pursues its demand.
+    pursuit: Limits,
     motion: PlatformMotion,
     legs: Legs,
     speed: Speed,
@@ -39,20 +42,10 @@ pub struct ActuatorGuard {
 /// What else there is to know while the platform does not do what is demanded.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Limited {
-    by: LimitedBy,
     demand: Coordinates,
     coordinates: Coordinates,
     /// Of the legs' lengths, over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
-}
-
-/// The limits that kept the platform from its demand.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LimitedBy {
-    /// The safety limits of surge, sway or heave.
-    Safety,
-    /// The limits of the actuators.
-    Actuators,
 }
 
 impl ActuatorGuard {
@@ -60,16 +53,10 @@ impl ActuatorGuard {
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
         let machine = Machine::new(rig, longest_step);
         let motion = PlatformMotion::at_rest(Pose::neutral(rig));
-        let limits = Limits {
-            min: rig.min_length,
-            max: rig.max_length,
-            velocity: rig.velocity_limit,
-            acceleration: rig.acceleration_limit,
-            longest_step,
-        };
         ActuatorGuard {
             machine,
-            limits,
+            stroke: [rig.min_length, rig.max_length],
+            pursuit: machine.pursuit_limits(longest_step),
             motion,
             legs: inverse_kinematics(&machine.geometry, &motion),
             speed: Speed::default(),
@@ -103,14 +90,11 @@ impl ActuatorGuard {
             self.limited = None;
             return;
         }
-        let allowed = axes_keep_limits(self.coordinates(), demand.coordinates, safety, step);
-        let by = if allowed { LimitedBy::Actuators } else { LimitedBy::Safety };
         let before = self.legs;
         let (coordinates, motion, plan) = self.nearest(demand, safety, step);
         let legs = inverse_kinematics(&self.machine.geometry, &motion);
         self.accept(Candidate { coordinates: &coordinates, motion: &motion, legs: &legs }, plan);
         self.limited = Some(Limited {
-            by,
             demand: *demand.coordinates,
             coordinates,
             leg_accelerations: std::array::from_fn(|i| (legs.velocity[i] - before.velocity[i]) / step),
@@ -125,7 +109,8 @@ impl ActuatorGuard {
         let (now, linear) = (&self.coordinates().linear, &demand.coordinates.linear);
         let apart = |before: f64, after: f64, v: f64, w: f64| (after - before - 0.5 * (v + w) * step).abs();
         (0..6).all(|i| {
-            apart(legs.length[i], next.length[i], legs.velocity[i], next.velocity[i]) <= near * self.limits.acceleration
+            apart(legs.length[i], next.length[i], legs.velocity[i], next.velocity[i])
+                <= near * self.pursuit.acceleration
         }) && (0..3).all(|k| {
             apart(now.position[k], linear.position[k], now.velocity[k], linear.velocity[k])
                 <= near * safety.acceleration_limit[k]
@@ -181,9 +166,9 @@ impl ActuatorGuard {
         &self.motion
     }
 
-    /// The limits that kept the platform from its demand in the last step, if any did.
-    pub fn limited_by(&self) -> Option<LimitedBy> {
-        self.limited.as_ref().map(|limited| limited.by)
+    /// Whether the platform did not do what was demanded in the last step.
+    pub fn limited(&self) -> bool {
+        self.limited.is_some()
     }
 
     /// The smallest distance of a leg from either end of its stroke \[m\].
@@ -200,8 +185,7 @@ impl ActuatorGuard {
     /// Each leg's distance from each end of its stroke, and the rate of it.
     fn margins(&self) -> impl Iterator<Item = (f64, f64)> {
         let Legs { length, velocity } = self.legs;
-        (0..6).flat_map(move |i| {
-            [(length[i] - self.limits.min, velocity[i]), (self.limits.max - length[i], -velocity[i])]
-        })
+        (0..6)
+            .flat_map(move |i| [(length[i] - self.stroke[0], velocity[i]), (self.stroke[1] - length[i], -velocity[i])])
     }
 }

@@ -63,7 +63,7 @@ impl ActuatorGuard {
         let fraction = (step * safety.acceleration_limit).component_div(&change.abs().sup(&least)).min().min(1.0);
         let velocity = linear.velocity + fraction * change;
         let rates = angles.velocity.lerp(&rates, fraction);
-        let longest_step = self.limits.longest_step;
+        let longest_step = self.pursuit.longest_step;
         Coordinates {
             linear: Motions::from_axes(|k| {
                 Limits::safety(safety, k, longest_step).at_velocity(&linear.axis(k), velocity[k], step)
@@ -77,7 +77,7 @@ impl ActuatorGuard {
         std::array::from_fn(|i| {
             let leg = Motion { position: self.legs.length[i], velocity: self.legs.velocity[i], acceleration: 0.0 };
             let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };
-            self.limits.follow(&leg, &goal, CATCH_UP_SHARE * self.limits.acceleration, step).velocity
+            self.pursuit.follow(&leg, &goal, CATCH_UP_SHARE * self.pursuit.acceleration, step).velocity
         })
     }
 
