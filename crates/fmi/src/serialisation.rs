@@ -7,7 +7,7 @@ use crate::{Complaint, Guid, Mode, Run, Tables};
 /// Marks bytes as a run.
 const MARK: [u8; 8] = *b"FMI-RUN\n";
 /// To be raised whenever [`Run`] changes.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 impl<M: Model> Run<M> {
     /// The run as bytes: mark, format, the model's GUID, length and checksum of the rest, and the rest.
