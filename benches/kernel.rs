@@ -48,7 +48,7 @@ fn step(c: &mut Criterion) {
     };
     bench("step of 1 ms, riding", &ride, &[]);
     // Ten simulated minutes after the ride: what decays must not have become denormal.
-    let long_after: Vec<Input> = ride.iter().cloned().chain(std::iter::repeat_n(rest[0], 600_000)).collect();
+    let long_after: Vec<Input> = ride.iter().copied().chain(std::iter::repeat_n(rest[0], 600_000)).collect();
     bench("step of 1 ms, long after a ride", &rest, &long_after);
 }
 

@@ -78,8 +78,8 @@ def load_address(addresses: list[int], mnemonics: dict[int, str]) -> int:
 
 
 def main() -> None:
-    subprocess.run(["cargo", "build", "--quiet", "--release", "--example", "steps"], cwd=ROOT, check=True)
-    program = TARGET / "release/examples/steps"
+    subprocess.run(["cargo", "build", "--profile", "fmu-library", "--example", "steps"], cwd=ROOT, check=True)
+    program = TARGET / "fmu-library/examples/steps"
     (short, short_elsewhere), (long, long_elsewhere) = (executed(program, steps) for steps in (SHORT, LONG))
     mnemonics = disassembled(program)
     base = load_address(list(long), mnemonics)

@@ -72,6 +72,9 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
     Ok(Plan { platform, linker })
 }
 
+/// The profile of the workspace's manifest by which the libraries are compiled.
+const PROFILE: &str = "fmu-library";
+
 /// The variable that tells `moris_fmi`'s macros of start values in place of the model's own.
 const START_VALUES: &str = "FMU_START_VALUES";
 
@@ -81,7 +84,8 @@ const START_VALUES: &str = "FMU_START_VALUES";
 /// The compiler cannot be run or fails, or its result cannot be read.
 pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     let mut command = plan.cargo();
-    command.args(["--release", "--package", model.package(fmi), "--target-dir"]).arg(workspace::target_directory());
+    command.args(["--profile", PROFILE, "--package", model.package(fmi), "--target-dir"]);
+    command.arg(workspace::target_directory());
     command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags(model.library(fmi))?);
     match start.text() {
         Some(text) => command.env(START_VALUES, text),
@@ -95,7 +99,7 @@ pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Re
         return Err(Error::Compile { platform: plan.platform });
     }
     let built = plan.platform.built_library(model.library(fmi));
-    let file = workspace::target_directory().join(plan.platform.target()).join("release").join(built);
+    let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);
     fs::read(&file).map_err(|reason| Error::Read { file, reason })
 }
 

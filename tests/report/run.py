@@ -67,7 +67,7 @@ def main():
         print(f"report pages: not run, missing ({what}; or run with --install)")
         sys.exit(1 if arguments.require else 0)
     pages = WORK / "pages"
-    check_call("cargo", "run", "--quiet", "--release", "--package", "moris-report", "--example", "pages", "--", pages)
+    check_call("cargo", "run", "--release", "--package", "moris-report", "--example", "pages", "--", pages)
     sys.exit(subprocess.run([interpreter, HERE / "checks.py", chromium, pages, WORK / "pictures"]).returncode)
 
 

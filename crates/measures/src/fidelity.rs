@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_constant_signal_correlates_with_nothing() {
-        let (constant, sine) = (sampled(|_| 9.80665), sampled(|t| t.sin()));
+        let (constant, sine) = (sampled(|_| 9.80665), sampled(f64::sin));
         assert_eq!(correlation(&constant, &sine), None);
         assert_eq!(correlation(&sine, &constant), None);
         assert_eq!(delay(&constant, &sine, STEP), None);

@@ -58,7 +58,7 @@ fn main() -> Result<()> {
 /// Builds the FMU for this machine, as `cargo build-fmu` does, and says so on standard error.
 fn build_fmu() -> Result<PathBuf> {
     let built = moris_build_fmu::build(&model::WASHOUT, FmiVersion::Fmi2, &[], &workspace::default_output(), |line| {
-        eprintln!("{line}")
+        eprintln!("{line}");
     })?;
     eprintln!("{}\n", built.file.display());
     Ok(built.file)

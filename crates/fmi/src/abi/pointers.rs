@@ -16,6 +16,9 @@ pub struct NotAnArray {
 ///
 /// # Safety
 /// Unless null, `pointer` leads to `length` elements that nothing else changes during `'a`.
+///
+/// # Errors
+/// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 #[inline]
 pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], NotAnArray> {
     if length == 0 {
@@ -32,6 +35,9 @@ pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], 
 ///
 /// # Safety
 /// Unless null, `pointer` leads to room for `length` elements that nothing else uses during `'a`.
+///
+/// # Errors
+/// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 #[inline]
 pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [MaybeUninit<T>], NotAnArray> {
     if length == 0 {
@@ -48,6 +54,9 @@ pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [May
 ///
 /// # Safety
 /// Unless null, `pointer` leads to a `T` that nothing else uses during `'a`.
+///
+/// # Errors
+/// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray> {
     if !is_array(pointer, 1) {
         return Err(NotAnArray { length: 1 });
@@ -60,6 +69,9 @@ pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray> {
 ///
 /// # Safety
 /// Unless null, `pointer` leads to room for a `T` that nothing else uses.
+///
+/// # Errors
+/// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 pub unsafe fn answer<T>(pointer: *mut T, answer: T) -> Result<(), NotAnArray> {
     if !is_array(pointer, 1) {
         return Err(NotAnArray { length: 1 });

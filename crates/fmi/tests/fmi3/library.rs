@@ -13,7 +13,7 @@ fn exports_the_functions_of_the_standard_and_nothing_else() {
     // On macOS, C functions have an underscore in front.
     let name = |name: &[u8]| String::from_utf8_lossy(name).trim_start_matches('_').to_string();
     let exported: BTreeSet<_> = file.exports().unwrap().iter().map(|export| name(export.name())).collect();
-    let expected: BTreeSet<_> = moris_fmu_host::fmi3::Api::SYMBOLS.iter().map(|symbol| symbol.to_string()).collect();
+    let expected: BTreeSet<_> = moris_fmu_host::fmi3::Api::SYMBOLS.iter().map(ToString::to_string).collect();
     assert_eq!(exported, expected);
 }
 

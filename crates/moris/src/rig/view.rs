@@ -24,7 +24,7 @@ pub fn view(parameters: &Parameters) -> String {
     let platform = rig.platform.map(|joint| raised(&joint));
     let head = raised(&Head::new(&parameters.structure, 0.0).point);
     let seat = head - Vector3::new(0.0, 0.0, parameters.structure.torso_length);
-    let radius = rig.base.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
+    let radius = rig.base.iter().map(Vector3::norm).fold(0.0, f64::max);
     let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW * radius * axis);
 
     let above = head + Vector3::new(0.0, 0.0, HEAD_RADIUS);

@@ -192,7 +192,7 @@ impl Best {
         let before = |other: &Found| {
             let by_cost = other.cost.total_cmp(&found.cost);
             let by_point = || other.point.partial_cmp(&found.point);
-            by_cost.is_lt() || (by_cost.is_eq() && by_point().is_some_and(|order| order.is_le()))
+            by_cost.is_lt() || (by_cost.is_eq() && by_point().is_some_and(std::cmp::Ordering::is_le))
         };
         let place = self.0.partition_point(before);
         self.0.insert(place, found);
