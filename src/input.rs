@@ -1,28 +1,11 @@
-//! Inputs made safe, and inputs between two others.
+//! Inputs between two others.
 
 use nalgebra::Vector3;
 
 use crate::interface::Input;
 use crate::motion::orientation::RollPitchYaw;
 
-/// No vehicle comes near this in SI units; beyond it arithmetic would.
-const LARGEST: f64 = 1e9;
-
 impl Input {
-    /// The input with every number finite: one that is not a number counts as at rest, and any other beyond
-    /// +-1e9 as that.
-    pub fn made_finite(&self) -> Input {
-        let usable = |value: f64| value.abs() <= LARGEST;
-        let Input { specific_force: f, angular_velocity: w, orientation, speed, lean, engaged: _ } = self;
-        let angles = orientation.to_vector();
-        // One look at all of them: it is rare that one has to be changed.
-        if [f, w, &angles].into_iter().flatten().chain([speed, lean]).fold(true, |all, &value| all & usable(value)) {
-            return *self;
-        }
-        let rest = Input::default();
-        self.map2(&rest, |value, rest| if value.is_nan() { rest } else { value.clamp(-LARGEST, LARGEST) })
-    }
-
     /// The input at a `share` of the way to `end`, from 0 to 1; engaged or not as this one.
     pub fn towards(&self, end: &Input, share: f64) -> Input {
         self.map2(end, |from, to| from + share * (to - from))

@@ -3,7 +3,7 @@
 //! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed: users and their
 //! scripts rely on them. A new variable goes at the end of its group.
 
-use moris_interface::units::{M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
+use moris_interface::units::{ANGULAR_FREQUENCY, M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
 use moris_interface::{enumeration, interface, interface_tree};
 use nalgebra::Vector3;
 
@@ -25,15 +25,15 @@ interface! {
     /// What the vehicle model delivers at every communication point.
     pub struct Input: Input, Continuous {
         /// Specific force at the washout location in the rider's head axes (x forward, y left, z up): what an accelerometer there reads, (0, 0, +g) at rest.
-        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+        "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] { -1e4 ..= 1e4 } = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
         /// Angular velocity of the vehicle, in the axes that angularVelocityFrame says.
-        "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] { -1e3 ..= 1e3 } = Vector3::new(0.0, 0.0, 0.0);
         /// Orientation of the vehicle in its own world (roll about x, pitch about y with nose down positive, yaw about z).
-        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0);
+        "vehicle.orientation.@" orientation: RollPitchYaw [RAD] { -1e6 ..= 1e6 } = RollPitchYaw::new(0.0, 0.0, 0.0);
         /// Forward speed of the vehicle; the washout depends on it only with preaction on.
-        "vehicle.speed" speed: f64 [M_PER_S] = 0.0;
+        "vehicle.speed" speed: f64 [M_PER_S] { -1e3 ..= 1e3 } = 0.0;
         /// Lean of the rider's torso relative to the mock-up, positive to the right.
-        "rider.lean" lean: f64 [RAD] = 0.0;
+        "rider.lean" lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
         /// True: cue the vehicle's motion. False: return to neutral within the limits, and stay.
         "engaged" engaged: bool = true;
     }
@@ -43,23 +43,23 @@ interface! {
     /// What the platform and its actuators are commanded, and what the rider feels on it.
     pub struct Output: Output, Continuous {
         /// Position of the platform frame's origin in the base frame.
-        "platform.position.@" position: Vector3<f64> [M] = Vector3::zeros();
+        "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
         /// Velocity of the platform frame's origin in the base frame.
-        "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::zeros();
+        "platform.velocity.@" velocity: Vector3<f64> [M_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Acceleration of the platform frame's origin in the base frame.
-        "platform.acceleration.@" acceleration: Vector3<f64> [M_PER_S2] = Vector3::zeros();
+        "platform.acceleration.@" acceleration: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
         /// Orientation of the platform in the base frame.
-        "platform.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::default();
+        "platform.orientation.@" orientation: RollPitchYaw [RAD] = RollPitchYaw::new(0.0, 0.0, 0.0);
         /// Angular velocity of the platform in the base frame.
-        "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        "platform.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Commanded length of the actuator, from base joint to platform joint.
         "actuator[#].length" length: [f64; 6] [M] = [0.0; 6];
         /// Commanded rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
         /// Specific force that the rider feels at the washout location on the commanded motion, in head axes.
-        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::zeros();
+        "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
         /// Angular velocity that the rider feels on the commanded motion, in head axes.
-        "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::zeros();
+        "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
         /// Tilt coordination's share of the platform's roll.
         "tilt.roll" tilt_roll: f64 [RAD] = 0.0;
         /// Tilt coordination's share of the platform's pitch.
@@ -149,17 +149,17 @@ interface! {
     /// Block (1): the high-pass of each axis of the base frame, and the low-pass beside it.
     pub struct SplitterParameters: Parameter, Tunable {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "splitter.@.omega1" omega1: Vector3<f64> [RAD_PER_S] = Vector3::new(2.5, 2.5, 2.5);
+        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(2.5, 2.5, 2.5);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "splitter.@.zeta1" zeta1: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "splitter.@.omega2" omega2: Vector3<f64> [RAD_PER_S] = Vector3::new(2.5, 2.5, 2.5);
+        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(2.5, 2.5, 2.5);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
-        "splitter.@.zeta2" zeta2: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of the low-pass filter when splitter.lowPass is independent.
-        "splitter.@.lowPassOmega" low_pass_omega: Vector3<f64> [RAD_PER_S] = Vector3::new(5.0, 5.0, 5.0);
+        "splitter.@.lowPassOmega" low_pass_omega: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(5.0, 5.0, 5.0);
         /// Damping ratio of the low-pass filter when splitter.lowPass is independent.
-        "splitter.@.lowPassZeta" low_pass_zeta: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        "splitter.@.lowPassZeta" low_pass_zeta: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
     }
 }
 
@@ -167,13 +167,13 @@ interface! {
     /// Block (6): the high-pass of each angle.
     pub struct AngularParameters: Parameter, Tunable {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "angular.@.omega1" omega1: RollPitchYaw [RAD_PER_S] = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "angular.@.zeta1" zeta1: RollPitchYaw = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "angular.@.omega2" omega2: RollPitchYaw [RAD_PER_S] = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.omega2" omega2: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
-        "angular.@.zeta2" zeta2: RollPitchYaw = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.zeta2" zeta2: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0);
     }
 }
 
@@ -181,15 +181,15 @@ interface! {
     /// What is done to the vehicle's motion before it is filtered.
     pub struct ConditioningParameters: Parameter, Tunable {
         /// Scale of the specific force after gravity removal.
-        "scale.specificForce.@" force_scale: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
-        "scale.angularVelocity.@" rate_scale: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
+        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
         /// Largest scaled specific force; up to 80 % of it nothing changes, and it is approached smoothly.
-        "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] = Vector3::new(8.0, 8.0, 8.0);
+        "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(8.0, 8.0, 8.0);
         /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), approached like the specific force's.
-        "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] = Vector3::new(1.0, 1.0, 1.0);
+        "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] { 1e-3 ..= 1e6 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
-        "input.cutoff" cutoff: f64 [RAD_PER_S] = 0.0;
+        "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
         /// How gravity is removed from the specific force.
         "gravityRemoval" gravity_removal: GravityRemoval = GravityRemoval::HeadVertical;
         /// Which accelerations caused by tilting are compensated.
@@ -203,11 +203,11 @@ interface! {
     /// Block (2): tilt coordination's limits, for roll and pitch each.
     pub struct TiltParameters: Parameter, Tunable {
         /// Largest rate of tilt coordination (3 deg/s: below what riders perceive).
-        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] = 0.052_359_877_559_829_88;
+        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_359_877_559_829_88;
         /// Largest acceleration of tilt coordination.
-        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] = 0.2;
+        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.2;
         /// Largest angle of tilt coordination.
-        "tilt.angleLimit" angle_limit: f64 [RAD] = 0.38;
+        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.38;
     }
 }
 
@@ -215,11 +215,11 @@ interface! {
     /// Block (3): the safety units, one for each axis of the base frame, about the neutral position.
     pub struct SafetyParameters: Parameter, Tunable {
         /// Farthest that the platform goes from neutral.
-        "safety.@.positionLimit" position_limit: Vector3<f64> [M] = Vector3::new(0.45, 0.45, 0.33);
+        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.45, 0.45, 0.33);
         /// Largest velocity of the platform.
-        "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] = Vector3::new(1.0, 1.0, 1.0);
+        "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
         /// Largest acceleration of the platform; it also brakes with it.
-        "safety.@.accelerationLimit" acceleration_limit: Vector3<f64> [M_PER_S2] = Vector3::new(10.0, 10.0, 10.0);
+        "safety.@.accelerationLimit" acceleration_limit: Vector3<f64> [M_PER_S2] { 1e-9 ..= 1e9 } = Vector3::new(10.0, 10.0, 10.0);
     }
 }
 
@@ -227,7 +227,7 @@ interface! {
     /// What the filter is made of; fixed once initialised.
     pub struct StructureParameters: Parameter, Fixed {
         /// Magnitude of gravity.
-        "gravity" gravity: f64 [M_PER_S2] = STANDARD_GRAVITY;
+        "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Order of the splitter's high-pass filters.
         "splitter.order" splitter_order: i32 { 2 ..= 4 } = 4;
         /// Where the low-frequency force comes from.
@@ -235,15 +235,15 @@ interface! {
         /// Order of the angular channel's high-pass filters.
         "angular.order" angular_order: i32 { 2 ..= 4 } = 4;
         /// Height of the rider's head above the platform (the paper's h).
-        "head.height" head_height: f64 [M] = 1.2;
+        "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2;
         /// Length of the torso from seat to head, about whose lower end the rider leans (the paper's b).
-        "head.torsoLength" torso_length: f64 [M] = 0.75;
+        "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// The point at which the vehicle's motion is given, compensated for and evaluated.
         "washoutLocation" washout_location: WashoutLocation = WashoutLocation::Head;
         /// The washout location in the platform frame when washoutLocation is custom.
-        "washoutPoint.@" washout_point: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 1.2);
+        "washoutPoint.@" washout_point: Vector3<f64> [M] { -10.0 ..= 10.0 } = Vector3::new(0.0, 0.0, 1.2);
         /// Longest internal step; a longer communication step is divided.
-        "solver.maxStep" max_step: f64 [S] = 0.001;
+        "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
         /// Whether tilt and surge act ahead of the vehicle's stop, which they foresee from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
     }
@@ -253,19 +253,19 @@ interface! {
     /// The Stewart platform: its joints, and what its actuators can do.
     pub struct Rig: Parameter, Fixed {
         /// Joint of the actuator on the base, in the base frame.
-        "rig.base[#].@" base: [Vector3<f64>; 6] [M] = default_rig::BASE;
+        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
         /// Joint of the actuator on the platform, in the platform frame.
-        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] = default_rig::PLATFORM;
+        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
         /// Height of the platform frame's origin above the base frame's at neutral.
-        "rig.neutralHeight" neutral_height: f64 [M] = 1.091;
+        "rig.neutralHeight" neutral_height: f64 [M] { 1e-3 ..= 100.0 } = 1.091;
         /// Shortest length of an actuator.
-        "actuator.minLength" min_length: f64 [M] = 1.0;
+        "actuator.minLength" min_length: f64 [M] { 1e-3 ..= 100.0 } = 1.0;
         /// Longest length of an actuator.
-        "actuator.maxLength" max_length: f64 [M] = 1.6;
+        "actuator.maxLength" max_length: f64 [M] { 1e-3 ..= 100.0 } = 1.6;
         /// Largest speed of an actuator.
-        "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] = 1.0;
+        "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] { 1e-3 ..= 100.0 } = 1.0;
         /// Largest acceleration of an actuator.
-        "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] = 15.0;
+        "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] { 1e-3 ..= 1e4 } = 15.0;
     }
 }
 

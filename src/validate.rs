@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use moris_interface::{Group, Kind, Refusal, Row, Variability, Writer, refuse, slot_count};
+use moris_interface::{Group, Refusal, Variability, Writer, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, leg_lengths, stroke_reserve, survey};
@@ -10,7 +10,7 @@ use crate::platform::{Geometry, Pose, leg_lengths, stroke_reserve, survey};
 /// # Errors
 /// The first parameter that cannot be used, and why.
 pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
-    check_each(parameters)?;
+    parameters.check_ranges()?;
     check_head(parameters)?;
     check_rig(&parameters.rig, parameters.structure.max_step)
 }
@@ -20,7 +20,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
 /// # Errors
 /// The first parameter that cannot be used or must not change, and why.
 pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
-    check_each(to)?;
+    to.check_ranges()?;
     let (before, after) = (values(from), values(to));
     let mut begin = 0;
     for row in Parameters::ROWS {
@@ -42,68 +42,6 @@ fn values(parameters: &Parameters) -> Values {
     let mut values = [0.0; slot_count(Parameters::ROWS)];
     parameters.write(&mut Writer::new(&mut values));
     values
-}
-
-/// What a value must be on its own.
-enum Rule {
-    Finite,
-    NotNegative,
-    Positive,
-    /// Above 0 and at most this.
-    UpTo(f64),
-    /// From the first to the second.
-    Between(f64, f64),
-}
-
-/// Frequencies and dampings have ends so far out that no one misses them; beyond, the filters' arithmetic fails.
-fn rule(row: &Row) -> Rule {
-    if matches!(row.kind, Kind::Enumeration(_)) {
-        return Rule::Finite;
-    }
-    match row.name {
-        "rig.base[#].@" | "rig.platform[#].@" | "washoutPoint.@" => Rule::Finite,
-        "scale.specificForce.@" | "scale.angularVelocity.@" => Rule::Finite,
-        "input.cutoff" | "head.height" | "head.torsoLength" => Rule::NotNegative,
-        "tilt.angleLimit" => Rule::UpTo(LARGEST_TILT),
-        "solver.maxStep" => Rule::Between(1e-6, LONGEST_STEP),
-        name if name.contains(".omega") || name.ends_with("Omega") => Rule::Between(1e-6, 1e3),
-        name if name.contains(".zeta") || name.ends_with("Zeta") => Rule::Between(1e-3, 1e2),
-        _ => Rule::Positive,
-    }
-}
-
-/// 60 degrees: beyond it tilting hardly adds to the force that is felt along the axis \[rad\].
-const LARGEST_TILT: f64 = 1.047_197_551_196_597_6;
-/// No machine comes near this in SI units; far beyond it arithmetic would overflow.
-const LARGEST: f64 = 1e9;
-/// Beyond this the limits act too coarsely \[s\].
-const LONGEST_STEP: f64 = 0.05;
-
-fn check_each(parameters: &Parameters) -> Result<(), Refusal> {
-    let values = values(parameters);
-    let mut rest = &values[..];
-    for row in Parameters::ROWS {
-        let (mine, others) = rest.split_at(row.slots());
-        rest = others;
-        for (element, &value) in mine.iter().enumerate() {
-            let reason = match rule(row) {
-                _ if !value.is_finite() => "must be a finite number".to_owned(),
-                _ if value.abs() > LARGEST => format!("must not be beyond +-{LARGEST:e}"),
-                Rule::Positive if value <= 0.0 => "must be above 0".to_owned(),
-                Rule::NotNegative if value < 0.0 => "must not be below 0".to_owned(),
-                Rule::UpTo(largest) if value <= 0.0 || value > largest => {
-                    format!("must be above 0 and at most {largest}")
-                }
-                Rule::Between(min, max) if value < min || value > max => format!("must be from {min} to {max}"),
-                _ => match row.range {
-                    Some((min, max)) if value < min || value > max => format!("must be from {min} to {max}"),
-                    _ => continue,
-                },
-            };
-            return refuse(row.variable_name(element), format!("is {value}, but {reason}"));
-        }
-    }
-    Ok(())
 }
 
 fn check_head(parameters: &Parameters) -> Result<(), Refusal> {

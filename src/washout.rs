@@ -1,6 +1,6 @@
 //! The whole washout, the paper's Fig. 4: an input, an output, one step.
 
-use moris_interface::Refusal;
+use moris_interface::{Group, Refusal};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -110,7 +110,7 @@ impl Washout {
     /// The washout at rest at neutral before its first step, with this input: disengaged if that says so, and the head
     /// where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
-        self.input = input.made_finite();
+        self.input = input.sanitized();
         self.engagement = f64::from(input.engaged);
         let head = Head::new(&self.parameters.structure, self.input.lean);
         self.felt = felt(self.guard.motion(), &head, self.parameters.structure.gravity);
@@ -123,14 +123,14 @@ impl Washout {
     /// Any input is safe: components that are not a number count as at rest. A step shorter than [`SHORTEST_STEP`] does
     /// nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
-        let input = input.made_finite();
+        let input = input.sanitized();
         self.divided(step, |washout, _, step| washout.internal_step(&input, None, step));
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order hold); whether it is
     /// engaged is taken from `start`.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        let (start, end) = (start.made_finite(), end.made_finite());
+        let (start, end) = (start.sanitized(), end.sanitized());
         let mut from = start;
         self.divided(step, |washout, share, step| {
             let to = start.towards(&end, share);

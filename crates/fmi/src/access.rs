@@ -2,7 +2,7 @@
 
 use std::mem::MaybeUninit;
 
-use moris_interface::{Kind, Model};
+use moris_interface::Model;
 
 use crate::{Complaint, Instance, Mode, Role, Scalar, VariableCheck, Variables};
 
@@ -245,20 +245,10 @@ impl<M: Model> Instance<M> {
         if self.tables.checks[slot].accepts(value) {
             return None;
         }
-        let row = M::IDENTITY.row(slot);
-        let wanted = match (row.kind, row.range) {
-            _ if !value.is_finite() => "not a finite number".into(),
-            (Kind::Enumeration(enumeration), _) => {
-                let items = enumeration.items.iter().enumerate();
-                let items: Vec<_> = items.map(|(i, item)| format!("{} ({})", i + 1, item.name)).collect();
-                format!("none of {}", items.join(", "))
-            }
-            (_, Some((min, max))) => format!("not within {min} to {max}"),
-            (_, None) => "out of range".into(),
-        };
-        let (name, old) = (self.name(reference), self.run.values[slot]);
+        let (name, reason) = (self.name(reference), M::IDENTITY.row(slot).reason(value));
+        let old = self.run.values[slot];
         Some(Complaint::discard(format!(
-            "{name} = {value} is {wanted}. No value of this call has been taken; {name} is still {old}"
+            "{name} {reason}. No value of this call has been taken; {name} is still {old}"
         )))
     }
 }

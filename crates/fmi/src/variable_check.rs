@@ -48,7 +48,7 @@ pub struct VariableCheck {
     pub row_slots: u32,
     /// The modes in which it can be set.
     pub settable: Modes,
-    /// The smallest and the largest value; NaN and the infinities are never between them.
+    /// The smallest and the largest value that can be set; NaN and the infinities are never between them.
     lower: f64,
     upper: f64,
 }
@@ -56,21 +56,22 @@ pub struct VariableCheck {
 impl VariableCheck {
     /// The check of a row's scalar variable number `element` (from 0).
     pub const fn of(row: &Row, element: usize) -> Self {
-        let (value_type, (lower, upper)) = match row.kind {
-            Kind::Real(_) => (ValueType::Real, (f64::MIN, f64::MAX)),
-            Kind::Integer => (ValueType::Integer, (i32::MIN as f64, i32::MAX as f64)),
-            Kind::Boolean => (ValueType::Boolean, (0.0, 1.0)),
-            Kind::Enumeration(enumeration) => (ValueType::Enumeration, (1.0, enumeration.items.len() as f64)),
+        let value_type = match row.kind {
+            Kind::Real(_) => ValueType::Real,
+            Kind::Integer => ValueType::Integer,
+            Kind::Boolean => ValueType::Boolean,
+            Kind::Enumeration(_) => ValueType::Enumeration,
         };
-        let (lower, upper) = match row.range {
-            Some(range) => range,
-            None => (lower, upper),
+        let (lower, upper) = match (row.causality, row.kind) {
+            // A host's rounding may put a real input a little beyond its range: the model takes it as the range's end.
+            (Causality::Input, Kind::Real(_)) => (f64::MIN, f64::MAX),
+            _ => row.bounds(),
         };
         let row_slots = if element == 0 { row.slots() as u32 } else { 0 };
         VariableCheck { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
     }
 
-    /// Whether `value` is finite and inside the variable's range.
+    /// Whether the variable can be set to `value`.
     #[inline]
     pub fn accepts(&self, value: f64) -> bool {
         value >= self.lower && value <= self.upper

@@ -3,22 +3,28 @@
 /// Declares a struct of variables.
 ///
 /// Each field: the FMI name (a template, see [`Row`](crate::Row)), the Rust name and type, the unit in brackets where it
-/// is a real with one, the inclusive range in braces where it has one, and the start value. The doc comment is the
-/// variable's description everywhere: write one sentence, without markup.
+/// is a real with one, the range in braces, and the start value. Both ends of a range are inside it, and all checks take
+/// it from here. The start value is a constant expression: the compiler evaluates it, so that no machine's arithmetic
+/// changes it. The doc comment is the variable's description everywhere: write one sentence, without markup.
 ///
 /// ```
 /// use moris_interface::{interface, units::*, Group};
 /// interface! {
-///     /// What a spring is told.
+///     /// Parameters of a spring.
 ///     pub struct Spring: Parameter, Fixed {
 ///         /// Length at which the spring carries no load.
-///         "spring.length" length: f64 [M] = 0.3;
+///         "spring.length" length: f64 [M] { 0.01 ..= 10.0 } = 0.3;
+///         /// Damping ratio.
+///         "spring.damping" damping: f64 { 0.0 ..= 2.0 } = 0.7;
 ///         /// Number of coils.
 ///         "spring.coils" coils: i32 { 1 ..= 100 } = 7;
 ///     }
 /// }
-/// assert_eq!(Spring::ROWS[1].variable_name(0), "spring.coils");
+/// assert_eq!(Spring::ROWS[2].variable_name(0), "spring.coils");
 /// assert_eq!(Spring::default().length, 0.3);
+/// let stretched = Spring { length: 11.0, ..Spring::default() };
+/// let error = stretched.check_ranges().unwrap_err();
+/// assert_eq!(error.to_string(), "spring.length: is 11, but must be from 0.01 to 10");
 /// ```
 #[macro_export]
 macro_rules! interface {
@@ -27,7 +33,7 @@ macro_rules! interface {
         pub struct $group:ident: $causality:ident, $variability:ident {
             $(
                 $(#[doc = $text:literal])+
-                $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $min:literal ..= $max:literal })? = $start:expr;
+                $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $range:expr })? = $start:expr;
             )+
         }
     ) => {
@@ -40,7 +46,7 @@ macro_rules! interface {
 
         impl Default for $group {
             fn default() -> Self {
-                $group { $( $field: $start, )+ }
+                <Self as $crate::Group>::START
             }
         }
 
@@ -53,10 +59,11 @@ macro_rules! interface {
                     <$type as $crate::Field>::KIND $(.in_unit(&$unit))?,
                     <$type as $crate::Field>::COUNT,
                     <$type as $crate::Field>::COMPONENTS,
-                    $crate::interface!(@range $($min, $max)?),
+                    $crate::interface!(@range $($range)?),
                     concat!($($text),+),
                 ), )+
             ];
+            const START: Self = $group { $( $field: $start, )+ };
             #[inline]
             fn read(reader: &mut $crate::Reader) -> Self {
                 let mut reader = reader.part(const { $crate::slot_count(Self::ROWS) });
@@ -67,10 +74,40 @@ macro_rules! interface {
                 let mut writer = writer.part(const { $crate::slot_count(Self::ROWS) });
                 $( writer.put(self.$field); )+
             }
+            fn check_ranges(&self) -> Result<(), $crate::Refusal> {
+                let mut rows = Self::ROWS.iter();
+                $(
+                    let row = rows.next().expect("a struct has a row for each of its fields");
+                    if !$crate::Field::is_within(self.$field, row.bounds()) {
+                        return Err(row.refusal(self.$field));
+                    }
+                )+
+                Ok(())
+            }
+            #[inline]
+            fn sanitized(&self) -> Self {
+                let usable = true $( & $crate::Field::is_within(self.$field, $crate::interface!(@bounds $($range)?)) )+;
+                if usable { *self } else { self.forced_into_ranges() }
+            }
+            #[cold]
+            fn forced_into_ranges(&self) -> Self {
+                $group {
+                    $( $field: $crate::Field::sanitized(
+                        self.$field,
+                        Self::START.$field,
+                        $crate::interface!(@bounds $($range)?),
+                    ), )+
+                }
+            }
         }
     };
     (@range) => { None };
-    (@range $min:literal, $max:literal) => { Some(($min as f64, $max as f64)) };
+    (@range $range:expr) => { Some($crate::interface!(@bounds $range)) };
+    (@bounds) => { (f64::MIN, f64::MAX) };
+    (@bounds $range:expr) => {
+        // Whole numbers and reals alike.
+        const { (*($range).start() as f64, *($range).end() as f64) }
+    };
 }
 
 /// Declares a struct of groups, itself a group: its rows are theirs, one group after another.
@@ -83,10 +120,16 @@ macro_rules! interface_tree {
         }
     ) => {
         $(#[$attribute])*
-        #[derive(Clone, Copy, Debug, Default, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, $crate::serde::Serialize, $crate::serde::Deserialize)]
         #[serde(crate = "moris_interface::serde")]
         pub struct $group {
             $( $(#[$field_attribute])* pub $field: $type, )+
+        }
+
+        impl Default for $group {
+            fn default() -> Self {
+                <Self as $crate::Group>::START
+            }
         }
 
         impl $crate::Group for $group {
@@ -95,11 +138,22 @@ macro_rules! interface_tree {
                 const ROWS: [$crate::Row; $crate::row_count(GROUPS)] = $crate::concat_rows(GROUPS);
                 &ROWS
             };
+            const START: Self = $group { $( $field: <$type as $crate::Group>::START, )+ };
             fn read(reader: &mut $crate::Reader) -> Self {
                 $group { $( $field: $crate::Group::read(reader), )+ }
             }
             fn write(&self, writer: &mut $crate::Writer) {
                 $( $crate::Group::write(&self.$field, writer); )+
+            }
+            fn check_ranges(&self) -> Result<(), $crate::Refusal> {
+                $( $crate::Group::check_ranges(&self.$field)?; )+
+                Ok(())
+            }
+            fn sanitized(&self) -> Self {
+                $group { $( $field: $crate::Group::sanitized(&self.$field), )+ }
+            }
+            fn forced_into_ranges(&self) -> Self {
+                $group { $( $field: $crate::Group::forced_into_ranges(&self.$field), )+ }
             }
         }
     };

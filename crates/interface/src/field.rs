@@ -13,7 +13,31 @@ pub trait Field: Copy {
     const KIND: Kind = Kind::Real(&units::ONE);
     fn read(slots: &[f64]) -> Self;
     fn write(self, slots: &mut [f64]);
+
+    /// Whether every scalar is a number from the first to the second of `range`.
+    #[inline]
+    fn is_within(self, (min, max): (f64, f64)) -> bool {
+        let mut room = [0.0; LARGEST_FIELD];
+        let slots = &mut room[..Self::COUNT * Self::COMPONENTS.len()];
+        self.write(slots);
+        slots.iter().fold(true, |all, &value| all & (min..=max).contains(&value))
+    }
+
+    /// Every scalar moved to the nearest end of `range` if it is outside, or to `rest` if it is not a number.
+    fn sanitized(self, rest: Self, (min, max): (f64, f64)) -> Self {
+        let mut room = [[0.0; LARGEST_FIELD]; 2];
+        let [slots, rests] = room.each_mut().map(|room| &mut room[..Self::COUNT * Self::COMPONENTS.len()]);
+        self.write(slots);
+        rest.write(rests);
+        for (slot, rest) in slots.iter_mut().zip(rests) {
+            *slot = if slot.is_nan() { *rest } else { slot.clamp(min, max) };
+        }
+        Self::read(slots)
+    }
 }
+
+/// Slots of the largest field: six vectors.
+const LARGEST_FIELD: usize = 18;
 
 impl Field for f64 {
     fn read(slots: &[f64]) -> Self {

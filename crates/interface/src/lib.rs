@@ -22,17 +22,31 @@ pub use serde;
 pub use field::Field;
 pub use guid::{guid, guid_of};
 pub use model::{Identity, Model, Refusal, refuse};
-pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, concat_rows, row_count};
+pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count};
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
 pub use start::{read_start_values, start_values, write_start_values};
-pub use unit::{BaseUnit, Unit, units};
+pub use unit::{BaseUnit, DisplayUnit, Unit, units};
 
 /// A struct whose fields are variables of the interface: made by [`interface!`] and [`interface_tree!`].
-pub trait Group: Default {
+pub trait Group: Default + 'static {
     /// The rows of the struct's fields, in the order of the fields.
     const ROWS: &'static [Row];
+    /// The start values.
+    const START: Self;
     /// Takes the struct's fields from the reader's next slots.
     fn read(reader: &mut Reader) -> Self;
     /// Puts the struct's fields into the writer's next slots.
     fn write(&self, writer: &mut Writer);
+
+    /// Checks every value against the range of its row.
+    ///
+    /// # Errors
+    /// The first variable that is not a finite number or outside its range.
+    fn check_ranges(&self) -> Result<(), Refusal>;
+
+    /// The values forced into their ranges: a number outside counts as the nearest end, and what is not a number as the
+    /// start value.
+    fn sanitized(&self) -> Self;
+    #[doc(hidden)] // the part of `sanitized` that is rarely needed
+    fn forced_into_ranges(&self) -> Self;
 }

@@ -1,6 +1,6 @@
 //! A row of the interface: one field of a struct, one or several scalar variables.
 
-use crate::Unit;
+use crate::{Field, Refusal, Unit};
 
 /// Who sets a variable (FMI 2.0, 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -21,7 +21,7 @@ pub enum Variability {
 }
 
 /// What a variable's values are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Real(&'static Unit),
     Integer,
@@ -68,7 +68,8 @@ pub struct Row {
     pub count: usize,
     /// Components of an element: `["x", "y", "z"]`, say, or `[""]`.
     pub components: &'static [&'static str],
-    /// The smallest and the largest value allowed, both inclusive.
+    /// The smallest and the largest value allowed, both inclusive. An input beyond them counts as the nearer one, any
+    /// other variable takes no such value.
     pub range: Option<(f64, f64)>,
     text: &'static str,
 }
@@ -94,6 +95,48 @@ impl Row {
         Row { name, causality, variability, kind, count, components, range, text }
     }
 
+    /// The smallest and the largest value, whatever the row says of them; NaN and the infinities are never between them.
+    pub const fn bounds(&self) -> (f64, f64) {
+        match (self.range, self.kind) {
+            (Some(range), _) => range,
+            (None, Kind::Real(_)) => (f64::MIN, f64::MAX),
+            (None, Kind::Integer) => (i32::MIN as f64, i32::MAX as f64),
+            (None, Kind::Boolean) => (0.0, 1.0),
+            (None, Kind::Enumeration(enumeration)) => (1.0, enumeration.items.len() as f64),
+        }
+    }
+
+    /// Whether a value is finite and within the row's range.
+    pub fn accepts(&self, value: f64) -> bool {
+        let (min, max) = self.bounds();
+        (min..=max).contains(&value)
+    }
+
+    /// The reason why the row's scalar variable cannot have this value, in words that go on its name.
+    pub fn reason(&self, value: f64) -> String {
+        let wanted = match (self.kind, self.range) {
+            (Kind::Enumeration(enumeration), _) => {
+                let items = enumeration.items.iter().zip(1..);
+                let items: Vec<_> = items.map(|(item, number)| format!("{number} ({})", item.name)).collect();
+                format!("one of {}", items.join(", "))
+            }
+            (_, None) => "a finite number".to_owned(),
+            (_, Some((min, max))) if value.is_finite() => format!("from {min} to {max}"),
+            (_, Some((min, max))) => format!("a finite number from {min} to {max}"),
+        };
+        format!("is {value}, but must be {wanted}")
+    }
+
+    /// The error about the first scalar variable of a field that is outside the row's range.
+    #[doc(hidden)] // for `interface!`
+    #[cold]
+    pub fn refusal<F: Field>(&self, field: F) -> Refusal {
+        let mut slots = vec![0.0; self.slots()];
+        field.write(&mut slots);
+        let element = slots.iter().position(|&value| !self.accepts(value)).unwrap_or(0);
+        Refusal { variable: self.variable_name(element), reason: self.reason(slots[element]) }
+    }
+
     /// How many scalar variables the row is.
     pub const fn slots(&self) -> usize {
         self.count * self.components.len()
@@ -115,6 +158,30 @@ impl Row {
     pub fn array_name(&self) -> String {
         self.name.replace("[#]", "").replace(".@", "")
     }
+}
+
+/// The smallest and the largest value of the row of this name.
+///
+/// # Panics
+/// If no row has this name; in a constant, the compiler says so.
+pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
+    let mut r = 0;
+    while r < rows.len() {
+        if is_same(rows[r].name.as_bytes(), name.as_bytes()) {
+            return rows[r].bounds();
+        }
+        r += 1;
+    }
+    panic!("no row has this name")
+}
+
+/// `==` for a constant.
+const fn is_same(a: &[u8], b: &[u8]) -> bool {
+    let mut k = 0;
+    while k < a.len() && k < b.len() && a[k] == b[k] {
+        k += 1;
+    }
+    k == a.len() && k == b.len()
 }
 
 /// How many rows the groups have together.

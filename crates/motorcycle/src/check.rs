@@ -1,6 +1,6 @@
 //! Whether parameters can be used: each on its own, and together.
 
-use moris_interface::{Group, Kind, Refusal, Row, Writer, refuse, slot_count};
+use moris_interface::{Group, Refusal, refuse};
 
 use nalgebra::{Complex, SVector};
 
@@ -16,7 +16,7 @@ use crate::suspension::Suspension;
 /// # Errors
 /// The first parameter that cannot be used, and why.
 pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
-    check_each(parameters)?;
+    parameters.check_ranges()?;
     let loads = static_loads(&crate::lateral::bicycle(&parameters.machine), parameters.run.gravity);
     let weight = loads.front + loads.rear;
     let least = LEAST_LOAD.max(parameters.longitudinal.lift_reserve) * weight;
@@ -119,7 +119,7 @@ pub fn ridden(
 /// What either wheel must carry of the weight at least.
 const LEAST_LOAD: f64 = 0.02;
 /// Beyond this nothing is designed \[m/s\].
-const LARGEST_SPEED: f64 = 150.0;
+pub const LARGEST_SPEED: f64 = 150.0;
 /// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step; with a margin.
 const LARGEST_POLE: f64 = 2.0;
 
@@ -134,71 +134,3 @@ fn fastest_lag(parameters: &Parameters) -> f64 {
 
 /// How many speeds are looked at.
 const SPEEDS: u32 = 200;
-
-type Values = [f64; slot_count(Parameters::ROWS)];
-
-/// What a value must be on its own.
-enum Rule {
-    Finite,
-    NotNegative,
-    Positive,
-    /// From the first to the second.
-    Between(f64, f64),
-}
-
-/// The rule for a row. The ends of those with ends are far out: beyond them no motorcycle is, and arithmetic fails.
-fn rule(row: &Row) -> Rule {
-    match row.name {
-        _ if matches!(row.kind, Kind::Enumeration(_)) => Rule::Finite,
-        "frame.inertia.xz" | "fork.inertia.xz" | "fork.centre.x" | "geometry.trail" | "initial.heading" => Rule::Finite,
-        "steer.damping" | "suspension.front.damping" | "suspension.rear.damping" => Rule::NotNegative,
-        "drive.engineBraking" | "brake.forceLimit" | "brake.frontShare" | "wheelLift.reserve" => Rule::NotNegative,
-        "tyre.front.camberStiffness" | "tyre.rear.camberStiffness" | "tyre.rollingResistance" => Rule::NotNegative,
-        "rider.torsoMass" | "head.torsoLength" => Rule::NotNegative,
-        "aero.height" | "rider.torsoCentre" => Rule::Between(0.0, 3.0),
-        "rider.torsoInertia" => Rule::Between(0.0, 100.0),
-        "head.x" => Rule::Between(-5.0, 5.0),
-        "head.height" => Rule::Between(1e-3, 5.0),
-        "rider.bodyLeanShare" => Rule::Between(-1.0, 1.0),
-        "rider.bodyLeanLimit" => Rule::Between(0.0, 1.5),
-        "rider.bodyLeanFrequency" => Rule::Between(0.1, 50.0),
-        "rider.leanLimit" => Rule::Between(1e-3, 1.2),
-        "rider.leanFrequency" => Rule::Between(0.1, 50.0),
-        "rider.leanRateLimit" => Rule::Between(1e-3, 10.0),
-        "steer.lock" => Rule::Between(1e-3, 1.5),
-        "geometry.casterAngle" => Rule::Between(-1.0, 1.2),
-        "feet.speed" => Rule::Between(0.5, 10.0),
-        "tyre.friction" => Rule::Between(0.05, 3.0),
-        "initial.speed" => Rule::Between(0.0, LARGEST_SPEED),
-        "solver.maxStep" => Rule::Between(1e-6, 0.01),
-        _ => Rule::Positive,
-    }
-}
-
-/// No motorcycle comes near this in SI units; far beyond it arithmetic would overflow.
-const LARGEST: f64 = 1e9;
-
-fn check_each(parameters: &Parameters) -> Result<(), Refusal> {
-    let mut values: Values = [0.0; slot_count(Parameters::ROWS)];
-    parameters.write(&mut Writer::new(&mut values));
-    let mut rest = &values[..];
-    for row in Parameters::ROWS {
-        let (mine, others) = rest.split_at(row.slots());
-        rest = others;
-        for (element, &value) in mine.iter().enumerate() {
-            let reason = match rule(row) {
-                _ if !value.is_finite() => "must be a finite number".to_owned(),
-                _ if value.abs() > LARGEST => format!("must not be beyond +-{LARGEST:e}"),
-                Rule::Positive if value <= 0.0 => "must be above 0".to_owned(),
-                Rule::NotNegative if value < 0.0 => "must not be below 0".to_owned(),
-                Rule::Between(min, max) if value < min || value > max => format!("must be from {min} to {max}"),
-                _ => match row.range {
-                    Some((min, max)) if value < min || value > max => format!("must be from {min} to {max}"),
-                    _ => continue,
-                },
-            };
-            return refuse(row.variable_name(element), format!("is {value}, but {reason}"));
-        }
-    }
-    Ok(())
-}

@@ -4,12 +4,15 @@
 //! first among the outputs, by the washout's own names, so that the two connect one to one.
 
 use moris_interface::units::{
-    KG, KG_M2, KG_PER_M3, M, M_PER_S, M_PER_S2, M2, N, N_M, N_M_S_PER_RAD, N_PER_M, N_S_PER_M, PER_RAD, RAD, RAD_PER_S,
-    S, W,
+    ANGULAR_FREQUENCY, KG, KG_M2, KG_PER_M3, M, M_PER_S, M_PER_S2, M2, N, N_M, N_M_S_PER_RAD, N_PER_M, N_S_PER_M,
+    PER_RAD, RAD, RAD_PER_S, S, W,
 };
 use moris_interface::{interface, interface_tree};
 use moris_washout::interface::{AngularVelocityFrame, RollPitchYaw, STANDARD_GRAVITY};
 use nalgebra::Vector3;
+
+use crate::check::LARGEST_SPEED;
+use crate::motorcycle::STRONGEST_WIND;
 
 interface! {
     /// What the host's clock says.
@@ -22,16 +25,16 @@ interface! {
 interface! {
     /// What the rider is told to do, and the wind.
     pub struct Input: Input, Continuous {
-        /// Throttle, from 0 (closed) to 1 (full); what is beyond counts as the end.
-        "command.throttle" throttle: f64 = 0.0;
+        /// Throttle, from 0 (closed) to 1 (full).
+        "command.throttle" throttle: f64 { 0.0 ..= 1.0 } = 0.0;
         /// Brakes, from 0 (off) to 1 (as hard as they can), shared out between the wheels by brake.frontShare.
-        "command.brake" brake: f64 = 0.0;
+        "command.brake" brake: f64 { 0.0 ..= 1.0 } = 0.0;
         /// Roll angle that the rider steers the motorcycle to, positive to the right.
-        "command.lean" lean: f64 [RAD] = 0.0;
+        "command.lean" lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
         /// Lean of the rider's torso relative to the motorcycle, positive to the right; added to what rider.bodyLeanShare makes of the commanded lean.
-        "command.riderLean" rider_lean: f64 [RAD] = 0.0;
-        /// Force of the wind on motorcycle and rider besides the drag of still air, in axes that follow the heading (x forward, y left, z up), midway between the wheels at aero.height; beyond 600 N counts as 600 N.
-        "wind.force.@" wind: Vector3<f64> [N] = Vector3::new(0.0, 0.0, 0.0);
+        "command.riderLean" rider_lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
+        /// Force of the wind on motorcycle and rider besides the drag of still air, in axes that follow the heading (x forward, y left, z up), midway between the wheels at aero.height.
+        "wind.force.@" wind: Vector3<f64> [N] { -STRONGEST_WIND ..= STRONGEST_WIND } = Vector3::new(0.0, 0.0, 0.0);
     }
 }
 
@@ -100,57 +103,57 @@ interface! {
     /// measured from the rear tyre's contact, x forward; heights above the road.
     pub struct Machine: Parameter, Fixed {
         /// Distance of the two tyres' contacts.
-        "geometry.wheelbase" wheelbase: f64 [M] = 1.448;
+        "geometry.wheelbase" wheelbase: f64 [M] { 0.1 ..= 10.0 } = 1.448;
         /// Trail: how far the front tyre's contact is behind the point where the steering axis meets the road.
-        "geometry.trail" trail: f64 [M] = 0.1176;
+        "geometry.trail" trail: f64 [M] { -2.0 ..= 2.0 } = 0.1176;
         /// Angle of the steering axis from the vertical, leaning back.
-        "geometry.casterAngle" caster_angle: f64 [RAD] = 0.467_748_239_534_480_3;
+        "geometry.casterAngle" caster_angle: f64 [RAD] { -1.0 ..= 1.2 } = 0.467_748_239_534_480_3;
         /// Radius of the rear wheel.
-        "rearWheel.radius" rear_wheel_radius: f64 [M] = 0.299;
+        "rearWheel.radius" rear_wheel_radius: f64 [M] { 0.01 ..= 2.0 } = 0.299;
         /// Mass of the rear wheel.
-        "rearWheel.mass" rear_wheel_mass: f64 [KG] = 15.0;
+        "rearWheel.mass" rear_wheel_mass: f64 [KG] { 1e-3 ..= 1e3 } = 15.0;
         /// Moment of inertia of the rear wheel about a diameter.
-        "rearWheel.inertia.xx" rear_wheel_xx: f64 [KG_M2] = 0.42;
+        "rearWheel.inertia.xx" rear_wheel_xx: f64 [KG_M2] { 1e-6 ..= 1e3 } = 0.42;
         /// Moment of inertia of the rear wheel about its axle, with what of the drive turns with it.
-        "rearWheel.inertia.yy" rear_wheel_yy: f64 [KG_M2] = 0.8;
+        "rearWheel.inertia.yy" rear_wheel_yy: f64 [KG_M2] { 1e-6 ..= 1e3 } = 0.8;
         /// Distance of the rear frame's centre of mass, rider included, ahead of the rear contact.
-        "frame.centre.x" frame_x: f64 [M] = 0.642;
+        "frame.centre.x" frame_x: f64 [M] { 1e-3 ..= 10.0 } = 0.642;
         /// Height of the rear frame's centre of mass, rider included.
-        "frame.centre.height" frame_height: f64 [M] = 0.669;
+        "frame.centre.height" frame_height: f64 [M] { 1e-3 ..= 10.0 } = 0.669;
         /// Mass of the rear frame with engine and rider.
-        "frame.mass" frame_mass: f64 [KG] = 221.0;
+        "frame.mass" frame_mass: f64 [KG] { 1e-3 ..= 1e4 } = 221.0;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis forward.
-        "frame.inertia.xx" frame_xx: f64 [KG_M2] = 29.7;
+        "frame.inertia.xx" frame_xx: f64 [KG_M2] { 1e-6 ..= 1e5 } = 29.7;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis to the left: of pitch.
-        "frame.inertia.yy" frame_yy: f64 [KG_M2] = 48.0;
+        "frame.inertia.yy" frame_yy: f64 [KG_M2] { 1e-6 ..= 1e5 } = 48.0;
         /// Moment of inertia of the rear frame about its centre of mass, about the axis upwards.
-        "frame.inertia.zz" frame_zz: f64 [KG_M2] = 37.5;
+        "frame.inertia.zz" frame_zz: f64 [KG_M2] { 1e-6 ..= 1e5 } = 37.5;
         /// Product of inertia of the rear frame, minus the integral of x z dm about its centre of mass, x forward and z up.
-        "frame.inertia.xz" frame_xz: f64 [KG_M2] = 2.8;
+        "frame.inertia.xz" frame_xz: f64 [KG_M2] { -1e5 ..= 1e5 } = 2.8;
         /// Distance of the front assembly's centre of mass (fork and bars, without the wheel) ahead of the rear contact.
-        "fork.centre.x" fork_x: f64 [M] = 1.205;
+        "fork.centre.x" fork_x: f64 [M] { -10.0 ..= 10.0 } = 1.205;
         /// Height of the front assembly's centre of mass.
-        "fork.centre.height" fork_height: f64 [M] = 0.767;
+        "fork.centre.height" fork_height: f64 [M] { 1e-3 ..= 10.0 } = 0.767;
         /// Mass of the front assembly.
-        "fork.mass" fork_mass: f64 [KG] = 22.0;
+        "fork.mass" fork_mass: f64 [KG] { 1e-3 ..= 1e3 } = 22.0;
         /// Moment of inertia of the front assembly about its centre of mass, about the axis forward.
-        "fork.inertia.xx" fork_xx: f64 [KG_M2] = 1.3;
+        "fork.inertia.xx" fork_xx: f64 [KG_M2] { 1e-6 ..= 1e4 } = 1.3;
         /// Moment of inertia of the front assembly about its centre of mass, about the axis upwards.
-        "fork.inertia.zz" fork_zz: f64 [KG_M2] = 0.71;
+        "fork.inertia.zz" fork_zz: f64 [KG_M2] { 1e-6 ..= 1e4 } = 0.71;
         /// Product of inertia of the front assembly, minus the integral of x z dm about its centre of mass, x forward and z up.
-        "fork.inertia.xz" fork_xz: f64 [KG_M2] = 0.4;
+        "fork.inertia.xz" fork_xz: f64 [KG_M2] { -1e4 ..= 1e4 } = 0.4;
         /// Radius of the front wheel.
-        "frontWheel.radius" front_wheel_radius: f64 [M] = 0.294;
+        "frontWheel.radius" front_wheel_radius: f64 [M] { 0.01 ..= 2.0 } = 0.294;
         /// Mass of the front wheel.
-        "frontWheel.mass" front_wheel_mass: f64 [KG] = 12.0;
+        "frontWheel.mass" front_wheel_mass: f64 [KG] { 1e-3 ..= 1e3 } = 12.0;
         /// Moment of inertia of the front wheel about a diameter.
-        "frontWheel.inertia.xx" front_wheel_xx: f64 [KG_M2] = 0.32;
+        "frontWheel.inertia.xx" front_wheel_xx: f64 [KG_M2] { 1e-6 ..= 1e3 } = 0.32;
         /// Moment of inertia of the front wheel about its axle.
-        "frontWheel.inertia.yy" front_wheel_yy: f64 [KG_M2] = 0.6;
+        "frontWheel.inertia.yy" front_wheel_yy: f64 [KG_M2] { 1e-6 ..= 1e3 } = 0.6;
         /// Steering damper: torque for a rate of steer.
-        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] = 7.4;
+        "steer.damping" steer_damping: f64 [N_M_S_PER_RAD] { 0.0 ..= 1e4 } = 7.4;
         /// Largest steer angle that the rider asks for.
-        "steer.lock" steer_lock: f64 [RAD] = 0.5;
+        "steer.lock" steer_lock: f64 [RAD] { 1e-3 ..= 1.5 } = 0.5;
     }
 }
 
@@ -158,21 +161,21 @@ interface! {
     /// The tyres, by their load at rest.
     pub struct Tyres: Parameter, Fixed {
         /// Lateral force for a small slip angle of the front tyre, divided by its load.
-        "tyre.front.corneringStiffness" front_cornering: f64 [PER_RAD] = 16.0;
+        "tyre.front.corneringStiffness" front_cornering: f64 [PER_RAD] { 0.1 ..= 1e3 } = 16.0;
         /// Lateral force for a small camber angle of the front tyre, divided by its load.
-        "tyre.front.camberStiffness" front_camber: f64 [PER_RAD] = 0.85;
+        "tyre.front.camberStiffness" front_camber: f64 [PER_RAD] { 0.0 ..= 100.0 } = 0.85;
         /// Distance that the front tyre rolls while its lateral force builds up.
-        "tyre.front.relaxationLength" front_relaxation: f64 [M] = 0.126;
+        "tyre.front.relaxationLength" front_relaxation: f64 [M] { 1e-4 ..= 10.0 } = 0.126;
         /// Lateral force for a small slip angle of the rear tyre, divided by its load.
-        "tyre.rear.corneringStiffness" rear_cornering: f64 [PER_RAD] = 14.5;
+        "tyre.rear.corneringStiffness" rear_cornering: f64 [PER_RAD] { 0.1 ..= 1e3 } = 14.5;
         /// Lateral force for a small camber angle of the rear tyre, divided by its load.
-        "tyre.rear.camberStiffness" rear_camber: f64 [PER_RAD] = 0.95;
+        "tyre.rear.camberStiffness" rear_camber: f64 [PER_RAD] { 0.0 ..= 100.0 } = 0.95;
         /// Distance that the rear tyre rolls while its lateral force builds up.
-        "tyre.rear.relaxationLength" rear_relaxation: f64 [M] = 0.144;
+        "tyre.rear.relaxationLength" rear_relaxation: f64 [M] { 1e-4 ..= 10.0 } = 0.144;
         /// Friction of the tyres on the road: the largest force along the road divided by the load.
-        "tyre.friction" friction: f64 = 1.2;
+        "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2;
         /// Rolling resistance divided by the load.
-        "tyre.rollingResistance" rolling_resistance: f64 = 0.018;
+        "tyre.rollingResistance" rolling_resistance: f64 { 0.0 ..= 1.0 } = 0.018;
     }
 }
 
@@ -180,27 +183,27 @@ interface! {
     /// Drive, brakes and air.
     pub struct Longitudinal: Parameter, Fixed {
         /// Largest power at the rear wheel.
-        "drive.power" power: f64 [W] = 85e3;
+        "drive.power" power: f64 [W] { 1.0 ..= 1e7 } = 85e3;
         /// Largest force at the rear wheel, in the lowest gear.
-        "drive.forceLimit" drive_force: f64 [N] = 3500.0;
+        "drive.forceLimit" drive_force: f64 [N] { 1.0 ..= 1e6 } = 3500.0;
         /// Drag of the engine at the rear wheel with the throttle closed.
-        "drive.engineBraking" engine_braking: f64 [N] = 150.0;
+        "drive.engineBraking" engine_braking: f64 [N] { 0.0 ..= 1e5 } = 150.0;
         /// Time constant with which the drive follows the throttle.
-        "drive.timeConstant" drive_time: f64 [S] = 0.15;
+        "drive.timeConstant" drive_time: f64 [S] { 1e-3 ..= 100.0 } = 0.15;
         /// Force of both brakes together when fully applied.
-        "brake.forceLimit" brake_force: f64 [N] = 3000.0;
+        "brake.forceLimit" brake_force: f64 [N] { 0.0 ..= 1e6 } = 3000.0;
         /// Share of the front brake in it.
         "brake.frontShare" brake_front_share: f64 { 0.0 ..= 1.0 } = 0.7;
         /// Time constant with which the brakes follow the lever.
-        "brake.timeConstant" brake_time: f64 [S] = 0.1;
+        "brake.timeConstant" brake_time: f64 [S] { 1e-3 ..= 100.0 } = 0.1;
         /// Share of the weight that drive and brakes always leave on either wheel.
         "wheelLift.reserve" lift_reserve: f64 { 0.0 ..= 0.3 } = 0.05;
         /// Drag coefficient times frontal area.
-        "aero.dragArea" drag_area: f64 [M2] = 0.467;
+        "aero.dragArea" drag_area: f64 [M2] { 1e-6 ..= 100.0 } = 0.467;
         /// Density of the air.
-        "aero.density" air_density: f64 [KG_PER_M3] = 1.2;
+        "aero.density" air_density: f64 [KG_PER_M3] { 1e-6 ..= 100.0 } = 1.2;
         /// Height of the point at which drag and wind act.
-        "aero.height" aero_height: f64 [M] = 0.582;
+        "aero.height" aero_height: f64 [M] { 0.0 ..= 3.0 } = 0.582;
     }
 }
 
@@ -208,13 +211,13 @@ interface! {
     /// The suspension, as springs and dampers upright at the wheels.
     pub struct Suspension: Parameter, Fixed {
         /// Stiffness of the front suspension at the wheel.
-        "suspension.front.stiffness" front_stiffness: f64 [N_PER_M] = 9e3;
+        "suspension.front.stiffness" front_stiffness: f64 [N_PER_M] { 1.0 ..= 1e7 } = 9e3;
         /// Damping of the front suspension at the wheel.
-        "suspension.front.damping" front_damping: f64 [N_S_PER_M] = 550.0;
+        "suspension.front.damping" front_damping: f64 [N_S_PER_M] { 0.0 ..= 1e7 } = 550.0;
         /// Stiffness of the rear suspension at the wheel.
-        "suspension.rear.stiffness" rear_stiffness: f64 [N_PER_M] = 25.7e3;
+        "suspension.rear.stiffness" rear_stiffness: f64 [N_PER_M] { 1.0 ..= 1e7 } = 25.7e3;
         /// Damping of the rear suspension at the wheel.
-        "suspension.rear.damping" rear_damping: f64 [N_S_PER_M] = 1100.0;
+        "suspension.rear.damping" rear_damping: f64 [N_S_PER_M] { 0.0 ..= 1e7 } = 1100.0;
     }
 }
 
@@ -222,33 +225,33 @@ interface! {
     /// The rider: his limits, how he follows a lean, his torso and his head.
     pub struct Rider: Parameter, Fixed {
         /// Largest roll angle that the rider steers to.
-        "rider.leanLimit" lean_limit: f64 [RAD] = 0.698_131_700_797_731_8;
+        "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8;
         /// Natural frequency with which the rider takes up a commanded lean.
-        "rider.leanFrequency" lean_frequency: f64 [RAD_PER_S] = 4.0;
+        "rider.leanFrequency" lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 4.0;
         /// Largest rate of roll that the rider asks for.
-        "rider.leanRateLimit" lean_rate_limit: f64 [RAD_PER_S] = 0.8;
+        "rider.leanRateLimit" lean_rate_limit: f64 [RAD_PER_S] { 1e-3 ..= 10.0 } = 0.8;
         /// Torque on the bars that the rider spares as much as an error of 0.1 rad of lean: small is firm, large is gentle.
-        "rider.torqueWeight" torque_weight: f64 [N_M] = 30.0;
+        "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0;
         /// Lean of the rider's torso as a share of the lean that he steers to.
-        "rider.bodyLeanShare" body_lean_share: f64 = 0.1;
+        "rider.bodyLeanShare" body_lean_share: f64 { -1.0 ..= 1.0 } = 0.1;
         /// Natural frequency with which the rider's torso takes up its lean.
-        "rider.bodyLeanFrequency" body_lean_frequency: f64 [RAD_PER_S] = 8.0;
+        "rider.bodyLeanFrequency" body_lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 8.0;
         /// Largest lean of the rider's torso relative to the motorcycle.
-        "rider.bodyLeanLimit" body_lean_limit: f64 [RAD] = 0.35;
+        "rider.bodyLeanLimit" body_lean_limit: f64 [RAD] { 0.0 ..= 1.5 } = 0.35;
         /// Mass of the torso that leans, with head and arms; part of frame.mass.
-        "rider.torsoMass" torso_mass: f64 [KG] = 44.5;
+        "rider.torsoMass" torso_mass: f64 [KG] { 0.0 ..= 1e3 } = 44.5;
         /// Distance of the torso's centre of mass from the seat, about which it leans.
-        "rider.torsoCentre" torso_centre: f64 [M] = 0.4;
+        "rider.torsoCentre" torso_centre: f64 [M] { 0.0 ..= 3.0 } = 0.4;
         /// Moment of inertia of the torso about its centre of mass, about the axis forward.
-        "rider.torsoInertia" torso_inertia: f64 [KG_M2] = 1.3;
+        "rider.torsoInertia" torso_inertia: f64 [KG_M2] { 0.0 ..= 100.0 } = 1.3;
         /// Speed below which feet on the road and firm hands hold the motorcycle upright, the more the slower.
-        "feet.speed" feet_speed: f64 [M_PER_S] = 3.0;
+        "feet.speed" feet_speed: f64 [M_PER_S] { 0.5 ..= 10.0 } = 3.0;
         /// Distance of the rider's head ahead of the rear contact.
-        "head.x" head_x: f64 [M] = 0.65;
+        "head.x" head_x: f64 [M] { -5.0 ..= 5.0 } = 0.65;
         /// Height of the rider's head above the road.
-        "head.height" head_height: f64 [M] = 1.5;
+        "head.height" head_height: f64 [M] { 1e-3 ..= 5.0 } = 1.5;
         /// Length of the torso from seat to head, about whose lower end the rider leans.
-        "head.torsoLength" torso_length: f64 [M] = 0.75;
+        "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 5.0 } = 0.75;
     }
 }
 
@@ -256,15 +259,15 @@ interface! {
     /// Where the ride begins, and how it is computed.
     pub struct Run: Parameter, Fixed {
         /// Magnitude of gravity.
-        "gravity" gravity: f64 [M_PER_S2] = STANDARD_GRAVITY;
+        "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// The axes of vehicle.angularVelocity, the same as in the washout.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Speed at the beginning.
-        "initial.speed" initial_speed: f64 [M_PER_S] = 0.0;
+        "initial.speed" initial_speed: f64 [M_PER_S] { 0.0 ..= LARGEST_SPEED } = 0.0;
         /// Heading at the beginning.
-        "initial.heading" initial_heading: f64 [RAD] = 0.0;
+        "initial.heading" initial_heading: f64 [RAD] { -1e6 ..= 1e6 } = 0.0;
         /// Longest internal step; a longer communication step is divided.
-        "solver.maxStep" max_step: f64 [S] = 0.001;
+        "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.01 } = 0.001;
     }
 }
 

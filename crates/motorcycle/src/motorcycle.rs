@@ -1,6 +1,6 @@
 //! The whole: parameters, state, and a step.
 
-use moris_interface::Refusal;
+use moris_interface::{Group, Refusal};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::braking_law::Motion;
 use nalgebra::{Vector2, Vector3};
@@ -81,7 +81,7 @@ impl Motorcycle {
             output: Output::default(),
             output_derivative: rest_rate(),
         };
-        motorcycle.output = motorcycle.output_for(&made_safe(input));
+        motorcycle.output = motorcycle.output_for(&input.sanitized());
         Ok(motorcycle)
     }
 
@@ -131,7 +131,7 @@ impl Motorcycle {
         }
         let longest = self.parameters.run.max_step;
         let step = step.min(MOST_INTERNAL_STEPS * longest);
-        let (start, end) = (made_safe(start), made_safe(end));
+        let (start, end) = (start.sanitized(), end.sanitized());
         let steps = libm::ceil((step / longest - 1e-6).max(1.0));
         let size = step / steps;
         for k in 0..steps as u32 {
@@ -299,18 +299,6 @@ fn roll(state: &lateral::State, derivative: &lateral::State) -> Motion {
         position: libm::atan(tangent),
         velocity,
         acceleration: cos2 * derivative[place::LEAN_RATE] - 2.0 * tangent * velocity * velocity,
-    }
-}
-
-/// The input with every number finite and within what it counts up to.
-fn made_safe(input: &Input) -> Input {
-    let number = |value: f64, low: f64, high: f64| if value.is_nan() { 0.0 } else { value.clamp(low, high) };
-    Input {
-        throttle: number(input.throttle, 0.0, 1.0),
-        brake: number(input.brake, 0.0, 1.0),
-        lean: number(input.lean, -1.5, 1.5),
-        rider_lean: number(input.rider_lean, -1.5, 1.5),
-        wind: input.wind.map(|force| number(force, -STRONGEST_WIND, STRONGEST_WIND)),
     }
 }
 

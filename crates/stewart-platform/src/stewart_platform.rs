@@ -1,6 +1,6 @@
 //! The whole platform: commands in, one step, the real motion out.
 
-use moris_interface::Refusal;
+use moris_interface::{Group, Refusal, bounds_of};
 use moris_washout::cueing::evaluator::{Felt, felt};
 use moris_washout::interface::StructureParameters;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
@@ -101,7 +101,7 @@ impl StewartPlatform {
 
     /// The platform before its first step, with the rider leaning like this \[rad\].
     pub fn starting_with(mut self, lean: f64) -> Self {
-        self.now.lean = finite_or(lean, 0.0);
+        self.now.lean = lean_or(lean, 0.0);
         self.before.lean = self.now.lean;
         self
     }
@@ -116,7 +116,7 @@ impl StewartPlatform {
     /// Any input is safe: a length that no actuator can have is not followed, and the one before it stays. A step shorter
     /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
-        let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i]);
+        let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i].clamp(VELOCITY.0, VELOCITY.1));
         self.step_between(input, &Input { length: end, ..*input }, step);
     }
 
@@ -132,7 +132,7 @@ impl StewartPlatform {
         let to = self.possible(&end.length);
         self.commands.push(&Ramp { duration: step, from, to });
         let kept = self.now.lean;
-        let (lean, leaning) = (finite_or(start.lean, kept), finite_or(end.lean, kept));
+        let (lean, leaning) = (lean_or(start.lean, kept), lean_or(end.lean, kept));
         let mut left = step;
         while left >= SHORTEST_STEP {
             let ramp = self.commands.pop(left.min(self.parameters.setting.max_step));
@@ -373,10 +373,11 @@ fn ahead(motion: &PlatformMotion, time: f64) -> PlatformMotion {
     }
 }
 
-/// No machine comes near this in SI units; beyond it arithmetic would.
-const LARGEST: f64 = 1e9;
+/// The ranges of the commanded velocities \[m/s\] and of the lean \[rad\].
+const VELOCITY: (f64, f64) = bounds_of(Input::ROWS, "command[#].velocity");
+const LEAN: (f64, f64) = bounds_of(Input::ROWS, "rider.lean");
 
-/// A number of a size that can be reckoned with, or another where it is none.
-fn finite_or(value: f64, other: f64) -> f64 {
-    if value.is_nan() { other } else { value.clamp(-LARGEST, LARGEST) }
+/// The lean within its range, or another where it is not a number.
+fn lean_or(lean: f64, other: f64) -> f64 {
+    if lean.is_nan() { other } else { lean.clamp(LEAN.0, LEAN.1) }
 }

@@ -9,7 +9,7 @@ pub struct Unit {
     pub name: String,
     #[serde(rename = "BaseUnit")]
     pub base_unit: BaseUnit,
-    #[serde(rename = "DisplayUnit", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "DisplayUnit", default, skip_serializing_if = "Option::is_none")]
     pub display_unit: Option<DisplayUnit>,
 }
 
@@ -39,14 +39,33 @@ pub struct DisplayUnit {
 impl From<&moris_interface::Unit> for Unit {
     fn from(unit: &moris_interface::Unit) -> Self {
         let moris_interface::BaseUnit { kg, m, s, rad } = unit.base;
-        Unit { name: unit.name.to_owned(), base_unit: BaseUnit { kg, m, s, rad }, display_unit: display_unit(unit) }
+        let display_unit =
+            unit.display.map(|display| DisplayUnit { name: display.name.to_owned(), factor: display.factor });
+        Unit { name: unit.name.to_owned(), base_unit: BaseUnit { kg, m, s, rad }, display_unit }
     }
 }
 
-/// Degrees for angles; none for the rest, for filters' break frequencies are given in rad/s and share that unit with
-/// angular velocities.
-pub fn display_unit(unit: &moris_interface::Unit) -> Option<DisplayUnit> {
-    (unit.name == "rad").then(|| DisplayUnit { name: "deg".to_owned(), factor: 180.0 / std::f64::consts::PI })
+/// What a description says of a real variable besides its values.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RealAttributes {
+    pub quantity: Option<String>,
+    /// None: dimensionless.
+    pub unit: Option<String>,
+    pub display_unit: Option<String>,
+    /// None: 1, which is the standard's default.
+    pub nominal: Option<f64>,
+}
+
+impl From<&moris_interface::Unit> for RealAttributes {
+    fn from(unit: &moris_interface::Unit) -> Self {
+        let text = |text: &str| (!text.is_empty()).then(|| text.to_owned());
+        RealAttributes {
+            quantity: text(unit.quantity),
+            unit: text(unit.name),
+            display_unit: unit.display.map(|display| display.name.to_owned()),
+            nominal: (unit.nominal != 1.0).then_some(unit.nominal),
+        }
+    }
 }
 
 // serde hands a reference over.

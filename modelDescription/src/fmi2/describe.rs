@@ -3,7 +3,7 @@
 use moris_fmi::LOG_CATEGORIES;
 use moris_interface::{Causality, Identity, Kind, Model, guid_of, start_values};
 
-use crate::common::units::{Unit, display_unit};
+use crate::common::units::{RealAttributes, Unit};
 use crate::fmi2::model_description::{
     Category, CoSimulation, DefaultExperiment, LogCategories, ModelDescription, ModelVariables, TypeDefinitions,
     UnitDefinitions,
@@ -74,15 +74,17 @@ fn co_simulation(identity: &Identity) -> CoSimulation {
     }
 }
 
-/// Every unit that a row has, once, in the order in which they appear.
+/// Every unit that a row has, once, in the order in which they appear; with the unit for display that any of these rows
+/// has.
 fn unit_definitions(identity: &Identity) -> Option<UnitDefinitions> {
     let mut units: Vec<Unit> = Vec::new();
     for row in identity.rows {
-        if let Kind::Real(unit) = row.kind
-            && !unit.name.is_empty()
-            && units.iter().all(|known| known.name != unit.name)
-        {
-            units.push(unit.into());
+        let Kind::Real(unit) = row.kind else { continue };
+        let unit = Unit::from(unit);
+        match units.iter_mut().find(|known| known.name == unit.name) {
+            Some(known) => known.display_unit = known.display_unit.take().or(unit.display_unit),
+            None if unit.name.is_empty() => {}
+            None => units.push(unit),
         }
     }
     (!units.is_empty()).then_some(UnitDefinitions { units })
@@ -124,13 +126,11 @@ fn scalar_variable(identity: &Identity, slot: usize, start: f64) -> ScalarVariab
 
 fn values(kind: Kind, range: Option<(f64, f64)>, start: Option<f64>) -> Values {
     match kind {
-        Kind::Real(unit) => Values::Real {
-            unit: (!unit.name.is_empty()).then(|| unit.name.to_owned()),
-            display_unit: display_unit(unit).map(|display| display.name),
-            min: range.map(|(min, _)| min),
-            max: range.map(|(_, max)| max),
-            start,
-        },
+        Kind::Real(unit) => {
+            let RealAttributes { quantity, unit, display_unit, nominal } = unit.into();
+            let (min, max) = range.unzip();
+            Values::Real { quantity, unit, display_unit, min, max, nominal, start }
+        }
         Kind::Integer => Values::Integer {
             min: range.map(|(min, _)| min as i32),
             max: range.map(|(_, max)| max as i32),

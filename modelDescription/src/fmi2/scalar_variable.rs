@@ -55,6 +55,8 @@ pub enum Initial {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Values {
     Real {
+        #[serde(rename = "@quantity", default, skip_serializing_if = "Option::is_none")]
+        quantity: Option<String>,
         /// None: dimensionless.
         #[serde(rename = "@unit", default, skip_serializing_if = "Option::is_none")]
         unit: Option<String>,
@@ -64,6 +66,8 @@ pub enum Values {
         min: Option<f64>,
         #[serde(rename = "@max", default, skip_serializing_if = "Option::is_none")]
         max: Option<f64>,
+        #[serde(rename = "@nominal", default, skip_serializing_if = "Option::is_none")]
+        nominal: Option<f64>,
         #[serde(rename = "@start", default, skip_serializing_if = "Option::is_none")]
         start: Option<f64>,
     },

@@ -6,7 +6,7 @@ use moris_interface::{Causality, Identity, Kind, Model, Row, start_values};
 use super::model_description::{CoSimulation, EnumerationType, ModelDescription, ModelVariables, TypeDefinitions};
 use super::model_structure::{ModelStructure, Unknown};
 use super::variable::{Dimension, TypedVariable, Variable};
-use crate::common::units::display_unit;
+use crate::common::units::RealAttributes;
 use crate::fmi2::model_description::{Category, LogCategories};
 use crate::fmi2::scalar_variable::Initial;
 
@@ -113,11 +113,16 @@ fn variables(identity: &Identity, start: &[f64], layout: Layout) -> Vec<TypedVar
 
 fn typed_variable(place: Place, start: &[f64]) -> TypedVariable {
     match place.row.kind {
-        Kind::Real(unit) => TypedVariable::Float64(Variable {
-            unit: (!unit.name.is_empty()).then(|| unit.name.to_owned()),
-            display_unit: display_unit(unit).map(|display| display.name),
-            ..variable(place, start, |value| value)
-        }),
+        Kind::Real(unit) => {
+            let RealAttributes { quantity, unit, display_unit, nominal } = unit.into();
+            TypedVariable::Float64(Variable {
+                quantity,
+                unit,
+                display_unit,
+                nominal,
+                ..variable(place, start, |value| value)
+            })
+        }
         Kind::Integer => TypedVariable::Int32(variable(place, start, |value| value as i32)),
         Kind::Boolean => TypedVariable::Boolean(variable(place, start, |value| value != 0.0)),
         Kind::Enumeration(enumeration) => TypedVariable::Enumeration(Variable {
@@ -144,6 +149,8 @@ fn variable<T>(place: Place, start: &[f64], convert: fn(f64) -> T) -> Variable<T
         variability: row.variability.into(),
         initial: (row.causality == Causality::Output).then_some(Initial::Calculated),
         declared_type: None,
+        quantity: None,
+        nominal: None,
         unit: None,
         display_unit: None,
         min: row.range.map(|(min, _)| convert(min)),

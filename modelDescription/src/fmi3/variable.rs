@@ -33,6 +33,9 @@ pub struct Variable<T> {
     /// The name of the type that lists an enumeration's items.
     #[serde(rename = "@declaredType", default, skip_serializing_if = "Option::is_none")]
     pub declared_type: Option<String>,
+    /// None for what is not a real.
+    #[serde(rename = "@quantity", default, skip_serializing_if = "Option::is_none")]
+    pub quantity: Option<String>,
     /// None: dimensionless, or not a real.
     #[serde(rename = "@unit", default, skip_serializing_if = "Option::is_none")]
     pub unit: Option<String>,
@@ -42,6 +45,8 @@ pub struct Variable<T> {
     pub min: Option<T>,
     #[serde(rename = "@max", default, skip_serializing_if = "Option::is_none")]
     pub max: Option<T>,
+    #[serde(rename = "@nominal", default, skip_serializing_if = "Option::is_none")]
+    pub nominal: Option<f64>,
     /// A value for each element, row by row.
     #[serde(rename = "@start", default = "no_start", skip_serializing_if = "Option::is_none")]
     pub start: Option<Vec<T>>,

@@ -70,7 +70,7 @@ interface! {
     /// What is settled at the end of the initialization.
     pub struct Fixed: Parameter, Fixed {
         /// Weights of y in the sums.
-        "weight[#].@" weight: [Vector3<f64>; 6] = default_weights();
+        "weight[#].@" weight: [Vector3<f64>; 6] = WEIGHTS;
         /// Time constant; must be positive.
         "tau" tau: f64 [S] = 0.5;
         /// The outputs at the beginning.
@@ -90,9 +90,14 @@ interface_tree! {
 }
 
 /// Counts from 1, row by row.
-fn default_weights() -> [Vector3<f64>; 6] {
-    std::array::from_fn(|row| Vector3::from_fn(|column, _| (3 * row + column + 1) as f64))
-}
+const WEIGHTS: [Vector3<f64>; 6] = [
+    Vector3::new(1.0, 2.0, 3.0),
+    Vector3::new(4.0, 5.0, 6.0),
+    Vector3::new(7.0, 8.0, 9.0),
+    Vector3::new(10.0, 11.0, 12.0),
+    Vector3::new(13.0, 14.0, 15.0),
+    Vector3::new(16.0, 17.0, 18.0),
+];
 
 const SLOTS: [Slot; slot_count(Variables::ROWS)] = slot_table(Variables::ROWS);
 const ROWS: &[Row] = Variables::ROWS;

@@ -110,7 +110,11 @@ fn impossible_values_are_discarded() {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert_discarded(&mut instance, |i| i.set_real(&[reference("u")], &[value]), &["'u'", "finite", "7"]);
         }
-        assert_discarded(&mut instance, |i| i.set_integer(&[reference("offset")], &[6]), &["'offset' = 6", "-5 to 5"]);
+        assert_discarded(
+            &mut instance,
+            |i| i.set_integer(&[reference("offset")], &[6]),
+            &["'offset' is 6", "from -5 to 5"],
+        );
         assert_discarded(&mut instance, |i| i.set_integer(&[reference("offset")], &[i32::MIN]), &["'offset'"]);
         for item in [0, 3, -1, i32::MAX] {
             let parts = ["'method'", "1 (exact), 2 (euler)"];
