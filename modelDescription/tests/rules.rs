@@ -168,8 +168,11 @@ fn every_unit_used_is_defined_and_every_unit_defined_is_used<M: Model>() {
         let name = variable.attribute("name").unwrap();
         let unit = type_of(variable).attribute("unit");
         assert_ne!(unit, Some(""), "{name}");
-        let display = unit.and_then(|unit| *defined.get(unit).unwrap_or_else(|| panic!("{name}: {unit}")));
-        assert_eq!(type_of(variable).attribute("displayUnit"), display, "{name}");
+        let defined_display = unit.and_then(|unit| *defined.get(unit).unwrap_or_else(|| panic!("{name}: {unit}")));
+        let display = type_of(variable).attribute("displayUnit");
+        let frequency = type_of(variable).attribute("quantity") == Some("AngularFrequency");
+        assert_eq!(display, defined_display.filter(|_| !frequency), "{name}");
+        assert!(display.is_none_or(|display| display == unit.unwrap().replace("rad", "deg")), "{name}");
         used.extend(unit);
     }
     assert_eq!(used, defined.keys().copied().collect());
@@ -250,17 +253,27 @@ fn a_changed_variable_is_one_changed_line() {
 }
 
 #[test]
-fn angles_are_shown_in_degrees_and_nothing_else_is() {
+fn angles_and_their_rates_are_shown_in_degrees_and_break_frequencies_are_not() {
     let xml = to_xml(&describe::<Washout>());
     let document = Document::parse(&xml).unwrap();
     let displays: Vec<_> = document.descendants().filter(|node| node.has_tag_name("DisplayUnit")).collect();
-    assert_eq!(displays.len(), 1);
-    assert_eq!(displays[0].parent().unwrap().attribute("name"), Some("rad"));
-    assert_eq!(displays[0].attribute("name"), Some("deg"));
-    let factor: f64 = displays[0].attribute("factor").unwrap().parse().unwrap();
-    assert_eq!(factor, 1.0_f64.to_degrees());
-    let break_frequency = document.descendants().find(|node| node.attribute("name") == Some("splitter.x.omega1"));
-    assert!(elements(break_frequency.unwrap()).all(|real| real.attribute("displayUnit").is_none()));
+    let names = |display: &Node| {
+        let factor: f64 = display.attribute("factor").unwrap().parse().unwrap();
+        assert_eq!(factor, 1.0_f64.to_degrees());
+        let unit = display.parent().unwrap().attribute("name").unwrap();
+        (unit.to_owned(), display.attribute("name").unwrap().to_owned())
+    };
+    let names: BTreeSet<_> = displays.iter().map(names).collect();
+    let pairs = [("rad", "deg"), ("rad/s", "deg/s"), ("rad/s2", "deg/s2")];
+    assert_eq!(names, pairs.map(|(unit, display)| (unit.to_owned(), display.to_owned())).into());
+    let display = |name: &str| {
+        let variable = document.descendants().find(|node| node.attribute("name") == Some(name)).unwrap();
+        type_of(variable).attribute("displayUnit")
+    };
+    assert_eq!(display("tilt.angleLimit"), Some("deg"));
+    assert_eq!(display("tilt.rateLimit"), Some("deg/s"));
+    assert_eq!(display("tilt.accelerationLimit"), Some("deg/s2"));
+    assert_eq!(display("splitter.x.omega1"), None);
 }
 
 /// Whether the model has a variable that is an enumeration; only then are there types to define.

@@ -5,22 +5,25 @@
 /// Each field: the FMI name (a template, see [`Row`](crate::Row)), the Rust name and type, the unit in brackets where it
 /// is a real with one, the range in braces, and the start value. Both ends of a range are inside it, and all checks take
 /// it from here. The start value is a constant expression: the compiler evaluates it, so that no machine's arithmetic
-/// changes it. The doc comment is the variable's description everywhere: write one sentence, without markup.
+/// changes it. A variability before the name replaces that of the struct. The doc comment is the variable's description
+/// everywhere: write one sentence, without markup.
 ///
 /// ```
-/// use moris_interface::{interface, units::*, Group};
+/// use moris_interface::{interface, units::*, Group, Variability};
 /// interface! {
 ///     /// Parameters of a spring.
 ///     pub struct Spring: Parameter, Fixed {
 ///         /// Length at which the spring carries no load.
 ///         "spring.length" length: f64 [M] { 0.01 ..= 10.0 } = 0.3;
 ///         /// Damping ratio.
-///         "spring.damping" damping: f64 { 0.0 ..= 2.0 } = 0.7;
+///         Tunable "spring.damping" damping: f64 { 0.0 ..= 2.0 } = 0.7;
 ///         /// Number of coils.
 ///         "spring.coils" coils: i32 { 1 ..= 100 } = 7;
 ///     }
 /// }
 /// assert_eq!(Spring::ROWS[2].variable_name(0), "spring.coils");
+/// assert_eq!(Spring::ROWS[2].variability, Variability::Fixed);
+/// assert_eq!(Spring::ROWS[1].variability, Variability::Tunable);
 /// assert_eq!(Spring::default().length, 0.3);
 /// let stretched = Spring { length: 11.0, ..Spring::default() };
 /// let error = stretched.check_ranges().unwrap_err();
@@ -33,7 +36,7 @@ macro_rules! interface {
         pub struct $group:ident: $causality:ident, $variability:ident {
             $(
                 $(#[doc = $text:literal])+
-                $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $range:expr })? = $start:expr;
+                $($own_variability:ident)? $name:literal $field:ident: $type:ty $([$unit:ident])? $({ $range:expr })? = $start:expr;
             )+
         }
     ) => {
@@ -55,7 +58,7 @@ macro_rules! interface {
                 $( $crate::Row::new(
                     $name,
                     $crate::Causality::$causality,
-                    $crate::Variability::$variability,
+                    $crate::interface!(@variability $variability $($own_variability)?),
                     <$type as $crate::Field>::KIND $(.in_unit(&$unit))?,
                     <$type as $crate::Field>::COUNT,
                     <$type as $crate::Field>::COMPONENTS,
@@ -101,6 +104,8 @@ macro_rules! interface {
             }
         }
     };
+    (@variability $of_group:ident) => { $crate::Variability::$of_group };
+    (@variability $of_group:ident $own:ident) => { $crate::Variability::$own };
     (@range) => { None };
     (@range $range:expr) => { Some($crate::interface!(@bounds $range)) };
     (@bounds) => { (f64::MIN, f64::MAX) };

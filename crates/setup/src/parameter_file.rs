@@ -99,13 +99,7 @@ fn slot_value(row: &Row, value: &Value) -> Result<f64, String> {
 }
 
 fn in_range(row: &Row, number: f64) -> Result<f64, String> {
-    match row.range {
-        Some((min, max)) if !(min..=max).contains(&number) => {
-            Err(format!("is {number}, but must be from {min} to {max}"))
-        }
-        _ if !number.is_finite() => Err(format!("is {number}, but must be a finite number")),
-        _ => Ok(number),
-    }
+    if row.accepts(number) { Ok(number) } else { Err(row.reason(number)) }
 }
 
 fn what_it_takes(kind: Kind) -> String {

@@ -4,7 +4,7 @@ use std::ffi::c_void;
 
 use moris_interface::{Identity, Model};
 
-use super::Function;
+use super::{Function, with_default_arithmetic};
 use crate::{Complaint, Instance, Mode, Severity, panics};
 
 /// The host of an instance, as one version of FMI has it: takes messages, and is told how calls end.
@@ -72,8 +72,8 @@ impl<M, H> Component<M, H> {
     }
 }
 
-/// Runs a function of the interface on the component: checks that the function is allowed now, tells the host what went
-/// wrong, and lets no panic out.
+/// Runs a function of the interface on the component: checks that the function is allowed now, computes with the default
+/// arithmetic, tells the host what went wrong, and lets no panic out.
 ///
 /// # Safety
 /// `component` is null, or a component of the model `M` and the host `H` that is not freed yet and that nothing else is
@@ -89,7 +89,7 @@ pub unsafe fn call<M: Model, H: Host>(
     if !function.allowed.contains(component.instance.mode()) {
         return component.not_allowed(function);
     }
-    match panics::contain(|| body(component)) {
+    match with_default_arithmetic(|| panics::contain(|| body(component))) {
         Ok(Ok(())) => H::OK,
         Ok(Err(complaint)) => component.complain(function, complaint),
         Err(complaint) => component.break_off(function, complaint),

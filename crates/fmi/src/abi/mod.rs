@@ -7,12 +7,14 @@
 
 #![allow(clippy::missing_safety_doc)] // said above, once for all
 
+mod arithmetic;
 mod component;
 pub mod fmu_state;
 mod function;
 pub mod lifecycle;
 pub mod pointers;
 
+pub(crate) use arithmetic::with_default as with_default_arithmetic;
 pub use component::{Component, Host, call};
 pub use function::Function;
 pub(crate) use function::calling_sequence;

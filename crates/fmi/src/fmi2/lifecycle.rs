@@ -8,7 +8,7 @@ use moris_interface::Model;
 use super::types::*;
 use super::{Component, Logger, calling_sequence as function};
 use crate::abi::pointers::{slice, string};
-use crate::abi::{Host, call};
+use crate::abi::{Host, call, with_default_arithmetic};
 use crate::{Complaint, Instance, LogCategory, Severity, SharedTables, panics};
 
 /// `fmi2Instantiate`; the resources' location and visibility make no difference.
@@ -30,7 +30,7 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
         check_request(name, fmu_type, guid, &tables.guid[..])?;
         Ok(Instance::<M>::new(tables))
     };
-    match panics::contain(new).and_then(|instance| instance) {
+    match with_default_arithmetic(|| panics::contain(new)).and_then(|instance| instance) {
         Ok(instance) => {
             logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
             Component::into_pointer(instance, logger)

@@ -9,7 +9,7 @@ use moris_interface::Model;
 use super::types::*;
 use super::{Component, LOG_CATEGORIES, Layout, Logger, calling_sequence as function};
 use crate::abi::pointers::{slice, string};
-use crate::abi::{Host, call};
+use crate::abi::{Host, call, with_default_arithmetic};
 use crate::{Complaint, Guid, Instance, Severity, SharedTables, panics};
 
 /// What a host asks for when it makes an instance.
@@ -34,7 +34,7 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
         let layout = unsafe { check_request(request, tables.guid) }?;
         Ok((Instance::<M>::new(tables), layout))
     };
-    match panics::contain(new).and_then(|made| made) {
+    match with_default_arithmetic(|| panics::contain(new)).and_then(|made| made) {
         Ok((instance, layout)) => {
             logger.layout = layout;
             logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));

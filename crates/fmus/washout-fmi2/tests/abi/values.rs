@@ -23,15 +23,15 @@ fn set(instance: &mut Instance, slot: usize, value: f64) -> Status {
     }
 }
 
-/// Values that the variable's declaration does not admit.
+/// Values that the variable cannot have.
 fn impossible(slot: usize) -> Vec<f64> {
     let row = IDENTITY.row(slot);
-    let beyond = |(min, max): (f64, f64)| vec![min - 1.0, max + 1.0, f64::from(i32::MIN), f64::from(i32::MAX)];
-    match (row.kind, row.range) {
-        (Kind::Real(_), None) => vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY],
-        (Kind::Enumeration(enumeration), _) => beyond((1.0, enumeration.items.len() as f64)),
+    let (min, max) = row.bounds();
+    match (row.kind, row.causality) {
+        (Kind::Real(_), Causality::Input) => vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY],
+        (Kind::Real(_), _) => vec![min.next_down(), max.next_up(), f64::NAN, f64::INFINITY, f64::NEG_INFINITY],
         (Kind::Boolean, _) => vec![],
-        (_, range) => beyond(range.unwrap()),
+        _ => vec![min - 1.0, max + 1.0, f64::from(i32::MIN), f64::from(i32::MAX)],
     }
 }
 

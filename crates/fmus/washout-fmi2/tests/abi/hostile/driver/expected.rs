@@ -91,13 +91,9 @@ pub fn type_of(slot: usize) -> Type {
     }
 }
 
-/// Whether the value is one that the variable's declaration admits.
+/// Whether the variable can be set to this value: an input to any finite one, for beyond its range it counts as the end.
 pub fn admits(slot: usize, value: f64) -> bool {
     let row = IDENTITY.row(slot);
-    let (min, max) = match (row.range, row.kind) {
-        (Some(range), _) => range,
-        (None, Kind::Enumeration(enumeration)) => (1.0, enumeration.items.len() as f64),
-        (None, _) => (f64::MIN, f64::MAX),
-    };
-    (min..=max).contains(&value)
+    let any = row.causality == Causality::Input && matches!(row.kind, Kind::Real(_));
+    if any { value.is_finite() } else { row.accepts(value) }
 }

@@ -110,15 +110,12 @@ pub fn set(world: &mut World, who: usize) -> i32 {
     let references = references(choices, wanted, 60, fits);
     let values: Vec<f64> = references.iter().map(|&reference| value(choices, wanted, reference, expected)).collect();
     let pointers = pointers(choices);
-    let mut right = vec![OK];
+    let mut right = OK;
     let existing = references.iter().all(|&r| exists_as(r, wanted) && expected.settable(r as usize));
     if !expected.allows(function) || !references.is_empty() && pointers != Pointers::Right || !existing {
-        right = vec![ERROR];
+        right = ERROR;
     } else if !references.iter().zip(&values).all(|(&r, &value)| wanted == Type::Boolean || admits(r as usize, value)) {
-        right = vec![DISCARD];
-    } else if expected.state == 'C' && references.iter().any(|&r| is_parameter(r)) {
-        // Whether the washout can be tuned to this is its own affair.
-        right.push(DISCARD);
+        right = DISCARD;
     }
     let count = references.len();
     let integers: Vec<c_int> = values.iter().map(|&value| value as c_int).collect();
@@ -135,7 +132,7 @@ pub fn set(world: &mut World, who: usize) -> i32 {
             Type::Boolean => (api.set_boolean)(c, at, count, integer),
         }
     };
-    world.accept(who, function, status, &right);
+    world.accept(who, function, status, &[right]);
     if status == OK {
         let expected = &mut world.players[who].expected;
         for (&reference, &value) in references.iter().zip(&values) {
@@ -143,10 +140,6 @@ pub fn set(world: &mut World, who: usize) -> i32 {
         }
     }
     status
-}
-
-fn is_parameter(reference: u32) -> bool {
-    IDENTITY.row(reference as usize).causality == Causality::Parameter
 }
 
 fn value(choices: &mut Choices, wanted: Type, reference: u32, expected: &Expected) -> f64 {

@@ -1,0 +1,4 @@
+//! The model's functions by FMI 2.0 and by FMI 3.0 in one library.
+
+moris_fmi::export_fmi2!(moris_washout::Washout);
+moris_fmi::export_fmi3!(moris_washout::Washout);

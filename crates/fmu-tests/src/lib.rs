@@ -1,0 +1,1 @@
+//! Nothing: the package is its tests, and the libraries that they load are its examples.

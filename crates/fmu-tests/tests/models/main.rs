@@ -1,0 +1,6 @@
+//! Every model through the C functions of both versions of FMI.
+
+#[cfg(target_arch = "x86_64")]
+mod arithmetic;
+mod library;
+mod ranges;

@@ -1,0 +1,109 @@
+//! What the rows say of ranges is what the libraries do.
+
+use moris_interface::{Causality, Kind, Row, Variability};
+
+use crate::library::*;
+
+/// The next number beyond an end of a range: a whole one for what is counted.
+fn beyond(row: &Row) -> [f64; 2] {
+    let (min, max) = row.bounds();
+    if matches!(row.kind, Kind::Real(_)) { [min.next_down(), max.next_up()] } else { [min - 1.0, max + 1.0] }
+}
+
+fn is_set_by_host(row: &Row) -> bool {
+    matches!(row.causality, Causality::Input | Causality::Parameter) && row.kind != Kind::Boolean
+}
+
+#[test]
+fn every_number_that_a_host_sets_has_a_range_with_its_start_value_inside() {
+    for model in MODELS {
+        let start = model.start();
+        for slot in model.slots() {
+            let (row, name) = (model.identity.row(slot), model.identity.variable_name(slot));
+            if is_set_by_host(row) {
+                let declared = row.range.is_some() || matches!(row.kind, Kind::Enumeration(_));
+                assert!(declared, "{name} has no range");
+                assert!(row.accepts(start[slot]), "{name} starts outside its range");
+            }
+        }
+    }
+}
+
+/// In initialization mode, and tunable ones between steps, too.
+#[test]
+fn parameters_take_the_ends_of_their_ranges_and_nothing_beyond() {
+    for model in MODELS {
+        for version in VERSIONS {
+            let library = Library::open(model, version, &model.library());
+            for stepping in [false, true] {
+                let messages = Messages::default();
+                let mut instance = library.instantiate(&messages).unwrap();
+                assert_eq!(instance.enter_initialization_mode(), OK);
+                if stepping {
+                    assert_eq!(instance.exit_initialization_mode(), OK);
+                }
+                for slot in model.slots() {
+                    let (row, name) = (model.identity.row(slot), model.identity.variable_name(slot));
+                    let settable = !stepping || row.variability == Variability::Tunable;
+                    if row.causality != Causality::Parameter || row.kind == Kind::Boolean || !settable {
+                        continue;
+                    }
+                    let (min, max) = row.bounds();
+                    if !stepping {
+                        // Together the ends may make no machine: whether they do is not asked before the end of the
+                        // initialization.
+                        assert_eq!((instance.set(slot, min), instance.set(slot, max)), (OK, OK), "{name}");
+                    }
+                    for value in beyond(row) {
+                        messages.borrow_mut().clear();
+                        assert_eq!(instance.set(slot, value), DISCARD, "{name} = {value}");
+                        let message = &messages.borrow()[0];
+                        let parts = [format!("'{name}'"), format!("{value}"), format!("{min}"), format!("{max}")];
+                        let named = if matches!(row.kind, Kind::Enumeration(_)) { &parts[..2] } else { &parts[..] };
+                        assert!(named.iter().all(|part| message.contains(part)), "{message}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Rounding in a host may put an input a little beyond its range, which must not end a run.
+#[test]
+fn inputs_beyond_their_range_count_as_its_end() {
+    for model in MODELS {
+        let outputs: Vec<u32> = model
+            .slots()
+            .filter(|&slot| {
+                let row = model.identity.row(slot);
+                row.causality == Causality::Output && matches!(row.kind, Kind::Real(_))
+            })
+            .map(|slot| slot as u32)
+            .collect();
+        let library = Library::open(model, Version::Fmi2, &model.library());
+        let after = |slot: usize, value: f64| {
+            let messages = Messages::default();
+            let mut instance = library.instantiate(&messages).unwrap();
+            assert_eq!(instance.enter_initialization_mode(), OK);
+            assert_eq!(instance.exit_initialization_mode(), OK);
+            assert_eq!(instance.set(slot, value), OK, "{}", model.identity.variable_name(slot));
+            assert_eq!(instance.get(slot), value, "an input is read back as it was set");
+            for k in 0..50 {
+                assert_eq!(instance.step(0.01 * f64::from(k), 0.01), OK);
+            }
+            let mut values = vec![0.0; outputs.len()];
+            assert_eq!(instance.get_reals(&outputs, &mut values), OK);
+            values
+        };
+        for slot in model.slots() {
+            let row = model.identity.row(slot);
+            if row.causality == Causality::Input && matches!(row.kind, Kind::Real(_)) {
+                let (min, max) = row.bounds();
+                let name = model.identity.variable_name(slot);
+                for (end, beyond) in [(min, min - 0.01), (max, max + 0.01), (max, 1e300), (min, -f64::MAX)] {
+                    assert!(after(slot, beyond) == after(slot, end), "{name} = {beyond}");
+                }
+            }
+        }
+    }
+}
