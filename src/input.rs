@@ -1,5 +1,7 @@
 //! Inputs between two others.
 
+use std::f64::consts::{FRAC_PI_2, TAU};
+
 use nalgebra::Vector3;
 
 use crate::interface::Input;
@@ -9,6 +11,20 @@ impl Input {
     /// The input at a `share` of the way to `end`, from 0 to 1; engaged or not as this one.
     pub fn towards(&self, end: &Input, share: f64) -> Input {
         self.map2(end, |from, to| from + share * (to - from))
+    }
+
+    /// The input from which one goes linearly to `end`, if this one came before it: as it is, its angles by whole turns
+    /// nearest to the end's. An angle that changes by more than a quarter turn even so has not been turned through (at a
+    /// pitch of 90 degrees roll and yaw jump), and the orientation is that of the end.
+    pub fn ramp_start(&self, end: &Input) -> Input {
+        let (before, after) = (self.orientation.to_vector(), end.orientation.to_vector());
+        let change = after - before;
+        if change.amax() <= FRAC_PI_2 {
+            return *self;
+        }
+        let nearest = after - change.map(|angle| angle - TAU * (angle / TAU).round());
+        let orientation = if (after - nearest).amax() <= FRAC_PI_2 { nearest } else { after };
+        Input { orientation: RollPitchYaw::from_vector(orientation), ..*self }
     }
 
     fn map2(&self, other: &Input, f: impl Fn(f64, f64) -> f64) -> Input {

@@ -100,6 +100,8 @@ enumeration! {
         "centripetal" Centripetal,
         /// The centripetal and the tangential term.
         "full" Full,
+        /// Both, and what gravity adds where the angular channel turns the platform away from the tilt.
+        "gravity" Gravity,
     }
 }
 
@@ -110,6 +112,16 @@ enumeration! {
         "world" World,
         /// The axes of the vehicle's body.
         "body" Body,
+    }
+}
+
+enumeration! {
+    /// How the input goes within a communication step for which the host gives no slopes.
+    pub enum Reconstruction {
+        /// It is held.
+        "hold" Hold,
+        /// It goes linearly from the last step's input to this step's, which is reached at the step's end.
+        "ramp" Ramp,
     }
 }
 
@@ -196,6 +208,10 @@ interface! {
         "compensation" compensation: Compensation = Compensation::Full;
         /// The axes of vehicle.angularVelocity.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
+        /// Break frequency of a second-order low-pass on the angular rates alone; 0 is off.
+        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
+        /// How the input goes within a step for which the host gives no slopes.
+        "input.reconstruction" reconstruction: Reconstruction = Reconstruction::Hold;
     }
 }
 

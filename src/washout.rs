@@ -12,7 +12,7 @@ use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::GravitationalStrategy;
 use crate::cueing::preaction::StopPreaction;
 use crate::cueing::splitter::LowPass;
-use crate::interface::{Input, Output, Parameters, Preaction};
+use crate::interface::{Input, Output, Parameters, Preaction, Reconstruction};
 use crate::motion::orientation::Turning;
 use crate::platform::head::Head;
 use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
@@ -40,8 +40,8 @@ pub struct Washout {
     parameters: Parameters,
     /// 1: engaged, 0: disengaged, between them: on the way.
     engagement: f64,
-    /// The input at the end of the last step.
-    input: Input,
+    /// The input at the end of the last step, and its cue.
+    last: Sample,
     input_filter: InputFilter,
     preaction: StopPreaction,
     low_pass: LowPass,
@@ -53,6 +53,22 @@ pub struct Washout {
     limited: Limited,
     /// What cannot be differentiated exactly, one internal step ago.
     before: Before,
+}
+
+/// An input, the head with its lean, and the cue there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Sample {
+    input: Input,
+    head: Head,
+    cue: Cue,
+}
+
+impl Sample {
+    fn new(input: &Input, parameters: &Parameters) -> Self {
+        let Parameters { conditioning, structure, .. } = parameters;
+        let head = Head::new(structure, input.lean);
+        Sample { input: *input, head, cue: cue(input, conditioning, structure.gravity, head.lean) }
+    }
 }
 
 /// What was limited in any internal step of the last communication step.
@@ -89,11 +105,12 @@ impl Washout {
         check(parameters)?;
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
         let guard = ActuatorGuard::new(rig, structure.max_step);
-        let at_rest = felt(guard.motion(), &Head::new(structure, 0.0), structure.gravity);
+        let last = Sample::new(&Input::default(), parameters);
+        let at_rest = felt(guard.motion(), &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
             engagement: 1.0,
-            input: Input::default(),
+            last,
             input_filter: InputFilter::default(),
             preaction: StopPreaction::new(structure.max_step),
             low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass),
@@ -110,31 +127,48 @@ impl Washout {
     /// The washout at rest at neutral before its first step, with this input: disengaged if that says so, and the head
     /// where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
-        self.input = input.sanitized();
+        self.last = Sample::new(&input.sanitized(), &self.parameters);
         self.engagement = f64::from(input.engaged);
-        let head = Head::new(&self.parameters.structure, self.input.lean);
-        self.felt = felt(self.guard.motion(), &head, self.parameters.structure.gravity);
+        self.felt = felt(self.guard.motion(), &self.last.head, self.parameters.structure.gravity);
         self.before.felt = self.felt;
         self
     }
 
-    /// Advances by `step` seconds while the input stays what it is (zero-order hold).
+    /// Advances by `step` seconds with this input, of which no slopes are known: it is held (zero-order hold), or reached at
+    /// the step's end from the last step's, as the parameter `input.reconstruction` says.
     ///
     /// Any input is safe: components that are not a number count as at rest. A step shorter than [`SHORTEST_STEP`] does
     /// nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         let input = input.sanitized();
-        self.divided(step, |washout, _, step| washout.internal_step(&input, None, step));
+        match self.parameters.conditioning.reconstruction {
+            Reconstruction::Hold => self.divided(step, |washout, _, step| {
+                let held = Sample::new(&input, &washout.parameters);
+                washout.internal_step(&held, &held, step);
+            }),
+            Reconstruction::Ramp => {
+                let last = self.last.input.ramp_start(&input);
+                let same = last.orientation == self.last.input.orientation;
+                let mut start = if same { self.last } else { Sample::new(&last, &self.parameters) };
+                start.input.engaged = input.engaged;
+                self.step_from(start, &input, step);
+            }
+        }
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order hold); whether it is
     /// engaged is taken from `start`.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        let (start, end) = (start.sanitized(), end.sanitized());
+        let start = Sample::new(&start.sanitized(), &self.parameters);
+        self.step_from(start, &end.sanitized(), step);
+    }
+
+    /// As [`Washout::step_between`], from a start whose cue is known.
+    fn step_from(&mut self, start: Sample, end: &Input, step: f64) {
         let mut from = start;
         self.divided(step, |washout, share, step| {
-            let to = start.towards(&end, share);
-            washout.internal_step(&from, Some(&to), step);
+            let to = Sample::new(&start.input.towards(end, share), &washout.parameters);
+            washout.internal_step(&from, &to, step);
             from = to;
         });
     }
@@ -159,13 +193,11 @@ impl Washout {
         if step <= longest { 1.0 } else { (step / longest * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS) }
     }
 
-    /// One step of Fig. 4, from left to right. The input goes linearly from `start` to `end`, or stays what it is.
-    fn internal_step(&mut self, start: &Input, end: Option<&Input>, step: f64) {
-        let (head, cue_start) = self.seen(start);
-        let (head_at_end, cue_end) = end.map_or((head, cue_start), |end| self.seen(end));
-        let end = end.unwrap_or(start);
-        let (mut cue_start, mut cue_end) = self.conditioned(cue_start, cue_end, start.engaged, step);
-        self.preact(&mut cue_start, &mut cue_end, end, step);
+    /// One step of Fig. 4, from left to right. The cue goes linearly from `start` to `end`.
+    fn internal_step(&mut self, start: &Sample, end: &Sample, step: f64) {
+        let (head, head_at_end) = (start.head, end.head);
+        let (mut cue_start, mut cue_end) = self.conditioned(start.cue, end.cue, start.input.engaged, step);
+        self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
         let rotation = self.guard.motion().orientation.rotation;
         let rotation_at_end = self.guard.motion().rotation_after(step);
@@ -183,7 +215,8 @@ impl Washout {
         self.gravitational.add_to(&mut angles);
         let turning = Turning::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
-        let spurious = compensated(conditioning.compensation, turning.velocity, turning.acceleration, arm);
+        let tilt = self.gravitational.tilt();
+        let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
         let linear = self.direct_linear.advance(
             [force_start - spurious, force_end - spurious],
             self.preaction.surge(),
@@ -196,7 +229,7 @@ impl Washout {
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
         self.guard.advance(&wanted, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
-        self.input = *end;
+        self.last = *end;
         self.limited.tilt |= self.gravitational.limited;
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.limited();
@@ -205,20 +238,13 @@ impl Washout {
         }
     }
 
-    /// The head, and the cue there, with this input.
-    fn seen(&self, input: &Input) -> (Head, Cue) {
-        let Parameters { conditioning, structure, .. } = &self.parameters;
-        let head = Head::new(structure, input.lean);
-        (head, cue(input, conditioning, structure.gravity, head.lean))
-    }
-
     /// The cue at the step's start and end as the channels get it: faded while the washout is being engaged or
     /// disengaged, and filtered.
     fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
         let faded_before = self.engagement;
         self.engagement = faded(faded_before, engaged, step);
         let (start, end) = (start.scaled(faded_before), end.scaled(self.engagement));
-        self.input_filter.advance(start, end, self.parameters.conditioning.cutoff, step)
+        self.input_filter.advance(start, end, &self.parameters.conditioning, step)
     }
 
     /// Changes the cue ahead of a stop, if that is wanted.
@@ -242,13 +268,8 @@ impl Washout {
         check_change(&self.parameters, parameters)?;
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
-        let conditioning = &parameters.conditioning;
-        let head = Head::new(&parameters.structure, self.input.lean);
-        let now = if conditioning.cutoff == 0.0 {
-            cue(&self.input, conditioning, parameters.structure.gravity, head.lean).scaled(self.engagement)
-        } else {
-            self.input_filter.cue()
-        };
+        self.last = Sample::new(&self.last.input, parameters);
+        let now = self.input_filter.output(self.last.cue.scaled(self.engagement), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;
         self.low_pass.retune(&parameters.splitter, order);
@@ -260,12 +281,13 @@ impl Washout {
     /// What drives the linear channel (a force in the base frame, less what is compensated) and the angular channel
     /// (rates) now, if the conditioned cue is this one.
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
-        let head = Head::new(&self.parameters.structure, self.input.lean);
+        let Parameters { conditioning, structure, .. } = &self.parameters;
+        let head = &self.last.head;
         let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
-        let Turning { orientation, velocity, acceleration } = Turning::new(&self.guard.demand().angles);
-        let arm = orientation.rotation * head.point;
-        let compensation = self.parameters.conditioning.compensation;
-        (force - compensated(compensation, velocity, acceleration, arm), cue.rates)
+        let turning = Turning::new(&self.guard.demand().angles);
+        let arm = turning.orientation.rotation * head.point;
+        let tilt = self.gravitational.tilt();
+        (force - compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity), cue.rates)
     }
 
     /// The parameters in force.

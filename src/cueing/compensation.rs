@@ -1,8 +1,11 @@
-//! Block (4): the accelerations that turning the platform about its origin causes at the washout location.
+//! Block (4): what turning the platform about its origin adds at the washout location: accelerations, and gravity where it is
+//! not tilt coordination's.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
+use crate::cueing::gravitational::Tilt;
 use crate::interface::Compensation;
+use crate::motion::orientation::Turning;
 
 /// alpha x r, the tangential term (the paper leaves it out; it is the larger).
 pub fn tangential(angular_acceleration: Vector3<f64>, arm: Vector3<f64>) -> Vector3<f64> {
@@ -14,17 +17,30 @@ pub fn centripetal(angular_velocity: Vector3<f64>, arm: Vector3<f64>) -> Vector3
     angular_velocity.cross(&angular_velocity.cross(&arm))
 }
 
-/// The acceleration to compensate, for a platform that turns like this; `arm` is the washout location relative to the
-/// platform's origin. All in the base frame.
+/// What gravity adds to the specific force where the platform has the orientation R and not its tilt alone, R_t: in the
+/// base frame, (1 - R R_t^T) (0, 0, g).
+pub fn added_gravity(rotation: &Matrix3<f64>, tilt: &Tilt, gravity: f64) -> Vector3<f64> {
+    let (sin_roll, cos_roll) = libm::sincos(tilt.roll);
+    let (sin_pitch, cos_pitch) = libm::sincos(tilt.pitch);
+    let tilted = gravity * Vector3::new(-sin_pitch, cos_pitch * sin_roll, cos_pitch * cos_roll);
+    Vector3::new(0.0, 0.0, gravity) - rotation * tilted
+}
+
+/// The acceleration to compensate, in the base frame, for a platform that turns like this, of which `tilt` is tilt
+/// coordination's part; `arm` is the washout location relative to the platform's origin, in the base frame.
 pub fn compensated(
     compensation: Compensation,
-    angular_velocity: Vector3<f64>,
-    angular_acceleration: Vector3<f64>,
+    turning: &Turning,
     arm: Vector3<f64>,
+    tilt: &Tilt,
+    gravity: f64,
 ) -> Vector3<f64> {
+    let Turning { orientation, velocity, acceleration } = turning;
+    let of_turning = || tangential(*acceleration, arm) + centripetal(*velocity, arm);
     match compensation {
         Compensation::None => Vector3::zeros(),
-        Compensation::Centripetal => centripetal(angular_velocity, arm),
-        Compensation::Full => tangential(angular_acceleration, arm) + centripetal(angular_velocity, arm),
+        Compensation::Centripetal => centripetal(*velocity, arm),
+        Compensation::Full => of_turning(),
+        Compensation::Gravity => of_turning() + added_gravity(&orientation.rotation, tilt, gravity),
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
+use crate::filter::critically_damped::CriticallyDamped;
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
 use crate::motion::orientation::{away_from_zero, rates_from_reference};
 
@@ -82,21 +83,42 @@ pub fn soft_limit(value: f64, limit: f64) -> f64 {
     if beyond <= 0.0 { value } else { (knee + room * libm::tanh(beyond / room)).copysign(value) }
 }
 
-/// The optional first-order low-pass on the cue.
+/// The optional low-passes: of first order on the whole cue, and of second order on its rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct InputFilter {
+    /// The output of the first.
     cue: Cue,
+    /// The second.
+    rates: CriticallyDamped,
 }
 
 impl InputFilter {
-    /// The filter's output now.
+    /// The output now.
     pub fn cue(&self) -> Cue {
-        self.cue
+        Cue { rates: self.rates.value(), ..self.cue }
+    }
+
+    /// The output, if the cue is `unfiltered` now and the filters are those of these parameters.
+    pub fn output(&self, unfiltered: Cue, parameters: &ConditioningParameters) -> Cue {
+        let cue = if parameters.cutoff == 0.0 { unfiltered } else { self.cue };
+        if parameters.rate_cutoff == 0.0 { cue } else { Cue { rates: self.rates.value(), ..cue } }
     }
 
     /// Advances by `step` seconds while the cue goes linearly from `start` to `end`. Returns the filtered cue at the
     /// step's start and end. A cutoff of 0 passes the cue on unchanged.
-    pub fn advance(&mut self, start: Cue, end: Cue, cutoff: f64, step: f64) -> (Cue, Cue) {
+    pub fn advance(&mut self, start: Cue, end: Cue, parameters: &ConditioningParameters, step: f64) -> (Cue, Cue) {
+        let (start, end) = self.low_passed(start, end, parameters.cutoff, step);
+        if parameters.rate_cutoff == 0.0 {
+            self.rates.set(end.rates);
+            return (start, end);
+        }
+        let before = self.rates.value();
+        self.rates.advance(start.rates, end.rates, parameters.rate_cutoff, step);
+        (Cue { rates: before, ..start }, Cue { rates: self.rates.value(), ..end })
+    }
+
+    /// The first low-pass.
+    fn low_passed(&mut self, start: Cue, end: Cue, cutoff: f64, step: f64) -> (Cue, Cue) {
         if cutoff == 0.0 {
             self.cue = end;
             return (start, end);

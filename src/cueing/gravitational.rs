@@ -69,6 +69,11 @@ impl GravitationalStrategy {
         *self = GravitationalStrategy { roll, pitch, target, limited: clipped || roll_limited || pitch_limited };
     }
 
+    /// The tilt now.
+    pub fn tilt(&self) -> Tilt {
+        Tilt { roll: self.roll.position, pitch: self.pitch.position }
+    }
+
     /// Adds the tilt to roll, pitch and yaw.
     pub fn add_to(&self, angles: &mut Motions) {
         for (k, tilt) in [&self.roll, &self.pitch].into_iter().enumerate() {

@@ -1,4 +1,6 @@
-//! Linear filters: the chain in controllable canonical form, and bumpless transfer between coefficients.
+//! Linear filters: the chain in controllable canonical form, a second-order low-pass, and bumpless transfer between
+//! coefficients.
 
 pub(crate) mod bumpless;
 pub mod chain;
+pub mod critically_damped;

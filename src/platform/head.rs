@@ -1,11 +1,12 @@
 //! Where the washout location is on the platform: the rider's head with his lean, eq. (4), or another point.
 
 use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
 
 use crate::interface::{StructureParameters, WashoutLocation};
 
 /// The washout location and the axes of the frame there, seen from the platform.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Head {
     /// The location in the platform frame \[m\].
     pub point: Vector3<f64>,

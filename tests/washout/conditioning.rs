@@ -85,12 +85,13 @@ proptest! {
     #[test]
     fn the_input_filter_is_a_first_order_low_pass(cutoff in 0.5..50.0, step in 0.001..0.02, held: bool) {
         let mut filter = InputFilter::default();
+        let parameters = ConditioningParameters { cutoff, ..ConditioningParameters::default() };
         let (mut x, mut last) = ([0.0], 0.0);
         for k in 0..100 {
             let end = (f64::from(k) * 0.3).sin();
             let start = if held { end } else { last };
             let cue = |value| Cue { force: Vector3::repeat(value), rates: Vector3::repeat(-value) };
-            let (_, filtered) = filter.advance(cue(start), cue(end), cutoff, step);
+            let (_, filtered) = filter.advance(cue(start), cue(end), &parameters, step);
             for part in 0..20 {
                 let at = |t: f64| start + (end - start) * t / step;
                 x = rk4(f64::from(part) * step / 20.0, x, step / 20.0, |t, x| [cutoff * (at(t) - x[0])]);
@@ -100,6 +101,47 @@ proptest! {
             last = end;
         }
     }
+}
+
+proptest! {
+    #![proptest_config(cases(40))]
+
+    #[test]
+    fn the_rate_filter_is_a_double_pole_on_the_rates_alone(
+        rate_cutoff in 0.5..50.0, step in 0.001..0.02, held: bool,
+    ) {
+        let mut filter = InputFilter::default();
+        let parameters = ConditioningParameters { rate_cutoff, ..ConditioningParameters::default() };
+        let (mut x, mut last) = ([0.0, 0.0], 0.0);
+        for k in 0..100 {
+            let end = (f64::from(k) * 0.3).sin();
+            let start = if held { end } else { last };
+            let cue = |value| Cue { force: Vector3::repeat(value), rates: Vector3::repeat(-value) };
+            let (before, filtered) = filter.advance(cue(start), cue(end), &parameters, step);
+            prop_assert!((before.rates + Vector3::repeat(x[0])).amax() < 1e-7);
+            for part in 0..20 {
+                let at = |t: f64| start + (end - start) * t / step;
+                let acceleration =
+                    |t, x: &[f64; 2]| rate_cutoff * (rate_cutoff * (at(t) - x[0]) - 2.0 * x[1]);
+                x = rk4(f64::from(part) * step / 20.0, x, step / 20.0, |t, x| [x[1], acceleration(t, x)]);
+            }
+            prop_assert_eq!(filtered.force, Vector3::repeat(end));
+            prop_assert!((filtered.rates + Vector3::repeat(x[0])).amax() < 1e-7);
+            last = end;
+        }
+    }
+}
+
+#[test]
+fn what_the_rate_filter_forgets_is_rest_in_the_end() {
+    let mut filter = InputFilter::default();
+    let parameters = ConditioningParameters { rate_cutoff: 20.0, ..ConditioningParameters::default() };
+    let cue = Cue { force: Vector3::zeros(), rates: Vector3::new(1.0, -2.0, 3.0) };
+    filter.advance(cue, cue, &parameters, 0.1);
+    for _ in 0..10_000 {
+        filter.advance(Cue::default(), Cue::default(), &parameters, 0.001);
+    }
+    assert_eq!(filter.cue(), Cue::default());
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Where the paper is silent, contradicts itself or errs, and what the washout does: one test for each erratum.
 
-use moris_washout::cueing::compensation::{centripetal, tangential};
-use moris_washout::interface::StructureParameters;
+use moris_washout::cueing::compensation::{added_gravity, centripetal, tangential};
+use moris_washout::cueing::gravitational::Tilt;
+use moris_washout::interface::{RollPitchYaw, StructureParameters};
+use moris_washout::motion::orientation::Orientation;
 use moris_washout::platform::head::Head;
 use moris_washout::{Input, Washout};
 use nalgebra::Vector3;
@@ -61,6 +63,52 @@ fn disturbance_by_pitching(compensation: f64) -> f64 {
         }
     });
     largest
+}
+
+/// The largest error of the felt surge and sway on a vehicle that pitches and rolls and is not accelerated.
+fn error_of_turning(compensation: f64) -> f64 {
+    let slow = [
+        ("splitter.x.omega1", 0.03),
+        ("splitter.x.omega2", 0.03),
+        ("splitter.y.omega1", 0.03),
+        ("splitter.y.omega2", 0.03),
+    ];
+    let mut washout = washout(&[&slow[..], &[("compensation", compensation), ("tilt.angleLimit", 1e-6)]].concat());
+    let mut largest = 0.0_f64;
+    // The angles swing about zero from the beginning.
+    let turning = |t: f64| {
+        let rates = (t / 5.0).min(1.0).powi(2) * Vector3::new(0.1 * (4.0 * t).cos(), 0.12 * (5.0 * t).cos(), 0.0);
+        Input { angular_velocity: rates, ..Input::default() }
+    };
+    ride(&mut washout, 20.0, 0.001, turning, |t, output| {
+        assert!(!output.safety_active && !output.actuator_limited);
+        if t > 10.0 {
+            largest = largest.max(output.felt_specific_force.xy().amax());
+        }
+    });
+    largest
+}
+
+#[test]
+fn the_gravity_that_the_angular_channel_s_tilt_adds_is_compensated() {
+    let (full, gravity) = (error_of_turning(3.0), error_of_turning(4.0));
+    assert!(full > 0.15, "{full}");
+    assert!(gravity < 0.15 * full, "{gravity} of {full}");
+}
+
+#[test]
+fn gravity_that_tilt_coordination_asks_for_is_not_compensated() {
+    // The tilt alone: nothing is added, whatever its angles.
+    for (roll, pitch) in [(0.0, 0.0), (0.3, -0.2), (-0.38, 0.38)] {
+        let rotation = Orientation::new(RollPitchYaw::new(roll, pitch, 0.0)).rotation;
+        assert!(added_gravity(&rotation, &Tilt { roll, pitch }, G).amax() < 1e-14);
+    }
+    // A small angle more about x or y: g times the angle, across.
+    let turned = |roll, pitch| {
+        added_gravity(&Orientation::new(RollPitchYaw::new(roll, pitch, 0.0)).rotation, &Tilt::default(), G)
+    };
+    assert!((turned(0.0, 1e-6) - Vector3::new(-1e-6 * G, 0.0, 0.0)).amax() < 1e-10);
+    assert!((turned(1e-6, 0.0) - Vector3::new(0.0, 1e-6 * G, 0.0)).amax() < 1e-10);
 }
 
 #[test]

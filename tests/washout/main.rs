@@ -14,6 +14,7 @@ mod hostile;
 mod kinematics;
 mod paper_runs;
 mod preaction;
+mod reconstruction;
 mod refusals;
 mod retuning;
 mod rigs;

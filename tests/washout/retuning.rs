@@ -41,7 +41,9 @@ fn changes() -> Vec<(usize, Vec<f64>)> {
         .map(|slot| {
             let values = match identity.row(slot).kind {
                 Kind::Enumeration(enumeration) => (1..=enumeration.items.len()).map(|item| item as f64).collect(),
-                _ if identity.variable_name(slot) == "input.cutoff" => vec![1.0, 20.0],
+                _ if ["input.cutoff", "input.rateCutoff"].contains(&identity.variable_name(slot).as_str()) => {
+                    vec![1.0, 20.0]
+                }
                 _ => [0.1, 0.5, 1.5, 2.5].map(|factor| factor * start[slot]).to_vec(),
             };
             (slot, values)
