@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::{Error, FmiVersion, Model, Platform, Start, macos_stub, tools, workspace};
 
-/// The oldest glibc on which a library for Linux runs when zig links it: that of RHEL 7, and of what Rust itself needs.
+/// The glibc that zig links for: that of RHEL 7, and the oldest that Rust supports.
 const OLDEST_GLIBC: &str = "2.17";
 
 /// How the library for a platform is to be compiled.
@@ -20,11 +20,11 @@ pub struct Plan {
 /// What links the library.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Linker {
-    /// This machine's own. A library for Linux then needs this machine's glibc or a newer one.
+    /// This machine's own.
     Host,
     /// The one that comes with Rust, for macOS on other systems.
     Lld,
-    /// zig, by cargo-zigbuild, for Linux.
+    /// zig, by cargo-zigbuild, for Linux on another processor.
     Zig,
     /// GCC for Windows.
     Mingw,
@@ -36,7 +36,7 @@ pub enum Linker {
 /// A tool that is missing, before anything is compiled.
 pub fn plan(platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
     if platforms.is_empty() {
-        return Ok(vec![plan_for_host()?]);
+        return Ok(vec![plan_for(Platform::host().ok_or(Error::NoHostPlatform)?)?]);
     }
     let mut platforms = platforms.to_vec();
     platforms.sort_unstable();
@@ -44,18 +44,10 @@ pub fn plan(platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
     platforms.into_iter().map(plan_for).collect()
 }
 
-/// For this machine. On Linux by its own linker where zig is not there: good enough to try the FMU where it was built.
-fn plan_for_host() -> Result<Plan, Error> {
-    let platform = Platform::host().ok_or(Error::NoHostPlatform)?;
-    match plan_for(platform) {
-        Err(_) if platform.is_linux() => Ok(Plan { platform, linker: Linker::Host }),
-        planned => planned,
-    }
-}
-
 /// For any machine with this platform.
 fn plan_for(platform: Platform) -> Result<Plan, Error> {
     let linker = match platform {
+        Platform::Linux64 | Platform::Aarch64Linux if Platform::host() == Some(platform) => Linker::Host,
         Platform::Linux64 | Platform::Aarch64Linux => Linker::Zig,
         Platform::Win64 => Linker::Mingw,
         Platform::Darwin64 | Platform::Aarch64Darwin if cfg!(target_os = "macos") => Linker::Host,

@@ -11,9 +11,8 @@ use moris_setup::{NamedValues, load_rig, load_set};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and documentation.
 ///
-/// Without options every model's FMU is built for this machine and lands in target/fmu. Where cargo-zigbuild is
-/// installed, a library for Linux runs on glibc 2.17 and newer; where it is not, on this machine's glibc and newer. Which
-/// it is, is said.
+/// Without options every model's FMU is built for this machine and lands in target/fmu. A library for Linux runs on glibc
+/// 2.17 and newer.
 ///
 /// With --rig and --parameters the FMUs start with a rig and parameters of your own instead of the models'.
 #[derive(Parser)]

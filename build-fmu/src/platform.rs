@@ -34,11 +34,6 @@ impl Platform {
         }
     }
 
-    /// Whether its libraries depend on a version of glibc.
-    pub fn is_linux(self) -> bool {
-        matches!(self, Platform::Linux64 | Platform::Aarch64Linux)
-    }
-
     /// Whether it is macOS.
     pub fn is_apple(self) -> bool {
         matches!(self, Platform::Darwin64 | Platform::Aarch64Darwin)

@@ -100,7 +100,7 @@ pub fn ridden(
                 ),
             );
         }
-        pole = poles.iter().map(|pole| pole.norm()).fold(pole, f64::max);
+        pole = poles.iter().map(|pole| libm::hypot(pole.re, pole.im)).fold(pole, f64::max);
     }
     let step = parameters.run.max_step;
     if pole * step > LARGEST_POLE {

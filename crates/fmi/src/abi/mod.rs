@@ -12,6 +12,7 @@ mod component;
 pub mod fmu_state;
 mod function;
 pub mod lifecycle;
+pub mod older_glibc;
 pub mod pointers;
 
 pub(crate) use arithmetic::with_default as with_default_arithmetic;

@@ -16,6 +16,8 @@ macro_rules! export_fmi2 {
         /// The functions of FMI 2.0, for C.
         #[allow(clippy::missing_safety_doc)] // the standard says what a host may pass
         pub mod fmi2_functions {
+            $crate::own_functions_of_newer_glibc!();
+
             // SAFETY of all calls below: each function hands on what the host passes, for which the standard vouches.
             use std::ffi::{c_int, c_void};
 

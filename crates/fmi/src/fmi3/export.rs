@@ -13,6 +13,8 @@ macro_rules! export_fmi3 {
         #[allow(clippy::missing_safety_doc)] // the standard says what a host may pass
         #[allow(clippy::too_many_arguments)] // it has so many
         pub mod fmi3_functions {
+            $crate::own_functions_of_newer_glibc!();
+
             // SAFETY of all calls below: each function hands on what the host passes, for which the standard vouches.
             use $crate::abi::{fmu_state, lifecycle as common};
             use $crate::fmi3::types::*;
