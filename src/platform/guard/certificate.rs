@@ -30,12 +30,9 @@ pub struct Machine {
     pub neutral_height: f64,
     /// The farthest joint from the platform's origin \[m\].
     radius: f64,
-    /// Lengths between which a leg may come to rest \[m\]: inside the stroke by what a leg can move beyond both ends of a
-    /// transition, A h²/8 for the longest step h.
-    shortest: f64,
-    longest: f64,
-    velocity: f64,
-    acceleration: f64,
+    /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke by what a leg can move
+    /// beyond both ends of a transition, A h²/8 for the longest step h.
+    pub limits: Limits,
     /// Duration of a stop for each m/s of a leg \[s2/m\].
     stop_time_per_speed: f64,
 }
@@ -89,26 +86,23 @@ impl Machine {
             geometry: Geometry::from(rig),
             neutral_height: rig.neutral_height,
             radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
-            shortest: rig.min_length + reserve,
-            longest: rig.max_length - reserve,
-            velocity: rig.velocity_limit,
-            acceleration: rig.acceleration_limit,
+            limits: Limits {
+                min: rig.min_length + reserve,
+                max: rig.max_length - reserve,
+                velocity: rig.velocity_limit,
+                acceleration: rig.acceleration_limit,
+                longest_step,
+            },
             stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
         }
     }
 
     /// The limits within which each leg pursues a demand: a little inside the certified stroke, so that a leg at the end of
     /// it is drawn back and does not keep the others from moving.
-    pub fn pursuit_limits(&self, longest_step: f64) -> Limits {
+    pub fn pursuit_limits(&self) -> Limits {
         const INSET: f64 = 1e-5;
-        let inset = INSET * (self.longest - self.shortest);
-        Limits {
-            min: self.shortest + inset,
-            max: self.longest - inset,
-            velocity: self.velocity,
-            acceleration: self.acceleration,
-            longest_step,
-        }
+        let inset = INSET * (self.limits.max - self.limits.min);
+        Limits { min: self.limits.min + inset, max: self.limits.max - inset, ..self.limits }
     }
 
     /// Durations of a certified stop from the candidate, if bounds on the whole way there and to rest are enough to
@@ -127,9 +121,9 @@ impl Machine {
         let rate = larger(speed.angular, from.speed.angular);
         let joint_speed = speed.of_joints(self.radius);
         let fastest = larger(joint_speed, from.speed.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
-        let curvature = fastest * fastest / self.shortest + rate * rate * self.radius;
+        let curvature = fastest * fastest / self.limits.min + rate * rate * self.radius;
         // The gap turns the legs a little as well, which changes their rates.
-        let gap_turning = 0.5 * step * gap_acceleration * (fastest / self.shortest + rate);
+        let gap_turning = 0.5 * step * gap_acceleration * (fastest / self.limits.min + rate);
         let steady = change.norm() * per_step
             + sum_of_magnitudes(&turn) * per_step * self.radius
             + gap_acceleration
@@ -144,12 +138,12 @@ impl Machine {
         let time = 0.5 * duration + step;
         let reach = fastest * time;
 
-        let mut keeps = curvature <= (1.0 - STOP_FRACTION) * self.acceleration;
-        keeps &= curvature + steady <= self.acceleration;
-        keeps &= fastest <= self.velocity;
+        let mut keeps = curvature <= (1.0 - STOP_FRACTION) * self.limits.acceleration;
+        keeps &= curvature + steady <= self.limits.acceleration;
+        keeps &= fastest <= self.limits.velocity;
         for length in to.legs.length {
-            keeps &= length - reach >= self.shortest;
-            keeps &= length + reach <= self.longest;
+            keeps &= length - reach >= self.limits.min;
+            keeps &= length + reach <= self.limits.max;
         }
         for k in 0..3 {
             let most = safety.acceleration_limit[k];
@@ -227,7 +221,7 @@ impl Machine {
         let duration = stops[3];
         let speed = Speed::of(plan.start()).of_joints(self.radius);
         // Between points d apart the bound is about 1.5 (G1²/L) d/T.
-        let needed = 1.5 * speed * speed / (self.shortest * MARGIN * self.acceleration);
+        let needed = 1.5 * speed * speed / (self.limits.min * MARGIN * self.limits.acceleration);
         let whole = needed.ceil().clamp(1.0, MOST_CELLS);
         let mut begin = 0.0;
         for end in stops {
@@ -240,7 +234,7 @@ impl Machine {
             }
         }
         let rest = self.leg_motion_of(&plan.at(duration));
-        rest.length.iter().all(|length| (self.shortest..=self.longest).contains(length))
+        rest.length.iter().all(|length| (self.limits.min..=self.limits.max).contains(length))
     }
 
     /// Whether the legs keep their limits between two breakpoints of a plan, divided into cells.
@@ -263,7 +257,7 @@ impl Machine {
                 [linear.norm(), sum_of_magnitudes(&angles)],
                 self.radius,
             );
-            let stroke = (self.shortest, self.longest);
+            let stroke = (self.limits.min, self.limits.max);
             if !self.interval_keeps_legs(&left, &right, &bounds, cell, stroke, &[0.0; 6]) {
                 return false;
             }
@@ -277,7 +271,7 @@ impl Machine {
     ///
     /// No instant is farther than half the interval d from the nearer end, from where the leg's jerk J is bounded. So the
     /// acceleration differs from that end's by at most J d/2; speed and length follow by integration from that end.
-    fn interval_keeps_legs(
+    pub(super) fn interval_keeps_legs(
         &self,
         left: &LegMotion,
         right: &LegMotion,
@@ -301,15 +295,15 @@ impl Machine {
             let at_ends = larger(left.velocity[i].abs(), right.velocity[i].abs());
             let speed = larger(at_ends, larger(from_left.abs(), from_right.abs()) + spread * half);
             let beyond = 0.5 * acceleration * half * half;
-            keeps &= acceleration + gaps[i] <= self.acceleration;
-            keeps &= speed + gaps[i] * half <= self.velocity;
+            keeps &= acceleration + gaps[i] <= self.limits.acceleration;
+            keeps &= speed + gaps[i] * half <= self.limits.velocity;
             keeps &= left.length[i].min(right.length[i]) - beyond >= shortest;
             keeps &= left.length[i].max(right.length[i]) + beyond <= longest;
         }
         keeps
     }
 
-    fn leg_motion_of(&self, coordinates: &Coordinates) -> LegMotion {
+    pub(super) fn leg_motion_of(&self, coordinates: &Coordinates) -> LegMotion {
         leg_motion(&self.geometry, &coordinates.motion(self.neutral_height))
     }
 }

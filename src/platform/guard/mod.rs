@@ -12,6 +12,8 @@
 mod bounds;
 mod certificate;
 mod pursuit;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 
@@ -56,7 +58,7 @@ impl ActuatorGuard {
         ActuatorGuard {
             machine,
             stroke: [rig.min_length, rig.max_length],
-            pursuit: machine.pursuit_limits(longest_step),
+            pursuit: machine.pursuit_limits(),
             motion,
             legs: inverse_kinematics(&machine.geometry, &motion),
             speed: Speed::default(),

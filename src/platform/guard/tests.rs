@@ -1,0 +1,268 @@
+//! Attempts to refute the certificate: derivatives beyond their bounds, and limits broken between the points looked at.
+
+use std::cell::Cell;
+
+use nalgebra::Vector3;
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+
+use super::bounds::JointBounds;
+use super::certificate::{Candidate, Machine, Speed, State};
+use super::*;
+use crate::interface::Rig;
+use crate::motion::Motions;
+use crate::motion::braking_law::Limits;
+use crate::platform::inverse::leg_motion;
+
+fn search(cases: u32) -> TestRunner {
+    let config = Config { rng_seed: RngSeed::Fixed(11), failure_persistence: None, ..Config::with_cases(cases) };
+    TestRunner::new(config)
+}
+
+fn vector(scale: f64) -> impl Strategy<Value = Vector3<f64>> {
+    [-scale..scale, -scale..scale, -scale..scale].prop_map(Vector3::from)
+}
+
+/// Three coordinates that move with a steady acceleration.
+fn moving(position: f64, velocity: f64, acceleration: f64) -> impl Strategy<Value = Motions> {
+    (vector(position), vector(velocity), vector(acceleration)).prop_map(|(position, velocity, acceleration)| Motions {
+        position,
+        velocity,
+        acceleration,
+    })
+}
+
+fn after(motions: &Motions, time: f64) -> Motions {
+    Motions {
+        position: motions.position + (motions.velocity + motions.acceleration * (0.5 * time)) * time,
+        velocity: motions.velocity + motions.acceleration * time,
+        acceleration: motions.acceleration,
+    }
+}
+
+fn coordinates_after(start: &Coordinates, time: f64) -> Coordinates {
+    Coordinates { linear: after(&start.linear, time), angles: after(&start.angles, time) }
+}
+
+fn sum(v: &Vector3<f64>) -> f64 {
+    v.abs().sum()
+}
+
+/// The first three derivatives of a leg's length at `time`, by central differences of fourth and second order.
+fn derivatives(length: impl Fn(f64) -> f64, time: f64, h: f64) -> [f64; 3] {
+    let [a, b, c, d, e, f, g] = [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0].map(|k| length(time + k * h));
+    [
+        (b - 8.0 * c + 8.0 * e - f) / (12.0 * h),
+        (-b + 16.0 * c - 30.0 * d + 16.0 * e - f) / (12.0 * h * h),
+        (a - 8.0 * b + 13.0 * c - 13.0 * e + 8.0 * f - g) / (8.0 * h * h * h),
+    ]
+}
+
+#[test]
+fn no_leg_exceeds_the_bounds_on_its_derivatives() {
+    let rig = Rig::default();
+    let speeds = (-2.0..0.7_f64, -2.0..0.7_f64, -1.0..1.3_f64, -1.0..1.3_f64)
+        .prop_map(|(a, b, c, d)| [a, b, c, d].map(|exponent| 10.0_f64.powf(exponent)));
+    let pieces = speeds.prop_flat_map(|[v, w, s, e]| (moving(0.4, v, s), moving(0.8, w, e)));
+    let closest = [const { Cell::new(0.0_f64) }; 3];
+    search(1_000_000)
+        .run(&(pieces, 0..6_usize), |((linear, angles), i)| {
+            let start = Coordinates { linear, angles };
+            let geometry = crate::platform::Geometry::from(&rig);
+            let radius = rig.platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
+            let length = |time: f64| {
+                let motion = coordinates_after(&start, time).motion(rig.neutral_height);
+                leg_motion(&geometry, &motion).length[i]
+            };
+            let [l, h] = [length(0.0), 2e-3];
+            if l < 0.4 {
+                return Ok(());
+            }
+            let bounds = JointBounds::new(
+                [linear.velocity.norm(), sum(&angles.velocity)],
+                [linear.acceleration.norm(), sum(&angles.acceleration)],
+                radius,
+            );
+            let found = derivatives(length, 0.0, h);
+            let bound =
+                [bounds.velocity, bounds.acceleration + bounds.velocity * bounds.velocity / l, bounds.leg_jerk(l)];
+            // Truncation of the differences, with derivatives that grow by the rates of motion.
+            let rate = h * (1.0 + bounds.velocity / l + bounds.jerk.cbrt() + bounds.acceleration.sqrt());
+            for k in 0..3 {
+                let rounding = 1e-14 / h.powi(k as i32 + 1);
+                let truncation = bound[k] * rate * rate;
+                prop_assert!(found[k].abs() <= bound[k] + rounding + truncation, "{k}: {} > {}", found[k], bound[k]);
+                closest[k].set(closest[k].get().max(found[k].abs() / (bound[k] + rounding)));
+            }
+            Ok(())
+        })
+        .unwrap();
+    // The bounds are not so wide that nothing could refute them.
+    assert!(closest.iter().all(|ratio| ratio.get() > 0.4), "{closest:?}");
+}
+
+/// A machine whose limits are of the size of what the states tried ask for.
+fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
+    (-0.7..1.6_f64, -1.0..0.5_f64, -4.0..-1.3_f64, -0.5..1.3_f64).prop_map(|(a, v, step, safety)| {
+        let [acceleration_limit, velocity_limit, step] = [a, v, step].map(|exponent| 10.0_f64.powf(exponent));
+        let rig = Rig { acceleration_limit, velocity_limit, ..Rig::default() };
+        let most = 10.0_f64.powf(safety);
+        let safety = SafetyParameters {
+            acceleration_limit: Vector3::new(most, 0.5 * most, 2.0 * most),
+            ..SafetyParameters::default()
+        };
+        (Machine::new(&rig, step), safety)
+    })
+}
+
+/// Whether leg lengths, rates and accelerations keep the machine's limits.
+fn keep(machine: &Machine, coordinates: &Coordinates) -> bool {
+    let legs = leg_motion(&machine.geometry, &coordinates.motion(machine.neutral_height));
+    const ROUNDING: f64 = 1.0 + 1e-9;
+    (0..6).all(|i| {
+        (machine.limits.min - 1e-12..=machine.limits.max + 1e-12).contains(&legs.length[i])
+            && legs.velocity[i].abs() <= machine.limits.velocity * ROUNDING
+            && legs.acceleration[i].abs() <= machine.limits.acceleration * ROUNDING
+    })
+}
+
+#[test]
+fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
+    let cases = machines().prop_flat_map(|(machine, safety)| {
+        let fastest = machine.limits.velocity;
+        let hardest = machine.limits.acceleration;
+        let state = (moving(0.3, fastest, hardest), moving(0.3, fastest, hardest));
+        (Just(machine), Just(safety), state, -4.0..-1.3_f64, 0.01..1.0_f64)
+    });
+    let [certified, refused] = [const { Cell::new(0) }; 2];
+    search(200_000)
+        .run(&cases, |(machine, safety, (linear, angles), step, size)| {
+            let step = 10.0_f64.powf(step).min(machine.limits.longest_step);
+            let scaled = |motions: &Motions| Motions {
+                position: motions.position,
+                velocity: size * motions.velocity,
+                acceleration: size * motions.acceleration,
+            };
+            let start = Coordinates { linear: scaled(&linear), angles: scaled(&angles) };
+            let end = coordinates_after(&start, step);
+            let motion = |coordinates: &Coordinates| coordinates.motion(machine.neutral_height);
+            let (from, to) = (motion(&start), motion(&end));
+            let legs = inverse_kinematics(&machine.geometry, &to);
+            let state = State { coordinates: &start, motion: &from, speed: Speed::of(&start) };
+            let candidate = Candidate { coordinates: &end, motion: &to, legs: &legs };
+            let Some(plan) = machine.certify(state, candidate, &safety, step) else {
+                refused.set(refused.get() + 1);
+                return Ok(());
+            };
+            certified.set(certified.get() + 1);
+            const POINTS: usize = 100;
+            for k in 0..=POINTS {
+                let fraction = k as f64 / POINTS as f64;
+                // A start outside the stroke is no state that the guard can have: only its end is certified.
+                let on_transition = coordinates_after(&start, fraction * step);
+                let legs = leg_motion(&machine.geometry, &motion(&on_transition));
+                for i in 0..6 {
+                    prop_assert!(legs.velocity[i].abs() <= machine.limits.velocity * (1.0 + 1e-9));
+                    prop_assert!(legs.acceleration[i].abs() <= machine.limits.acceleration * (1.0 + 1e-9));
+                }
+                let [.., duration] = plan.durations().breakpoints();
+                let stopping = plan.at(fraction * duration);
+                prop_assert!(keep(&machine, &stopping), "{stopping:?}");
+                for k in 0..3 {
+                    let axis = stopping.linear.axis(k);
+                    prop_assert!(axis.position.abs() <= safety.position_limit[k] * (1.0 + 1e-9));
+                    prop_assert!(axis.velocity.abs() <= safety.velocity_limit[k] * (1.0 + 1e-9));
+                    prop_assert!(axis.acceleration.abs() <= safety.acceleration_limit[k] * (1.0 + 1e-9));
+                }
+            }
+            Ok(())
+        })
+        .unwrap();
+    let (certified, refused) = (certified.get(), refused.get());
+    assert!(certified > 10_000 && refused > 10_000, "{certified} certified, {refused} refused");
+}
+
+/// A machine without limits.
+fn unlimited() -> Machine {
+    let mut machine = Machine::new(&Rig::default(), 1e-3);
+    machine.limits = Limits { min: 0.0, max: 1e9, velocity: 1e9, acceleration: 1e9, longest_step: 1e-3 };
+    machine
+}
+
+#[test]
+fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
+    let speeds = (-1.5..0.3_f64, -1.5..0.3_f64, -1.0..1.3_f64, -1.0..1.3_f64)
+        .prop_map(|(a, b, c, d)| [a, b, c, d].map(|exponent| 10.0_f64.powf(exponent)));
+    let pieces = speeds.prop_flat_map(|[v, w, s, e]| (moving(0.3, v, s), moving(0.5, w, e)));
+    let inside = [const { Cell::new(0) }; 4];
+    search(30_000)
+        .run(&(pieces, -2.5..-1.0_f64), |((linear, angles), duration)| {
+            let start = Coordinates { linear, angles };
+            let duration = 10.0_f64.powf(duration);
+            let machine = unlimited();
+            let at = |time: f64| machine.leg_motion_of(&coordinates_after(&start, time));
+            let end = coordinates_after(&start, duration);
+            let faster = |a: &Vector3<f64>, b: &Vector3<f64>| a.norm().max(b.norm());
+            let bounds = JointBounds::new(
+                [faster(&linear.velocity, &end.linear.velocity), sum(&angles.velocity).max(sum(&end.angles.velocity))],
+                [linear.acceleration.norm(), sum(&angles.acceleration)],
+                Rig::default().platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max),
+            );
+            let keeps = |machine: &Machine| {
+                let stroke = (machine.limits.min, machine.limits.max);
+                machine.interval_keeps_legs(&at(0.0), &at(duration), &bounds, duration, stroke, &[0.0; 6])
+            };
+            let largest = |points: usize| {
+                (0..=points).fold([f64::MIN; 4], |largest, k| {
+                    let legs = at(k as f64 / points as f64 * duration);
+                    (0..6).fold(largest, |[a, v, short, long], i| {
+                        let longer = long.max(legs.length[i]);
+                        let shorter = short.max(-legs.length[i]);
+                        [a.max(legs.acceleration[i].abs()), v.max(legs.velocity[i].abs()), shorter, longer]
+                    })
+                })
+            };
+            let [reached, at_ends] = [largest(64), largest(1)];
+            for k in 0..4 {
+                // As much as any instant exceeds both ends by, and hardly more than that.
+                let limit = reached[k] - 1e-9;
+                let mut machine = unlimited();
+                match k {
+                    0 => machine.limits.acceleration = limit,
+                    1 => machine.limits.velocity = limit,
+                    2 => machine.limits.min = -limit,
+                    _ => machine.limits.max = limit,
+                }
+                prop_assert!(!keeps(&machine), "{k}: {limit} kept, but {} reached", reached[k]);
+                inside[k].set(inside[k].get() + u32::from(reached[k] > at_ends[k] + 1e-6));
+            }
+            Ok(())
+        })
+        .unwrap();
+    // In many cases the ends alone do not tell.
+    assert!(inside.iter().all(|count| count.get() > 100), "{inside:?}");
+}
+
+#[test]
+fn a_plan_followed_in_parts_is_the_plan() {
+    let start = Coordinates {
+        linear: Motions { velocity: Vector3::new(0.3, -0.2, 0.0), ..Motions::default() },
+        angles: Motions { velocity: Vector3::new(0.0, 0.1, -0.1), ..Motions::default() },
+    };
+    let durations = StopDurations { linear: Vector3::new(0.1, 0.05, 0.1), angular: 0.1 };
+    let plan = StopPlan::new(&start, durations);
+    let mut followed = plan;
+    for _ in 0..30 {
+        followed = followed.advanced(0.003);
+    }
+    let expected = plan.at(0.09);
+    assert!((followed.now().linear.position - expected.linear.position).amax() < 1e-15);
+    for _ in 0..30 {
+        followed = followed.advanced(0.003);
+    }
+    // 0.3 m/s in 0.1 s, 0.2 m/s in 0.05 s, 0.1 rad/s in 0.1 s.
+    let rest = followed.now();
+    assert!((rest.linear.position - Vector3::new(0.015, -0.005, 0.0)).amax() < 1e-15);
+    assert!((rest.angles.position - Vector3::new(0.0, 0.005, -0.005)).amax() < 1e-15);
+    assert_eq!((rest.linear.velocity, rest.angles.velocity), (Vector3::zeros(), Vector3::zeros()));
+}
