@@ -1,15 +1,41 @@
-//! Steps the washout as often as it is told, on a smooth ride on all axes: for profilers and instruction counters.
+//! Steps the washout a given number of times, for profilers and instruction counters: on a smooth ride on all axes, or in
+//! jumps on slow actuators, so that the actuator guard limits the motion.
 //!
 //!     cargo run --release --example steps 1000000
+//!     cargo run --release --example steps 1000000 jumps
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use moris_washout::{Input, Parameters, Refusal, Washout};
 
+#[path = "../tests/washout/common/random.rs"]
+mod random;
+
+use random::Random;
+
 fn main() -> Result<(), Refusal> {
     let count = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
-    let ride: Vec<Input> = (0..8192)
+    let mut parameters = Parameters::default();
+    let ride = if std::env::args().nth(2).as_deref() == Some("jumps") {
+        (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
+        jumps(count.div_ceil(HELD))
+    } else {
+        smooth()
+    };
+    let mut washout = Washout::new(&parameters)?;
+    let mut limited = 0;
+    for input in ride.iter().cycle().take(count) {
+        washout.step(black_box(input), 0.001);
+        limited += usize::from(black_box(washout.output()).actuator_limited);
+    }
+    println!("{count} steps, {limited} limited, legs {:.6?} m", washout.output().length);
+    Ok(())
+}
+
+/// A smooth ride that comes back to its start.
+fn smooth() -> Vec<Input> {
+    (0..8192)
         .map(|k| {
             let phase = TAU * f64::from(k) / 8192.0;
             let mut input = Input::default();
@@ -21,12 +47,20 @@ fn main() -> Result<(), Refusal> {
             input.orientation.pitch = 0.02 * phase.sin();
             input
         })
-        .collect();
-    let mut washout = Washout::new(&Parameters::default())?;
-    for input in ride.iter().cycle().take(count) {
-        washout.step(black_box(input), 0.001);
-        black_box(washout.output());
-    }
-    println!("{count} steps, legs {:.6?} m", washout.output().length);
-    Ok(())
+        .collect()
+}
+
+/// Steps for which an input is held before it jumps.
+const HELD: usize = 500;
+
+/// Inputs that have nothing to do with those before.
+fn jumps(count: usize) -> Vec<Input> {
+    let mut random = Random::new(1);
+    let jump = |_| {
+        let mut input = Input::default();
+        input.specific_force.apply(|force| *force += random.between(-12.0, 12.0));
+        input.angular_velocity.apply(|rate| *rate = random.between(-1.0, 1.0));
+        input
+    };
+    (0..count).map(jump).flat_map(|input| std::iter::repeat_n(input, HELD)).collect()
 }
