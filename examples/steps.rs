@@ -15,7 +15,7 @@ mod random;
 use random::Random;
 
 fn main() -> Result<(), Refusal> {
-    let count = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
+    let count: usize = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
     let mut parameters = Parameters::default();
     let ride = if std::env::args().nth(2).as_deref() == Some("jumps") {
         (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);

@@ -11,7 +11,7 @@ use super::bounds::JointBounds;
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motions;
 use crate::motion::braking_law::{FULL_SHARE, Limits, ROUNDING};
-use crate::motion::extremes::larger;
+use crate::motion::extremes::{larger, smaller};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Coordinates, Geometry, Legs, PlatformMotion};
@@ -180,7 +180,8 @@ impl Machine {
         let mut durations = StopDurations::common(duration);
         for k in 0..3 {
             let speed = velocity[k].abs();
-            let room = farthest(from, safety, k) - position[k] * 1.0_f64.copysign(velocity[k]);
+            let (lowest, highest) = reachable(from, safety, k);
+            let room = if velocity[k] > 0.0 { highest - position[k] } else { position[k] - lowest };
             if speed * duration > 2.0 * room {
                 durations.linear[k] = 2.0 * room / speed;
             }
@@ -328,8 +329,6 @@ impl Transition {
 }
 
 /// Whether surge, sway and heave keep their safety limits at every instant of the transition.
-///
-/// A coordinate beyond its position limit may come nearer, not go farther: its limit is then where it is.
 pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyParameters, step: f64) -> bool {
     let (now, next) = (&from.linear, &to.linear);
     let Transition { start, gap, .. } = Transition::new(now, next, step);
@@ -342,20 +341,23 @@ pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyPar
         keeps &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
         keeps &= next.acceleration[k].abs() <= most;
         keeps &= larger(before.abs(), after.abs()) + gap / step <= safety.velocity_limit[k] * FULL_SHARE;
-        keeps &= larger(next.position[k].abs(), turned) <= farthest(from, safety, k);
+        let (lowest, highest) = reachable(from, safety, k);
+        keeps &= lowest <= smaller(next.position[k], turned) && larger(next.position[k], turned) <= highest;
     }
     keeps
 }
 
-/// The position limit in force on an axis: where the platform is, if that is beyond the parameter.
-fn farthest(from: &Coordinates, safety: &SafetyParameters, k: usize) -> f64 {
-    const ROUNDING_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
-    larger(from.linear.position[k].abs(), safety.position_limit[k]) * ROUNDING_UP
+/// The positions that an axis may have from now on. Beyond the parameter it may come nearer, not go farther.
+fn reachable(from: &Coordinates, safety: &SafetyParameters, k: usize) -> (f64, f64) {
+    const ROUNDING: f64 = 4.0 * f64::EPSILON;
+    let (position, limit) = (from.linear.position[k], safety.position_limit[k]);
+    let rounding = ROUNDING * larger(position.abs(), limit);
+    (smaller(position, -limit) - rounding, larger(position, limit) + rounding)
 }
 
-/// Distance from neutral of the point at which a steady acceleration turns the velocity round between these two, or 0.
+/// The position at which a steady acceleration turns the velocity round between these two, or the first one.
 fn turning_point(position: f64, before: f64, after: f64, acceleration: f64) -> f64 {
-    if before * after < 0.0 { (position - 0.5 * before * before / acceleration).abs() } else { 0.0 }
+    if before * after < 0.0 { position - 0.5 * before * before / acceleration } else { position }
 }
 
 /// Change of velocity over a step, and what the positions' difference has beyond the mean velocity times the step.
