@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Geometry, PlatformMotion, Pose};
-use crate::cueing::compensation::{centripetal, tangential};
 
 /// The six legs: length \[m\] and rate \[m/s\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -35,31 +34,7 @@ pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs 
     legs
 }
 
-/// Accelerations of the legs' lengths \[m/s2\] for a motion of the platform.
-pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 6] {
-    std::array::from_fn(|i| {
-        let arm = motion.orientation.rotation * geometry.platform.joint(i);
-        let leg = motion.position + arm - geometry.base.joint(i);
-        let length = leg.norm().max(SHORTEST);
-        let direction = leg / length;
-        let velocity = motion.velocity + motion.angular_velocity.cross(&arm);
-        let acceleration = motion.acceleration
-            + tangential(motion.angular_acceleration, arm)
-            + centripetal(motion.angular_velocity, arm);
-        let rate = direction.dot(&velocity);
-        // The part of the joint's velocity across the leg turns it, which lengthens it as well.
-        direction.dot(&acceleration) + (velocity.norm_squared() - rate * rate) / length
-    })
-}
-
-/// Lengths of the legs in a pose.
-pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
-    std::array::from_fn(|i| {
-        (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
-    })
-}
-
-/// The six legs with their accelerations \[m/s2\].
+/// The six legs with their accelerations: length \[m\], rate \[m/s\] and acceleration \[m/s2\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegMotion {
     pub length: [f64; 6],
@@ -68,7 +43,43 @@ pub struct LegMotion {
 }
 
 /// Lengths, rates and accelerations of the legs for a motion of the platform.
+#[inline]
 pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
-    let Legs { length, velocity } = inverse_kinematics(geometry, motion);
-    LegMotion { length, velocity, acceleration: leg_accelerations(geometry, motion) }
+    let Geometry { base, platform } = geometry;
+    let arm = platform.turned(&motion.orientation.rotation);
+    let PlatformMotion { position: p, velocity: v, acceleration: a, .. } = motion;
+    let (w, turn) = (motion.angular_velocity, motion.angular_acceleration);
+    let mut legs = LegMotion { length: [0.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6] };
+    // Written out and not in vectors, so that the processor does two legs at a time.
+    for i in 0..6 {
+        let (ax, ay, az) = (arm.x[i], arm.y[i], arm.z[i]);
+        let (x, y, z) = (p.x + ax - base.x[i], p.y + ay - base.y[i], p.z + az - base.z[i]);
+        let length = (x * x + y * y + z * z).sqrt().max(SHORTEST);
+        let (nx, ny, nz) = (x / length, y / length, z / length);
+        // The joint's velocity and acceleration as the platform turns about its origin.
+        let (tx, ty, tz) = (w.y * az - w.z * ay, w.z * ax - w.x * az, w.x * ay - w.y * ax);
+        let (vx, vy, vz) = (v.x + tx, v.y + ty, v.z + tz);
+        let bx = a.x + (turn.y * az - turn.z * ay) + (w.y * tz - w.z * ty);
+        let by = a.y + (turn.z * ax - turn.x * az) + (w.z * tx - w.x * tz);
+        let bz = a.z + (turn.x * ay - turn.y * ax) + (w.x * ty - w.y * tx);
+        let rate = nx * vx + ny * vy + nz * vz;
+        legs.length[i] = length;
+        legs.velocity[i] = rate;
+        // The part of the joint's velocity across the leg turns it, which lengthens it as well.
+        let turning = (vx * vx + vy * vy + vz * vz - rate * rate) / length;
+        legs.acceleration[i] = nx * bx + ny * by + nz * bz + turning;
+    }
+    legs
+}
+
+/// Accelerations of the legs' lengths \[m/s2\] for a motion of the platform.
+pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 6] {
+    leg_motion(geometry, motion).acceleration
+}
+
+/// Lengths of the legs in a pose.
+pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
+    std::array::from_fn(|i| {
+        (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
+    })
 }

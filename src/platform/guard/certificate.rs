@@ -224,6 +224,11 @@ impl Machine {
         // Between points d apart the bound is about 1.5 (G1²/L) d/T.
         let needed = 1.5 * speed * speed / (self.limits.min * MARGIN * self.limits.acceleration);
         let whole = needed.ceil().clamp(1.0, MOST_CELLS);
+        if duration <= 0.0 {
+            // At rest already.
+            let lengths = self.leg_motion_of(plan.start()).length;
+            return lengths.iter().all(|length| (self.limits.min..=self.limits.max).contains(length));
+        }
         let mut begin = 0.0;
         for end in stops {
             if end > begin {
@@ -234,8 +239,7 @@ impl Machine {
                 begin = end;
             }
         }
-        let rest = self.leg_motion_of(&plan.at(duration));
-        rest.length.iter().all(|length| (self.limits.min..=self.limits.max).contains(length))
+        true
     }
 
     /// Whether the legs keep their limits between two breakpoints of a plan, divided into cells.
