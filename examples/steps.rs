@@ -10,6 +10,7 @@ use std::hint::black_box;
 use moris_washout::{Input, Parameters, Refusal, Washout};
 
 #[path = "../tests/washout/common/random.rs"]
+#[allow(dead_code)] // The tests use the rest of it.
 mod random;
 
 use random::Random;
