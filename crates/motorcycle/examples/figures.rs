@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What the rider is told: accelerate, slalom, a long turn to the left, brake to a stop.
+/// Commands to the rider: accelerate, slalom, a long turn to the left, brake to a stop.
 fn command(time: f64) -> Input {
     let during = |begin: f64, end: f64| f64::from(time >= begin && time < end);
     let slalom = 15.0_f64.to_radians() * (2.0 * std::f64::consts::PI * 0.25 * (time - 8.0)).sin();

@@ -1,4 +1,4 @@
-//! Whether parameters can be used: each on its own, and together.
+//! Validation of parameters: each alone, and in combination.
 
 use moris_interface::{Group, Refusal, refuse};
 
@@ -11,7 +11,7 @@ use crate::motorcycle::STRONGEST_WIND;
 use crate::rider::Rider;
 use crate::suspension::Suspension;
 
-/// Checks each parameter, and the machine's balance.
+/// Checks each parameter, and the weight on both wheels.
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
@@ -24,8 +24,8 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
         return refuse(
             "frame.centre.x",
             format!(
-                "is {}, and so of the weight the front wheel carries {:.1} % and the rear wheel {:.1} %; each must carry \
-                 more than {:.1} %",
+                "is {} m; the front wheel carries {:.1} % of the weight and the rear wheel {:.1} %, and each must carry more \
+                 than {:.1} %; move the centre of mass",
                 parameters.machine.frame_x,
                 100.0 * loads.front / weight,
                 100.0 * loads.rear / weight,
@@ -38,7 +38,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
         return refuse(
             "head.torsoLength",
             format!(
-                "is {}, but the seat would be below the road: it must not exceed head.height, {}",
+                "is {} m, which puts the seat below the road; it must not exceed head.height, {} m",
                 rider.torso_length, rider.head_height
             ),
         );
@@ -47,7 +47,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
         return refuse(
             "rider.torsoMass",
             format!(
-                "is {}, but it is a part of frame.mass and must not exceed it, {}",
+                "is {} kg; it is part of frame.mass and must not exceed it, {} kg",
                 rider.torso_mass, parameters.machine.frame_mass
             ),
         );
@@ -55,11 +55,11 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// The lateral equations, and a rider who masters them up to the top speed.
+/// Lateral equations, and a rider whose control is stable up to the top speed.
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
-pub fn ridden(
+pub fn design_rider(
     parameters: &Parameters,
     longitudinal: &Longitudinal,
     suspension: &Suspension,
@@ -69,8 +69,8 @@ pub fn ridden(
         return refuse(
             "drive.power",
             format!(
-                "is {}, and with it the motorcycle would reach {top:.0} m/s with a storm in its back (aero.dragArea is {}); \
-                 at most {LARGEST_SPEED} m/s can be ridden",
+                "is {} W; the top speed in the strongest tail wind would be {top:.0} m/s (aero.dragArea is {}), and the rider's \
+                 control is designed up to {LARGEST_SPEED} m/s; lower drive.power or raise aero.dragArea",
                 parameters.longitudinal.power, parameters.longitudinal.drag_area
             ),
         );
@@ -78,7 +78,8 @@ pub fn ridden(
     let Some(lateral) = Lateral::new(&Design::new(parameters)) else {
         return refuse(
             "frame.inertia.xz",
-            "makes, with the masses and moments of inertia, no mass matrix that is positive definite: no bodies are such"
+            "gives, with the other masses and moments of inertia, a mass matrix that is not positive definite; correct them so \
+             that they are those of rigid bodies"
                 .to_owned(),
         );
     };
@@ -87,15 +88,15 @@ pub fn ridden(
     let mut pole = suspension.fastest_pole().max(fastest_lag(parameters));
     for k in 0..=SPEEDS {
         let speed = fastest * f64::from(k) / f64::from(SPEEDS);
-        let ridden = rider.closed_loop(&lateral, speed);
-        let finite = ridden.iter().all(|number| number.is_finite());
-        let poles = if finite { ridden.complex_eigenvalues() } else { SVector::repeat(Complex::new(0.0, 0.0)) };
+        let closed_loop = rider.closed_loop(&lateral, speed);
+        let finite = closed_loop.iter().all(|number| number.is_finite());
+        let poles = if finite { closed_loop.complex_eigenvalues() } else { SVector::repeat(Complex::new(0.0, 0.0)) };
         if poles.iter().any(|pole| pole.re >= 0.0) {
             return refuse(
                 "feet.speed",
                 format!(
-                    "is {}, and with these masses and tyres neither feet nor rider keep the motorcycle upright at \
-                     {speed:.1} m/s; mend it, rider.torqueWeight, or the masses and tyres",
+                    "is {} m/s; with these masses and tyres the motorcycle is unstable at {speed:.1} m/s; change feet.speed, \
+                     rider.torqueWeight, the masses or the tyres",
                     parameters.rider.feet_speed
                 ),
             );
@@ -107,8 +108,8 @@ pub fn ridden(
         return refuse(
             "solver.maxStep",
             format!(
-                "is {step}, too long for how quickly this motorcycle moves: make it {:.1e} at most, or mend the stiffnesses, \
-                 time constants or relaxation lengths",
+                "is {step} s, too long for the fastest mode of this motorcycle; set it to {:.1e} s at most, or change \
+                 stiffnesses, time constants or relaxation lengths",
                 LARGEST_POLE / pole
             ),
         );
@@ -116,14 +117,14 @@ pub fn ridden(
     Ok((lateral, rider))
 }
 
-/// What either wheel must carry of the weight at least.
+/// Least fraction of the weight on either wheel.
 const LEAST_LOAD: f64 = 0.02;
-/// Beyond this nothing is designed \[m/s\].
+/// Largest speed for which the rider is designed \[m/s\].
 pub const LARGEST_SPEED: f64 = 150.0;
 /// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step; with a margin.
 const LARGEST_POLE: f64 = 2.0;
 
-/// The largest pole of throttle, brakes and the rider's taking up of commands \[rad/s\].
+/// Largest pole of throttle, brakes and the rider's reference filters \[rad/s\].
 fn fastest_lag(parameters: &Parameters) -> f64 {
     let Parameters { longitudinal, rider, .. } = parameters;
     (1.0 / longitudinal.drive_time)
@@ -132,5 +133,5 @@ fn fastest_lag(parameters: &Parameters) -> f64 {
         .max(2.0 * rider.body_lean_frequency)
 }
 
-/// How many speeds are looked at.
+/// Number of speeds checked.
 const SPEEDS: u32 = 200;

@@ -59,7 +59,7 @@ pub struct Torso {
     pub inertia: f64,
 }
 
-/// What the lateral equations are made of.
+/// Data of the lateral equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Design {
     pub bicycle: Bicycle,
@@ -91,7 +91,7 @@ pub struct Lateral {
     pub wind: State,
 }
 
-/// What acts on the motorcycle from outside, positive to the right.
+/// External actions on the motorcycle, positive to the right.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Actions {
     pub torque: f64,
@@ -172,7 +172,7 @@ impl Lateral {
         }
     }
 
-    /// The matrix of the free motion at a speed \[m/s\], with the feet holding by a share from 0 to 1.
+    /// The matrix of the free motion at a speed \[m/s\], with foot support from 0 to 1.
     pub fn state_matrix(&self, speed: f64, feet: f64) -> StateMatrix {
         self.constant + self.per_speed * speed + self.hold * feet
     }
@@ -193,9 +193,9 @@ impl Lateral {
 struct Contact {
     /// The place of its force in the state.
     force: usize,
-    /// How far each of q displaces the contact sideways; and so the generalised forces of a lateral force there.
+    /// Lateral displacement of the contact by each of q, which is the generalised force of a unit lateral force.
     arms: Vector4<f64>,
-    /// How much of the steer angle turns its wheel in the road's plane, and how much cambers it.
+    /// Fraction of the steer angle that turns the wheel in the road's plane, and fraction that cambers it.
     steer_slip: f64,
     steer_camber: f64,
     tyre: Tyre,
@@ -248,13 +248,13 @@ fn gyroscopic_matrix(t: &Totals, sin: f64, cos: f64) -> Matrix4<f64> {
     )
 }
 
-/// How much stiffer than gravity topples the motorcycle the feet hold it.
+/// Stiffness of foot support relative to the toppling stiffness of gravity.
 const FEET_STIFFNESS: f64 = 4.0;
-/// How much stiffer than gravity turns the bars the hands hold them.
+/// Stiffness of the hands on the bars relative to the turning stiffness of gravity.
 const HANDS_STIFFNESS: f64 = 5.0;
 
-/// The feet's share of holding the motorcycle upright: 1 at rest, falling smoothly to 0 at `fastest` \[m/s\].
-pub fn feet_share(speed: f64, fastest: f64) -> f64 {
+/// Foot support: 1 at rest, falling smoothly to 0 at `fastest` \[m/s\].
+pub fn foot_support(speed: f64, fastest: f64) -> f64 {
     let ratio = speed / fastest;
     if ratio < 1.0 { (1.0 - ratio * ratio) * (1.0 - ratio * ratio) } else { 0.0 }
 }

@@ -1,23 +1,23 @@
-//! A motorcycle and its rider: from throttle, brake, lean and wind to what the rider's head feels.
+//! A motorcycle and its rider: from throttle, brake, lean and wind to the specific force at the rider's head.
 //!
 //! [`Motorcycle`] is stepped beside a washout filter, whose inputs are its first outputs, by the same names and in the
 //! same frames.
 //!
-//! | module | what |
+//! | module | contents |
 //! |---|---|
-//! | [`longitudinal`] | drive, brakes, drag, tyre limits; a stop that is one |
+//! | [`longitudinal`] | drive, brakes, drag, tyre limits, standstill |
 //! | [`suspension`] | heave and pitch: a half-bike on two springs |
 //! | [`lateral`] | lean, steer, lateral velocity and yaw on tyres that slip, in the manner of Sharp (1971) |
-//! | [`whipple`] | its limit for stiff tyres: the benchmark bicycle of Meijaard et al. (2007) |
-//! | [`rider`], [`riccati`] | who follows a lean by torque on the bars and with his torso |
+//! | [`whipple`] | the limit for stiff tyres: the benchmark bicycle of Meijaard et al. (2007) |
+//! | [`rider`], [`riccati`] | lean control by steering torque and torso |
 //! | [`pose`] | the pose in the world, and the specific force at the head |
-//! | [`state`] | all that changes |
+//! | [`state`] | the state vector and its integration |
 //!
 //! Frames: x forward, y left, z up; roll positive to the right, pitch positive nose down, yaw positive to the left; only
 //! [`lateral`] and [`whipple`] keep the axes of their literature, y to the right and z down. All quantities are in SI
 //! units. Sines, cosines and their like come from the crate `libm`, so that every platform computes the same bits.
 //!
-//! A step allocates nothing, does no I/O and does not panic, whatever it is fed.
+//! A step allocates nothing, does no I/O and does not panic, for any input.
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! Speed and pitch: drive, brakes, drag and rolling resistance, what the tyres hold, and a stop that is one.
+//! Speed and pitch: drive, brakes, drag, rolling resistance, tyre friction, standstill.
 //!
 //! The whole machine pitches about the point of the road under its centre of mass, so that a mass at the height z moves
 //! with the velocity v + z p' (p the pitch, nose down). With the wheels' spin in the mass m' and the moment of inertia J
@@ -14,7 +14,7 @@ use crate::interface::Parameters;
 use crate::lateral::{Wheels, bicycle, static_loads};
 use crate::whipple::Bicycle;
 
-/// What of the motorcycle matters to its speed.
+/// Data of the longitudinal equations.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Longitudinal {
     parameters: crate::interface::Longitudinal,
@@ -30,17 +30,17 @@ pub struct Longitudinal {
     static_loads: Wheels,
 }
 
-/// On what the forces along the motorcycle depend.
+/// Arguments of the longitudinal forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Situation {
     /// Speed \[m/s\], not negative.
     pub speed: f64,
-    /// What has come through of throttle and brakes, from 0 to 1.
+    /// Throttle and brakes after their lags, from 0 to 1.
     pub throttle: f64,
     pub brake: f64,
     /// Forward force of the wind \[N\].
     pub wind: f64,
-    /// Loads of the tyres \[N\], and how much of their friction the lateral forces use \[N\].
+    /// Loads of the tyres \[N\], and their lateral forces \[N\].
     pub loads: Wheels,
     pub lateral: Wheels,
 }
@@ -52,13 +52,13 @@ pub struct Forces {
     pub tyres: Wheels,
     /// Drag less the wind's push \[N\].
     pub resistance: f64,
-    /// Whether the motorcycle stands, held by brakes, rolling resistance and feet.
+    /// True at standstill, held by brakes, rolling resistance and feet.
     pub held: bool,
     pub friction_limited: bool,
     pub lift_limited: bool,
 }
 
-/// How speed and pitch change.
+/// Accelerations of speed and pitch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accelerations {
     /// Rate of the speed \[m/s2\].
@@ -118,8 +118,8 @@ impl Longitudinal {
             front: held(self.friction * now.loads.front, now.lateral.front),
             rear: held(self.friction * now.loads.rear, now.lateral.rear),
         };
-        let wanted = Wheels { front: -p.brake_front_share * brake, rear: drive - (1.0 - p.brake_front_share) * brake };
-        let on_tyres = Wheels { front: within(wanted.front, held.front), rear: within(wanted.rear, held.rear) };
+        let demand = Wheels { front: -p.brake_front_share * brake, rear: drive - (1.0 - p.brake_front_share) * brake };
+        let on_tyres = Wheels { front: within(demand.front, held.front), rear: within(demand.rear, held.rear) };
         let (on_tyres, lift_limited) = self.keep_wheels_down(on_tyres, &now.loads, resistance);
         let tyres = Wheels {
             front: on_tyres.front - self.rolling_resistance * now.loads.front,
@@ -129,7 +129,7 @@ impl Longitudinal {
             tyres,
             resistance,
             held: now.speed <= 0.0 && tyres.front + tyres.rear <= resistance,
-            friction_limited: wanted.front.abs() > held.front || wanted.rear.abs() > held.rear,
+            friction_limited: demand.front.abs() > held.front || demand.rear.abs() > held.rear,
             lift_limited,
         }
     }
@@ -160,8 +160,8 @@ impl Longitudinal {
             + self.static_moment * speed * pitch_rate
     }
 
-    /// Drive or brakes eased so that a share of the weight stays on either wheel: in a steady acceleration as the balance
-    /// of moments has it, and while the springs still swing by the load that is there.
+    /// Drive or brakes reduced so that a fraction of the weight stays on either wheel: by the balance of moments in a
+    /// steady acceleration, and by the present load while the springs still move.
     fn keep_wheels_down(&self, forces: Wheels, loads: &Wheels, resistance: f64) -> (Wheels, bool) {
         let p = &self.parameters;
         let reserve = p.lift_reserve * (self.static_loads.front + self.static_loads.rear);
@@ -173,24 +173,24 @@ impl Longitudinal {
         let whole = forces.front + forces.rear;
         if whole > 0.0 {
             let most = force_for(self.static_loads.front - reserve).max(0.0);
-            let share = (most / whole).min(light(loads.front, reserve));
-            return (Wheels { rear: forces.rear - (1.0 - share.min(1.0)) * whole, ..forces }, share < 1.0);
+            let fraction = (most / whole).min(light(loads.front, reserve));
+            return (Wheels { rear: forces.rear - (1.0 - fraction.min(1.0)) * whole, ..forces }, fraction < 1.0);
         }
         if whole < 0.0 {
             let least = force_for(reserve - self.static_loads.rear).min(0.0);
-            let share = (least / whole).min(light(loads.rear, reserve)).min(1.0);
-            return (Wheels { front: share * forces.front, rear: share * forces.rear }, share < 1.0);
+            let fraction = (least / whole).min(light(loads.rear, reserve)).min(1.0);
+            return (Wheels { front: fraction * forces.front, rear: fraction * forces.rear }, fraction < 1.0);
         }
         (forces, false)
     }
 }
 
-/// The share of a force that a load above the reserve allows, and a lighter one less and less.
+/// Fraction of a force that a load permits: 1 above the reserve, falling to 0 with the load.
 fn light(load: f64, reserve: f64) -> f64 {
     if load < reserve { load / reserve } else { 1.0 }
 }
 
-/// The speed up to which the clutch slips when the throttle is closed, so that the engine's drag ends with the ride
+/// The speed up to which the clutch slips when the throttle is closed, so that the engine's drag ends at standstill
 /// \[m/s\].
 const CLUTCH_SPEED: f64 = 3.0;
 
@@ -205,7 +205,7 @@ fn pitch_inertia(bicycle: &Bicycle, frame_yy: f64) -> f64 {
         + about(bicycle.w, bicycle.f.r, bicycle.f.m)
 }
 
-/// What of a tyre's friction its lateral force leaves: the friction circle.
+/// Longitudinal friction left by a lateral force: the friction circle.
 fn held(friction: f64, lateral: f64) -> f64 {
     libm::sqrt((friction * friction - lateral * lateral).max(0.0))
 }

@@ -40,7 +40,7 @@ impl Model for Motorcycle {
         Motorcycle::new(&read(slots, PARAMETERS), &read(slots, INPUT))
     }
 
-    /// All parameters are fixed: there is nothing to take over.
+    /// All parameters are fixed: there is nothing to change.
     fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
         Ok(())
     }

@@ -6,9 +6,9 @@ use moris_washout::motion::braking_law::Motion;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::check::{check, ridden};
+use crate::check::{check, design_rider};
 use crate::interface::{Input, Output, Parameters};
-use crate::lateral::{self, Actions, Lateral, Wheels, feet_share, place};
+use crate::lateral::{self, Actions, Lateral, Wheels, foot_support, place};
 use crate::longitudinal::{Accelerations, Forces, Longitudinal, Situation};
 use crate::output_rate::{mean_rate, rest_rate};
 use crate::pose::{Geometry, Head, Moving, Point};
@@ -19,10 +19,10 @@ use crate::suspension::{self, Suspension};
 /// Shorter steps than this do nothing \[s\].
 pub const SHORTEST_STEP: f64 = 1e-12;
 
-/// How many internal steps a communication step may take.
+/// Largest number of internal steps in a communication step.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
 
-/// Wind beyond this counts as this, along each axis \[N\]: about what 30 m/s from the side make.
+/// Limit of the wind force along each axis \[N\]: about that of 30 m/s from the side.
 pub const STRONGEST_WIND: f64 = 600.0;
 
 /// A motorcycle and its rider.
@@ -39,7 +39,7 @@ pub struct Motorcycle {
     output_derivative: Output,
 }
 
-/// A state's derivative, and what was computed on the way.
+/// A state's derivative with intermediate results.
 struct Dynamics {
     derivative: State,
     forces: Forces,
@@ -59,7 +59,7 @@ impl Motorcycle {
         check(parameters)?;
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
-        let (lateral, rider) = ridden(parameters, &longitudinal, &suspension)?;
+        let (lateral, rider) = design_rider(parameters, &longitudinal, &suspension)?;
         let state = State {
             position: Vector2::zeros(),
             heading: parameters.run.initial_heading,
@@ -85,7 +85,7 @@ impl Motorcycle {
         Ok(motorcycle)
     }
 
-    /// The parameters that it was made with.
+    /// The parameters given at construction.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
@@ -135,7 +135,7 @@ impl Motorcycle {
         let steps = libm::ceil((step / longest - 1e-6).max(1.0));
         let size = step / steps;
         for k in 0..steps as u32 {
-            let at = |share: f64| between(&start, &end, (f64::from(k) + share) / steps);
+            let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
             self.advance([at(0.0), at(0.5), at(1.0)], size);
         }
         let before = self.output;
@@ -143,7 +143,7 @@ impl Motorcycle {
         self.output_derivative = mean_rate(&before, &self.output, step);
     }
 
-    /// One step by the classical Runge-Kutta rule. A motorcycle that would roll backwards stands.
+    /// One step by the classical Runge-Kutta rule. A speed below zero becomes zero.
     fn advance(&mut self, [start, middle, end]: [Input; 3], size: f64) {
         let state = self.state;
         let k1 = self.motion(&state, &start).derivative;
@@ -151,7 +151,7 @@ impl Motorcycle {
         let k3 = self.motion(&state.plus(&k2, 0.5 * size), &middle).derivative;
         let k4 = self.motion(&state.plus(&k3, size), &end).derivative;
         let end = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
-        self.state = end.without_dust();
+        self.state = end.flush_small();
         self.state.speed = self.state.speed.max(0.0);
     }
 
@@ -159,12 +159,12 @@ impl Motorcycle {
     fn motion(&self, state: &State, input: &Input) -> Dynamics {
         let p = &self.parameters;
         let speed = state.speed.max(0.0);
-        let feet = feet_share(speed, p.rider.feet_speed);
-        let skill = self.rider.skill(speed);
+        let feet = foot_support(speed, p.rider.feet_speed);
+        let gains = self.rider.gains(speed);
         let command = (input.lean, input.rider_lean);
-        let rider = self.rider.derivative(&state.rider, &state.lateral, &skill, feet, command);
+        let rider = self.rider.derivative(&state.rider, &state.lateral, &gains, feet, command);
 
-        let torque = self.rider.torque(&state.rider, &state.lateral, &skill, feet);
+        let torque = self.rider.torque(&state.rider, &state.lateral, &gains, feet);
         let actions =
             Actions { torque, torso: state.rider.torso, torso_acceleration: rider.torso_rate, wind: -input.wind.y };
         let lateral = self.lateral.derivative(&state.lateral, speed, feet, &actions);
@@ -200,7 +200,7 @@ impl Motorcycle {
         Dynamics { derivative, forces, accelerations, loads, torque, feet }
     }
 
-    /// What leaning and cornering add to gravity along the vertical of the motorcycle's plane \[m/s2\].
+    /// Addition of leaning and cornering to gravity along the vertical of the motorcycle's plane \[m/s2\].
     fn extra_weight(&self, state: &lateral::State, derivative: &lateral::State, speed: f64) -> f64 {
         let roll = roll(state, derivative);
         let (sin, cos) = libm::sincos(roll.position);
@@ -302,9 +302,9 @@ fn roll(state: &lateral::State, derivative: &lateral::State) -> Motion {
     }
 }
 
-/// The input at a `share` of the way from one to another.
-fn between(start: &Input, end: &Input, share: f64) -> Input {
-    let number = |from: f64, to: f64| from + share * (to - from);
+/// Linear interpolation between two inputs, `t` from 0 to 1.
+fn between(start: &Input, end: &Input, t: f64) -> Input {
+    let number = |from: f64, to: f64| from + t * (to - from);
     Input {
         throttle: number(start.throttle, end.throttle),
         brake: number(start.brake, end.brake),

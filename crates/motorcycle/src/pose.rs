@@ -1,4 +1,4 @@
-//! Where motorcycle and head are in the world, and what the head feels: exact for the pose, at any angle.
+//! Position of motorcycle and head in the world, and specific force at the head: exact for any angles.
 //!
 //! Axes as everywhere outside [`crate::lateral`]: x forward, y left, z up; roll, pitch (nose down) and yaw of
 //! R = Rz(yaw) Ry(pitch) Rx(roll). The motorcycle's plane rolls about the line through the rear contact along the
@@ -28,7 +28,7 @@ pub struct Geometry {
     gravity: f64,
 }
 
-/// How everything moves: angles in rad, all positive as in the module's axes.
+/// Motion of all coordinates: angles in rad, positive as in the module's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moving {
     pub roll: Motion,
@@ -48,7 +48,7 @@ pub struct Point {
     pub acceleration: Vector3<f64>,
 }
 
-/// The head's motion in the world, and what is felt there.
+/// The head's motion in the world, and the specific force there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Head {
     pub point: Point,

@@ -1,16 +1,16 @@
-//! The rider: the lean that he asks for, his torque on the bars, and his torso.
+//! The rider: reference lean, steering torque and torso.
 //!
-//! He follows a lean by torque on the bars: the torque of the steady turn with that lean, less a gain on the deviation
-//! of the whole lateral state from that turn's, less a gain on the accumulated error of the lean. The gains are those
-//! that minimise a quadratic cost (LQR), computed at the beginning for speeds from walking pace to the top and
-//! interpolated. Below walking pace they give way to feet and hands ([`crate::lateral::feet_share`]).
+//! The rider follows a lean by steering torque: the torque of the steady turn with that lean, less a gain on the deviation
+//! of the whole lateral state from that turn's, less a gain on the accumulated error of the lean. The gains
+//! minimise a quadratic cost (LQR). They are computed at the beginning for speeds from walking pace to the top speed, and
+//! interpolated. Below walking pace feet and hands replace them ([`crate::lateral::foot_support`]).
 
 use moris_interface::Refusal;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{self, Parameters};
-use crate::lateral::{self, Lateral, feet_share, place};
+use crate::lateral::{self, Lateral, foot_support, place};
 use crate::riccati::lqr_gain;
 
 /// The lateral state, and the accumulated error of the lean.
@@ -19,9 +19,9 @@ const ERROR: usize = lateral::SIZE;
 /// Number of speeds for which gains are computed.
 pub const SPEEDS: usize = 48;
 
-/// What the rider does at one speed.
+/// Gains of the rider at one speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Skill {
+pub struct GainSet {
     /// Torque against a deviation of the lateral state, and against the accumulated error.
     pub gain: lateral::State,
     pub error_gain: f64,
@@ -30,26 +30,26 @@ pub struct Skill {
     pub turn_torque: f64,
 }
 
-impl Skill {
-    fn none() -> Skill {
-        Skill { gain: lateral::State::zeros(), error_gain: 0.0, turn: lateral::State::zeros(), turn_torque: 0.0 }
+impl GainSet {
+    fn none() -> GainSet {
+        GainSet { gain: lateral::State::zeros(), error_gain: 0.0, turn: lateral::State::zeros(), turn_torque: 0.0 }
     }
 
-    fn towards(&self, other: &Skill, share: f64) -> Skill {
-        let number = |from: f64, to: f64| from + share * (to - from);
-        Skill {
-            gain: self.gain + (other.gain - self.gain) * share,
+    fn interpolated(&self, other: &GainSet, t: f64) -> GainSet {
+        let number = |from: f64, to: f64| from + t * (to - from);
+        GainSet {
+            gain: self.gain + (other.gain - self.gain) * t,
             error_gain: number(self.error_gain, other.error_gain),
-            turn: self.turn + (other.turn - self.turn) * share,
+            turn: self.turn + (other.turn - self.turn) * t,
             turn_torque: number(self.turn_torque, other.turn_torque),
         }
     }
 }
 
-/// What the rider is about: the lean that he asks for, the accumulated error of the lean, and his torso.
+/// State of the rider: reference lean, accumulated error of the lean, torso.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Roll angle asked for, to the right \[rad\], and its rate \[rad/s\].
+    /// Reference roll angle, to the right \[rad\], and its rate \[rad/s\].
     pub lean: f64,
     pub lean_rate: f64,
     /// Accumulated error of the lean \[s\].
@@ -59,10 +59,10 @@ pub struct State {
     pub torso_rate: f64,
 }
 
-/// The rider's skills for all speeds, and his limits.
+/// The rider's gains for all speeds, and the rider's limits.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rider {
-    skills: SVector<Skill, SPEEDS>,
+    gains: SVector<GainSet, SPEEDS>,
     slowest: f64,
     fastest: f64,
     parameters: interface::Rider,
@@ -75,24 +75,24 @@ impl Rider {
     /// The rider of a motorcycle that goes up to `fastest` \[m/s\].
     ///
     /// # Errors
-    /// The motorcycle cannot be ridden with these parameters: no torque keeps it upright.
+    /// No steering torque stabilises the motorcycle with these parameters.
     pub fn new(lateral: &Lateral, parameters: &Parameters, fastest: f64) -> Result<Rider, Refusal> {
         let limits = &parameters.rider;
         let mut rider = Rider {
-            skills: SVector::repeat(Skill::none()),
-            slowest: SLOWEST_SHARE * limits.feet_speed,
+            gains: SVector::repeat(GainSet::none()),
+            slowest: SLOWEST_FRACTION * limits.feet_speed,
             fastest,
             parameters: *limits,
-            largest_lean: libm::tan(limits.lean_limit).min(HELD_SHARE * parameters.tyres.friction),
+            largest_lean: libm::tan(limits.lean_limit).min(FRICTION_FRACTION * parameters.tyres.friction),
             steer_lock: parameters.machine.steer_lock,
         };
         for k in 0..SPEEDS {
             let speed = rider.knot(k);
-            rider.skills[k] = learn(lateral, speed, limits).ok_or_else(|| Refusal {
+            rider.gains[k] = design_gains(lateral, speed, limits).ok_or_else(|| Refusal {
                 variable: "rider.torqueWeight".into(),
                 reason: format!(
-                    "is {}, but with it no torque on the bars keeps this motorcycle upright at {speed:.1} m/s; mend it, \
-                     or the masses and tyres",
+                    "is {} N m; no steering torque stabilises this motorcycle at {speed:.1} m/s; change rider.torqueWeight, \
+                     the masses or the tyres",
                     limits.torque_weight
                 ),
             })?;
@@ -106,35 +106,35 @@ impl Rider {
         self.slowest * libm::pow(self.fastest / self.slowest, k as f64 / (SPEEDS - 1) as f64)
     }
 
-    /// What the rider does at a speed \[m/s\]: interpolated between two knots.
-    pub fn skill(&self, speed: f64) -> Skill {
+    /// Gains at a speed \[m/s\]: interpolated between two knots.
+    pub fn gains(&self, speed: f64) -> GainSet {
         let place = libm::log(speed / self.slowest) / libm::log(self.fastest / self.slowest) * (SPEEDS - 1) as f64;
         let place = place.max(0.0).min((SPEEDS - 1) as f64);
         let k = (place as usize).min(SPEEDS - 2);
-        self.skills[k].towards(&self.skills[k + 1], place - k as f64)
+        self.gains[k].interpolated(&self.gains[k + 1], place - k as f64)
     }
 
-    /// Torque on the bars to the right \[N m\], for feet that hold by a share from 0 to 1.
-    pub fn torque(&self, state: &State, lateral: &lateral::State, skill: &Skill, feet: f64) -> f64 {
+    /// Torque on the bars to the right \[N m\], with foot support from 0 to 1.
+    pub fn torque(&self, state: &State, lateral: &lateral::State, gains: &GainSet, feet: f64) -> f64 {
         let lean = libm::tan(state.lean);
-        let mut deviation = lateral - skill.turn * lean;
+        let mut deviation = lateral - gains.turn * lean;
         deviation[place::LEAN_RATE] -= state.lean_rate * (1.0 + lean * lean);
-        (1.0 - feet) * (skill.turn_torque * lean - skill.gain.dot(&deviation) - skill.error_gain * state.error)
+        (1.0 - feet) * (gains.turn_torque * lean - gains.gain.dot(&deviation) - gains.error_gain * state.error)
     }
 
-    /// The derivative of the rider's state: he takes up a commanded roll angle and a commanded lean of his torso, both
-    /// \[rad\] to the right. `feet` is the share by which feet hold the motorcycle upright.
+    /// The derivative of the rider's state for a commanded roll angle and a commanded torso lean, both \[rad\] to the
+    /// right. `feet` is the foot support from 0 to 1.
     pub fn derivative(
         &self,
         state: &State,
         lateral: &lateral::State,
-        skill: &Skill,
+        gains: &GainSet,
         feet: f64,
         command: (f64, f64),
     ) -> State {
         let limits = &self.parameters;
         let riding = 1.0 - feet;
-        let steepest = libm::atan(self.largest_lean.min(self.steer_lock / skill.turn[place::STEER].abs()));
+        let steepest = libm::atan(self.largest_lean.min(self.steer_lock / gains.turn[place::STEER].abs()));
         let target = riding * within(command.0, steepest);
         let rate = within(0.5 * limits.lean_frequency * (target - state.lean), limits.lean_rate_limit);
         let torso = within(command.1 + limits.body_lean_share * state.lean, limits.body_lean_limit);
@@ -150,17 +150,17 @@ impl Rider {
 
     /// The matrix of the closed loop of lateral state and accumulated error at a speed \[m/s\].
     pub fn closed_loop(&self, lateral: &Lateral, speed: f64) -> SMatrix<f64, SIZE, SIZE> {
-        let skill = self.skill(speed);
+        let gains = self.gains(speed);
         let (a, torque) = plant(lateral, speed, self.parameters.feet_speed);
-        a - torque * skill.gain.push(skill.error_gain).transpose()
+        a - torque * gains.gain.push(gains.error_gain).transpose()
     }
 }
 
-/// The slowest speed with gains of its own, as a share of the one at which the feet come off the road.
-const SLOWEST_SHARE: f64 = 0.3;
-/// The rider asks for no more lean than this share of the friction holds.
-const HELD_SHARE: f64 = 0.9;
-/// With his feet down the rider forgets the accumulated error with this time constant \[s\].
+/// The slowest speed with gains of its own, as a fraction of the speed at which foot support ends.
+const SLOWEST_FRACTION: f64 = 0.3;
+/// The reference lean needs at most this fraction of the friction.
+const FRICTION_FRACTION: f64 = 0.9;
+/// Time constant with which foot support discharges the accumulated error \[s\].
 const FORGETTING: f64 = 0.5;
 
 /// The limited value: at most `limit` to either side.
@@ -168,9 +168,9 @@ fn within(value: f64, limit: f64) -> f64 {
     value.max(-limit).min(limit)
 }
 
-/// Skill at a speed: the steady turn, and the gains that minimise the integral of the squares of
+/// Gains at a speed: the steady turn, and the gains that minimise the integral of the squares of
 /// lean / 0.1, lean rate / 0.5, steer / 0.2, steer rate / 2, accumulated error / 0.1 and torque / weight.
-fn learn(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<Skill> {
+fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<GainSet> {
     let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
     let (a, torque) = plant(lateral, speed, limits.feet_speed);
     // Forces in kN: then all numbers are of about the same size.
@@ -193,7 +193,7 @@ fn learn(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<Ski
     )?;
     let gain = inverse * gain;
     let finite = gain.iter().chain(turn.iter()).chain([&turn_torque]).all(|number| number.is_finite());
-    finite.then(|| Skill {
+    finite.then(|| GainSet {
         gain: gain.fixed_rows::<{ lateral::SIZE }>(0).into_owned(),
         error_gain: gain[ERROR],
         turn,
@@ -220,10 +220,10 @@ fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lat
     Some((turn, solution[5]))
 }
 
-/// What the rider steers at a speed: the matrix of the lateral state and the accumulated error of the lean, and the
-/// effect of a torque, both with the feet as far down as they are then.
+/// Plant of the lean control at a speed: matrix of the lateral state and the accumulated error of the lean, and
+/// effect of a torque, both with the foot support at that speed.
 fn plant(lateral: &Lateral, speed: f64, feet_speed: f64) -> (SMatrix<f64, SIZE, SIZE>, SVector<f64, SIZE>) {
-    let feet = feet_share(speed, feet_speed);
+    let feet = foot_support(speed, feet_speed);
     let mut a = SMatrix::<f64, SIZE, SIZE>::zeros();
     a.fixed_view_mut::<{ lateral::SIZE }, { lateral::SIZE }>(0, 0).copy_from(&lateral.state_matrix(speed, feet));
     a[(ERROR, place::LEAN)] = 1.0 - feet;

@@ -1,4 +1,4 @@
-//! Everything that changes during a ride, as one value that can be integrated.
+//! The state vector, and its integration.
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -18,7 +18,7 @@ pub struct State {
     pub lateral: lateral::State,
     pub suspension: suspension::State,
     pub rider: rider::State,
-    /// What has come through of throttle and brakes, from 0 to 1.
+    /// Throttle and brakes after their lags, from 0 to 1.
     pub throttle: f64,
     pub brake: f64,
 }
@@ -49,24 +49,23 @@ impl State {
         }
     }
 
-    /// The state with what is no more than dust of a motion that has ended swept away, so that after a stop the
-    /// motorcycle comes to rest in fact and not only in the limit.
-    pub fn without_dust(mut self) -> State {
-        let sweep = |value: &mut f64| {
-            if value.abs() < DUST {
+    /// The state with values below the threshold set to zero, so that the motorcycle comes to rest in finite time.
+    pub fn flush_small(mut self) -> State {
+        let flush = |value: &mut f64| {
+            if value.abs() < NEGLIGIBLE {
                 *value = 0.0;
             }
         };
-        self.lateral.iter_mut().for_each(sweep);
-        self.suspension.position.iter_mut().chain(self.suspension.velocity.iter_mut()).for_each(sweep);
+        self.lateral.iter_mut().for_each(flush);
+        self.suspension.position.iter_mut().chain(self.suspension.velocity.iter_mut()).for_each(flush);
         let rider = &mut self.rider;
         [&mut rider.lean, &mut rider.lean_rate, &mut rider.error, &mut rider.torso, &mut rider.torso_rate]
             .into_iter()
             .chain([&mut self.throttle, &mut self.brake])
-            .for_each(sweep);
+            .for_each(flush);
         self
     }
 }
 
-/// Angles, lengths, forces and their rates below this, in SI units, are none.
-const DUST: f64 = 1e-12;
+/// Angles, lengths, forces and their rates below this count as zero, in SI units.
+const NEGLIGIBLE: f64 = 1e-12;

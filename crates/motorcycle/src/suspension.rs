@@ -1,7 +1,7 @@
 //! Springs, dampers, heave and the tyres' loads, in the motorcycle's leaning plane.
 //!
 //! The sprung mass rests on two upright springs and dampers. With heave u upwards and pitch p nose down from rest, and F
-//! what springs and dampers push upwards more than at rest: m u'' = F_f + F_r + W_z - m n, where n is what leaning and
+//! the upward force of springs and dampers beyond that at rest: m u'' = F_f + F_r + W_z - m n, where n is what leaning and
 //! cornering add to gravity along the plane; their moment about the centre of mass is l_r F_r - l_f F_f. The pitch
 //! itself goes with the speed: [`crate::longitudinal`].
 
@@ -52,7 +52,7 @@ impl Suspension {
         }
     }
 
-    /// Compressions since rest from heave and pitch, or their rates from those rates.
+    /// Compressions relative to rest from heave and pitch, or their rates from those rates.
     pub fn travel(&self, motion: &Vector2<f64>) -> Wheels {
         let (heave, pitch) = (motion.x, motion.y);
         Wheels { front: self.arms.front * pitch - heave, rear: -self.arms.rear * pitch - heave }
@@ -68,7 +68,7 @@ impl Suspension {
         }
     }
 
-    /// What springs and dampers push upwards more than at rest; not less than a tyre that does not pull lets them.
+    /// Upward forces of springs and dampers beyond those at rest, limited where a tyre would have to pull.
     fn forces(&self, state: &State, extra_weight: f64) -> Wheels {
         let p = &self.parameters;
         let (travel, rate) = (self.travel(&state.position), self.travel(&state.velocity));
@@ -81,8 +81,8 @@ impl Suspension {
         }
     }
 
-    /// Acceleration of heave, and the moment about the centre of mass, nose down \[N m\]. `extra_weight` is what leaning
-    /// and cornering add to gravity along the plane \[m/s2\], `wind` the wind's upward force \[N\].
+    /// Acceleration of heave, and the moment about the centre of mass, nose down \[N m\]. `extra_weight` is the addition of
+    /// leaning and cornering to gravity along the plane \[m/s2\], `wind` the wind's upward force \[N\].
     pub fn push(&self, state: &State, extra_weight: f64, wind: f64) -> (f64, f64) {
         let forces = self.forces(state, extra_weight);
         (
@@ -110,7 +110,7 @@ impl Suspension {
     /// The largest magnitude of the free motion's poles \[rad/s\], or an upper bound of it.
     pub fn fastest_pole(&self) -> f64 {
         let p = &self.parameters;
-        // Each axle alone, carrying no more than its share of mass and inertia lets it feel.
+        // Each axle alone, with the compliance of mass and inertia at its arm.
         let axle = |stiffness: f64, damping: f64, arm: f64| {
             let compliance = 1.0 / self.mass + arm * arm / self.pitch_inertia;
             libm::sqrt(stiffness * compliance) + damping * compliance

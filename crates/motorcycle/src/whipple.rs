@@ -2,7 +2,7 @@
 //! and steer of a bicycle: a benchmark and review", Proc. R. Soc. A 463 (2007), appendix A.
 //!
 //! The paper's axes: x forward, y to the RIGHT, z DOWN, from the rear contact; lean and steer positive to the right.
-//! Names are the paper's, too. This model is the limit of [`crate::lateral`] for stiff tyres; a ride does not use it.
+//! Names are the paper's, too. This model is the limit of [`crate::lateral`] for stiff tyres; the simulation does not use it.
 
 use nalgebra::Matrix2;
 
@@ -45,7 +45,7 @@ pub struct Body {
     pub zz: f64,
 }
 
-/// What appendix A computes on the way: of the whole (T) and of the front assembly (A).
+/// Intermediate quantities of appendix A: of the whole (T) and of the front assembly (A).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Totals {
     pub m_t: f64,
@@ -74,7 +74,7 @@ pub struct Totals {
 }
 
 impl Bicycle {
-    /// What appendix A defines before the coefficients.
+    /// The quantities that appendix A defines before the coefficients.
     pub fn totals(&self) -> Totals {
         let Bicycle { w, c, caster_angle, r, b, h, f } = *self;
         let (sin, cos) = libm::sincos(caster_angle);
@@ -100,7 +100,7 @@ impl Bicycle {
         Totals { m_t, x_t, z_t, t_xx, t_xz, t_zz, m_a, x_a, z_a, u_a, a_ll, a_lx, a_lz, mu, s_r, s_f, s_a }
     }
 
-    /// The coefficients of the linearised equations of lean and steer, as appendix A ends with them.
+    /// The coefficients of the linearised equations of lean and steer, the result of appendix A.
     pub fn equations(&self) -> Equations {
         let t = self.totals();
         let (sin, cos) = libm::sincos(self.caster_angle);

@@ -1,4 +1,4 @@
-//! What several tests need.
+//! Helpers of several tests.
 
 use moris_motorcycle::whipple::{Bicycle, Body, Wheel};
 use moris_motorcycle::{Input, Motorcycle, Parameters};

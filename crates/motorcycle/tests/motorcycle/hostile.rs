@@ -20,7 +20,7 @@ fn number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// What a parameter is multiplied by.
+/// Factors on a parameter.
 fn factor() -> impl Strategy<Value = f64> {
     prop_oneof![4 => 0.5..2.0_f64, 2 => 0.01..100.0_f64, 1 => Just(1e-9), 1 => Just(1e9), 1 => Just(0.0)]
 }

@@ -23,7 +23,7 @@ fn on_stiff_tyres(bicycle: Bicycle, stiffness: f64, relaxation: f64) -> Lateral 
     Lateral::new(&design).unwrap()
 }
 
-/// How far the farthest of Whipple's eigenvalues is from the nearest of the tyred model's.
+/// Largest distance of an eigenvalue of Whipple's model from the nearest of the model with tyres.
 fn distance(bicycle: Bicycle, speed: f64, stiffness: f64, relaxation: f64) -> f64 {
     let tyred = on_stiff_tyres(bicycle, stiffness, relaxation).state_matrix(speed, 0.0).complex_eigenvalues();
     let whipple = bicycle.equations().state_matrix(GRAVITY, speed).unwrap().complex_eigenvalues();

@@ -1,4 +1,4 @@
-//! What the head feels, against differences of where it is.
+//! Specific force at the head, against finite differences of its position.
 
 use moris_motorcycle::{Input, Motorcycle, Output, Parameters};
 use nalgebra::{Rotation3, Vector3};

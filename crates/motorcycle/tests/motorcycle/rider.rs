@@ -42,7 +42,7 @@ fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
     for knot in [32, 36, 40, 46] {
         let speed = ridden.rider().knot(knot);
         assert!(speed > 3.0, "no feet on the road at {speed} m/s");
-        let skill = ridden.rider().skill(speed);
+        let skill = ridden.rider().gains(speed);
         let state_matrix = ridden.lateral().state_matrix(speed, 0.0);
         let torque = ridden.lateral().torque;
         for frequency in [0.1, 0.5, 1.0, 3.0, 10.0, 30.0, 100.0] {

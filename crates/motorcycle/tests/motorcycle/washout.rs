@@ -8,7 +8,7 @@ use nalgebra::{Rotation3, Vector3};
 
 use crate::common::{at_speed, motorcycle};
 
-/// What a host does that connects by name.
+/// Connection by name, as a host makes it.
 fn connected(output: &Output) -> moris_washout::Input {
     moris_washout::Input {
         specific_force: output.specific_force,
