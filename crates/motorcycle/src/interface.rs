@@ -33,7 +33,7 @@ interface! {
         "command.lean" lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
         /// Lean of the rider's torso relative to the motorcycle, positive to the right; added to rider.bodyLeanShare times the commanded roll angle.
         "command.riderLean" rider_lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
-        /// Force of the wind on motorcycle and rider besides the drag of still air, in axes that follow the heading (x forward, y left, z up), midway between the wheels at aero.height.
+        /// Wind force on motorcycle and rider in addition to the drag of still air, in heading axes (x forward, y left, z up); acts midway between the wheels at aero.height.
         "wind.force.@" wind: Vector3<f64> [N] { -STRONGEST_WIND ..= STRONGEST_WIND } = Vector3::new(0.0, 0.0, 0.0);
     }
 }

@@ -1,4 +1,4 @@
-//! Whether parameters can be used: each on its own, and together.
+//! Validation of parameters: each alone, and in combination.
 
 use moris_interface::{Group, Refusal, refuse};
 use moris_washout::interface::StructureParameters;
@@ -39,14 +39,14 @@ fn check_inertia(name: &str, inertia: &Inertia, has_extent: bool) -> Result<(), 
     refuse(
         name,
         format!(
-            "has principal moments of {:.6}, {:.6} and {:.6} kg m2, which no body has: they must be positive, and none larger than \
-             the other two together",
+            "has principal moments of {:.6}, {:.6} and {:.6} kg m2, which no rigid body has; they must be positive, and none larger than \
+             the sum of the other two",
             moments[0], moments[1], moments[2]
         ),
     )
 }
 
-/// The drives must at least carry the platform.
+/// The drives must carry the platform at rest.
 fn check_force_limit(limit: f64, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
     let (leg, needed) = at_rest
         .iter()
@@ -59,7 +59,7 @@ fn check_force_limit(limit: f64, at_rest: &Vector6<f64>) -> Result<(), Refusal> 
     refuse(
         "actuator.forceLimit",
         format!(
-            "is {limit} N, but at rest at neutral actuator {} carries {needed:.1} N; raise it, or lower the masses",
+            "is {limit} N; at rest at neutral actuator {} carries {needed:.1} N; raise the limit or lower the masses",
             leg + 1
         ),
     )

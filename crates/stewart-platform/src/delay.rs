@@ -1,23 +1,23 @@
-//! The dead time of the commands: what goes in comes out after it, unchanged.
+//! The dead time of the commands.
 
 use serde::{Deserialize, Serialize};
 
 /// The six commands over a stretch of time, linear from one end to the other \[m\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ramp {
-    /// How long it lasts \[s\].
+    /// Duration \[s\].
     pub duration: f64,
     pub from: [f64; 6],
     pub to: [f64; 6],
 }
 
-/// How many ramps can be on their way at a time.
+/// Capacity of the queue, in ramps.
 const CAPACITY: usize = 32;
 
-/// A queue of ramps that together last as long as the dead time.
+/// A queue of ramps whose durations add up to the dead time.
 ///
-/// Ramps shorter than about a fourteenth of the dead time are joined, two to one; longer ones come out exactly as they
-/// went in. No clock is kept, so nothing drifts.
+/// Two neighbours that together last less than about a fourteenth of the dead time are joined; longer ones leave the
+/// queue exactly as they entered it. There is no clock, so nothing drifts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DelayLine {
     ramps: [Ramp; CAPACITY],
@@ -35,7 +35,7 @@ impl DelayLine {
         DelayLine { ramps: [constant; CAPACITY], first: 0, count: usize::from(dead_time > 0.0), finest }
     }
 
-    /// Puts in what is commanded next.
+    /// Appends the next command.
     pub fn push(&mut self, ramp: &Ramp) {
         if self.count > 0 {
             let last = &mut self.ramps[(self.first + self.count - 1) % CAPACITY];
@@ -49,11 +49,11 @@ impl DelayLine {
         self.count += 1;
     }
 
-    /// Takes out what arrives next: no longer than `longest` \[s\] but for rounding, and linear.
+    /// Removes the next command that arrives: linear, and at most `longest` \[s\] but for rounding.
     ///
-    /// As much as was put in can be taken out; beyond that the last command stays.
+    /// An empty queue repeats the last command.
     pub fn pop(&mut self, longest: f64) -> Ramp {
-        /// A rest this much shorter than what is taken is taken with it.
+        /// Relative remainder of a ramp that leaves with it.
         const ROUNDING: f64 = 1e-9;
         if self.count == 0 {
             let last = self.ramps[(self.first + CAPACITY - 1) % CAPACITY].to;
@@ -65,8 +65,8 @@ impl DelayLine {
             self.count -= 1;
             return *head;
         }
-        let share = longest / head.duration;
-        let between = std::array::from_fn(|i| head.from[i] + share * (head.to[i] - head.from[i]));
+        let t = longest / head.duration;
+        let between = std::array::from_fn(|i| head.from[i] + t * (head.to[i] - head.from[i]));
         let taken = Ramp { duration: longest, from: head.from, to: between };
         head.from = between;
         head.duration -= longest;

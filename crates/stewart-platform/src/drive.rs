@@ -4,7 +4,7 @@ use moris_washout::motion::braking_law::{Limits, Motion, approach_velocity};
 
 use crate::interface::Parameters;
 
-/// How the drives act over one internal step.
+/// The drives over one internal step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     step: f64,
@@ -15,11 +15,11 @@ pub struct Drive {
     limits: Limits,
 }
 
-/// Where a drive wants its leg at a step's end.
+/// Target of a drive for its leg at a step's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Aim {
+pub struct DriveTarget {
     pub motion: Motion,
-    /// Whether a limit of speed, acceleration or stroke keeps it from the second-order response.
+    /// True if a limit of speed, acceleration or stroke changes the second-order response.
     pub limited: bool,
 }
 
@@ -42,9 +42,9 @@ impl Drive {
         }
     }
 
-    /// Where the drive wants a leg that has this length \[m\] and velocity \[m/s\], while its command goes linearly
-    /// from one length to another.
-    pub fn aim(&self, length: f64, velocity: f64, from: f64, to: f64) -> Aim {
+    /// Target for a leg of this length \[m\] and velocity \[m/s\], whose command goes linearly from one length to
+    /// another.
+    pub fn target(&self, length: f64, velocity: f64, from: f64, to: f64) -> DriveTarget {
         let slope = (to - from) / self.step;
         // Far behind a ramp, a second-order system follows it with this lag.
         let lag = 2.0 * self.damping / self.bandwidth * slope;
@@ -56,15 +56,15 @@ impl Drive {
             acceleration: self.acceleration(offset_after, rate_after),
         };
         if self.acceleration(offset, rate).abs() <= self.limits.acceleration && allowed(&self.limits, &motion) {
-            return Aim { motion, limited: false };
+            return DriveTarget { motion, limited: false };
         }
-        Aim { motion: self.held(length, velocity, motion.velocity), limited: true }
+        DriveTarget { motion: self.limited(length, velocity, motion.velocity), limited: true }
     }
 
-    /// The motion after the step that comes nearest to the wanted velocity within the limits.
-    fn held(&self, length: f64, velocity: f64, wanted: f64) -> Motion {
+    /// The motion after the step that comes nearest to the demanded velocity within the limits.
+    fn limited(&self, length: f64, velocity: f64, demand: f64) -> Motion {
         let now = Motion { position: length, velocity, acceleration: 0.0 };
-        let next = self.limits.nearest_velocity(&now, wanted, self.step);
+        let next = self.limits.nearest_velocity(&now, demand, self.step);
         let coasted = length + 0.5 * velocity * self.step;
         Motion {
             position: coasted + 0.5 * next * self.step,
@@ -79,7 +79,7 @@ impl Drive {
     }
 }
 
-/// Whether a leg may move so: within all limits, and able to stop ahead of the ends.
+/// Test of a leg's motion: within all limits, and able to stop ahead of the ends.
 fn allowed(limits: &Limits, motion: &Motion) -> bool {
     let Motion { position, velocity, acceleration } = *motion;
     let ahead = if velocity > 0.0 { limits.max - position } else { position - limits.min };
@@ -153,9 +153,9 @@ mod tests {
         for (begin, command) in [(1.3, 1.59), (1.0, 1.6), (1.59, 1.0), (1.3, 5.0), (1.3, -9.0)] {
             let mut motion = Motion::at_rest(begin);
             for _ in 0..5000 {
-                let aim = drive.aim(motion.position, motion.velocity, command, command);
-                let change = (aim.motion.velocity - motion.velocity).abs();
-                motion = aim.motion;
+                let target = drive.target(motion.position, motion.velocity, command, command);
+                let change = (target.motion.velocity - motion.velocity).abs();
+                motion = target.motion;
                 assert!((1.0 - 1e-12..=1.6 + 1e-12).contains(&motion.position), "{}", motion.position);
                 assert!(motion.velocity.abs() <= 1.0 + 1e-12 && change <= 0.015 + 1e-12);
             }

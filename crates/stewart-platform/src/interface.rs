@@ -1,7 +1,7 @@
-//! The one table of variables: what goes in, what comes out, what can be set.
+//! The table of variables: inputs, outputs, parameters.
 //!
-//! The structs here are the Rust API, and their rows are the FMU's variables. Names that the washout has too mean the
-//! same here, so that its outputs connect and its rig can be given to both.
+//! The structs here are the Rust API, and their rows are the FMU's variables. A name of the washout means the same
+//! here, so that its outputs connect and both accept the same rig.
 
 use moris_interface::units::{ANGULAR_FREQUENCY, KG, KG_M2, M, M_PER_S, M_PER_S2, N, RAD, RAD_PER_S, RAD_PER_S2, S, W};
 use moris_interface::{Field, Kind, interface, interface_tree, units};
@@ -50,7 +50,7 @@ impl Field for Inertia {
 }
 
 interface! {
-    /// What the host's clock says.
+    /// Time of the host.
     pub struct Clock: Independent, Continuous {
         /// Simulation time.
         "time" time: f64 [S] = 0.0;
@@ -58,19 +58,19 @@ interface! {
 }
 
 interface! {
-    /// What the platform is told, and what the rider does on it.
+    /// Commands to the actuators, and the rider's lean.
     pub struct Input: Input, Continuous {
-        /// Commanded length of the actuator, from base joint to platform joint; one outside its stroke is refused.
+        /// Commanded length of the actuator, from base joint to platform joint; a length outside the stroke is rejected.
         "command[#].length" length: [f64; 6] [M] { 0.0 ..= 200.0 } = DEFAULT_NEUTRAL_LENGTHS;
-        /// Commanded rate of the actuator's length: by it the command goes on during a communication step. It may stay 0; the command is then held.
+        /// Commanded rate of the actuator's length, which extrapolates the command during a communication step; 0 holds the command.
         "command[#].velocity" velocity: [f64; 6] [M_PER_S] { -100.0 ..= 100.0 } = [0.0; 6];
-        /// Lean of the rider's torso relative to the mock-up, positive to the right; it moves his head.
+        /// Lean of the rider's torso relative to the mock-up, positive to the right; it moves the head.
         "rider.lean" lean: f64 [RAD] { -1.5 ..= 1.5 } = 0.0;
     }
 }
 
 interface! {
-    /// What the platform and its actuators really do, and what the rider feels on it.
+    /// Real motion of the platform and its actuators, and the motion felt by the rider.
     pub struct Output: Output, Continuous {
         /// Position of the platform frame's origin in the base frame.
         "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
@@ -92,21 +92,21 @@ interface! {
         "actuator[#].acceleration" leg_acceleration: [f64; 6] [M_PER_S2] = [0.0; 6];
         /// Force of the actuator's drive along the actuator, positive where it pushes; within actuator.forceLimit.
         "actuator[#].force" force: [f64; 6] [N] = [0.0; 6];
-        /// Force of the stop at an end of the actuator's stroke, positive where it pushes; of an impact the mean over an internal step.
+        /// Force of the stop at an end of the actuator's stroke, positive where it pushes; in an impact its mean over an internal step.
         "actuator[#].stopForce" stop_force: [f64; 6] [N] = [0.0; 6];
-        /// Mechanical power that all actuators together deliver.
+        /// Total mechanical power of the actuators.
         "actuator.totalPower" total_power: f64 [W] = 0.0;
-        /// Specific force that the rider feels at his head on the real motion, in head axes.
+        /// Specific force at the rider's head on the real motion, in head axes.
         "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
-        /// Angular velocity that the rider feels on the real motion, in head axes.
+        /// Angular velocity of the rider's head on the real motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
-        /// Whether, during the last communication step, a commanded length was one that no actuator can have; the one before it stayed.
+        /// True if a commanded length was outside the stroke during the last communication step; the previous command is then kept.
         "status.commandRefused" command_refused: bool = false;
-        /// Whether, during the last communication step, a drive kept its actuator to its speed or acceleration limit, or braked it ahead of an end of its stroke.
+        /// True if a drive was limited by speed or acceleration, or braked ahead of an end of the stroke, during the last communication step.
         "status.driveLimited" drive_limited: bool = false;
-        /// Whether, during the last communication step, a drive had not the force to follow its command.
+        /// True if a drive was limited by force during the last communication step.
         "status.forceLimited" force_limited: bool = false;
-        /// Whether, during the last communication step, an actuator was held by a stop at an end of its stroke.
+        /// True if a stop at an end of the stroke held an actuator during the last communication step.
         "status.atStop" at_stop: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
@@ -114,21 +114,21 @@ interface! {
 }
 
 interface! {
-    /// How each actuator follows its command; its stroke, speed and acceleration limits are the rig's.
+    /// Response of the actuators; their limits of stroke, speed and acceleration are the rig's.
     pub struct Actuators: Parameter, Fixed {
-        /// Undamped natural frequency of an actuator's response to its command; at the default damping 3 dB are lost there.
+        /// Undamped natural frequency of an actuator's response to its command; at the default damping the response is -3 dB there.
         "actuator.bandwidth" bandwidth: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 1e3 } = 62.831_853_071_795_86;
         /// Damping ratio of an actuator's response.
         "actuator.damping" damping: f64 { 0.05 ..= 10.0 } = std::f64::consts::FRAC_1_SQRT_2;
-        /// Time that passes before an actuator's drive sees a command.
+        /// Dead time between a command and the drive's response.
         "actuator.deadTime" dead_time: f64 [S] { 0.0 ..= 10.0 } = 0.004;
-        /// Largest force of an actuator's drive, either way.
+        /// Largest force of an actuator's drive, in both directions.
         "actuator.forceLimit" force_limit: f64 [N] { 1e-3 ..= 1e9 } = 4000.0;
     }
 }
 
 interface! {
-    /// What moves: the platform with the mock-up, the rider, and a payload, together one rigid body. The actuators have no mass of their own.
+    /// Moving masses: platform with mock-up, rider and payload, as one rigid body. The actuators are massless.
     pub struct Masses: Parameter, Fixed {
         /// Mass of the platform with the motorcycle's mock-up.
         "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0;
@@ -136,27 +136,27 @@ interface! {
         "platform.centreOfMass.@" platform_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.26);
         /// Matrix of inertia of the platform with the mock-up about its centre of mass.
         "platform.inertia.@" platform_inertia: Inertia [KG_M2] { -1e8 ..= 1e8 } = Inertia::diagonal(49.0, 89.0, 89.0);
-        /// Mass of the rider; 0 where there is none.
+        /// Mass of the rider; 0 without a rider.
         "rider.mass" rider_mass: f64 [KG] { 0.0 ..= 1e6 } = 80.0;
         /// Centre of mass of the upright rider, in the platform frame.
         "rider.centreOfMass.@" rider_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.70);
-        /// Matrix of inertia of the upright rider about his centre of mass.
+        /// Matrix of inertia of the upright rider about the rider's centre of mass.
         "rider.inertia.@" rider_inertia: Inertia [KG_M2] { -1e8 ..= 1e8 } = Inertia::diagonal(6.0, 7.0, 3.0);
-        /// Mass of a payload, taken as a point; 0 where there is none.
+        /// Mass of a payload, as a point mass; 0 without one.
         "payload.mass" payload_mass: f64 [KG] { 0.0 ..= 1e6 } = 0.0;
-        /// Where the payload is, in the platform frame.
+        /// Position of the payload in the platform frame.
         "payload.centreOfMass.@" payload_centre: Vector3<f64> [M] { -100.0 ..= 100.0 } = Vector3::new(0.0, 0.0, 0.0);
     }
 }
 
 interface! {
-    /// Where the platform is, who is on it, and how it is computed.
+    /// Gravity, the rider's head, and the solver.
     pub struct Setting: Parameter, Fixed {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Height of the rider's head above the platform.
         "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2;
-        /// Length of the torso from seat to head, about whose lower end the rider leans.
+        /// Length of the torso from the seat, its lean axis, to the head.
         "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// Longest internal step; a longer communication step is divided.
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.01 } = 0.001;
@@ -164,7 +164,7 @@ interface! {
 }
 
 interface_tree! {
-    /// Everything that can be set. All of it is fixed once initialised.
+    /// All parameters; fixed after initialisation.
     pub struct Parameters {
         actuators: Actuators,
         masses: Masses,

@@ -1,20 +1,20 @@
-//! A Stewart platform with dynamics: what a motion base really does with the legs that it is commanded.
+//! A Stewart platform with dynamics: the real motion of a motion base for commanded leg lengths.
 //!
-//! Six commanded leg lengths go in. Each leg follows its command as a second-order system after a dead time, within limits
-//! of speed, acceleration, stroke and force. Out come the real legs, the pose they make, the forces they carry, and what
-//! the rider feels on that motion: the plant to test a washout filter, or a motion base's controller, against.
+//! The inputs are six commanded leg lengths. Each leg follows its command as a second-order system after a dead time,
+//! within limits of speed, acceleration, stroke and force. The outputs are the real leg lengths, the pose, the forces, and
+//! the specific force at the rider's head. The model serves to test a washout filter or a motion base's controller.
 //!
-//! | module | what |
+//! | module | contents |
 //! |---|---|
 //! | [`interface`] | the table of variables |
 //! | [`delay`] | the dead time of the commands |
 //! | [`drive`] | a leg's response to its command, and its limits of speed, acceleration and stroke |
 //! | [`body`] | the moving masses as one rigid body |
 //! | [`dynamics`] | from the legs' forces to the body's acceleration, and back |
-//! | [`saturation`] | which motion there is when forces are limited or a leg is at an end of its stroke |
+//! | [`saturation`] | the motion under limited forces, or with a leg at an end of its stroke |
 //!
 //! Geometry and kinematics are those of [`moris_washout::platform`], frames and signs too: x forward, y left, z up. All
-//! quantities are in SI units. A step allocates nothing, does no I/O and does not panic, whatever it is fed.
+//! quantities are in SI units. A step allocates nothing, does no I/O and does not panic, for any input.
 
 #![forbid(unsafe_code)]
 

@@ -41,7 +41,7 @@ impl Model for StewartPlatform {
         Ok(StewartPlatform::new(&read(slots, PARAMETERS))?.starting_with(input.lean))
     }
 
-    /// All parameters are fixed: there is nothing to take over.
+    /// All parameters are fixed: there is nothing to change.
     fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
         Ok(())
     }

@@ -1,24 +1,23 @@
-//! Which motion there is when drives have not the force for what they want, or legs are at the ends of their strokes.
+//! Motion with limited drive forces, or with legs at the ends of their strokes.
 //!
 //! All legs carry one body, so that a force of one accelerates all: v = v0 + h A F, with A the legs' mobility. Each drive
-//! does what it can for its own leg: it has the force that brings its leg to the velocity it wants, or its largest.
-//! A stop at an end of a stroke has whatever force keeps its leg from going through. These conditions have exactly one
-//! solution, since A is positive definite: it is, in the body's kinetic energy, the motion nearest to the wanted one
-//! (Gauss's principle of least constraint).
+//! has the force that brings its leg to the demanded velocity, or its largest force. A stop at an end of a stroke has the
+//! force that keeps its leg inside. These conditions have exactly one solution, since A is positive definite. In the
+//! body's kinetic energy it is the motion nearest to the demand (Gauss's principle of least constraint).
 
 use nalgebra::{Matrix6, Vector6};
 
-/// What is asked of a leg over a step.
+/// Demand on a leg over a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Leg {
-    /// Velocity that the drive wants at the step's end \[m/s\].
-    pub wanted: f64,
+    /// Velocity demanded by the drive at the step's end \[m/s\].
+    pub demand: f64,
     /// Least and largest velocity at which the leg stays inside its stroke \[m/s\].
     pub slowest: f64,
     pub fastest: f64,
 }
 
-/// What becomes of the legs.
+/// Resulting motion of the legs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outcome {
     /// Velocities at the step's end \[m/s\].
@@ -27,9 +26,9 @@ pub struct Outcome {
     pub force: Vector6<f64>,
 }
 
-/// Sweeps over the six legs; some tens are enough.
+/// Largest number of sweeps over the six legs; some tens suffice.
 const MOST_SWEEPS: usize = 500;
-/// Forces that change by less than this share of the largest are found.
+/// Convergence: largest change of a force as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-12;
 
 /// Solves the conditions leg by leg, over and over (Gauss and Seidel's method, which converges for them).
@@ -43,7 +42,7 @@ pub fn solve(free: &Vector6<f64>, gain: &Matrix6<f64>, legs: &[Leg; 6], limit: f
             // The leg's velocity under the other legs' forces alone, and the force that makes it another.
             let without = free[i] + gain.row(i).dot(&force.transpose()) - gain[(i, i)] * force[i];
             let force_for = |velocity: f64| (velocity - without) / gain[(i, i)];
-            let drive = force_for(leg.wanted).clamp(-limit, limit);
+            let drive = force_for(leg.demand).clamp(-limit, limit);
             let next = drive.max(force_for(leg.slowest)).min(force_for(leg.fastest));
             change = change.max((next - force[i]).abs());
             force[i] = next;
@@ -77,15 +76,15 @@ mod tests {
             let gain = mobility(seed);
             let free = gain * Vector6::from_fn(|i, _| if i % 2 == 0 { 1.5 } else { -2.0 });
             let legs: [Leg; 6] = std::array::from_fn(|i| {
-                let wanted = gain[(i, (i + 1) % 6)];
-                Leg { wanted, slowest: wanted - 0.4, fastest: wanted + 0.4 }
+                let demand = gain[(i, (i + 1) % 6)];
+                Leg { demand, slowest: demand - 0.4, fastest: demand + 0.4 }
             });
             let Outcome { velocity, force } = solve(&free, &gain, &legs, limit);
             assert!((free + gain * force - velocity).amax() < 1e-12);
             for (i, leg) in legs.iter().enumerate() {
                 let near = |value: f64| (velocity[i] - value).abs() < 1e-9;
                 let (v, f) = (velocity[i], force[i]);
-                if near(leg.wanted) {
+                if near(leg.demand) {
                     assert!(f.abs() <= limit + 1e-9);
                     free_legs += 1;
                 } else if near(leg.fastest) {
@@ -96,7 +95,7 @@ mod tests {
                     stopped += 1;
                 } else {
                     // Too fast: the drive brakes as hard as it can; too slow: it pushes so.
-                    assert!((f + limit * (v - leg.wanted).signum()).abs() < 1e-9, "{seed} {i}: {f} at {v}");
+                    assert!((f + limit * (v - leg.demand).signum()).abs() < 1e-9, "{seed} {i}: {f} at {v}");
                     assert!((leg.slowest..=leg.fastest).contains(&v));
                     saturated += 1;
                 }

@@ -1,4 +1,4 @@
-//! The whole platform: commands in, one step, the real motion out.
+//! The whole platform: parameters, state and step.
 
 use moris_interface::{Group, Refusal, bounds_of};
 use moris_washout::cueing::evaluator::{Felt, felt};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::Body;
 use crate::check::check;
 use crate::delay::{DelayLine, Ramp};
-use crate::drive::{Aim, Drive};
+use crate::drive::{Drive, DriveTarget};
 use crate::dynamics::Dynamics;
 use crate::interface::{Input, Output, Parameters, neutral_lengths};
 use crate::saturation::{Leg, Outcome, solve};
@@ -20,7 +20,7 @@ use crate::saturation::{Leg, Outcome, solve};
 /// Shorter steps than this do nothing \[s\].
 pub const SHORTEST_STEP: f64 = 1e-12;
 
-/// No more internal steps than this in one call; longer steps are the caller's mistake.
+/// Largest number of internal steps in one call.
 pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 
 /// A Stewart platform on its actuators.
@@ -35,7 +35,7 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 ///     platform.step(&input, 0.001);
 /// }
 /// let output = platform.output();
-/// assert!((output.length[0] - 1.32).abs() < 1e-6); // they got there,
+/// assert!((output.length[0] - 1.32).abs() < 1e-6); // they are there,
 /// assert!((output.position.z - 1.115).abs() < 1e-3); // the platform rose by a little more,
 /// let carried: f64 = output.force.iter().sum();
 /// assert!(carried > 330.0 * 9.80665); // and the inclined legs carry its weight.
@@ -45,9 +45,9 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 pub struct StewartPlatform {
     parameters: Parameters,
     body: Body,
-    /// Commands that the drives have not seen yet.
+    /// Commands inside the dead time.
     commands: DelayLine,
-    /// The last commands that actuators can follow \[m\].
+    /// The last commands inside the stroke \[m\].
     last_command: [f64; 6],
     now: Instant,
     /// One internal step ago, and its length \[s\].
@@ -56,7 +56,7 @@ pub struct StewartPlatform {
     limited: Limited,
 }
 
-/// Everything that is true at an instant.
+/// Motion and forces at an instant.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Instant {
     motion: PlatformMotion,
@@ -69,7 +69,7 @@ struct Instant {
     lean: f64,
 }
 
-/// What was limited in any internal step of the last communication step.
+/// Limits active in any internal step of the last communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Limited {
     command: bool,
@@ -106,14 +106,14 @@ impl StewartPlatform {
         self
     }
 
-    /// The parameters that it was made with.
+    /// The parameters given at construction.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }
 
     /// Advances by `step` seconds while the commands go on at the commanded rates.
     ///
-    /// Any input is safe: a length that no actuator can have is not followed, and the one before it stays. A step shorter
+    /// Any input is safe: a length outside the stroke is rejected, and the previous command is kept. A step shorter
     /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i].clamp(VELOCITY.0, VELOCITY.1));
@@ -141,7 +141,7 @@ impl StewartPlatform {
         }
     }
 
-    /// Commands inside the stroke, and the last ones that were; drives refuse others, and go on with what they have.
+    /// The commands inside the stroke; in place of any other, the last one that was inside.
     fn possible(&mut self, lengths: &[f64; 6]) -> [f64; 6] {
         let stroke = self.parameters.rig.min_length..=self.parameters.rig.max_length;
         for (last, length) in self.last_command.iter_mut().zip(lengths) {
@@ -154,26 +154,26 @@ impl StewartPlatform {
         self.last_command
     }
 
-    /// One step over which the commands that the drives see are linear, and at whose end the rider leans like this.
+    /// One step with commands that are linear after the dead time; `lean` is the rider's at its end.
     fn internal_step(&mut self, command: &Ramp, lean: f64) {
         let step = command.duration;
         let Instant { motion, legs, .. } = self.now;
         let drive = Drive::new(&self.parameters, step);
-        let aims: [Aim; 6] =
-            std::array::from_fn(|i| drive.aim(legs.length[i], legs.velocity[i], command.from[i], command.to[i]));
-        let next = self.unhindered(&aims, step).unwrap_or_else(|| self.hindered(&aims, step));
+        let targets: [DriveTarget; 6] =
+            std::array::from_fn(|i| drive.target(legs.length[i], legs.velocity[i], command.from[i], command.to[i]));
+        let next = self.free_step(&targets, step).unwrap_or_else(|| self.constrained_step(&targets, step));
 
         let geometry = Geometry::from(&self.parameters.rig);
         let guess = ahead(&motion, step).pose();
-        // A rig that is accepted has a pose for all lengths that its legs can have.
+        // A valid rig has a pose for every combination of leg lengths.
         let reached = motion_of_legs(&geometry, &next.legs, &[0.0; 6], &guess)
             .unwrap_or_else(|_| PlatformMotion::at_rest(motion.pose()));
         let dynamics = self.dynamics(&reached);
         let force = match next.force {
             Some(force) => force,
             None => {
-                let wanted = Vector6::from_fn(|i, _| aims[i].motion.acceleration);
-                self.within_force_limit(dynamics.forces(&wanted))
+                let demand = Vector6::from_fn(|i, _| targets[i].motion.acceleration);
+                self.within_force_limit(dynamics.forces(&demand))
             }
         };
         let acceleration = dynamics.acceleration(&force);
@@ -190,41 +190,41 @@ impl StewartPlatform {
             force,
             lean,
         };
-        self.limited.drive |= aims.iter().any(|aim| aim.limited);
+        self.limited.drive |= targets.iter().any(|target| target.limited);
         self.limited.force |= next.force_limited;
         self.limited.stop |= next.at_stop;
     }
 
-    /// The step in which every leg gets where its drive wants it, if the drives have the force for it; their forces are then
-    /// those that the motion takes.
-    fn unhindered(&self, aims: &[Aim; 6], step: f64) -> Option<Next> {
+    /// The step in which every leg reaches its target, if the drives have the force for it; their forces follow from the
+    /// motion.
+    fn free_step(&self, targets: &[DriveTarget; 6], step: f64) -> Option<Next> {
         let rig = &self.parameters.rig;
-        if aims.iter().any(|aim| !(rig.min_length..=rig.max_length).contains(&aim.motion.position)) {
+        if targets.iter().any(|target| !(rig.min_length..=rig.max_length).contains(&target.motion.position)) {
             return None;
         }
-        let mean = Vector6::from_fn(|i, _| (aims[i].motion.velocity - self.now.legs.velocity[i]) / step);
+        let mean = Vector6::from_fn(|i, _| (targets[i].motion.velocity - self.now.legs.velocity[i]) / step);
         let force = self.dynamics(&ahead(&self.now.motion, 0.5 * step)).forces(&mean);
         (force.amax() <= self.parameters.actuators.force_limit).then(|| Next {
-            legs: Legs { length: aims.map(|aim| aim.motion.position), velocity: aims.map(|aim| aim.motion.velocity) },
+            legs: Legs { length: targets.map(|target| target.motion.position), velocity: targets.map(|target| target.motion.velocity) },
             force: None,
             force_limited: false,
             at_stop: false,
         })
     }
 
-    /// The step in which drives lack force, or stops hold legs: what the legs then do is the body's affair.
-    fn hindered(&self, aims: &[Aim; 6], step: f64) -> Next {
+    /// The step with limited forces, or with legs at a stop: the legs' motion follows from the body's.
+    fn constrained_step(&self, targets: &[DriveTarget; 6], step: f64) -> Next {
         let (rig, limit) = (&self.parameters.rig, self.parameters.actuators.force_limit);
         let Legs { length, velocity } = self.now.legs;
         let dynamics = self.dynamics(&ahead(&self.now.motion, 0.5 * step));
         let free = Vector6::from(velocity) + step * dynamics.leg_accelerations(&Vector6::zeros());
-        let asked: [Leg; 6] = std::array::from_fn(|i| Leg {
-            wanted: aims[i].motion.velocity,
-            // A stop does not throw a leg back: the leg ends the step at rest there at the least.
+        let demand: [Leg; 6] = std::array::from_fn(|i| Leg {
+            demand: targets[i].motion.velocity,
+            // A stop is inelastic: the leg ends the step at rest there.
             slowest: (2.0 * (rig.min_length - length[i]) / step - velocity[i]).min(0.0),
             fastest: (2.0 * (rig.max_length - length[i]) / step - velocity[i]).max(0.0),
         });
-        let Outcome { velocity: reached, force } = solve(&free, &(step * dynamics.leg_mobility()), &asked, limit);
+        let Outcome { velocity: reached, force } = solve(&free, &(step * dynamics.leg_mobility()), &demand, limit);
         let length = std::array::from_fn(|i| {
             (length[i] + 0.5 * step * (velocity[i] + reached[i])).clamp(rig.min_length, rig.max_length)
         });
@@ -245,7 +245,7 @@ impl StewartPlatform {
         force.map(|force| force.clamp(-limit, limit))
     }
 
-    /// What the platform does now.
+    /// The outputs now.
     pub fn output(&self) -> Output {
         let output = self.output_at(&self.now);
         Output {
@@ -314,7 +314,7 @@ impl StewartPlatform {
         }
     }
 
-    /// What the rider's head feels while the rider leans like this.
+    /// Specific force and angular velocity at the rider's head for this lean.
     fn felt(&self, motion: &PlatformMotion, lean: f64) -> Felt {
         let setting = &self.parameters.setting;
         let place = StructureParameters {
