@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use moris_batch::{Fit, Manoeuvre, rides};
+use moris_batch::{Fit, Manoeuvre, simulations};
 use moris_washout::{Input, Parameters};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ fn set(k: u32) -> Parameters {
 
 /// The smallest error among `count` sets: results are reduced as they come.
 fn smallest_error(manoeuvre: &Manoeuvre, count: u32) -> f64 {
-    rides(manoeuvre, (0..count).into_par_iter().map(set), Fit::default)
+    simulations(manoeuvre, (0..count).into_par_iter().map(set), Fit::default)
         .map(|ride| ride.result.map_or(f64::INFINITY, |fit| fit.rms_error().x))
         .reduce(|| f64::INFINITY, f64::min)
 }

@@ -1,4 +1,4 @@
-//! How well a ride was felt, and what it took: an observer that keeps sums only.
+//! Fit of felt to desired motion, as an observer that keeps sums only.
 
 use moris_washout::{Input, Output};
 use nalgebra::Vector3;
@@ -54,8 +54,8 @@ impl Fit {
         self.smallest_margin
     }
 
-    /// Share of the steps in which a safety unit or the actuator guard acted.
-    pub fn share_limited(&self) -> f64 {
+    /// Fraction of the steps in which a safety unit or the actuator guard was active.
+    pub fn fraction_limited(&self) -> f64 {
         self.limited as f64 / self.steps.max(1) as f64
     }
 }

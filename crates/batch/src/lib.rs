@@ -1,13 +1,12 @@
 //! One manoeuvre, many parameter sets, all cores.
 //!
-//! [`rides`] makes a parallel iterator of parameter sets into one of what came of each. Nothing is kept of a ride but
-//! what its observer keeps, and nothing of a batch but what the iterator's consumer keeps: a sweep of 100,000 sets needs
-//! no more memory than one of ten.
+//! [`simulations`] maps a parallel iterator of parameter sets to one of results. A simulation keeps only its observer, and a
+//! batch only what the iterator's consumer keeps, so that the memory does not grow with the number of sets.
 //!
 //! ```
 //! use moris_washout::{Input, Parameters};
 //! use rayon::prelude::*;
-//! use moris_batch::{Fit, Manoeuvre, rides};
+//! use moris_batch::{Fit, Manoeuvre, simulations};
 //!
 //! let accelerate = Manoeuvre::sampled(0.01, 20.0, |time| {
 //!     let mut input = Input::default();
@@ -19,8 +18,8 @@
 //!     parameters.splitter.omega1.x = 0.5 * f64::from(k);
 //!     parameters
 //! });
-//! let best = rides(&accelerate, frequencies, Fit::default)
-//!     .filter_map(|ride| ride.result.ok().map(|fit| (fit.rms_error().x, ride.parameters)))
+//! let best = simulations(&accelerate, frequencies, Fit::default)
+//!     .filter_map(|done| done.result.ok().map(|fit| (fit.rms_error().x, done.parameters)))
 //!     .min_by(|a, b| a.0.total_cmp(&b.0))
 //!     .expect("one set at least can be used");
 //! assert!(best.0 < 0.1);
@@ -35,26 +34,26 @@ pub use manoeuvre::Manoeuvre;
 use moris_washout::{Input, Output, Parameters, Refusal, Washout};
 use rayon::prelude::*;
 
-/// Watches a ride step by step and keeps what matters of it.
+/// Observer of a simulation, step by step.
 pub trait Observer {
-    /// Sees one step: the input at its end, and the output there.
+    /// Receives one step: the input and the output at its end.
     fn observe(&mut self, input: &Input, output: &Output);
 }
 
-/// A parameter set and what came of it.
+/// A parameter set and its result.
 #[derive(Clone, Debug)]
-pub struct Ride<O> {
-    /// The parameters ridden with.
+pub struct Simulation<O> {
+    /// The parameters.
     pub parameters: Parameters,
-    /// The observer after the ride, or why the parameters cannot be used.
+    /// The observer after the simulation, or the error of the parameters.
     pub result: Result<O, Refusal>,
 }
 
-/// Rides the manoeuvre once with these parameters.
+/// Simulates the manoeuvre once with these parameters.
 ///
 /// # Errors
 /// The parameters cannot be used: which, and why.
-pub fn ride<O: Observer>(manoeuvre: &Manoeuvre, parameters: &Parameters, mut observer: O) -> Result<O, Refusal> {
+pub fn simulate<O: Observer>(manoeuvre: &Manoeuvre, parameters: &Parameters, mut observer: O) -> Result<O, Refusal> {
     let mut washout = Washout::new(parameters)?;
     for pair in manoeuvre.inputs().windows(2) {
         washout.step_between(&pair[0], &pair[1], manoeuvre.step());
@@ -63,15 +62,15 @@ pub fn ride<O: Observer>(manoeuvre: &Manoeuvre, parameters: &Parameters, mut obs
     Ok(observer)
 }
 
-/// Rides the manoeuvre with each of the parameter sets, on as many cores as rayon's pool has, each with a fresh observer.
-pub fn rides<O, P>(
+/// Simulates the manoeuvre with each parameter set on the cores of rayon's pool, each with a new observer.
+pub fn simulations<O, P>(
     manoeuvre: &Manoeuvre,
     sets: P,
     observer: impl Fn() -> O + Sync + Send,
-) -> impl ParallelIterator<Item = Ride<O>>
+) -> impl ParallelIterator<Item = Simulation<O>>
 where
     O: Observer + Send,
     P: ParallelIterator<Item = Parameters>,
 {
-    sets.map(move |parameters| Ride { parameters, result: ride(manoeuvre, &parameters, observer()) })
+    sets.map(move |parameters| Simulation { parameters, result: simulate(manoeuvre, &parameters, observer()) })
 }

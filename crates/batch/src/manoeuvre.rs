@@ -1,4 +1,4 @@
-//! A manoeuvre: what the vehicle model says, sampled.
+//! A manoeuvre: sampled inputs of the vehicle model.
 
 use moris_washout::Input;
 
