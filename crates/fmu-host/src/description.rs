@@ -1,4 +1,4 @@
-//! What a host needs of modelDescription.xml.
+//! The parts of modelDescription.xml that a host needs.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use quick_xml::events::{BytesStart, Event};
 
 use crate::HostError;
 
-/// What a variable's values are.
+/// Type of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableKind {
     Real,
@@ -26,7 +26,7 @@ pub struct Variable {
     pub kind: VariableKind,
 }
 
-/// What a host needs of modelDescription.xml.
+/// The parts of modelDescription.xml that a host needs.
 #[derive(Debug, Default)]
 pub(crate) struct Description {
     pub guid: String,

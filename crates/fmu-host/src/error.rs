@@ -1,4 +1,4 @@
-//! What can go wrong when an FMU is used.
+//! Errors of loading and running an FMU.
 
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ pub enum HostError {
     Instantiate(String),
     #[error("the FMU has no variable '{0}' that can be got and set as a number")]
     NoSuchVariable(String),
-    /// A call that did not end with [`Status::Ok`], and what the FMU said about it.
+    /// A call that did not end with [`Status::Ok`], with the FMU's message.
     #[error("{function} returned {status:?}: {messages}")]
     Call { function: &'static str, status: Status, messages: String },
 }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 /// The shared library that is the example of this name, which `cargo test` has put beside the test that asks.
 ///
 /// # Panics
-/// If it is not there: Cargo builds examples unless it is told to build one target only.
+/// If the library is missing: cargo builds examples unless one target is chosen.
 pub fn example_library(example: &str) -> PathBuf {
     let test = std::env::current_exe().expect("a test has a file");
     let target = test.parent().and_then(|deps| deps.parent()).expect("a test stands in deps/");

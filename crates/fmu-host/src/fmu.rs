@@ -17,7 +17,7 @@ pub struct Fmu {
     pub(crate) loaded: Arc<Loaded>,
 }
 
-/// What the instances of an FMU share, and what has to live as long as any of them. The order is that of dropping.
+/// Data shared by the instances of an FMU, which live as long as any of them. Fields are dropped in this order.
 pub(crate) struct Loaded {
     pub api: Api,
     _library: Library,
@@ -78,7 +78,7 @@ impl Fmu {
     /// Makes an instance, with logging on.
     ///
     /// # Errors
-    /// The FMU does not make one; the error has what it said.
+    /// The FMU returns no instance; the error has its message.
     pub fn instantiate(&self, instance_name: &str) -> Result<Instance, HostError> {
         Instance::new(self, instance_name)
     }

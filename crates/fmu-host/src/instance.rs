@@ -11,7 +11,7 @@ use crate::{Fmu, HostError, Message, Status, VariableKind};
 /// An instance of an FMU, freed when it is dropped.
 pub struct Instance {
     pub(crate) component: Component,
-    /// What the FMU said; in a box, for the FMU keeps its address.
+    /// Messages of the FMU; boxed, since the FMU keeps their address.
     messages: Box<Messages>,
     loaded: Arc<Loaded>,
 }
@@ -39,10 +39,10 @@ impl Instance {
         Ok(instance)
     }
 
-    /// From the start values to the first step, at time 0: sets parameters by name on the way.
+    /// Initialises the instance at time 0, with parameters set by name.
     ///
     /// # Errors
-    /// The FMU refuses something, or there is no such variable.
+    /// The FMU rejects a call, or there is no such variable.
     pub fn initialize(&mut self, parameters: &[(&str, f64)], stop_time: Option<f64>) -> Result<(), HostError> {
         let status = self.setup_experiment(0.0, stop_time);
         self.expect_ok("fmi2SetupExperiment", status)?;
@@ -77,7 +77,7 @@ impl Instance {
     /// Sets a variable by name. Of a Boolean, everything but 0 is true; integers and enumerations are rounded.
     ///
     /// # Errors
-    /// The FMU refuses the value, or there is no such variable.
+    /// The FMU rejects the value, or there is no such variable.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
         let (reference, kind) = self.find(name)?;
         let reference = [reference];
@@ -92,7 +92,7 @@ impl Instance {
     /// Gets a variable by name; of a Boolean, 0 or 1.
     ///
     /// # Errors
-    /// The FMU refuses, or there is no such variable.
+    /// The FMU rejects the call, or there is no such variable.
     pub fn get(&mut self, name: &str) -> Result<f64, HostError> {
         let (reference, kind) = self.find(name)?;
         let reference = [reference];
@@ -207,12 +207,12 @@ impl Instance {
         unsafe { (self.api().reset)(self.component) }.into()
     }
 
-    /// What the FMU has said so far.
+    /// Messages of the FMU so far.
     pub fn messages(&self) -> Vec<Message> {
         self.messages.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// What the FMU has said since the last time that this was called, which is then forgotten.
+    /// Messages since the last call of this function; removes them.
     pub fn take_messages(&mut self) -> Vec<Message> {
         std::mem::take(&mut self.messages.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -235,7 +235,7 @@ impl Instance {
         Err(HostError::Call { function, status, messages: self.last_messages() })
     }
 
-    /// The last things that the FMU said.
+    /// The last messages of the FMU.
     fn last_messages(&self) -> String {
         let messages = self.messages();
         let last: Vec<_> = messages.iter().rev().take(3).rev().map(|message| message.text.as_str()).collect();

@@ -1,19 +1,19 @@
-//! What an FMU says.
+//! Messages of an FMU.
 
 use std::ffi::{CStr, c_int, c_void};
 use std::sync::Mutex;
 
 use crate::api::{Status, Text};
 
-/// What an FMU said.
+/// A message of an FMU.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
-    /// How the call ends in which it was said.
+    /// Status that the FMU gives with it.
     pub status: Status,
     /// One of the model description's log categories.
     pub category: String,
     pub text: String,
-    /// The name of the instance that said it, as the FMU gave it back.
+    /// The name of the instance, as the FMU returns it.
     pub instance_name: String,
 }
 

@@ -69,7 +69,7 @@ impl Instance {
     /// The state that bytes are.
     ///
     /// # Errors
-    /// The FMU refuses them.
+    /// The FMU rejects them.
     pub fn deserialize(&mut self, bytes: &[u8]) -> Result<State, HostError> {
         let mut state = State { pointer: std::ptr::null_mut() };
         let (pointer, size) = (bytes.as_ptr(), bytes.len());

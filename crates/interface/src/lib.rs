@@ -1,4 +1,4 @@
-//! How a model declares its variables: once, in Rust.
+//! Declaration of a model's variables: once, in Rust.
 //!
 //! [`interface!`] declares a plain struct and, from the same lines, one [`Row`] a field: the FMI name, the unit, the
 //! range and the sentence that describes it. Everything else is derived from those rows: value references, the XML, the

@@ -1,4 +1,4 @@
-//! What a model is, to whoever hosts it.
+//! The trait of a model, for those who host it.
 
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -74,7 +74,7 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// The first parameter that cannot be used, and why.
     fn retune(&mut self, slots: &[f64]) -> Result<(), Refusal>;
 
-    /// How long a communication step the model can take at once \[s\].
+    /// Longest communication step \[s\].
     fn longest_step(&self) -> f64 {
         f64::INFINITY
     }

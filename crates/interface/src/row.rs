@@ -20,7 +20,7 @@ pub enum Variability {
     Fixed,
 }
 
-/// What a variable's values are.
+/// Type of a variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Real(&'static Unit),
@@ -137,7 +137,7 @@ impl Row {
         Refusal { variable: self.variable_name(element), reason: self.reason(slots[element]) }
     }
 
-    /// How many scalar variables the row is.
+    /// Number of scalar variables in the row.
     pub const fn slots(&self) -> usize {
         self.count * self.components.len()
     }
@@ -184,7 +184,7 @@ const fn is_same(a: &[u8], b: &[u8]) -> bool {
     k == a.len() && k == b.len()
 }
 
-/// How many rows the groups have together.
+/// Total number of rows of the groups.
 pub const fn row_count(groups: &[&[Row]]) -> usize {
     let mut count = 0;
     let mut g = 0;

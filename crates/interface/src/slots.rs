@@ -11,7 +11,7 @@ pub struct Slot {
     pub element: u16,
 }
 
-/// How many slots the rows have together.
+/// Total number of slots of the rows.
 pub const fn slot_count(rows: &[Row]) -> usize {
     let mut count = 0;
     let mut r = 0;

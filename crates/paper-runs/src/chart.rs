@@ -22,7 +22,7 @@ const LIMIT: RGBColor = RGBColor(190, 30, 45);
 
 /// Share of a panel's height that its legend has to itself, above the curves.
 const LEGEND_HEIGHT: f64 = 0.16;
-/// Largest error of a drawn curve, as a share of the panel's height: a fifth of a pixel, about.
+/// Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a pixel.
 const TOLERANCE: f64 = 0.0005;
 
 /// A diagram of curves over time.
@@ -30,7 +30,7 @@ const TOLERANCE: f64 = 0.0005;
 pub struct Panel {
     /// Stands above.
     pub title: String,
-    /// What the vertical axis says.
+    /// Label of the vertical axis.
     pub quantity: &'static str,
     pub curves: Vec<Curve>,
     /// Values that the curves must not cross, drawn as lines.
@@ -47,7 +47,7 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
 }
 
-/// How a curve is drawn.
+/// Style of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
     /// Wide enough to show on both sides of a fine one on top of it.

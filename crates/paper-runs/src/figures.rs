@@ -1,4 +1,4 @@
-//! The paper's figures 5 to 9: what the rider feels against what he should, and the legs.
+//! The paper's figures 5 to 9: felt against desired specific force and angular velocity, and the legs.
 
 use std::path::{Path, PathBuf};
 
@@ -84,7 +84,7 @@ fn rate(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
     }
 }
 
-/// What is desired in a run, and what is felt with each set of parameters.
+/// Desired motion of a run, and felt motion with each parameter set.
 fn felt_against_desired(
     runs: &[&Recording],
     desired: impl Fn(&Sample) -> f64,

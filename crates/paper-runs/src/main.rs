@@ -1,4 +1,4 @@
-//! `cargo paper-runs`: builds the FMU, steps it through the paper's runs, prints how well it does, draws the figures.
+//! `cargo paper-runs`: builds the FMU, simulates the paper's runs, prints the errors, draws the figures.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,11 +14,11 @@ use moris_paper_runs::recording::Recording;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
 
-/// Steps the washout's FMU through the runs of the paper, prints how well the rider is served, and draws its figures 5 to 9.
+/// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and draws figures 5 to 9.
 #[derive(Parser)]
 #[command(name = "cargo paper-runs", bin_name = "cargo paper-runs")]
 struct Options {
-    /// Directory that the figures are written to [default: target/paper-runs]
+    /// Directory for the figures [default: target/paper-runs]
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
 
@@ -26,11 +26,11 @@ struct Options {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.001)]
     step: f64,
 
-    /// Take target/fmu/MorisWashout.fmu as it is instead of building it
+    /// Use the existing target/fmu/MorisWashout.fmu without building it
     #[arg(long)]
     no_build: bool,
 
-    /// Also write a compact picture of run a to this file
+    /// Also write a compact figure of run a to this file
     #[arg(long, value_name = "FILE")]
     readme_picture: Option<PathBuf>,
 }
@@ -55,7 +55,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// Builds the FMU for this machine, as `cargo build-fmu` does, and says so on standard error.
+/// Builds the FMU for this machine, as `cargo build-fmu` does, with progress on standard error.
 fn build_fmu() -> Result<PathBuf> {
     let built = moris_build_fmu::build(&model::WASHOUT, FmiVersion::Fmi2, &[], &workspace::default_output(), |line| {
         eprintln!("{line}");

@@ -25,7 +25,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// What an accelerometer at the head reads \[m/s2\]: acceleration and gravity's reaction, in axes that roll with the head.
+    /// Specific force at the head \[m/s2\]: acceleration and gravity's reaction, in axes that roll with the head.
     pub fn specific_force(&self) -> [f64; 3] {
         let [x, y, z] = self.acceleration;
         let (sin, cos) = self.roll.sin_cos();
@@ -43,7 +43,7 @@ impl Motion {
 pub struct Manoeuvre {
     /// The name in tables and figures.
     pub name: &'static str,
-    /// What the motorcycle does.
+    /// Motion of the motorcycle.
     pub text: &'static str,
     /// \[s\]
     pub duration: f64,
@@ -112,7 +112,7 @@ fn straight(t: f64, changes: &[(f64, f64, f64)]) -> Motion {
     Motion { acceleration: [sum(rise), 0.0, 0.0], speed, ..Motion::default() }
 }
 
-/// What run b keeps to \[m/s\].
+/// Constant speed of run b \[m/s\].
 const SPEED_IN_THE_WAKE: f64 = 25.0;
 
 /// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].

@@ -1,4 +1,4 @@
-//! What one run on the FMU leaves behind.
+//! The trace of one simulated run.
 
 use moris_measures::effort::{Effort, effort};
 use moris_measures::{Limited, Platform};
@@ -22,7 +22,7 @@ pub struct Sample {
     pub position: [f64; 3],
     /// Rates of tilt coordination's roll and pitch \[rad/s\].
     pub tilt_rate: [f64; 2],
-    /// What was limited during the step that led here.
+    /// Limits active during the step before this sample.
     pub limited: Limited,
 }
 
@@ -49,7 +49,7 @@ impl Recording {
         self.samples.iter().map(quantity).collect()
     }
 
-    /// What the platform did.
+    /// Summary of the platform's motion.
     pub fn effort(&self) -> Effort {
         effort(&Platform {
             legs: &self.series(|sample| sample.legs),

@@ -132,9 +132,9 @@ fn value_references<const N: usize>(fmu: &Fmu, names: [&str; N]) -> Result<[u32;
     Ok(references)
 }
 
-/// An error, with the FMU's latest words, unless the FMU is content.
+/// An error with the FMU's last message, unless the status is OK.
 fn check(instance: &Instance, status: Status) -> Result<()> {
-    let said = || instance.messages().last().map_or_else(String::new, |message| message.text.clone());
-    ensure!(status == Status::Ok, "the FMU answers {status:?}: {}", said());
+    let message = || instance.messages().last().map_or_else(String::new, |message| message.text.clone());
+    ensure!(status == Status::Ok, "the FMU returned {status:?}: {}", message());
     Ok(())
 }

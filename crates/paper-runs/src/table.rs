@@ -104,7 +104,7 @@ fn fidelity_rows(recording: &Recording, on_axis: impl Fn(usize) -> Option<Fideli
     (0..AXES.len()).filter_map(row).collect()
 }
 
-/// What the platform did.
+/// Table of the platform's motion.
 pub fn platform_table(recordings: &[Recording]) -> Table {
     let row = |recording: &Recording| {
         let effort = recording.effort();

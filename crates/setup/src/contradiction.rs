@@ -5,7 +5,7 @@ use moris_washout::Parameters;
 
 use crate::ranges::{Axis, single_axis_range};
 
-/// Whether the safety units' limits are within what the rig reaches along each axis alone. Where they are not, a safety unit
+/// Checks that the safety units' limits are within the rig's reach along each axis alone. Where they are not, a safety unit
 /// never acts: the legs come to the ends of their stroke before.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! What users write about their machine and their washout: rig files and parameter files, in TOML.
+//! Rig files and parameter files, in TOML.
 //!
 //! A parameter file gives values by the names of the FMU's variables ([`parameter_file`]), a rig file says where a
 //! platform's joints are and what its legs can do ([`rig_file`]). Both come down to [`NamedValues`], so that one may be

@@ -1,8 +1,8 @@
 //! Which of the right names a wrong one was meant to be.
 
-/// How much a right name must look like the wrong one to be proposed, from 0 to 1.
+/// Least similarity of a proposed name to the wrong one, from 0 to 1.
 const ALIKE: f64 = 0.6;
-/// How much less than the best a further one may.
+/// Largest loss of similarity of a further proposal against the best.
 const ALMOST_AS_ALIKE: f64 = 0.15;
 /// No more than this many are proposed.
 const MOST: usize = 3;

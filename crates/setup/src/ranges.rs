@@ -1,4 +1,4 @@
-//! How far a platform goes along one axis alone.
+//! Reach of a platform along one axis alone.
 
 use moris_washout::Rig;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
@@ -25,13 +25,13 @@ impl Axis {
         ["surge", "sway", "heave", "roll", "pitch", "yaw"][self as usize]
     }
 
-    /// Whether it is a rotation, so that its amounts are \[rad\]; those of a translation are \[m\].
+    /// True for a rotation, in \[rad\]; a translation is in \[m\].
     pub fn is_rotation(self) -> bool {
         self as usize >= 3
     }
 }
 
-/// How far the platform goes from neutral along one axis in both directions \[m or rad\].
+/// Reach from neutral along one axis in both directions \[m or rad\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Range {
     /// Not above 0.
@@ -58,14 +58,14 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
     }
 }
 
-/// How far the legs are inside their stroke in a pose, the smallest distance of any from either end \[m\]; negative where a
+/// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\]; negative where a
 /// leg would have to be longer or shorter than it can be.
 pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
     let lengths = leg_lengths(&Geometry::from(rig), pose);
     lengths.iter().map(|length| (length - rig.min_length).min(rig.max_length - length)).fold(f64::INFINITY, f64::min)
 }
 
-/// How far the platform goes from neutral along this axis alone, all other coordinates neutral, before the first leg is at
+/// Reach of the platform along this axis alone, all other coordinates neutral, up to the pose at which the first leg is at
 /// an end of its stroke. Rotations end at a quarter turn.
 pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
     Range { min: -reach(rig, axis, -1.0), max: reach(rig, axis, 1.0) }
@@ -73,7 +73,7 @@ pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
 
 /// Farthest that is looked for: translations \[shares of the longest leg\], rotations \[rad\].
 const FARTHEST: [f64; 2] = [2.0, std::f64::consts::FRAC_PI_2];
-/// Parts into which the way there is divided, so that a leg that leaves its stroke and comes back is not missed.
+/// Number of points checked on the path, so that a leg that leaves its stroke and returns is found.
 const PARTS: u32 = 2000;
 /// Halvings of the last part: to well below a nanometre.
 const HALVINGS: u32 = 40;

@@ -27,7 +27,7 @@
 //! accelerationLimit = [10.0, 10.0, 10.0] # m/s2
 //! ```
 //!
-//! What the machine is made of has to be said in full: half one's own rig and half the default one is nobody's. The head
+//! Joints and legs are required in full, since a mixture with the default rig describes no machine. The head
 //! and the safety units' speeds and accelerations are the default's where they are not given. The safety units' positions
 //! then follow from the rig: 95 % of what it reaches along each axis alone.
 
@@ -47,7 +47,7 @@ pub const SAFETY_SHARE: f64 = 0.95;
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct RigFile {
-    /// What the rig is called.
+    /// Name of the rig.
     pub name: String,
     /// Height of the platform's origin over the base's at neutral \[m\].
     pub neutral_height: f64,
@@ -55,7 +55,7 @@ pub struct RigFile {
     pub base: Joints,
     /// Joints on the platform.
     pub platform: Joints,
-    /// What the legs can do.
+    /// Limits of the legs.
     pub actuator: Actuator,
     /// Where the rider's head is.
     #[serde(default)]
@@ -183,7 +183,7 @@ impl Joints {
 }
 
 impl RigFile {
-    /// What the file's own form cannot tell: each joint once, and metres.
+    /// Checks beyond the file's syntax: each joint once, and lengths in metres.
     fn check_joints(&self, source_name: &str) -> Result<(), Error> {
         for (name, joints) in [("base", &self.base), ("platform", &self.platform)] {
             let wrong = |reason: String| Error::WrongValue {
@@ -251,7 +251,7 @@ impl RigFile {
         crate::named_values::changed(&self.parameters())
     }
 
-    /// Whether a washout runs on this rig.
+    /// Checks that a washout can be constructed on this rig.
     ///
     /// # Errors
     /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a value out of its range.

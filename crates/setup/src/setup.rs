@@ -22,7 +22,7 @@ pub struct Setup {
     pub parameters: Parameters,
 }
 
-/// What the default rig is called.
+/// Name of the default rig.
 const DEFAULT_RIG: &str = "default rig";
 
 impl Setup {
@@ -54,7 +54,7 @@ impl Setup {
 /// Reads a rig file.
 ///
 /// # Errors
-/// The file cannot be read, or [`rig_file::read`] refuses it.
+/// The file cannot be read, or [`rig_file::read`] rejects it.
 pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
     rig_file::read(&text(file)?, &file.display().to_string())
 }
@@ -62,7 +62,7 @@ pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
 /// The values of a shipped set of this name, or of the parameter file of this name, for a model with these rows.
 ///
 /// # Errors
-/// There is neither, or [`parameter_file::read`] refuses the file.
+/// There is neither, or [`parameter_file::read`] rejects the file.
 pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
     if let Some((_, set)) = SETS.iter().find(|(known, _)| *known == name) {
         return Ok(set.iter().map(|(variable, value)| ((*variable).to_owned(), *value)).collect());

@@ -205,7 +205,10 @@ impl StewartPlatform {
         let mean = Vector6::from_fn(|i, _| (targets[i].motion.velocity - self.now.legs.velocity[i]) / step);
         let force = self.dynamics(&ahead(&self.now.motion, 0.5 * step)).forces(&mean);
         (force.amax() <= self.parameters.actuators.force_limit).then(|| Next {
-            legs: Legs { length: targets.map(|target| target.motion.position), velocity: targets.map(|target| target.motion.velocity) },
+            legs: Legs {
+                length: targets.map(|target| target.motion.position),
+                velocity: targets.map(|target| target.motion.velocity),
+            },
             force: None,
             force_limited: false,
             at_stop: false,
