@@ -43,7 +43,7 @@ fn drives_too_weak_to_carry_the_platform_are_told_what_they_lack() {
     // A sixth of the weight, on legs that are 1.29996 m long and 1.091 m high.
     let carried = 330.0 * 9.80665 / 6.0 * 1.29996 / 1.091;
     assert!(reason.starts_with("is 600 N; at rest at neutral actuator "), "{reason}");
-    assert!(reason.ends_with(&format!(" carries {carried:.1} N; raise it, or lower the masses")), "{reason}");
+    assert!(reason.ends_with(&format!(" carries {carried:.1} N; raise the limit or lower the masses")), "{reason}");
 }
 
 #[test]
