@@ -1,4 +1,4 @@
-//! What a step costs, and what it is made of: the kernel without FMI.
+//! Benchmarks of the kernel without FMI: a step and its parts.
 //!
 //! `cargo bench --bench kernel`. Instruction counts, which do not depend on what else the machine does, come from
 //! `examples/steps.rs` under callgrind (see docs/performance.md).

@@ -14,7 +14,7 @@ pub use crate::motion::orientation::RollPitchYaw;
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 interface! {
-    /// What the host's clock says.
+    /// Time of the host.
     pub struct Clock: Independent, Continuous {
         /// Simulation time.
         "time" time: f64 [S] = 0.0;
@@ -22,7 +22,7 @@ interface! {
 }
 
 interface! {
-    /// What the vehicle model delivers at every communication point.
+    /// Inputs from the vehicle model at every communication point.
     pub struct Input: Input, Continuous {
         /// Specific force at the washout location in the rider's head axes (x forward, y left, z up): what an accelerometer there reads, (0, 0, +g) at rest.
         "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] { -1e4 ..= 1e4 } = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
@@ -40,7 +40,7 @@ interface! {
 }
 
 interface! {
-    /// What the platform and its actuators are commanded, and what the rider feels on it.
+    /// Commands to the platform and its actuators, and the motion felt by the rider.
     pub struct Output: Output, Continuous {
         /// Position of the platform frame's origin in the base frame.
         "platform.position.@" position: Vector3<f64> [M] = Vector3::new(0.0, 0.0, 0.0);
@@ -68,11 +68,11 @@ interface! {
         "tilt.rollRate" tilt_roll_rate: f64 [RAD_PER_S] = 0.0;
         /// Rate of tilt coordination's pitch.
         "tilt.pitchRate" tilt_pitch_rate: f64 [RAD_PER_S] = 0.0;
-        /// Whether, during the last communication step, tilt coordination lagged behind its target because of its rate, acceleration or angle limit.
+        /// True if a limit of rate, acceleration or angle kept tilt coordination from its target during the last communication step.
         "status.tiltLimited" tilt_limited: bool = false;
-        /// Whether, during the last communication step, a safety unit held the platform back from its position, velocity or acceleration limit.
+        /// True if a safety unit limited position, velocity or acceleration of the platform during the last communication step.
         "status.safetyActive" safety_active: bool = false;
-        /// Whether, during the last communication step, the actuator guard held an actuator back from its stroke, speed or acceleration limit.
+        /// True if the actuator guard limited stroke, speed or acceleration of an actuator during the last communication step.
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
@@ -80,7 +80,7 @@ interface! {
 }
 
 enumeration! {
-    /// How gravity is taken out of the vehicle's specific force before it is split.
+    /// Method of removing gravity from the vehicle's specific force.
     pub enum GravityRemoval {
         /// Remove the part along the head's vertical axis only (the paper; right for a motorcycle).
         "head_vertical" HeadVertical,
@@ -116,7 +116,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// How the input goes within a communication step for which the host gives no slopes.
+    /// Reconstruction of inputs within a communication step without input derivatives.
     pub enum Reconstruction {
         /// It is held.
         "hold" Hold,
@@ -128,7 +128,7 @@ enumeration! {
 enumeration! {
     /// Where the low-frequency force for tilt coordination comes from.
     pub enum LowPassKind {
-        /// What the high-pass leaves over, so that the two add up to the input, eq. (6).
+        /// Complement of the high-pass, so that the two add up to the input, eq. (6).
         "complementary" Complementary,
         /// A second-order low-pass with its own frequency and damping.
         "independent" Independent,
@@ -136,7 +136,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// What is done ahead of a brusque stop (the paper's section 6).
+    /// Preaction ahead of a brusque stop (the paper's section 6).
     pub enum Preaction {
         /// Nothing.
         "off" Off,
@@ -190,7 +190,7 @@ interface! {
 }
 
 interface! {
-    /// What is done to the vehicle's motion before it is filtered.
+    /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
         /// Scale of the specific force after gravity removal.
         "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
@@ -202,7 +202,7 @@ interface! {
         "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] { 1e-3 ..= 1e6 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
         "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
-        /// How gravity is removed from the specific force.
+        /// Method of removing gravity from the specific force.
         "gravityRemoval" gravity_removal: GravityRemoval = GravityRemoval::HeadVertical;
         /// Which accelerations caused by tilting are compensated.
         "compensation" compensation: Compensation = Compensation::Full;
@@ -210,7 +210,7 @@ interface! {
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Break frequency of a second-order low-pass on the angular rates alone; 0 is off.
         "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
-        /// How the input goes within a step for which the host gives no slopes.
+        /// Reconstruction of inputs within a step without input derivatives.
         "input.reconstruction" reconstruction: Reconstruction = Reconstruction::Hold;
     }
 }
@@ -240,7 +240,7 @@ interface! {
 }
 
 interface! {
-    /// What the filter is made of; fixed once initialised.
+    /// Structure of the filter; fixed after initialisation.
     pub struct StructureParameters: Parameter, Fixed {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
@@ -260,7 +260,7 @@ interface! {
         "washoutPoint.@" washout_point: Vector3<f64> [M] { -10.0 ..= 10.0 } = Vector3::new(0.0, 0.0, 1.2);
         /// Longest internal step; a longer communication step is divided.
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
-        /// Whether tilt and surge act ahead of the vehicle's stop, which they foresee from vehicle.speed and its deceleration.
+        /// True if tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
     }
 }

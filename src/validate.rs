@@ -1,4 +1,4 @@
-//! Whether parameters can be used: each on its own, and together.
+//! Validation of parameters: each alone, and in combination.
 
 use moris_interface::{Group, Refusal, Variability, Writer, refuse, slot_count};
 
@@ -111,7 +111,7 @@ fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Res
     )
 }
 
-/// Whether the rig's legs and joints are the default's, of which it is known that they have no singularity.
+/// True for the default rig's legs and joints, which are known to be free of singularities.
 fn is_default(rig: &Rig) -> bool {
     let default = Rig::default();
     let speeds_aside =

@@ -51,7 +51,7 @@ pub struct Washout {
     guard: ActuatorGuard,
     felt: Felt,
     limited: Limited,
-    /// What cannot be differentiated exactly, one internal step ago.
+    /// Outputs without an exact derivative, one internal step ago.
     before: Before,
 }
 
@@ -71,7 +71,7 @@ impl Sample {
     }
 }
 
-/// What was limited in any internal step of the last communication step.
+/// Limits active in any internal step of the last communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Limited {
     tilt: bool,
@@ -186,7 +186,7 @@ impl Washout {
         }
     }
 
-    /// How many internal steps a step is divided into. A step a rounding error longer than the longest is not divided.
+    /// Number of internal steps in a step. A step a rounding error longer than the longest is not divided.
     fn internal_steps(&self, step: f64) -> f64 {
         const ROUNDING: f64 = 1e-9;
         let longest = self.parameters.structure.max_step;
@@ -278,7 +278,7 @@ impl Washout {
         Ok(())
     }
 
-    /// What drives the linear channel (a force in the base frame, less what is compensated) and the angular channel
+    /// Input of the linear channel (a force in the base frame, less what is compensated) and the angular channel
     /// (rates) now, if the conditioned cue is this one.
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let Parameters { conditioning, structure, .. } = &self.parameters;

@@ -10,14 +10,14 @@ use crate::{Error, FmiVersion, Model, Platform, Start, macos_stub, tools, worksp
 /// The glibc that zig links for: that of RHEL 7, and the oldest that Rust supports.
 const OLDEST_GLIBC: &str = "2.17";
 
-/// How the library for a platform is to be compiled.
+/// Compilation plan of the library for a platform.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
     pub platform: Platform,
     pub linker: Linker,
 }
 
-/// What links the library.
+/// The linker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Linker {
     /// This machine's own.
@@ -30,7 +30,7 @@ pub enum Linker {
     Mingw,
 }
 
-/// How to compile for these platforms, with all of the tools found; for this machine where there are none.
+/// Plans for these platforms, with all tools found; for this machine if the list is empty.
 ///
 /// # Errors
 /// A tool that is missing, before anything is compiled.

@@ -1,4 +1,4 @@
-//! What is in an FMU.
+//! Contents of an FMU.
 
 use crate::archive::Contents;
 use crate::reference::{self, Stimuli};

@@ -7,10 +7,10 @@ use crate::{FmiVersion, Model, Start};
 
 /// A part of the documentation.
 pub struct Section {
-    /// What a link to it ends in.
+    /// Fragment of a link to the section.
     pub anchor: &'static str,
     pub heading: &'static str,
-    /// What stands under the heading, with places in double braces: see [`Model::wording`].
+    /// Text under the heading, with placeholders in double braces: see [`Model::wording`].
     pub html: &'static str,
 }
 

@@ -8,7 +8,7 @@ use object::Object;
 use object::elf::{DT_NEEDED, DT_RPATH, DT_RUNPATH};
 use object::read::elf::{Dyn, ElfFile64};
 
-/// What a user of the library may want to know.
+/// Properties of the library that matter to its users.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Facts {
     /// The newest version of glibc of which it needs something; none where it is not for Linux.
@@ -90,7 +90,7 @@ fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), 
     Ok(())
 }
 
-/// What only libraries for Linux have: versions of glibc's functions, and a search path, which ours must not.
+/// Properties of Linux libraries: versions of glibc's functions, and a search path, which must be absent.
 fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), Flaw> {
     let (endian, data, sections) = (elf.endian(), elf.data(), elf.elf_section_table());
     if let Some((entries, link)) = sections.dynamic(endian, data)? {

@@ -86,7 +86,7 @@ fn fmi_version(arguments: &Arguments) -> Result<FmiVersion, Error> {
     }
 }
 
-/// Whether each of the options that give start values is taken by one of the models.
+/// Checks that each option with start values applies to one of the models.
 fn check_taken(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
     if arguments.rig.is_some() && !models.iter().any(|model| model.has_rig()) {
         return Err(Error::NotTaken { option: "rig", who: "only models with a platform have a rig" });
@@ -103,7 +103,7 @@ fn takes_parameters(arguments: &Arguments, model: &Model) -> bool {
     arguments.model.len() == 1 || model.name == WASHOUT.name
 }
 
-/// What is to stand in place of a model's own start values: the rig where it has one, and over it the parameters where they
+/// Start values that replace a model's own: the rig where it has one, and over it the parameters where they
 /// are its own.
 fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Error> {
     let mut values = NamedValues::new();

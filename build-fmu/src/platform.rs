@@ -34,7 +34,7 @@ impl Platform {
         }
     }
 
-    /// Whether it is macOS.
+    /// True for macOS.
     pub fn is_apple(self) -> bool {
         matches!(self, Platform::Darwin64 | Platform::Aarch64Darwin)
     }

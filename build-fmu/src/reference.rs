@@ -17,7 +17,7 @@ const EXPERIMENTS: &str = include_str!("../reference/experiments.exp");
 
 /// The communication steps in a second: inputs are set at the beginning of each and held.
 const RATE: usize = 100;
-/// How many communication steps from one row of the output to the next.
+/// Communication steps from one row of the output to the next.
 const STEPS_PER_ROW: usize = 20;
 
 /// The files of a model's reference ride: `input` is a table of inputs, `output` what [`output`] makes of it.
@@ -70,7 +70,7 @@ impl Stimuli {
     }
 }
 
-/// What the model answers to these inputs from these start values, one for each slot: every real output, as a comma-separated table of ten decimals.
+/// The model's real outputs for these inputs and start values (one for each slot), as a comma-separated table of ten decimals.
 ///
 /// # Panics
 /// An input is not one of the model's, or its start values are not usable.

@@ -1,4 +1,4 @@
-//! What an FMU starts with: the model's own values, or others baked into it in their place.
+//! Start values of an FMU: the model's own, or embedded ones in their place.
 
 use moris_interface::{Causality, write_start_values};
 use moris_setup::{NamedValues, contradiction, overlaid, parameter_file, values_of};
@@ -64,12 +64,12 @@ impl Start {
         &self.slots
     }
 
-    /// How many values stand in place of the model's own.
+    /// Number of values that replace the model's own.
     pub fn count(&self) -> usize {
         self.others.len()
     }
 
-    /// Whether there are no others.
+    /// True if no value replaces the model's own.
     pub fn is_the_model_s_own(&self) -> bool {
         self.others.is_empty()
     }

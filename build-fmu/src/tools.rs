@@ -33,7 +33,7 @@ fn zig_is_missing(platform: Platform) -> Error {
     Error::Missing { platform, what: "zig", install: install.to_owned() }
 }
 
-/// What zig says about itself, in the form of its own language, or of JSON if it is older.
+/// Output of `zig env`, in zig's own notation, or in JSON from older versions.
 fn zig_environment() -> Option<String> {
     let programs = [("zig", &["env"][..]), ("python3", &["-m", "ziglang", "env"])];
     let said =

@@ -1,4 +1,4 @@
-//! What is in an FMU and how it is packed, with stand-ins for the libraries.
+//! Contents and packing of an FMU, with stand-ins for the libraries.
 
 use std::collections::BTreeSet;
 use std::io::{Cursor, Read};

@@ -1,4 +1,4 @@
-//! What FMI 3.0 demands of a model description, checked on the text of the file with an XML reader that knows nothing of
+//! Requirements of FMI 3.0 on a model description, checked on the text of the file with an XML reader that knows nothing of
 //! how it was written, and against the description for FMI 2.0, which has its own rules.
 
 mod small_model;
@@ -129,7 +129,7 @@ fn variables_are_the_rows_in_order<M: Model>(layout: Layout) {
     }
 }
 
-/// How many values a variable has.
+/// Number of values of a variable.
 fn size(variable: Node) -> usize {
     elements(variable)
         .map(|dimension| {
@@ -323,7 +323,7 @@ fn a_changed_variable_is_one_changed_line() {
     }
 }
 
-/// Whether the model has a variable that is an enumeration; only then are there types to define.
+/// True if the model has an enumeration; only then are there types to define.
 fn has_enumerations<M: Model>() -> bool {
     M::IDENTITY.rows.iter().any(|row| matches!(row.kind, Kind::Enumeration(_)))
 }

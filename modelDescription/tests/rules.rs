@@ -1,4 +1,4 @@
-//! What FMI 2.0 demands of a model description, and what no validator notices, checked on the text of the file with an
+//! Requirements of FMI 2.0 on a model description, and errors that no validator reports, checked on the text of the file with an
 //! XML reader that knows nothing of how it was written.
 
 mod small_model;
@@ -276,7 +276,7 @@ fn angles_and_their_rates_are_shown_in_degrees_and_break_frequencies_are_not() {
     assert_eq!(display("splitter.x.omega1"), None);
 }
 
-/// Whether the model has a variable that is an enumeration; only then are there types to define.
+/// True if the model has an enumeration; only then are there types to define.
 fn has_enumerations<M: Model>() -> bool {
     M::IDENTITY.rows.iter().any(|row| matches!(row.kind, Kind::Enumeration(_)))
 }

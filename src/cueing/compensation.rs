@@ -17,7 +17,7 @@ pub fn centripetal(angular_velocity: Vector3<f64>, arm: Vector3<f64>) -> Vector3
     angular_velocity.cross(&angular_velocity.cross(&arm))
 }
 
-/// What gravity adds to the specific force where the platform has the orientation R and not its tilt alone, R_t: in the
+/// Part of gravity in the specific force where the platform has the orientation R and not its tilt alone, R_t: in the
 /// base frame, (1 - R R_t^T) (0, 0, g).
 pub fn added_gravity(rotation: &Matrix3<f64>, tilt: &Tilt, gravity: f64) -> Vector3<f64> {
     let (sin_roll, cos_roll) = libm::sincos(tilt.roll);

@@ -7,7 +7,7 @@ use crate::filter::critically_damped::CriticallyDamped;
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
 use crate::motion::orientation::{away_from_zero, rates_from_reference};
 
-/// What is left to cue: zero at rest.
+/// The signal to cue: zero at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Cue {
     /// Specific force without gravity, in head axes \[m/s2\].

@@ -72,7 +72,7 @@ impl DirectLinearMotion {
         }
     }
 
-    /// Whether a safety unit limited the motion in the last step.
+    /// True if a safety unit limited the motion in the last step.
     pub fn limited(&self) -> bool {
         self.safety.active()
     }

@@ -13,7 +13,7 @@ pub struct GravitationalStrategy {
     pub roll: Motion,
     pub pitch: Motion,
     target: Tilt,
-    /// Whether a limit kept the tilt from its target in the last step.
+    /// True if a limit kept the tilt from its target in the last step.
     pub limited: bool,
 }
 
@@ -84,7 +84,7 @@ impl GravitationalStrategy {
     }
 }
 
-/// How far the tilt may stay behind its target before it counts as limited \[rad\]: 0.001 degrees.
+/// Deviation of the tilt from its target above which it counts as limited \[rad\]: 0.001 degrees.
 const LAGGING: f64 = 2e-5;
 
 /// One step of one angle behind its target, whose rate is known from its last two values: a target inside the limits is

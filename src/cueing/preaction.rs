@@ -18,20 +18,20 @@ pub struct StopPreaction {
     longest_step: f64,
     /// The vehicle's deceleration, smoothed \[m/s2\].
     deceleration: f64,
-    /// How long until the vehicle stands, infinite while it does not brake \[s\].
+    /// Time until standstill \[s\], infinite without braking.
     time_left: f64,
-    /// How fast the force that the tilt stands for may change \[m/s3\].
+    /// Largest rate of the force represented by the tilt \[m/s3\].
     slew: f64,
     /// The force that the tilt was to stand for at the end of the last step, and whether that was less than asked for.
     tilted_for: f64,
     reduced: bool,
-    /// What is left of the tilt after the stop, as a force \[m/s2\]; never positive.
+    /// Tilt left after the stop, as a force \[m/s2\]; never positive.
     carried: f64,
     surge: Motion,
     phase: Phase,
 }
 
-/// What the surge does.
+/// Motion of the surge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Phase {
     /// Gently forward if a stop is coming, and to neutral if not.
@@ -106,7 +106,7 @@ impl StopPreaction {
         self.move_surge(force, safety, step);
     }
 
-    /// What the platform is to be tilted for, and the splitter gets, instead of this force.
+    /// Force for tilt, and force for the splitter, in place of this force.
     pub fn tilted_force(&self, force: f64) -> f64 {
         if self.time_left.is_finite() {
             force.max(SHARE_AT_STOP * force - self.slew * self.time_left)

@@ -10,7 +10,7 @@ pub const MAX_ITERATIONS: usize = 20;
 
 /// Legs that fit their lengths to this are found \[m\].
 const TOLERANCE: f64 = 1e-13;
-/// What counts as found when rounding keeps Newton's method from [`TOLERANCE`] \[m\].
+/// Accepted residual where rounding keeps Newton's method from [`TOLERANCE`] \[m\].
 const ACCEPTABLE: f64 = 1e-10;
 
 /// Newton's method did not find a pose with these leg lengths; they belong to none, or the platform is near a

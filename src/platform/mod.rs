@@ -53,7 +53,7 @@ impl Pose {
     }
 }
 
-/// How the platform moves: pose, and the first two derivatives of it, all in the base frame.
+/// Motion of the platform: pose and its first two derivatives, in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlatformMotion {
     pub position: Vector3<f64>,

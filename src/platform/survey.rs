@@ -12,7 +12,7 @@ const WORST_CONDITION: f64 = 50.0;
 /// A move from one grid point to the next is followed in this many parts.
 const PARTS: usize = 2;
 
-/// What a survey found over a grid of leg lengths, 4 levels for each leg.
+/// Result of a survey over a grid of leg lengths, 4 levels for each leg.
 ///
 /// Both figures are of the Jacobian with angular velocity counted as the speed of a point at the platform joints' mean
 /// radius, so that they have no unit and do not depend on the rig's size.

@@ -31,7 +31,7 @@ fn hostile_target(random: &mut Random, last: &Motion, step: f64) -> Motion {
     }
 }
 
-/// What the units are asked for next: each axis something of its own.
+/// Next demand on the units, different on each axis.
 fn hostile_targets(random: &mut Random, last: &Motions, step: f64) -> Motions {
     let targets = [0, 1, 2].map(|k| hostile_target(random, &last.axis(k), step));
     Motions::from_axes(|k| targets[k])

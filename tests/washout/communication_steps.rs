@@ -27,7 +27,7 @@ fn input(t: f64) -> Input {
     }
 }
 
-/// What is compared, in m, rad and m/s2.
+/// The compared outputs, in m, rad and m/s2.
 fn quantities(output: &Output) -> Vec<f64> {
     let mut all = output.length.to_vec();
     all.extend_from_slice(output.position.as_slice());

@@ -1,4 +1,4 @@
-//! What is done to the vehicle's motion before it is filtered.
+//! Conditioning of the vehicle's motion ahead of the filters.
 
 use moris_washout::Input;
 use moris_washout::cueing::conditioning::{Cue, InputFilter, cue, soft_limit};

@@ -1,4 +1,4 @@
-//! What the evaluator says the rider feels, against the commanded pose differentiated numerically.
+//! The evaluator's output, against the commanded pose differentiated numerically.
 
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Output, Parameters};

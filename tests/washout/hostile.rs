@@ -51,7 +51,7 @@ fn hostile(kind: Kind, random: &mut Random, k: usize, last: &Input) -> Input {
     }
 }
 
-/// How the communication steps of an episode are chosen \[s\].
+/// Choice of the communication steps of an episode \[s\].
 #[derive(Clone, Copy, Debug)]
 enum Steps {
     Even(f64),

@@ -14,7 +14,7 @@ fn preaction(on: bool) -> Parameters {
     parameters(if on { presets::PREACTION } else { &[] })
 }
 
-/// How a vehicle goes: acceleration \[m/s2\] and speed \[m/s\] at a time \[s\].
+/// Motion of a vehicle: acceleration \[m/s2\] and speed \[m/s\] at a time \[s\].
 type Motion = fn(f64) -> (f64, f64);
 
 /// Rides from rest at `preaction` on or off. Returns the accelerations asked for and the outputs.

@@ -1,4 +1,4 @@
-//! What an input does within a step for which no slopes are given.
+//! Reconstruction of inputs within a step without input derivatives.
 
 use std::f64::consts::TAU;
 

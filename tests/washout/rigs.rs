@@ -14,7 +14,7 @@ fn joints(radius: f64, degrees: [f64; 6]) -> [Vector3<f64>; 6] {
     })
 }
 
-/// Whether all legs are inside the stroke with the platform displaced from neutral by this.
+/// True if all legs are inside the stroke with the platform displaced from neutral by this.
 fn reaches(rig: &Rig, offset: Vec3, angles: Vec3) -> bool {
     (0..6).all(|i| {
         let turned = Vector3::from(to_base(angles, rig.platform[i].into()));
@@ -23,7 +23,7 @@ fn reaches(rig: &Rig, offset: Vec3, angles: Vec3) -> bool {
     })
 }
 
-/// How far the default platform goes along one of x, y, z, roll, pitch, yaw alone, in the direction of `sign`.
+/// Reach of the default platform along one of x, y, z, roll, pitch, yaw alone, in the direction of `sign`.
 fn range(axis: usize, sign: f64) -> f64 {
     let rig = Rig::default();
     let (mut inside, mut outside) = (0.0, 1.5);

@@ -1,4 +1,4 @@
-//! What is left in the end: what lasts is felt exactly, and the platform is back at neutral.
+//! The steady state: a lasting input is felt exactly, and the platform is back at neutral.
 
 use crate::common::manoeuvres::smooth_step;
 use crate::common::{accelerating, displacement, from_neutral, ride, ride_between, washout};

@@ -22,17 +22,17 @@ pub use washout::WASHOUT;
 /// Every model, in the order in which they are built.
 pub const MODELS: &[Model] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
 
-/// What the build needs to know of a model.
+/// Data of a model for the build.
 pub struct Model {
     /// The model's name, which in the FMU is also the shared library's.
     pub name: &'static str,
     /// The cargo packages that are the shared libraries for FMI 2.0 and for FMI 3.0.
     pub packages: [&'static str; 2],
-    /// What cargo calls the shared libraries for FMI 2.0 and for FMI 3.0.
+    /// Cargo's names of the shared libraries for FMI 2.0 and for FMI 3.0.
     pub libraries: [&'static str; 2],
     /// A line that says what the model is: the documentation's title.
     pub title: &'static str,
-    /// What follows from the model's table of variables and from its step.
+    /// Functions derived from the model's table of variables and its step.
     pub made: Made,
     /// Start values of inputs that follow from those of parameters, by name, given all start values.
     pub following: fn(start: &[f64]) -> NamedValues,
@@ -72,13 +72,13 @@ impl Wording {
     }
 }
 
-/// What is made from a model itself. `start` has the start value of each slot.
+/// Functions derived from a model. `start` has the start value of each slot.
 pub struct Made {
     /// Who it is and what its variables are.
     pub identity: Identity,
     /// The start values with others, by slot, laid over the model's own.
     pub start: fn(others: &[(usize, f64)]) -> Vec<f64>,
-    /// Whether the model can start with these values.
+    /// Checks that the model can start with these values.
     pub check: fn(start: &[f64]) -> Result<(), Refusal>,
     /// The model description of FMI 2.0.
     pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
@@ -114,12 +114,12 @@ impl Model {
         fmi.choose(self.packages[0], self.packages[1])
     }
 
-    /// What cargo calls the shared library.
+    /// Cargo's name of the shared library.
     pub fn library(&self, fmi: FmiVersion) -> &'static str {
         fmi.choose(self.libraries[0], self.libraries[1])
     }
 
-    /// Whether it is a model of a platform, with the joints of one.
+    /// True for a model with a platform's joints.
     pub fn has_rig(&self) -> bool {
         self.made.identity.slot("rig.neutralHeight").is_some()
     }

@@ -12,7 +12,7 @@ use std::path::Path;
 
 pub use system::{MOTORCYCLE_SIMULATOR, System};
 
-/// What a package is made for.
+/// Purpose of a package.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// The system has inputs of its own and one parameter set, as FMPy wants it.

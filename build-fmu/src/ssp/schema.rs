@@ -79,7 +79,7 @@ pub enum ConnectorKind {
     Output,
 }
 
-/// What a connector's values are.
+/// Type of a connector.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Type {
     #[serde(rename = "ssc:Real")]

@@ -111,7 +111,7 @@ pub fn names(identity: &Identity, causality: Causality) -> Vec<String> {
 }
 
 impl Component {
-    /// Whether an output is to be seen from outside.
+    /// True for an output that is a connector of the system.
     pub fn shows(&self, name: &str) -> bool {
         self.shown
             .iter()

@@ -115,7 +115,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// What may be done with the slot, if there is such a one and it is of this type.
+    /// Access to the slot, if it exists and is of this type.
     #[inline]
     fn check<S: Scalar>(&self, slot: u32) -> Option<&'static VariableCheck> {
         self.tables.checks.get(slot as usize).filter(|check| S::is(check.value_type))
@@ -253,7 +253,7 @@ impl<M: Model> Instance<M> {
     }
 }
 
-/// Whether a variable takes these values.
+/// Checks these values for a variable.
 #[inline]
 fn accepts<S: Scalar>(check: &VariableCheck, values: &[S]) -> bool {
     values.iter().all(|value| check.accepts(value.to_slot()))

@@ -1,6 +1,6 @@
-//! What is said when a call does not do what was asked.
+//! Message and severity of a call that fails.
 
-/// How bad it is.
+/// Severity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     /// A value was not taken; everything is as before the call.

@@ -35,7 +35,7 @@ impl<M: Model> Instance<M> {
         self.run.time
     }
 
-    /// What all instances of the model share.
+    /// Tables shared by all instances of the model.
     pub fn tables(&self) -> &Tables {
         &self.tables
     }

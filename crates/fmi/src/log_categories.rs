@@ -1,6 +1,6 @@
 //! The categories of the messages that a host receives.
 
-/// What a message is about; each has a name and a description in [`LOG_CATEGORIES`].
+/// Subject of a message; each has a name and a description in [`LOG_CATEGORIES`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogCategory {
     /// A stage of the instance's life; only with debug logging on.

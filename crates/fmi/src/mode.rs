@@ -21,7 +21,7 @@ impl Mode {
     pub const ALL: [Mode; 5] =
         [Mode::Instantiated, Mode::Initialization, Mode::StepComplete, Mode::Terminated, Mode::Error];
 
-    /// What the standard calls it.
+    /// The standard's name of the mode.
     pub fn name(self) -> &'static str {
         match self {
             Mode::Instantiated => "instantiated",
@@ -52,7 +52,7 @@ impl Modes {
         Modes(bits)
     }
 
-    /// Whether `mode` is one of them.
+    /// True if `mode` is one of them.
     #[inline]
     pub const fn contains(self, mode: Mode) -> bool {
         self.0 & (1 << mode as u8) != 0

@@ -11,7 +11,7 @@ pub struct Experiment {
     pub stop: Option<f64>,
 }
 
-/// How far an instance has come: mode, time, values and the model itself.
+/// State of an instance: mode, time, values and the model.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Run<M> {
     pub(crate) mode: Mode,
@@ -23,7 +23,7 @@ pub struct Run<M> {
     pub(crate) values: Box<[f64]>,
     /// The time derivative of each slot; zero for all that are not inputs, and unless the host gives one.
     pub(crate) derivatives: Box<[f64]>,
-    /// Whether any of `derivatives` may be other than zero.
+    /// True if any of `derivatives` may differ from zero.
     pub(crate) derivatives_given: bool,
     /// The model: there from the end of initialization on, and before that whenever `values` has been tried.
     pub(crate) model: Option<M>,

@@ -51,7 +51,7 @@ impl<M: Model> Run<M> {
         }
     }
 
-    /// Whether the run can be one of the model to which the tables belong.
+    /// Checks that the run can belong to the model of these tables.
     fn is_coherent(&self, tables: &Tables) -> bool {
         let initialized = matches!(self.mode, Mode::StepComplete | Mode::Terminated);
         let slots = tables.start.len();

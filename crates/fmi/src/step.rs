@@ -4,9 +4,9 @@ use moris_interface::Model;
 
 use crate::{Complaint, Instance};
 
-/// How far rounding may take the end of a step beyond a limit, relative to the limit.
+/// Tolerance of a step's end beyond a limit, relative to the limit.
 const LIMIT_TOLERANCE: f64 = 1e-9;
-/// How far a host's time may be from ours, relative to the step ...
+/// Tolerance of a host's time, relative to the step ...
 const STEP_TOLERANCE: f64 = 1e-6;
 /// ... and to the time itself: a few units in the last place. More would let a step be made twice late in a long run, or
 /// where time is that of a calendar.

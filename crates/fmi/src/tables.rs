@@ -1,4 +1,4 @@
-//! What all instances of a model share, in the library's static memory, so that unloading the library leaks nothing.
+//! Tables shared by all instances of a model, in static memory, so that unloading the library leaks nothing.
 
 use std::sync::OnceLock;
 
@@ -9,7 +9,7 @@ use crate::variable_check::{Role, VariableCheck, variable_checks};
 /// A GUID in braces, in ASCII.
 pub type Guid = [u8; 38];
 
-/// What all instances of a model share. The export macro makes one static of it.
+/// Tables shared by all instances of a model. The export macro makes one static of it.
 pub struct SharedTables<const N: usize> {
     checks: [VariableCheck; N],
     time_slot: Option<usize>,
@@ -40,7 +40,7 @@ impl<const N: usize> SharedTables<N> {
     }
 }
 
-/// How many slots a model has: the `N` of its [`SharedTables`].
+/// Number of slots of a model: the `N` of its [`SharedTables`].
 pub const fn slot_count<M: Model>() -> usize {
     M::IDENTITY.slots.len()
 }
@@ -48,7 +48,7 @@ pub const fn slot_count<M: Model>() -> usize {
 /// Access to what all instances of a model share.
 #[derive(Clone, Copy)]
 pub struct Tables {
-    /// What may be done with each slot.
+    /// Access to each slot.
     pub checks: &'static [VariableCheck],
     /// The slot of the independent variable, where there is one.
     pub time_slot: Option<usize>,

@@ -1,10 +1,10 @@
-//! What may be done with each variable, worked out when the library is compiled, so that get and set are a tight loop.
+//! Access rights of each variable, computed at compile time, so that get and set are a tight loop.
 
 use moris_interface::{Causality, Identity, Kind, Row, Variability};
 
 use crate::{Mode, Modes};
 
-/// What a variable's values are, whatever a version of FMI calls it.
+/// Type of a variable, for all versions of FMI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueType {
     Real,
@@ -15,9 +15,9 @@ pub enum ValueType {
 
 /// A value as the host has it, by one of a version's get and set functions.
 pub trait Scalar: Copy {
-    /// Whether the version's variables of this type go by these functions.
+    /// True if the version's functions apply to variables of this type.
     fn is(value_type: ValueType) -> bool;
-    /// What the version calls the type.
+    /// The version's name of the type.
     fn type_name(value_type: ValueType) -> &'static str;
     /// The value as a slot holds it.
     fn to_slot(self) -> f64;
@@ -25,7 +25,7 @@ pub trait Scalar: Copy {
     fn from_slot(slot: f64) -> Self;
 }
 
-/// What a variable is for.
+/// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     Time,
@@ -39,12 +39,12 @@ pub enum Role {
     Parameter,
 }
 
-/// What may be done with one variable.
+/// Access rights of one variable.
 #[derive(Clone, Copy, Debug)]
 pub struct VariableCheck {
     pub value_type: ValueType,
     pub role: Role,
-    /// How many slots the row has of which this is the first; 0 for its other slots. FMI 3.0 has a variable a row.
+    /// Number of slots of the row that begins here; 0 for its other slots. FMI 3.0 has a variable a row.
     pub row_slots: u32,
     /// The modes in which it can be set.
     pub settable: Modes,
@@ -71,7 +71,7 @@ impl VariableCheck {
         VariableCheck { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
     }
 
-    /// Whether the variable can be set to `value`.
+    /// Checks that the variable accepts `value`.
     #[inline]
     pub fn accepts(&self, value: f64) -> bool {
         value >= self.lower && value <= self.upper

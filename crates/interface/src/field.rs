@@ -14,7 +14,7 @@ pub trait Field: Copy {
     fn read(slots: &[f64]) -> Self;
     fn write(self, slots: &mut [f64]);
 
-    /// Whether every scalar is a number from the first to the second of `range`.
+    /// True if every scalar is within `range`, ends included.
     #[inline]
     fn is_within(self, (min, max): (f64, f64)) -> bool {
         let mut room = [0.0; LARGEST_FIELD];

@@ -106,7 +106,7 @@ impl Row {
         }
     }
 
-    /// Whether a value is finite and within the row's range.
+    /// True for a value that is finite and within the row's range.
     pub fn accepts(&self, value: f64) -> bool {
         let (min, max) = self.bounds();
         (min..=max).contains(&value)

@@ -1,8 +1,8 @@
-//! What the platform did: stroke used, time limited, tilt rate.
+//! Effort of the platform: stroke used, time limited, tilt rate.
 
 use crate::run::{Limited, Platform};
 
-/// What the platform did in a run.
+/// Effort of the platform in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Shortest length of any actuator \[m\].
@@ -25,7 +25,7 @@ pub struct Effort {
     pub final_distance: f64,
 }
 
-/// What the platform did in a run.
+/// Effort of the platform in a run.
 pub fn effort(platform: &Platform) -> Effort {
     let legs = || platform.legs.iter().flatten().copied();
     let shortest_leg = legs().fold(f64::INFINITY, f64::min);

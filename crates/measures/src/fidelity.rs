@@ -1,4 +1,4 @@
-//! How well one signal follows another.
+//! Agreement of one signal with another.
 
 /// Longest delay, of either sign, that is looked for \[s\].
 const LONGEST_DELAY: f64 = 2.0;
@@ -9,7 +9,7 @@ const SAME_SIGNAL: f64 = 0.9;
 /// A signal whose values differ by less than this is constant: far below what anybody feels \[m/s2 or rad/s\].
 const CONSTANT: f64 = 1e-9;
 
-/// How well a felt signal follows the desired one.
+/// Agreement of a felt signal with the desired one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fidelity {
     /// Root mean square of the error \[the signal's unit\].
@@ -18,7 +18,7 @@ pub struct Fidelity {
     pub peak_error: f64,
     /// Pearson's correlation; none where one of the signals is constant.
     pub correlation: Option<f64>,
-    /// How much later the felt signal comes \[s\]; see [`delay`].
+    /// Delay of the felt signal \[s\]; see [`delay`].
     pub delay: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     Some(ab / (aa * bb).sqrt())
 }
 
-/// How much later `felt` comes than `desired` \[s\]: the shift that makes them correlate best, found between the samples
+/// Delay of `felt` against `desired` \[s\]: the shift that makes them correlate best, found between the samples
 /// by a parabola through the best shift and its neighbours. Each shift is judged on the samples that overlap.
 ///
 /// None where a signal is constant, where the signals correlate by less than 0.9 at the best shift, and where that is not

@@ -1,4 +1,4 @@
-//! How good a ride's motion cues are, in numbers, and how good they could have been.
+//! Measures of motion cue quality, and the best quality that a rig permits.
 //!
 //! Plain series go in ([`Run`]): what the vehicle's rider would feel, what the rider on the platform feels, and what the
 //! platform did. [`Measures`] come out, and [`Measures::rows`] lists them for people, each with its unit, definition and

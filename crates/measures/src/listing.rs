@@ -9,9 +9,9 @@ use crate::measures::{Axes, Measures};
 /// One measure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// What of: `specific force x`, `sensed angular velocity y`, `platform`, ...
+    /// Subject: `specific force x`, `sensed angular velocity y`, `platform`, ...
     pub subject: String,
-    /// What is measured: `RMS error`, `false cues`, ...
+    /// Measure: `RMS error`, `false cues`, ...
     pub name: &'static str,
     /// The value in `unit`; none where the measure is not defined for this run.
     pub value: Option<f64>,
@@ -19,7 +19,7 @@ pub struct Row {
     pub unit: &'static str,
     /// Decimals that say something.
     pub decimals: usize,
-    /// What it is, in a sentence.
+    /// Definition, in a sentence.
     pub definition: &'static str,
     /// Where it is from.
     pub source: &'static str,
@@ -27,7 +27,7 @@ pub struct Row {
 
 const AXES: Axes<&str> = ["x", "y", "z"];
 
-/// What stands beside a measure that needs no source.
+/// Entry for a measure that needs no source.
 const COMMON: &str = "common usage";
 const VESTIBULAR: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
     Approaches, NASA/CR-2005-213747";

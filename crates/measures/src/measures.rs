@@ -12,7 +12,7 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 /// Something of each axis x, y, z.
 pub type Axes<T> = [T; 3];
 
-/// How well a run went.
+/// All measures of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measures {
     /// Specific force, felt against desired; none on an axis on which nothing is desired and nothing felt.
@@ -27,7 +27,7 @@ pub struct Measures {
     pub force_cues: Axes<Cues>,
     /// False and missing cues of angular velocity.
     pub rate_cues: Axes<Cues>,
-    /// What the platform did.
+    /// Effort of the platform.
     pub effort: Effort,
 }
 
@@ -55,7 +55,7 @@ impl Measures {
     }
 }
 
-/// How a vector signal is sensed.
+/// Sensed vector signal.
 struct Channel<'a> {
     organ: &'a Organ,
     rest: [f64; 3],

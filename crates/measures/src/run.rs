@@ -1,4 +1,4 @@
-//! What the measures are taken from.
+//! Input of the measures.
 
 /// One ride with one set of parameters: series of equal length, sampled every `step` seconds. The first sample is the one
 /// before the first step.
@@ -14,11 +14,11 @@ pub struct Run<'a> {
     pub desired_rate: &'a [[f64; 3]],
     /// Angular velocity that the rider on the platform feels, in head axes \[rad/s\].
     pub felt_rate: &'a [[f64; 3]],
-    /// What the platform did.
+    /// Motion of the platform.
     pub platform: Platform<'a>,
 }
 
-/// What the platform did, sampled as the [`Run`] is.
+/// Motion of the platform, sampled as the [`Run`] is.
 #[derive(Clone, Copy, Debug)]
 pub struct Platform<'a> {
     /// Lengths of the actuators \[m\].
@@ -29,7 +29,7 @@ pub struct Platform<'a> {
     pub displacement: &'a [[f64; 3]],
     /// Rates of tilt coordination's roll and pitch \[rad/s\].
     pub tilt_rate: &'a [[f64; 2]],
-    /// What was limited during the step that led to each sample.
+    /// Limits active during the step before each sample.
     pub limited: &'a [Limited],
 }
 
@@ -58,7 +58,7 @@ pub enum Unusable {
         "the series of {series} has {found} samples, that of the desired specific force {expected}; give each series a value for every sample"
     )]
     Length {
-        /// What the series holds.
+        /// Name of the series.
         series: &'static str,
         /// Its length.
         found: usize,
@@ -68,7 +68,7 @@ pub enum Unusable {
     /// A value is not a number.
     #[error("the {series} of sample {sample} is {value}; every value must be a finite number")]
     NotFinite {
-        /// What the series holds.
+        /// Name of the series.
         series: &'static str,
         /// Where the value is, from 0.
         sample: usize,
@@ -78,7 +78,7 @@ pub enum Unusable {
 }
 
 impl Run<'_> {
-    /// Whether the run can be measured.
+    /// Checks that the run can be measured.
     ///
     /// # Errors
     /// The first thing found that is wrong with the series.

@@ -35,7 +35,7 @@ pub const OTOLITHS: Organ = Organ::new([0.4, 0.4 * 10.0, 0.0], 5.0, 0.016);
 /// The semicircular canals: angular velocity to sensed angular velocity.
 pub const CANALS: Organ = Organ::new([0.0, 0.0, 5.73 * 80.0], 80.0, 5.73);
 
-/// What an organ senses of a signal that is sampled every `step` seconds, having been at `rest` for ever before its first
+/// Response of an organ to a signal that is sampled every `step` seconds, having been at `rest` for ever before its first
 /// sample. The organ's answer to `rest` itself is left out: what is sensed is the change from it.
 pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
     let [b0, b1, b2] = organ.numerator;

@@ -166,7 +166,7 @@ fn assert_keeps(trajectory: &Trajectory, limits: &AxisLimits) {
     }
 }
 
-/// How far something goes from where it is until it turns round, within a time `t`; 0 if it does not.
+/// Distance to the turning point within a time `t`; 0 without one.
 fn turning_point(rate: f64, acceleration: f64, t: f64) -> f64 {
     let time = -rate / acceleration;
     if (0.0..t).contains(&time) { 0.5 * rate * time } else { 0.0 }
@@ -194,7 +194,7 @@ fn no_motion_within_the_limits_does_better() {
     }
 }
 
-/// What is felt in 20 s of a random smooth motion on [`SURGE`], of which it is asserted that it keeps the limits.
+/// Felt signal in 20 s of a random smooth motion on [`SURGE`], which is asserted to keep the limits.
 fn felt_on_random_motion(random: &mut impl FnMut() -> f64) -> Vec<f64> {
     let tilt = SURGE.tilt.unwrap();
     let waves: Vec<[f64; 3]> = (0..4).map(|_| [random(), 0.2 + random().abs(), 3.0 * random()]).collect();

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// Whether whoever read the output, such as `head`, has had enough.
+/// True if the reader of the output, such as `head`, has closed it.
 fn nobody_reads_on(error: &anyhow::Error) -> bool {
     error.downcast_ref::<std::io::Error>().is_some_and(|error| error.kind() == ErrorKind::BrokenPipe)
 }

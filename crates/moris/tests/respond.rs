@@ -15,7 +15,7 @@ use moris_washout::{Parameters, presets};
 const GRAVITY: f64 = 9.80665;
 const HEAD: f64 = 1.2;
 const SMALL: f64 = 1e-3;
-/// What steps of a millisecond leave of a sine of 15.8 rad/s, as the tilt, felt through its acceleration, shows it: (w h)^2/2.
+/// Remainder of a sine of 15.8 rad/s after steps of a millisecond, as the tilt, felt through its acceleration, shows it: (w h)^2/2.
 const TOLERANCE: f64 = 1.3e-4;
 
 /// 1 - s^4/D with D = (s^2 + 2 zeta omega s + omega^2)^2.

@@ -30,7 +30,7 @@ fn samples() -> Vec<Sample> {
         .collect()
 }
 
-/// What a file is made of: names of columns, and each sample's numbers.
+/// Content of a file: names of columns, and each sample's numbers.
 fn csv(header: &str, samples: &[Sample], numbers: impl Fn(&Sample) -> Vec<f64>) -> String {
     let mut text = format!("{header}\n");
     for sample in samples {
@@ -137,7 +137,7 @@ fn other_units_axes_names_and_delimiters_make_the_same_ride() {
     assert_same(&found, &expected);
 }
 
-/// What has been taken out is put back where it was: along the vertical, seen from a vehicle that is rolled and pitched.
+/// Gravity is restored along the vertical, seen from a vehicle that is rolled and pitched.
 #[test]
 fn removed_gravity_is_put_back_by_the_orientation() {
     let expected =

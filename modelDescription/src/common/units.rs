@@ -45,7 +45,7 @@ impl From<&moris_interface::Unit> for Unit {
     }
 }
 
-/// What a description says of a real variable besides its values.
+/// Unit and quantity of a real variable.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RealAttributes {
     pub quantity: Option<String>,

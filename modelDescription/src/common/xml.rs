@@ -3,7 +3,7 @@
 use quick_xml::se::{SeError, Serializer};
 use serde::Serialize;
 
-/// How many spaces stand before a variable.
+/// Indentation of a variable, in spaces.
 const VARIABLE_DEPTH: usize = 4;
 
 const DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;

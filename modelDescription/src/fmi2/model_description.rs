@@ -63,7 +63,7 @@ pub struct CoSimulation {
     pub model_identifier: String,
     #[serde(rename = "@canHandleVariableCommunicationStepSize")]
     pub can_handle_variable_communication_step_size: bool,
-    /// Whether input derivatives are taken.
+    /// True if input derivatives are supported.
     #[serde(rename = "@canInterpolateInputs")]
     pub can_interpolate_inputs: bool,
     #[serde(rename = "@maxOutputDerivativeOrder")]

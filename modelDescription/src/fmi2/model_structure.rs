@@ -1,4 +1,4 @@
-//! What depends on what.
+//! Dependencies between variables.
 
 use serde::{Deserialize, Serialize};
 

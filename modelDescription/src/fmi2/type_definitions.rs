@@ -25,7 +25,7 @@ pub struct Enumeration {
 pub struct Item {
     #[serde(rename = "@name")]
     pub name: String,
-    /// What goes through `fmi2SetInteger` and `fmi2GetInteger`.
+    /// Value for `fmi2SetInteger` and `fmi2GetInteger`.
     #[serde(rename = "@value")]
     pub value: i32,
     #[serde(rename = "@description")]

@@ -13,7 +13,7 @@ pub fn variables_html<M: Model>(start: &[f64]) -> String {
     html(&M::IDENTITY, start, &Notation { name: name_html, type_name: |row| type_name(row.kind).to_owned() })
 }
 
-/// How a version of FMI shows a row of the interface.
+/// Presentation of a row of the interface in a version of FMI.
 pub(crate) struct Notation {
     /// The names of its variables.
     pub name: fn(&Row) -> String,

@@ -46,7 +46,7 @@ pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> ModelDescriptio
     }
 }
 
-/// What the C ABI of the crate moris-fmi can do, for any model.
+/// Capabilities of the C functions of moris-fmi, for any model.
 fn co_simulation(identity: &Identity) -> CoSimulation {
     CoSimulation {
         model_identifier: identity.name.to_owned(),

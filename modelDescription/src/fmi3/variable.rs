@@ -13,7 +13,7 @@ pub enum TypedVariable {
     Enumeration(Variable<i64>),
 }
 
-/// What a variable of any type has, and what only some have.
+/// Attributes of a variable of any type, and those of some types only.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(deserialize = "T: Deserialize<'de>"))]
 pub struct Variable<T> {

@@ -16,27 +16,27 @@ interface! {
 }
 
 interface! {
-    /// What goes in.
+    /// Inputs.
     pub struct Entry: Input, Continuous {
         /// A direction & a "size" < 1.
         "entry.@" entry: Vector3<f64> [M] = Vector3::new(0.1 + 0.2, -0.0, 1e-9);
-        /// Whether it counts.
+        /// True if it counts.
         "counts" counts: bool = true;
     }
 }
 
 interface! {
-    /// What comes out.
+    /// Outputs.
     pub struct Exit: Output, Continuous {
-        /// How fast it turns.
+        /// Angular velocity.
         "exit[#].rate" rate: [f64; 6] [RAD_PER_S] = [0.5; 6];
-        /// Whether it turns.
+        /// True if it turns.
         "turns" turns: bool = true;
     }
 }
 
 enumeration! {
-    /// How to turn.
+    /// Direction of rotation.
     pub enum Turning {
         /// To the left.
         "left" Left,
@@ -46,7 +46,7 @@ enumeration! {
 }
 
 interface! {
-    /// What can be changed at any time.
+    /// Tunable parameters.
     pub struct Tunable: Parameter, Tunable {
         /// A ratio.
         "ratio" ratio: f64 { 0 ..= 1 } = 1.0 / 3.0;
@@ -56,11 +56,11 @@ interface! {
 }
 
 interface! {
-    /// What cannot.
+    /// Fixed parameters.
     pub struct Fixed: Parameter, Fixed {
-        /// How many.
+        /// Number.
         "many" many: i32 { 1 ..= 9 } = 3;
-        /// Whether it is stiff.
+        /// True if it is stiff.
         "stiff" stiff: bool = false;
     }
 }

@@ -3,7 +3,7 @@
 use moris_washout::{Output, Parameters};
 use nalgebra::Vector3;
 
-/// What rounding may add to a limit.
+/// Tolerance of rounding beyond a limit.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Looks at every output of a ride and panics at the first that breaks a limit.

@@ -1,4 +1,4 @@
-//! What the tests share: inputs, manoeuvres, an integrator, rotations in plain arrays, and random numbers.
+//! Helpers of the tests: inputs, manoeuvres, an integrator, rotations in plain arrays, and random numbers.
 
 pub mod chain;
 pub mod limits;
@@ -62,7 +62,7 @@ pub fn from_neutral(output: &Output) -> Vector3<f64> {
     output.position - Vector3::new(0.0, 0.0, Parameters::default().rig.neutral_height)
 }
 
-/// How far from neutral the platform is: the largest of its coordinates \[m, rad\].
+/// Distance of the platform from neutral: the largest of its coordinates \[m, rad\].
 pub fn displacement(output: &Output) -> f64 {
     from_neutral(output).amax().max(output.orientation.to_vector().amax())
 }

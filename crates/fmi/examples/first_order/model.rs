@@ -15,9 +15,9 @@ interface! {
 }
 
 interface! {
-    /// What is lagged.
+    /// Signals to filter.
     pub struct Input: Input, Continuous {
-        /// What the output follows.
+        /// Input of the lag.
         "u" u: f64 = 0.0;
     }
 }
@@ -41,11 +41,11 @@ interface! {
 }
 
 interface! {
-    /// What is counted and chosen.
+    /// A counter and a choice.
     pub struct Counted: Output, Discrete {
         /// Steps done.
         "count" count: i32 = 0;
-        /// Whether y grew in the last step.
+        /// True if y grew in the last step.
         "rising" rising: bool = false;
         /// The method of the last step.
         "methodUsed" method_used: Method = Method::Exact;
@@ -53,7 +53,7 @@ interface! {
 }
 
 enumeration! {
-    /// How a step is computed.
+    /// Method of integration.
     pub enum Method {
         /// By the closed form.
         "exact" Exact,
@@ -63,11 +63,11 @@ enumeration! {
 }
 
 interface! {
-    /// What can change between steps.
+    /// Tunable parameters.
     pub struct Tunable: Parameter, Tunable {
         /// Ratio of output to input at rest; negative ones are refused.
         "gain" gain: f64 = 1.0;
-        /// How a step is computed.
+        /// Method of integration.
         "method" method: Method = Method::Exact;
         /// Where the model panics: 1 in new, 2 in retune, 3 in step.
         "trap" trap: i32 { 0 ..= 3 } = 0;
@@ -77,7 +77,7 @@ interface! {
 }
 
 interface! {
-    /// What is settled at the end of the initialization.
+    /// Fixed parameters.
     pub struct Fixed: Parameter, Fixed {
         /// Time constant; must be positive.
         "tau" tau: f64 [S] = 0.5;

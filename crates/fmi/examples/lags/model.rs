@@ -17,9 +17,9 @@ interface! {
 }
 
 interface! {
-    /// What is lagged.
+    /// Signals to filter.
     pub struct Input: Input, Continuous {
-        /// What the outputs follow.
+        /// Inputs of the lags.
         "u.@" u: Vector3<f64> = Vector3::new(0.0, 0.0, 0.0);
         /// Added to each of u.
         "offset" offset: i32 { -5 ..= 5 } = 0;
@@ -37,7 +37,7 @@ interface! {
         "sum[#]" sum: [f64; 6] = [0.0; 6];
         /// Steps done.
         "count" count: i32 = 0;
-        /// Whether nothing moved in the last step.
+        /// True if nothing moved in the last step.
         "still" still: bool = true;
         /// The method of the last step.
         "methodUsed" method_used: Method = Method::Exact;
@@ -45,7 +45,7 @@ interface! {
 }
 
 enumeration! {
-    /// How a step is computed.
+    /// Method of integration.
     pub enum Method {
         /// By the closed form.
         "exact" Exact,
@@ -55,11 +55,11 @@ enumeration! {
 }
 
 interface! {
-    /// What can change between steps.
+    /// Tunable parameters.
     pub struct Tunable: Parameter, Tunable {
         /// Ratio of output to input at rest; negative ones are refused.
         "gain.@" gain: Vector3<f64> = Vector3::new(1.0, 1.0, 1.0);
-        /// How a step is computed.
+        /// Method of integration.
         "method" method: Method = Method::Exact;
         /// True: the next step panics.
         "trap" trap: bool = false;
@@ -67,7 +67,7 @@ interface! {
 }
 
 interface! {
-    /// What is settled at the end of the initialization.
+    /// Fixed parameters.
     pub struct Fixed: Parameter, Fixed {
         /// Weights of y in the sums.
         "weight[#].@" weight: [Vector3<f64>; 6] = WEIGHTS;

@@ -35,7 +35,7 @@ mod control_word {
     pub type ControlWord = u32;
     /// All traps masked, round to nearest, neither FTZ nor DAZ.
     pub const DEFAULT: ControlWord = 0x1f80;
-    /// What has happened since a host last looked: no setting.
+    /// Exception flags since the host last cleared them: no setting.
     pub const FLAGS: ControlWord = 0x3f;
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! What a host's pointer to an instance points to, and the one way into it.
+//! The target of a host's pointer to an instance, and the only access to it.
 
 use std::ffi::c_void;
 
@@ -9,13 +9,13 @@ use crate::{Complaint, Instance, Mode, Severity, panics};
 
 /// The host of an instance, as one version of FMI has it: takes messages, and is told how calls end.
 pub trait Host {
-    /// How a call ends.
+    /// Status of a call.
     type Status;
     /// The call has done what was asked.
     const OK: Self::Status;
-    /// How a call ends when a pointer to no instance comes.
+    /// Status of a call with a pointer to no instance.
     const ERROR: Self::Status;
-    /// What the version calls a mode.
+    /// The version's name of a mode.
     fn mode_name(mode: Mode) -> &'static str;
     /// Replaces the names of scalar variables in a message by those of the model description that the host has read.
     fn rename(&self, _identity: &Identity, text: String) -> String {
@@ -27,7 +27,7 @@ pub trait Host {
     fn failure(&self, severity: Severity, text: &str) -> Self::Status;
 }
 
-/// What every component begins with until it is freed, and nothing else is likely to.
+/// Mark at the beginning of every component until it is freed; unlikely elsewhere.
 const MARK: u64 = u64::from_le_bytes(*b"instance");
 
 /// An instance, and where its messages go.

@@ -12,10 +12,10 @@ use crate::{Complaint, Guid, Run};
 /// A saved state, as the host holds it.
 type FmuState = *mut c_void;
 
-/// What every state of this library begins with, and nothing else is likely to.
+/// Mark at the beginning of every state of this library; unlikely elsewhere.
 const MARK: u64 = u64::from_le_bytes(*b"FMUstate");
 
-/// What an [`FmuState`] points to.
+/// Target of an [`FmuState`].
 #[repr(C)]
 struct State<M> {
     /// Belongs to whom; looked at before the rest is believed.

@@ -1,4 +1,4 @@
-//! What the C functions of all versions of FMI share: the way into an instance, pointers, states.
+//! Parts common to the C functions of all versions of FMI: access to an instance, pointers, states.
 //!
 //! # Safety
 //! All functions of the versions' modules take a host's pointers. Null pointers are refused; others have to be what the

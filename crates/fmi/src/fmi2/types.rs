@@ -7,7 +7,7 @@ use crate::{Scalar, ValueType};
 /// An instance, as the host holds it.
 #[allow(non_camel_case_types)]
 pub type fmi2Component = *mut c_void;
-/// What the host wants back with every message.
+/// The host's argument, returned with every message.
 #[allow(non_camel_case_types)]
 pub type fmi2ComponentEnvironment = *mut c_void;
 /// A saved state, as the host holds it.
@@ -32,7 +32,7 @@ pub type fmi2Byte = c_char;
 #[repr(transparent)]
 pub struct fmi2Boolean(pub c_int);
 
-/// What FMI 2.0 calls a type.
+/// A type of FMI 2.0.
 fn type_name(value_type: ValueType) -> &'static str {
     match value_type {
         ValueType::Real => "Real",
@@ -97,7 +97,7 @@ impl Scalar for fmi2Boolean {
     }
 }
 
-/// How a call ended.
+/// Status of a call.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]

@@ -4,7 +4,7 @@ use moris_interface::Identity;
 
 use crate::Guid;
 
-/// How a model description presents a row of several values. One library serves both: the instantiation token says
+/// Presentation of a row of several values in a model description. One library serves both: the instantiation token says
 /// which description the host has read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {

@@ -12,12 +12,12 @@ use crate::abi::pointers::{slice, string};
 use crate::abi::{Host, call, with_default_arithmetic};
 use crate::{Complaint, Guid, Instance, Severity, SharedTables, panics};
 
-/// What a host asks for when it makes an instance.
+/// Options of instantiation.
 pub struct Request {
     pub instance_name: fmi3String,
     pub instantiation_token: fmi3String,
     pub event_mode_used: fmi3Boolean,
-    /// How many variables the host wants to get or set within a step.
+    /// Number of variables to get or set within a step.
     pub intermediate_variable_count: usize,
 }
 

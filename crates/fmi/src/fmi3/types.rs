@@ -9,7 +9,7 @@ use crate::{Scalar, ValueType};
 /// An instance, as the host holds it.
 #[allow(non_camel_case_types)]
 pub type fmi3Instance = *mut c_void;
-/// What the host wants back with every message.
+/// The host's argument, returned with every message.
 #[allow(non_camel_case_types)]
 pub type fmi3InstanceEnvironment = *mut c_void;
 /// A saved state, as the host holds it.
@@ -51,14 +51,14 @@ pub struct fmi3Int64(pub i64);
 pub struct fmi3Boolean(pub u8);
 
 impl fmi3Boolean {
-    /// Whether it is true.
+    /// True for any value but zero.
     #[inline]
     pub fn is_true(self) -> bool {
         self.0 != 0
     }
 }
 
-/// How a call ended.
+/// Status of a call.
 #[allow(non_camel_case_types)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]
@@ -113,7 +113,7 @@ scalar!(fmi3Int32, Integer, |value| f64::from(value.0), |slot| slot as i32);
 scalar!(fmi3Int64, Enumeration, |value| value.0 as f64, |slot| slot as i64);
 scalar!(fmi3Boolean, Boolean, |value| f64::from(u8::from(value.is_true())), |slot| u8::from(slot != 0.0));
 
-/// What FMI 3.0 calls a type.
+/// A type of FMI 3.0.
 fn type_name(value_type: ValueType) -> &'static str {
     match value_type {
         ValueType::Real => "Float64",

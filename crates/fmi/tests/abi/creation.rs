@@ -9,7 +9,7 @@ use moris_fmu_host::api::{Callbacks, Text};
 
 use crate::fixture::*;
 
-/// What a call of the logger brought: instance name, status, category, message, argument.
+/// Arguments of a call of the logger: instance name, status, category, message, argument.
 type Said = (String, c_int, String, String, String);
 
 unsafe extern "C" fn log(
@@ -40,7 +40,7 @@ impl Default for Request {
     }
 }
 
-/// Whether an instance is made, and what is said until it is freed.
+/// Attempts an instance: success, and the messages until it is freed.
 fn ask(request: Request) -> (bool, Vec<Said>) {
     let fmu = open();
     let said = Mutex::new(Vec::<Said>::new());

@@ -69,7 +69,7 @@ pub fn failed() -> Instance {
     instance
 }
 
-/// What the instance said last.
+/// The last message of the instance.
 pub fn last_message(instance: &Instance) -> Message {
     instance.messages().pop().expect("nothing was said")
 }

@@ -36,7 +36,7 @@ fn load_and_unload_alone() {
     }
 }
 
-/// Whether the library is in this process's memory; only Linux tells.
+/// True if the library is in this process's memory; known on Linux only.
 fn is_mapped() -> Option<bool> {
     let maps = std::fs::read_to_string("/proc/self/maps").ok()?;
     Some(maps.contains(library().file_name().unwrap().to_str().unwrap()))

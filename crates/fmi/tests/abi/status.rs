@@ -1,4 +1,4 @@
-//! How a host asks how a step went, and what cannot be done.
+//! Status queries after a step, and functions that are not supported.
 
 use crate::fixture::*;
 

@@ -26,7 +26,7 @@ impl Default for Request {
     }
 }
 
-/// Whether an instance is made, and what is said until it is freed.
+/// Attempts an instance: success, and the messages until it is freed.
 fn ask(request: &Request) -> (bool, Vec<Said>) {
     let library = open();
     let said = Mutex::new(Vec::new());
@@ -126,7 +126,7 @@ fn does_without_a_logger() {
     }
 }
 
-/// Whether an event, a discarded value and an error are logged.
+/// True for each of an event, a discarded value and an error that is logged.
 fn logged(instance: &Instance) -> [bool; 3] {
     let said = |act: &dyn Fn()| {
         let before = instance.messages().len();

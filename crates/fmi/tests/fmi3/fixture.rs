@@ -41,7 +41,7 @@ pub fn reference(name: &str) -> u32 {
     (0..IDENTITY.slots.len()).find(is_it).unwrap_or_else(|| panic!("no {name}")) as u32
 }
 
-/// What the FMU said: status, category, text.
+/// A message of the FMU: status, category, text.
 pub type Said = (c_int, String, String);
 type Messages = Mutex<Vec<Said>>;
 

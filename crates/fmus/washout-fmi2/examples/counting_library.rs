@@ -9,7 +9,7 @@ use std::alloc::System;
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// How often memory has been asked for, grown or given back.
+/// Number of allocations, reallocations and deallocations.
 #[unsafe(no_mangle)]
 pub extern "C" fn memory_operations() -> usize {
     let stats = ALLOCATOR.stats();

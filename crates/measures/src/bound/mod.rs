@@ -71,9 +71,9 @@ pub enum NoBound {
     /// There is no ride, or it is shorter than one interval.
     #[error("the ride has {samples} samples; a bound needs at least {needed}")]
     TooShort {
-        /// How many samples there are.
+        /// Number of samples.
         samples: usize,
-        /// How many one interval takes.
+        /// Number of samples an interval.
         needed: usize,
     },
     /// A sample is not a number.
@@ -81,7 +81,7 @@ pub enum NoBound {
     NotFinite {
         /// Where it is, from 0.
         sample: usize,
-        /// What it is.
+        /// The value.
         value: f64,
     },
     /// A limit allows nothing.
@@ -91,7 +91,7 @@ pub enum NoBound {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it must be.
+        /// The requirement.
         needed: &'static str,
     },
     /// The solver stopped without a solution.

@@ -40,9 +40,9 @@ pub struct Programme {
     pub matrix: CscMatrix<f64>,
     /// b.
     pub right: Vec<f64>,
-    /// How many equalities and how many inequalities.
+    /// Numbers of equalities and inequalities.
     pub cones: [SupportedConeT<f64>; 2],
-    /// What no variable exceeds in any motion within the limits; infinite for the errors.
+    /// Largest value of a variable in any motion within the limits; infinite for the errors.
     pub largest: Vec<f64>,
     intervals: usize,
     interval: f64,

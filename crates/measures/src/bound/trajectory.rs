@@ -18,7 +18,7 @@ pub struct Knot {
     pub position: f64,
     /// Velocity \[m/s\].
     pub velocity: f64,
-    /// What the tilt adds to the specific force, g sin(tilt) \[m/s2\].
+    /// Specific force due to tilt, g sin(tilt) \[m/s2\].
     pub tilt_force: f64,
     /// The rate of that \[m/s3\].
     pub tilt_force_rate: f64,

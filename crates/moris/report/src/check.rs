@@ -1,4 +1,4 @@
-//! Whether a report's data fit together.
+//! Consistency of a report's data.
 
 use thiserror::Error;
 
@@ -120,7 +120,7 @@ pub(crate) mod tests {
         Report { rig: Rig { stroke: [1.0, 1.6], ..Rig::default() }, runs: vec![run], ..Report::default() }
     }
 
-    /// What is said of the smallest report after a change.
+    /// Error of the smallest report after a change.
     fn said(change: impl Fn(&mut Report)) -> String {
         let mut report = smallest();
         change(&mut report);

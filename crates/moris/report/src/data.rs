@@ -1,4 +1,4 @@
-//! What a report is made of: plain data.
+//! Plain data of a report.
 //!
 //! All quantities are in SI units and in the frames of the washout: x forward, y left, z up; positive pitch is nose down.
 //! Every series of a [`Run`] has one value for each of its times.
@@ -14,7 +14,7 @@ pub struct Report {
     pub title: String,
     /// One line below the heading: what was ridden, on which rig, with which parameters.
     pub subtitle: String,
-    /// What the reader should know first, in order of importance.
+    /// Findings, in order of importance.
     pub findings: Vec<Finding>,
     /// Facts for the foot of the page as name and value: files, versions, step.
     pub provenance: Vec<(String, String)>,
@@ -32,7 +32,7 @@ pub struct Finding {
     pub text: String,
 }
 
-/// How much a finding matters.
+/// Severity of a finding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Weight {
@@ -70,9 +70,9 @@ pub struct Run {
     /// \[s\], ascending.
     #[serde(serialize_with = "f64_series::one")]
     pub times: Vec<f64>,
-    /// What the vehicle's rider would feel.
+    /// Desired: motion at the head of the vehicle's rider.
     pub desired: Cues,
-    /// What the rider on the platform feels.
+    /// Felt: motion at the head of the rider on the platform.
     pub felt: Cues,
     /// Position of the platform frame's origin in the base frame: x, y, z \[m\].
     #[serde(serialize_with = "f32_series::many")]
@@ -111,7 +111,7 @@ pub struct Cues {
     pub angular_velocity: [Vec<f64>; 3],
 }
 
-/// What was limited during the step that led to each sample.
+/// Limits active during the step before each sample.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Limited {
     /// Tilt coordination lagged behind its target.
@@ -157,7 +157,7 @@ pub struct Measure {
     pub unit: String,
     /// Which of two values is the better.
     pub better: Better,
-    /// What is computed, in a sentence or a formula.
+    /// Definition, as a sentence or a formula.
     pub definition: String,
     /// Where the definition comes from.
     pub source: String,
@@ -202,7 +202,7 @@ pub enum Better {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Chart {
     pub title: String,
-    /// What the vertical axis says, with its unit.
+    /// Label of the vertical axis, with its unit.
     pub quantity: String,
     /// Times of the lines' values \[s\]; empty: the run's.
     #[serde(serialize_with = "f64_series::one")]

@@ -1,4 +1,4 @@
-//! How series travel in the page: numbers as base64 of their little-endian bytes, which is a quarter of their digits and
+//! Encoding of series in the page: numbers as base64 of their little-endian bytes, which is a quarter of their digits and
 //! keeps what is not a number.
 
 use base64::Engine as _;

@@ -16,7 +16,7 @@ pub struct Event {
     pub why: String,
 }
 
-/// What was limited.
+/// The limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -175,7 +175,7 @@ fn actuator_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     reason([short.chain(long).collect(), velocities.collect(), accelerations.collect()])
 }
 
-/// What of the first kind has reached its limit, else of the second, and so on; if nothing has, what came closest.
+/// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
 fn reason(kinds: [Vec<Share>; 3]) -> String {
     for shares in &kinds {
         let reached: Vec<&Share> = shares.iter().filter(|one| one.share >= REACHED).collect();

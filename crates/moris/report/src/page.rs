@@ -29,7 +29,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("../page/main.js"),
 ];
 
-/// What the scripts read.
+/// Data for the scripts.
 #[derive(Serialize)]
 struct Page<'a> {
     report: &'a Report,

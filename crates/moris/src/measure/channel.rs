@@ -8,7 +8,7 @@ use moris_washout::nalgebra::Vector3;
 
 use crate::run::{AxisBound, Recording};
 
-/// What a channel is of.
+/// Quantity of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Specific force along x, y or z \[m/s2\].
@@ -40,7 +40,7 @@ impl Quantity {
 /// A channel's figures, in m/s2 or rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// What it is of.
+    /// Quantity.
     pub quantity: Quantity,
     /// RMS of what is desired, as a deviation from rest: the error of a platform that stands still.
     pub at_rest: f64,

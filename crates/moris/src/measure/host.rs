@@ -6,7 +6,7 @@ use moris_washout::{Input, Output, Parameters, Washout};
 use crate::ride::Ride;
 use crate::run::Recording;
 
-/// What the host says of an input within a step.
+/// Input within a step, as given by the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Inputs {
     /// Value and slope: the input goes linearly through the step
@@ -21,11 +21,11 @@ pub enum Inputs {
 pub struct Host {
     /// Length of a step \[s\]; none: the recording's.
     pub step: Option<f64>,
-    /// What is said of an input within a step.
+    /// Input within a step, as given by the host.
     pub inputs: Inputs,
 }
 
-/// How far the ratio of two steps may be from a whole number.
+/// Tolerance of the ratio of two steps against a whole number.
 const ROUNDING: f64 = 1e-6;
 
 impl Host {
@@ -71,7 +71,7 @@ impl Host {
     }
 }
 
-/// How the host's steps and the recording's samples fit together.
+/// Relation of the host's steps to the recording's samples.
 struct Steps {
     /// Samples from one kept output to the next.
     samples: usize,

@@ -43,7 +43,7 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", value_parser = step)]
     step: Option<f64>,
 
-    /// What the host says of an input within a step
+    /// Input within a step, as given by the host
     #[arg(long, value_enum, default_value_t)]
     inputs: Inputs,
 

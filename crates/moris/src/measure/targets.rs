@@ -6,7 +6,7 @@ use super::channel::{Channel, Quantity};
 /// A force on which less than this is desired does not count; an error below it counts as this \[m/s2\].
 pub const LEAST_FORCE: f64 = 0.03;
 
-/// What is asked of a set of parameters.
+/// Targets for a set of parameters.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(next_help_heading = "Targets")]
 pub struct Targets {

@@ -13,7 +13,7 @@ pub enum Channel {
     Yaw,
 }
 
-/// How many channels there are.
+/// Number of channels.
 pub const CHANNELS: usize = 6;
 
 /// All channels, each at the place of its [`Channel::index`].
@@ -39,7 +39,7 @@ impl Channel {
         self.index() % 3
     }
 
-    /// Whether it is a specific force; else it is an angular velocity.
+    /// True for a specific force, false for an angular velocity.
     pub fn is_force(self) -> bool {
         self.index() < 3
     }
@@ -69,7 +69,7 @@ impl Channel {
     }
 }
 
-/// What is felt, in SI units, each at the place of its channel.
+/// Felt quantities in SI units, in the order of the channels.
 pub fn felt(output: &Output) -> [f64; CHANNELS] {
     let (force, rate) = (output.felt_specific_force, output.felt_angular_velocity);
     [force.x, force.y, force.z, rate.x, rate.y, rate.z]

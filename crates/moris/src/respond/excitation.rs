@@ -1,4 +1,4 @@
-//! What the vehicle does in the tests: one channel at a time, in a sine.
+//! Excitation in the tests: one channel at a time, a sine.
 
 use std::f64::consts::PI;
 
@@ -14,7 +14,7 @@ pub fn frequencies() -> [f64; 12] {
     std::array::from_fn(|k| 0.1 * 10_f64.powf(0.2 * k as f64))
 }
 
-/// How large the sines are.
+/// Amplitudes of the sines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Amplitudes {
     /// Specific force \[m/s2\].
@@ -69,7 +69,7 @@ pub struct Sine<'a> {
     pub frequency: f64,
     /// Time over which it fades in, whole periods \[s\].
     pub fade: f64,
-    /// Whether the vehicle's orientation follows its roll and pitch rates, and the specific force with it.
+    /// True if the vehicle's orientation follows its roll and pitch rates, and the specific force with it.
     pub gravity_turns: bool,
     pub parameters: &'a Parameters,
 }
@@ -112,7 +112,7 @@ impl Sine<'_> {
         (-swing * share * cos, self.amplitude * share * sin - swing * share_rate * cos)
     }
 
-    /// What gravity adds to the specific force of a vehicle in this orientation.
+    /// Part of gravity in the specific force of a vehicle in this orientation.
     fn gravity(&self, orientation: RollPitchYaw) -> Vector3<f64> {
         let Parameters { conditioning, structure, .. } = self.parameters;
         if conditioning.gravity_removal == GravityRemoval::None {
@@ -121,7 +121,7 @@ impl Sine<'_> {
         Orientation::new(orientation).rotation.tr_mul(&Vector3::new(0.0, 0.0, structure.gravity))
     }
 
-    /// How far it has faded in, a raised cosine from 0 to 1, and the time derivative of that.
+    /// Fade-in factor, a raised cosine from 0 to 1, and its time derivative.
     fn faded(&self, time: f64) -> (f64, f64) {
         if time >= self.fade {
             return (1.0, 0.0);

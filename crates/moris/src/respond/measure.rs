@@ -8,7 +8,7 @@ use moris_washout::{Parameters, Refusal, Washout};
 use super::channel::{ALL, CHANNELS, Channel, felt};
 use super::excitation::Sine;
 
-/// What came out of one test: one channel in, at one frequency.
+/// Result of one test: one input channel at one frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     pub input: Channel,
@@ -16,14 +16,14 @@ pub struct Response {
     pub frequency: f64,
     /// Of the input \[m/s2 or rad/s\].
     pub amplitude: f64,
-    /// What is felt on each channel over what went in, in SI units.
+    /// Felt amplitude of each channel over the input's, in SI units.
     pub ratios: [Complex<f64>; CHANNELS],
     /// Of each channel: what it holds beside the input's frequency and its mean, as a share of what it holds at that
     /// frequency (root mean squares). A linear filter has none.
     pub distortion: [f64; CHANNELS],
     /// Share of time in which the tilt, a safety unit, the actuator guard limited.
     pub limited: [f64; 3],
-    /// Whether two blocks of periods, one after the other, gave the same to 1 %.
+    /// True if two successive windows agree within 1 %.
     pub settled: bool,
 }
 

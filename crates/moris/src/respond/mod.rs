@@ -94,7 +94,7 @@ impl Measured {
         Ok(Measured { test: all(amplitudes)?, small: all(amplitudes.scaled(SMALL))? })
     }
 
-    /// How many tests are made.
+    /// Number of tests.
     pub const TESTS: u64 = 2 * 6 * 12;
 }
 

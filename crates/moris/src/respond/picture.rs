@@ -60,7 +60,7 @@ fn draw(file: &Path, measured: &Measured, pairs: &[(Channel, Channel)], columns:
     Ok(())
 }
 
-/// What the lines and dots mean.
+/// Legend of lines and dots.
 fn draw_key(area: &Area) -> Result<()> {
     let style = (FONT, 20).into_font().color(&TEXT);
     let mut x = 70;

@@ -77,7 +77,7 @@ fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
     ]
 }
 
-/// Whether a pair of channels is one of the test's.
+/// True for a pair of channels that is tested.
 fn kind(input: Channel, output: Channel) -> &'static str {
     if input == output {
         "direct"
@@ -133,7 +133,7 @@ fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
     table
 }
 
-/// What the reader should know about the tests.
+/// Remarks on the tests.
 fn remarks(responses: &[Response]) -> Vec<String> {
     let limits = ["tilt coordination", "a safety unit", "the actuator guard"];
     let mut remarks: Vec<String> = limits

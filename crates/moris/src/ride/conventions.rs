@@ -1,4 +1,4 @@
-//! What a recording's columns are called, and in which units and axes they are.
+//! Names, units and axes of a recording's columns.
 //!
 //! Said by options, or by a small TOML file with the same words, or both: options stand over the file.
 //!
@@ -49,7 +49,7 @@ impl Quantity {
         (Quantity::Lean, "lean"),
     ];
 
-    /// Whether a recording without it is none: time, specific force and rates.
+    /// True for a required column: time, specific force and rates.
     pub fn is_required(self) -> bool {
         matches!(self, Quantity::Time | Quantity::Force(_) | Quantity::Rate(_))
     }
@@ -124,7 +124,7 @@ choices! {
 }
 
 choices! {
-    /// Whether the accelerations are specific forces.
+    /// True if the accelerations are specific forces.
     Gravity {
         /// Gravity's reaction is in: (0, 0, +9.81) at rest, what an accelerometer reads
         "included" Included,
@@ -214,7 +214,7 @@ impl From<RateFrame> for AngularVelocityFrame {
     }
 }
 
-/// What is said about a recording: each either said or left to the default.
+/// Conventions of a recording, each given or left to the default.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "What the recording's columns are")]
@@ -241,7 +241,7 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "UNIT")]
     pub angle_unit: Option<AngleUnit>,
 
-    /// Whether ax ay az include gravity's reaction, as an accelerometer reads it [default: included]
+    /// Gravity in ax ay az: included, as an accelerometer measures it, or not [default: included]
     #[arg(long, value_name = "WHETHER")]
     pub gravity: Option<Gravity>,
 
@@ -267,7 +267,7 @@ pub struct ConventionOptions {
     pub conventions: Option<PathBuf>,
 }
 
-/// What is known of a recording when it is read.
+/// Conventions of a recording that is read.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conventions {
     /// Column names that are not the keys.
@@ -299,7 +299,7 @@ impl Conventions {
 }
 
 impl ConventionOptions {
-    /// What is said, by the options over the file over the defaults.
+    /// The given conventions: options over file over defaults.
     ///
     /// # Errors
     /// The file cannot be read or says something that cannot be said.

@@ -36,15 +36,15 @@ pub use error::RideError;
 pub struct Ride {
     /// The file's name without directory and extension.
     pub name: String,
-    /// What the washout is fed, at equal steps.
+    /// Inputs of the washout, at equal steps.
     pub manoeuvre: Manoeuvre,
     /// Time of the first sample in the recording \[s\]; the manoeuvre's is 0.
     pub start: f64,
     /// The axes of the inputs' angular velocities.
     pub angular_velocity_frame: AngularVelocityFrame,
-    /// Whether the recording says how the vehicle is oriented.
+    /// True if the recording has the vehicle's orientation.
     pub has_orientation: bool,
-    /// What struck the reader as odd, in whole sentences.
+    /// Warnings, in whole sentences.
     pub remarks: Vec<String>,
 }
 
@@ -71,7 +71,7 @@ impl Ride {
         })
     }
 
-    /// What the ride in a file is called: as the file is, without directory and extension.
+    /// Name of the recording in a file: the file's, without directory and extension.
     pub fn name_of(file: &Path) -> String {
         file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
     }

@@ -4,7 +4,7 @@ use super::RideError;
 use super::conventions::{Conventions, Quantity};
 use super::table::Table;
 
-/// How far a sample may be from where equal steps would put it \[shares of a step\]: clocks that are written with few
+/// Tolerance of a sample's time against equal steps \[fraction of a step\]: clocks that are written with few
 /// digits are off by that.
 const JITTER: f64 = 0.2;
 /// A recording coarser than this says too little of what was felt \[s\].

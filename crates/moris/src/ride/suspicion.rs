@@ -9,7 +9,7 @@ use moris_washout::nalgebra::Vector3;
 use super::RideError;
 use super::conventions::{AngleUnit, Axes, Conventions, ForceUnit, Gravity, RateUnit};
 
-/// How far the median specific force may be from standard gravity \[m/s2\]: sensors are biased and tilted, rides lean.
+/// Tolerance of the median specific force against standard gravity \[m/s2\]: sensors are biased and tilted, rides lean.
 const GRAVITY_TOLERANCE: f64 = 3.0;
 /// Medians below this are none where gravity has been taken out \[m/s2\].
 const NO_GRAVITY: f64 = 3.0;
@@ -110,7 +110,7 @@ fn angles_are_plausible(inputs: &[Input], conventions: &Conventions) -> Result<(
     })
 }
 
-/// What is odd about a ride, but can be.
+/// Warnings about an unusual recording.
 pub fn remarks(inputs: &[Input]) -> Vec<String> {
     let mut remarks = Vec::new();
     for (axis, name) in ["x", "y"].into_iter().enumerate() {

@@ -32,7 +32,7 @@ impl Table {
         }
     }
 
-    /// Whether the recording says how the vehicle is oriented: its roll and pitch at least.
+    /// True if the recording has the vehicle's orientation: roll and pitch at least.
     pub fn has_orientation(&self) -> bool {
         self.columns.contains_key(&Quantity::Angle(0)) && self.columns.contains_key(&Quantity::Angle(1))
     }

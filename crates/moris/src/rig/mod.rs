@@ -22,7 +22,7 @@ use survey::{Singularities, Survey};
 /// Look at a rig
 #[derive(Clone, Debug, clap::Subcommand)]
 pub enum Command {
-    /// What a rig reaches, and whether it is free of singularities
+    /// Reach and singularities of a rig
     ///
     /// Prints how far, how fast and how hard the platform goes along each axis alone, how large its workspace is and how well
     /// conditioned it is over the whole box of its leg lengths, and draws it. The exit status is not 0 for a rig that cannot

@@ -51,7 +51,7 @@ fn verdict(survey: &Survey) -> String {
     }
 }
 
-/// What the colours mean.
+/// Legend of the colours.
 fn legend(top: f64) -> String {
     let mut text = format!(r#"<g transform="translate(64 {top})">"#);
     let mut x = 0.0;

@@ -21,7 +21,7 @@ pub struct Plane {
     pub title: &'static str,
     /// Coordinates across and upward: 0, 1, 2 for x, y, z.
     pub axes: [usize; 2],
-    /// What these are called.
+    /// Names of the coordinates.
     pub names: [&'static str; 2],
 }
 
@@ -81,7 +81,7 @@ fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option
     (0..6).map(ring).collect()
 }
 
-/// What is inside all rings, filled: groups within groups, each clipped by one disc, with the holes masked out. (A clip of a
+/// The interior of all rings, filled: groups within groups, each clipped by one disc, with the holes masked out. (A clip of a
 /// clip would say the same, but not every viewer follows it.)
 fn shape(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
     let circle = |ring: &Ring, radius: f64| {

@@ -11,34 +11,34 @@ use moris_washout::{Refusal, Rig};
 use super::workspace::{TILT, Volume, Workspace};
 use crate::text_table::TextTable;
 
-/// What a rig is and can do.
+/// Properties of a rig.
 #[derive(Clone, Debug)]
 pub struct Survey {
-    /// What it is called.
+    /// Name.
     pub name: String,
     /// The washout's parameters on it.
     pub parameters: Parameters,
-    /// What it can do along each axis alone.
+    /// Capabilities along each axis alone.
     pub axes: [AxisAlone; 6],
     /// Where it can go.
     pub workspace: Workspace,
-    /// Whether it has singularities.
+    /// Result of the search for singularities.
     pub singularities: Singularities,
 }
 
-/// What the platform can do along one axis alone.
+/// Capabilities of the platform along one axis alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisAlone {
     pub axis: Axis,
-    /// How far, from neutral \[m or rad\].
+    /// Reach from neutral \[m or rad\].
     pub range: Range,
-    /// How fast through neutral, by the legs' speed \[m/s or rad/s\].
+    /// Speed through neutral, by the legs' speed \[m/s or rad/s\].
     pub speed: f64,
-    /// How hard at rest at neutral, by the legs' acceleration \[m/s2 or rad/s2\].
+    /// Acceleration at rest at neutral, by the legs' acceleration \[m/s2 or rad/s2\].
     pub acceleration: f64,
 }
 
-/// What the survey of the whole box of leg lengths found.
+/// Result of the survey over all leg lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Singularities {
     /// None, and this is how far from one it is.
@@ -71,7 +71,7 @@ impl Survey {
     }
 }
 
-/// Whether the legs reach neutral, so that there is a place to begin.
+/// True if the legs reach neutral.
 fn can_stand(rig: &Rig) -> bool {
     stroke_margin(rig, &Pose::neutral(rig)) > 0.0
 }

@@ -1,4 +1,4 @@
-//! What the pictures of a rig are drawn with.
+//! Drawing primitives for the pictures of a rig.
 
 use std::fmt::Write;
 

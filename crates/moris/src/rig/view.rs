@@ -12,7 +12,7 @@ use super::svg::Window;
 const AZIMUTH: f64 = 0.6;
 const ELEVATION: f64 = 0.35;
 
-/// How large the head is \[m\].
+/// Radius of the head \[m\].
 const HEAD_RADIUS: f64 = 0.12;
 /// Length of the arrows along the base's axes, as a share of its radius.
 const ARROW: f64 = 0.4;

@@ -84,7 +84,7 @@ fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
     })
 }
 
-/// What a block of points found.
+/// Result of a block of points.
 #[derive(Clone, Copy)]
 struct Found {
     level: u32,

@@ -1,4 +1,4 @@
-//! What a ride came to, in sentences.
+//! Findings of a simulation, in sentences.
 
 use moris_measures::fidelity::Fidelity;
 use moris_report::{Finding, Weight};
@@ -25,7 +25,7 @@ fn finding(weight: Weight, text: String) -> Finding {
     Finding { weight, text }
 }
 
-/// Whether the ride fits the rig, and if not, what held it back, how long, and when first.
+/// Fit of the recording to the rig: active limits, their durations and first times.
 fn fits(outcome: &Outcome) -> Finding {
     let effort = &outcome.measures.effort;
     let recording = &outcome.recording;
@@ -47,7 +47,7 @@ fn fits(outcome: &Outcome) -> Finding {
     }
 }
 
-/// What held the platform back, for how long in all, and when first; none where it did not.
+/// Active limits with total duration and first time; none without any.
 fn held(what: &str, recording: &Recording, holds: impl Fn(&Output) -> bool) -> Option<String> {
     let time = |samples: usize| samples as f64 * recording.step;
     let first = recording.outputs.iter().position(&holds)?;
@@ -72,7 +72,7 @@ fn tilt(outcome: &Outcome) -> Option<Finding> {
     })
 }
 
-/// How well the specific force is felt on an axis on which there is some.
+/// Agreement of the specific force on an axis on which there is some.
 fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
     let name = ["Surge", "Sway", "Heave"][axis];
     let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;

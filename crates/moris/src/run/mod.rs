@@ -65,9 +65,9 @@ pub struct Outcome {
     pub setup: Setup,
     /// Everything that went in and came out.
     pub recording: Recording,
-    /// How well it was felt.
+    /// The measures.
     pub measures: Measures,
-    /// How well it could have been felt at best, axis by axis; none where nothing is desired or nobody asked.
+    /// The bound, axis by axis; none without a desired signal or if not requested.
     pub bounds: Axes<Option<AxisBound>>,
 }
 
@@ -139,7 +139,7 @@ fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
     }
 }
 
-/// Whether every table and page has a name of its own, and none of them is a recording's.
+/// Checks that tables and pages have different names, none of them a recording's.
 ///
 /// # Errors
 /// Two of them would be written into one file, or one over a recording.

@@ -33,7 +33,7 @@ pub fn report(ride: &Ride, outcomes: &[Outcome]) -> Report {
     }
 }
 
-/// How gravity was removed.
+/// Method of removing gravity.
 fn gravity(ride: &Ride) -> &'static str {
     if ride.has_orientation {
         "removed as gravityRemoval says, by the recorded orientation"
@@ -97,7 +97,7 @@ fn bound_rows(outcome: &Outcome) -> Vec<Row> {
     (0..3).filter_map(on_axis).flatten().collect()
 }
 
-/// What could be felt at best, axis by axis.
+/// The bound, axis by axis.
 fn bound_charts(outcome: &Outcome) -> Vec<Chart> {
     let times = outcome.recording.times();
     let chart = |axis: usize| {

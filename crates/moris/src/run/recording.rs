@@ -1,4 +1,4 @@
-//! What goes into the washout and comes out of it on a ride.
+//! Inputs and outputs of the washout in a simulation.
 
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
@@ -14,7 +14,7 @@ use crate::ride::Ride;
 pub struct Recording {
     /// Time between samples \[s\].
     pub step: f64,
-    /// What the ride was ridden with.
+    /// Parameters of the simulation.
     pub parameters: Parameters,
     /// The input at each sample.
     pub inputs: Vec<Input>,

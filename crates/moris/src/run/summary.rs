@@ -1,4 +1,4 @@
-//! What the terminal shows of a ride.
+//! Summary of a simulation on the terminal.
 
 use std::fmt::Write;
 

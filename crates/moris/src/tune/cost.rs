@@ -1,4 +1,4 @@
-//! What is made small: how badly a ride is sensed, and whether the machine's limits had to step in.
+//! The objective: sensed error of a recording, and penalties for active limits.
 //!
 //! A ride has six channels, specific force and angular velocity along x, y and z. Each is what the vestibular model makes of it,
 //! counted in perception thresholds, so that metres per second squared and degrees per second can be added. With e_k the RMS of
@@ -21,14 +21,14 @@ use crate::run::Recording;
 /// Six channels: specific force x, y, z, angular velocity x, y, z.
 pub type Channels<T> = [T; 6];
 
-/// What the platform may not do.
+/// Constraints on the platform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Constraints {
     /// Every actuator stays this far from either end of its stroke \[m\].
     pub stroke_reserve: f64,
 }
 
-/// What a ride came to.
+/// Cost of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// RMS error of each channel, in thresholds.
@@ -40,7 +40,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Whether all constraints were kept throughout.
+    /// True if all constraints were kept throughout.
     pub fn is_feasible(&self) -> bool {
         self.violated == 0.0
     }
@@ -108,7 +108,7 @@ impl Judge {
         channels.iter().zip(&self.weights).map(|(value, weight)| weight * value * value).sum::<f64>().sqrt()
     }
 
-    /// What the ride comes to with these parameters, in the long steps of a search.
+    /// Cost of the recording with these parameters, in the long steps of a search.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -130,7 +130,7 @@ impl Judge {
         Ok(tally.cost())
     }
 
-    /// What a recording of the ride came to.
+    /// Cost of a simulation.
     pub fn cost(&self, recording: &Recording) -> Cost {
         let mut tally = Tally::new(self);
         recording.outputs.iter().for_each(|output| tally.add(output));
@@ -138,7 +138,7 @@ impl Judge {
     }
 }
 
-/// What has been felt so far.
+/// Accumulated cost.
 struct Tally<'a> {
     judge: &'a Judge,
     errors: Channels<Vec<f64>>,

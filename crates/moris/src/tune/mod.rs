@@ -90,7 +90,7 @@ fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Jud
     files.par_iter().map(judge).collect()
 }
 
-/// Whether Ctrl-C has been pressed; the second time ends the program.
+/// True after Ctrl-C; a second one ends the program.
 fn listen() -> Result<Arc<AtomicBool>> {
     let interrupted = Arc::new(AtomicBool::new(false));
     let pressed = Arc::clone(&interrupted);

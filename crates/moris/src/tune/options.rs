@@ -1,4 +1,4 @@
-//! What `moris tune` is told.
+//! Options of `moris tune`.
 
 use std::path::PathBuf;
 
@@ -67,12 +67,12 @@ pub struct Options {
 }
 
 impl Options {
-    /// How long to search.
+    /// Length of the search.
     pub fn budget(&self) -> Budget {
         Budget { evaluations: self.evaluations, seed: self.seed }
     }
 
-    /// What the platform may not do.
+    /// Constraints on the platform.
     pub fn constraints(&self) -> Constraints {
         Constraints { stroke_reserve: self.stroke_reserve }
     }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::cost::Judge;
 use super::space::Space;
 
-/// How long and from where to search.
+/// Length and start of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
     /// Parameter sets to try.
@@ -20,7 +20,7 @@ pub struct Budget {
     pub seed: u64,
 }
 
-/// How wide the search begins, in logarithms: most frequencies within a factor of 1.5 either way.
+/// Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
 const FIRST_STEP: f64 = 0.4;
 /// The search ends when a generation's costs differ by less.
 const TOLERANCE: f64 = 1e-5;
@@ -33,7 +33,7 @@ const PRICE_OF_OUTSIDE: f64 = 0.1;
 /// Cost of being away from the start by a factor of e in every parameter: of two sets that serve the same, the one that is
 /// more like the start is taken, and what no ride has anything to say about stays where it is.
 const PRICE_OF_DISTANCE: f64 = 2e-3;
-/// How many of the best sets are kept.
+/// Number of best sets that are kept.
 const KEPT: usize = 10;
 
 /// A parameter set that kept all constraints on every ride.
@@ -47,7 +47,7 @@ pub struct Found {
     point: Vec<f64>,
 }
 
-/// What a search came to.
+/// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Searched {
     /// Sets that kept all constraints on every ride, the best first; the first ten.
@@ -96,7 +96,7 @@ pub fn search(
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
 }
 
-/// What is tried on each channel before the search proper, times the start's: the cost has several valleys, most of all along the
+/// Factors tried on each channel before the search, relative to the start: the cost has several valleys, most of all along the
 /// break frequencies, and the search ends in the one that it begins in.
 const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
 const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
@@ -118,7 +118,7 @@ fn first_point(judges: &[&Judge], space: &Space, cost: impl Fn(&nalgebra::DVecto
     best.as_slice().to_vec()
 }
 
-/// How much smaller each try is than the one before, and how many there are: down to a hundredth.
+/// Factor between successive trials, and their number: down to a hundredth.
 const SMALLER: f64 = 0.8;
 const TRIES: i32 = 21;
 
@@ -166,7 +166,7 @@ fn means(judges: &[&Judge], parameters: &Parameters) -> Option<(f64, f64)> {
     Some((error, violated))
 }
 
-/// What a point of the space costs; whatever keeps the constraints is remembered if it is among the best.
+/// Cost of a point; feasible points are kept if among the best.
 fn price(judges: &[&Judge], space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
     let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
     let parameters = space.parameters(&inside);

@@ -1,4 +1,4 @@
-//! What is searched: break frequencies, dampings and scales, by their logarithms.
+//! Search variables: logarithms of break frequencies, dampings and scales.
 
 use moris_washout::Parameters;
 use moris_washout::motion::orientation::RollPitchYaw;
@@ -17,7 +17,7 @@ pub enum Group {
     Cutoff,
 }
 
-/// How far a parameter may go: where filters make sense as a washout.
+/// Range of a parameter that makes sense for a washout.
 const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
 const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
 const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
@@ -62,7 +62,7 @@ impl Space {
         Space { start, groups: groups.to_vec(), lower: lower.into(), upper: upper.into() }
     }
 
-    /// How many parameters are tuned.
+    /// Number of tuned parameters.
     pub fn dimension(&self) -> usize {
         self.lower.len()
     }
@@ -74,7 +74,7 @@ impl Space {
         (inside, distance)
     }
 
-    /// Whether scales are tuned.
+    /// True if scales are tuned.
     pub fn has_scales(&self) -> bool {
         self.groups.contains(&Group::Scale)
     }

@@ -1,4 +1,4 @@
-//! What a tuning came to, as Markdown.
+//! Summary of a tuning, as Markdown.
 
 use std::fmt::Write;
 

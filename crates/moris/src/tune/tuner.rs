@@ -33,9 +33,9 @@ impl Error for NothingFound {}
 pub struct Tuner<'a> {
     /// The rig, and the parameters before.
     pub setup: &'a Setup,
-    /// What may change.
+    /// The search space.
     pub space: Space,
-    /// How long each search may be.
+    /// Length of each search.
     pub budget: Budget,
     /// Set when the user wants it to end.
     pub interrupted: Arc<AtomicBool>,
@@ -44,7 +44,7 @@ pub struct Tuner<'a> {
 }
 
 impl Tuner<'_> {
-    /// Whether the user wanted it to end.
+    /// True if the user interrupted it.
     pub fn was_interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
@@ -78,7 +78,7 @@ impl Tuner<'_> {
         Err(NothingFound(text).into())
     }
 
-    /// What to try in the steps that it will be used with, one after the other: what the search found to be best, and, where none of that
+    /// Candidates to verify in the final step size, one after the other: the best of the search, and, where none of them
     /// holds, the best with its scales made smaller and smaller.
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
@@ -137,7 +137,7 @@ impl Tuner<'_> {
     }
 }
 
-/// How much smaller the scales are made at a time, and how often at most: down to a fifth.
+/// Factor on the scales at a time, and largest number of times: down to a fifth.
 const SMALLER: f64 = 0.95;
 const TRIES: i32 = 32;
 
@@ -146,7 +146,7 @@ fn keeps_all_constraints(judges: &[&Judge], setup: &Setup) -> Result<bool> {
     Ok(costs?.iter().all(Cost::is_feasible))
 }
 
-/// What a ride comes to with these parameters, in the internal steps that they say.
+/// Cost of a recording with these parameters, in their internal steps.
 ///
 /// # Errors
 /// The parameters cannot be used.

@@ -38,7 +38,7 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// What to set, and what to get.
+/// Variables to set and to get.
 struct Ride<'a> {
     inputs: Vec<&'a ScalarVariable>,
     outputs: Vec<&'a ScalarVariable>,

@@ -41,7 +41,7 @@ fn jump(random: &mut Random) -> Inputs {
     [fx, fy, fz, wx, wy, wz, 0.0, 0.0, 0.0]
 }
 
-/// How long it takes \[ns\].
+/// Duration \[ns\].
 fn timed(exchange: impl FnOnce()) -> u32 {
     let begin = Instant::now();
     exchange();

@@ -41,7 +41,7 @@ fn ramp(instance: &mut Instance, name: &str, with_slope: bool, mut look: impl Fn
     }
 }
 
-/// What 1/(s + A)^4 makes of an impulse of [`SLOPE`], and its first three time derivatives.
+/// Response of 1/(s + A)^4 to an impulse of [`SLOPE`], and its first three time derivatives.
 fn response(time: f64) -> [f64; 4] {
     let factor = SLOPE / 6.0 * (-A * time).exp();
     let (t, t2, t3) = (time, time * time, time * time * time);

@@ -5,7 +5,7 @@ use moris_fmu_host::Fmu;
 use crate::fixture::*;
 use crate::hostile::driver::{Choices, run};
 
-/// What belongs to the process: locale, directory, signals' handlers, environment, threads, open files, what is done at
+/// Properties of the process: locale, directory, signals' handlers, environment, threads, open files, what is done at
 /// its end.
 fn process() -> Vec<String> {
     let count = |directory: &str| std::fs::read_dir(directory).unwrap().count();

@@ -1,4 +1,4 @@
-//! What a real-time loop must not do: ask for memory, or call the operating system. That it takes no lock follows: an
+//! Actions forbidden in a real-time loop: allocation and system calls. That it takes no lock follows: an
 //! instance is its caller's alone, and a contended lock would call the system.
 
 use libloading::{Library, Symbol};

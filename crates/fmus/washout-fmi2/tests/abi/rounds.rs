@@ -1,4 +1,4 @@
-//! What comes is freed again.
+//! Every allocation is freed again.
 
 use moris_fmu_host::Status;
 

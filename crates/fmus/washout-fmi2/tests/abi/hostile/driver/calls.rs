@@ -123,7 +123,7 @@ fn enter_initialization_mode(world: &mut World, who: usize) -> i32 {
     world.accept(who, "fmi2EnterInitializationMode", status, &[if allowed { OK } else { ERROR }])
 }
 
-/// Whether the washout can be made of the parameters is its own affair, but of those it starts with it can.
+/// Validity of the parameters is the washout's own affair, but its start values are valid.
 fn exit_initialization_mode(world: &mut World, who: usize) -> i32 {
     let player = &mut world.players[who];
     let right: &[_] = match player.expected.state {
@@ -250,7 +250,7 @@ fn never(world: &mut World, who: usize) -> i32 {
     world.accept(who, name, status, &[ERROR])
 }
 
-/// How the last step went.
+/// Status of the last step.
 pub fn status(world: &mut World, who: usize) -> i32 {
     let (c, api) = (world.players[who].component, world.api);
     let kind = world.choices.of(&[0, 1, 2, 3, 4, -1, c_int::MAX]);

@@ -9,7 +9,7 @@ pub enum Choices<'a> {
 }
 
 impl Choices<'_> {
-    /// Whether there is nothing left to decide with.
+    /// True if the choices are used up.
     pub fn are_over(&self) -> bool {
         matches!(self, Choices::Bytes([]))
     }

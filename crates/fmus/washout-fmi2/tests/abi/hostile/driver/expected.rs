@@ -1,4 +1,4 @@
-//! What an instance has to be after the calls so far: a second, plain account of the standard.
+//! Expected state of an instance after the calls so far: a second, plain account of the standard.
 
 use moris_interface::{Causality, Identity, Kind, Model, Variability};
 use moris_washout::Washout;
@@ -7,7 +7,7 @@ use crate::standard::CALLING_SEQUENCE;
 
 pub const IDENTITY: Identity = Washout::IDENTITY;
 
-/// How calls may end: fmi2OK, fmi2Discard, fmi2Error.
+/// Status of a call: fmi2OK, fmi2Discard, fmi2Error.
 pub const OK: i32 = 0;
 pub const DISCARD: i32 = 2;
 pub const ERROR: i32 = 3;
@@ -35,13 +35,13 @@ impl Expected {
         Expected { state: 'I', experiment: None, time: 0.0, values, legs: None }
     }
 
-    /// Whether the function is allowed now.
+    /// True if the function is allowed now.
     pub fn allows(&self, function: &str) -> bool {
         let (_, states) = CALLING_SEQUENCE.iter().find(|(name, _)| *name == function).expect(function);
         states.contains(self.state)
     }
 
-    /// Whether the variable can be set now, by the rule of the standard.
+    /// True if the variable can be set now, by the rule of the standard.
     pub fn settable(&self, slot: usize) -> bool {
         let row = IDENTITY.row(slot);
         match (row.causality, row.variability) {
@@ -56,7 +56,7 @@ impl Expected {
         self.values[slot(name)]
     }
 
-    /// Whether all parameters are what they are in a fresh instance.
+    /// True if all parameters have their start values.
     pub fn has_start_parameters(&self) -> bool {
         let fresh = Self::fresh();
         (0..self.values.len())
@@ -69,7 +69,7 @@ pub fn slot(name: &str) -> usize {
     IDENTITY.slot(name).expect(name)
 }
 
-/// Whether the variable is one of those that the host sets.
+/// True if the host sets the variable.
 pub fn is_set_by_host(slot: usize) -> bool {
     matches!(IDENTITY.row(slot).causality, Causality::Input | Causality::Parameter)
 }
@@ -91,7 +91,7 @@ pub fn type_of(slot: usize) -> Type {
     }
 }
 
-/// Whether the variable can be set to this value: an input to any finite one, for beyond its range it counts as the end.
+/// True if the variable accepts this value: an input to any finite one, for beyond its range it counts as the end.
 pub fn admits(slot: usize, value: f64) -> bool {
     let row = IDENTITY.row(slot);
     let any = row.causality == Causality::Input && matches!(row.kind, Kind::Real(_));

@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_int, c_void};
 
 use moris_fmu_host::api::Text;
 
-/// What was said in one call of the logger.
+/// Arguments of one call of the logger.
 #[derive(Debug)]
 pub struct Said {
     pub status: c_int,
@@ -12,7 +12,7 @@ pub struct Said {
     pub text: String,
 }
 
-/// What has been said to one instance's logger; its address is the instance's environment.
+/// Messages to one instance's logger; its address is the instance's environment.
 #[derive(Debug, Default)]
 pub struct Log {
     pub name: String,

@@ -17,7 +17,7 @@ pub struct Player {
     pub expected: Expected,
     /// `None` for an instance that was made without a logger.
     log: Option<Box<Log>>,
-    /// Whether stages of the instance's life are logged.
+    /// True if stages of the instance's life are logged.
     pub events: bool,
 }
 
@@ -50,7 +50,7 @@ static SLOTS: LazyLock<Slots> = LazyLock::new(|| Slots {
     stroke_margin: slot("status.strokeMargin"),
 });
 
-/// What rounding may add to a limit, relative to it, and absolute \[m\].
+/// Tolerance of rounding beyond a limit, relative, and absolute \[m\].
 const ROUNDING: f64 = 1e-9;
 const ROUNDING_LENGTH: f64 = 1e-12;
 
@@ -124,7 +124,7 @@ impl Player {
         values
     }
 
-    /// What was set is what is shown, to the bit.
+    /// Every value reads as it was set, to the bit.
     fn check_settings(&self, values: &[f64]) {
         assert_eq!(values[SLOTS.time].to_bits(), self.expected.time.to_bits(), "time");
         for (slot, (shown, expected)) in values.iter().zip(&self.expected.values).enumerate() {

@@ -20,7 +20,7 @@ pub struct Bytes {
     expected: Expected,
 }
 
-/// How many serialized states are kept.
+/// Number of serialized states that are kept.
 const KEPT: usize = 4;
 
 /// One call, or a few, of the functions for states.

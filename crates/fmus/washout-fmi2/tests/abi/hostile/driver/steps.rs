@@ -8,7 +8,7 @@ use super::world::World;
 const MOST_INTERNAL_STEPS: f64 = 100.0;
 /// The library makes no step longer than a million internal ones.
 const LONGEST: f64 = 1e6;
-/// What may be taken or refused: this close to a limit, relative to it.
+/// Distance from a limit, relative to it, within which a step may be accepted or rejected.
 const CLOSE: f64 = 1e-6;
 
 /// A step, wrong in one way or not at all.

@@ -16,7 +16,7 @@ const SETTERS: [&str; 3] = ["fmi2SetReal", "fmi2SetInteger", "fmi2SetBoolean"];
 /// One setter in this many may change the rig.
 const RIGS: usize = 200;
 
-/// What is wrong with a call's pointers.
+/// Defects of a call's pointers.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Pointers {
     Right,

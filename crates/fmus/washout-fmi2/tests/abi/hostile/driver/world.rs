@@ -9,16 +9,16 @@ use super::player::Player;
 use super::states::{Bytes, Saved};
 use super::{calls, states, steps, variables};
 
-/// How many instances and saved states there are at most.
+/// Largest number of instances and of saved states.
 const INSTANCES: usize = 4;
 const STATES: usize = 6;
 /// One call in this many has the whole instance compared before and after, in case it is refused.
 const WATCHED: usize = 16;
 
-/// How often each function ended in each way.
+/// Count of each function's statuses.
 pub type Tally = BTreeMap<(&'static str, i32), u64>;
 
-/// What the host holds.
+/// Instances and states of the host.
 pub struct World<'a> {
     pub api: &'a Api,
     pub choices: Choices<'a>,
@@ -83,7 +83,7 @@ impl World<'_> {
         *self.tally.entry((function, status)).or_default() += 1;
     }
 
-    /// Whether another state can be saved.
+    /// True if another state can be saved.
     pub fn has_room_for_states(&self) -> bool {
         self.states.len() < STATES
     }
