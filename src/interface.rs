@@ -268,10 +268,6 @@ interface! {
 interface! {
     /// The Stewart platform: its joints, and what its actuators can do.
     pub struct Rig: Parameter, Fixed {
-        /// Joint of the actuator on the base, in the base frame.
-        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
-        /// Joint of the actuator on the platform, in the platform frame.
-        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
         /// Height of the platform frame's origin above the base frame's at neutral.
         "rig.neutralHeight" neutral_height: f64 [M] { 1e-3 ..= 100.0 } = 1.091;
         /// Shortest length of an actuator.
@@ -282,6 +278,10 @@ interface! {
         "actuator.velocityLimit" velocity_limit: f64 [M_PER_S] { 1e-3 ..= 100.0 } = 1.0;
         /// Largest acceleration of an actuator.
         "actuator.accelerationLimit" acceleration_limit: f64 [M_PER_S2] { 1e-3 ..= 1e4 } = 15.0;
+        /// Joint of the actuator on the base, in the base frame.
+        "rig.base[#].@" base: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::BASE;
+        /// Joint of the actuator on the platform, in the platform frame.
+        "rig.platform[#].@" platform: [Vector3<f64>; 6] [M] { -100.0 ..= 100.0 } = default_rig::PLATFORM;
     }
 }
 

@@ -23,6 +23,18 @@ impl Model for Washout {
         text: "Washout filter of the MORIS motorcycle simulator with the kinematics of its Stewart platform: from the specific force and angular velocity of a vehicle's rider to the motion of a platform and its six actuators.",
         rows: &ROWS,
         slots: &SLOTS,
+        main_parameters: &[
+            "scale.specificForce.@",
+            "scale.angularVelocity.@",
+            "splitter.@.omega1",
+            "splitter.@.omega2",
+            "angular.@.omega1",
+            "angular.@.omega2",
+            "tilt.rateLimit",
+            "tilt.angleLimit",
+            "safety.@.positionLimit",
+            "head.height",
+        ],
         stop_time: 60.0,
         step_size: 0.001,
     };

@@ -1,6 +1,6 @@
 //! Validation of parameters: each alone, and in combination.
 
-use moris_interface::{Group, Refusal, Variability, Writer, refuse, slot_count};
+use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, leg_lengths, stroke_reserve, survey};
@@ -21,27 +21,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
 /// The first parameter that cannot be used or must not change, and why.
 pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
     to.check_ranges()?;
-    let (before, after) = (values(from), values(to));
-    let mut begin = 0;
-    for row in Parameters::ROWS {
-        let slots = begin..begin + row.slots();
-        begin = slots.end;
-        if row.variability != Variability::Fixed {
-            continue;
-        }
-        if let Some(element) = before[slots.clone()].iter().zip(&after[slots]).position(|(old, new)| old != new) {
-            return refuse(row.variable_name(element), "is fixed once the washout is made; make another");
-        }
-    }
-    Ok(())
-}
-
-type Values = [f64; slot_count(Parameters::ROWS)];
-
-fn values(parameters: &Parameters) -> Values {
-    let mut values = [0.0; slot_count(Parameters::ROWS)];
-    parameters.write(&mut Writer::new(&mut values));
-    values
+    check_fixed::<_, { slot_count(Parameters::ROWS) }>(Parameters::ROWS, from, to)
 }
 
 fn check_head(parameters: &Parameters) -> Result<(), Refusal> {

@@ -29,7 +29,7 @@ macro_rules! on_every_model {
 on_every_model! {
     it_begins_as_fmi_asks
     its_parts_are_in_the_order_of_the_schema
-    variables_are_the_rows_in_order
+    variables_are_the_rows
     variables_have_the_values_of_fmi_2
     start_values_are_the_models_bit_for_bit
     every_unit_and_every_type_used_is_defined
@@ -97,10 +97,11 @@ fn places(identity: &Identity, layout: Layout) -> Vec<(String, &'static Row, Ran
     places
 }
 
-fn variables_are_the_rows_in_order<M: Model>(layout: Layout) {
+fn variables_are_the_rows<M: Model>(layout: Layout) {
     let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
-    let (variables, places) = (variables(&document), places(&M::IDENTITY, layout));
+    let (mut variables, places) = (variables(&document), places(&M::IDENTITY, layout));
+    variables.sort_by_key(|node| node.attribute("valueReference").unwrap().parse::<usize>().unwrap());
     assert_eq!(variables.len(), places.len());
     let mut names = BTreeSet::new();
     for (variable, (expected_name, row, slots)) in variables.iter().zip(places) {
@@ -158,7 +159,7 @@ fn variables_have_the_values_of_fmi_2<M: Model>(layout: Layout) {
             for attribute in ["causality", "variability", "initial"] {
                 assert_eq!(variable.attribute(attribute), scalar.attribute(attribute), "{name}");
             }
-            for attribute in ["unit", "displayUnit", "min", "max", "declaredType"] {
+            for attribute in ["quantity", "unit", "displayUnit", "min", "max", "nominal", "declaredType"] {
                 assert_eq!(variable.attribute(attribute), values.attribute(attribute), "{name}");
             }
         }

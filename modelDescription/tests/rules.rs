@@ -27,7 +27,8 @@ on_every_model! {
     it_begins_as_fmi_asks
     its_parts_are_in_the_order_of_the_schema
     it_has_no_empty_element_where_the_schema_wants_content
-    variables_are_the_models_in_order
+    variables_are_the_models
+    what_matters_comes_first
     start_values_are_the_models_bit_for_bit
     start_values_are_inside_their_ranges
     every_unit_used_is_defined_and_every_unit_defined_is_used
@@ -84,19 +85,19 @@ fn it_has_no_empty_element_where_the_schema_wants_content<M: Model>() {
     }
 }
 
-fn variables_are_the_models_in_order<M: Model>() {
+fn variables_are_the_models<M: Model>() {
     let xml = to_xml(&describe::<M>());
     let document = Document::parse(&xml).unwrap();
     let identity = M::IDENTITY;
     let variables = variables(&document);
     assert_eq!(variables.len(), identity.slots.len());
     let mut names = BTreeSet::new();
-    for (slot, variable) in variables.iter().enumerate() {
+    for variable in &variables {
+        let slot = slot_of(*variable);
         let name = variable.attribute("name").unwrap();
         assert_eq!(name, identity.variable_name(slot));
         assert!(names.insert(name), "{name} appears twice");
         assert!(is_structured(name), "{name}");
-        assert_eq!(variable.attribute("valueReference"), Some(slot.to_string().as_str()), "{name}");
         assert_eq!(variable.attribute("description"), Some(identity.row(slot).text()), "{name}");
         assert!(!identity.row(slot).text().is_empty(), "{name}");
         let type_name = match identity.row(slot).kind {
@@ -107,6 +108,32 @@ fn variables_are_the_models_in_order<M: Model>() {
         };
         assert_eq!(type_of(*variable).tag_name().name(), type_name, "{name}");
     }
+}
+
+/// Inputs and outputs before parameters, of which the ten rows that matter most come first and a rig's joints last. The
+/// elements of an array are consecutive.
+fn what_matters_comes_first<M: Model>() {
+    let xml = to_xml(&describe::<M>());
+    let document = Document::parse(&xml).unwrap();
+    let identity = M::IDENTITY;
+    let is_parameter = |node: &Node| node.attribute("causality") == Some("parameter");
+    let variables = variables(&document);
+    let parameters: Vec<Node> = variables.iter().copied().skip_while(|node| !is_parameter(node)).collect();
+    assert!(parameters.iter().all(is_parameter));
+    let mut rows: Vec<&str> = parameters.iter().map(|&node| identity.row(slot_of(node)).name).collect();
+    let joints = rows.iter().filter(|name| ["rig.base[#].@", "rig.platform[#].@"].contains(name)).count();
+    assert!(rows.iter().rev().take(joints).all(|name| name.starts_with("rig.")), "{rows:?}");
+    rows.dedup();
+    assert_eq!(rows.iter().collect::<BTreeSet<_>>().len(), rows.len(), "a row's variables are apart");
+    assert!(rows.starts_with(identity.main_parameters), "{rows:?}");
+    let slots: Vec<usize> = variables.iter().map(|&node| slot_of(node)).collect();
+    assert!(slots.windows(2).all(|two| two[1] == two[0] + 1 || identity.slots[two[1]].element == 0));
+}
+
+#[test]
+fn every_model_of_ours_has_ten_parameters_that_matter_most() {
+    let counts = [Washout::IDENTITY, Motorcycle::IDENTITY, StewartPlatform::IDENTITY].map(|i| i.main_parameters.len());
+    assert_eq!(counts, [10; 3]);
 }
 
 /// FMI 2.0, 2.2.9, without quoted names and derivatives, which we do not use.
@@ -127,7 +154,8 @@ fn start_values_are_the_models_bit_for_bit<M: Model>() {
     let identity = M::IDENTITY;
     let mut start = vec![f64::NAN; identity.slots.len()];
     M::start(&mut start);
-    for (slot, variable) in variables(&document).into_iter().enumerate() {
+    for variable in variables(&document) {
+        let slot = slot_of(variable);
         let name = identity.variable_name(slot);
         let written = type_of(variable).attribute("start");
         if matches!(identity.row(slot).causality, Causality::Independent | Causality::Output) {
@@ -297,6 +325,11 @@ fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Node<'a, 'input> {
 
 fn variables<'a, 'input>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
     elements(child(document.root_element(), "ModelVariables")).collect()
+}
+
+/// The slot that a variable's value reference is.
+fn slot_of(variable: Node) -> usize {
+    variable.attribute("valueReference").unwrap().parse().unwrap()
 }
 
 /// The one element inside a variable.

@@ -22,10 +22,34 @@ pub use serde;
 pub use field::Field;
 pub use guid::{guid, guid_of};
 pub use model::{Identity, Model, Refusal, refuse};
-pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count};
+pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable};
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
 pub use start::{read_start_values, start_values, write_start_values};
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
+
+/// Checks that only tunable variables differ. `rows` are the group's, and `N` is the number of their slots.
+///
+/// # Errors
+/// The first fixed variable that differs.
+pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G) -> Result<(), Refusal> {
+    let slots = |group: &G| {
+        let mut slots = [0.0; N];
+        group.write(&mut Writer::new(&mut slots));
+        slots
+    };
+    let (before, after) = (slots(before), slots(after));
+    let mut first = 0;
+    for row in rows {
+        let mine = first..first + row.slots();
+        first = mine.end;
+        if row.variability == Variability::Fixed
+            && let Some(element) = before[mine.clone()].iter().zip(&after[mine]).position(|(old, new)| old != new)
+        {
+            return refuse(row.variable_name(element), "is fixed once the model has started; start another");
+        }
+    }
+    Ok(())
+}
 
 /// A struct whose fields are variables of the interface: made by [`interface!`] and [`interface_tree!`].
 pub trait Group: Default + 'static {

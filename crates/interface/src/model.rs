@@ -2,7 +2,7 @@
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::{Row, Slot};
+use crate::{Causality, Row, Slot};
 
 /// Who a model is and what its variables are.
 #[derive(Clone, Copy, Debug)]
@@ -14,6 +14,8 @@ pub struct Identity {
     pub text: &'static str,
     pub rows: &'static [Row],
     pub slots: &'static [Slot],
+    /// Names of the rows of the parameters that matter most, which descriptions list first.
+    pub main_parameters: &'static [&'static str],
     /// The default experiment's stop time and step \[s\].
     pub stop_time: f64,
     pub step_size: f64,
@@ -28,6 +30,19 @@ impl Identity {
     /// The name of a slot's variable.
     pub fn variable_name(&self, slot: usize) -> String {
         self.row(slot).variable_name(usize::from(self.slots[slot].element))
+    }
+
+    /// The slots in the order in which descriptions list them: everything but parameters, the main parameters, the other
+    /// parameters; otherwise in their own order. The slots of a row stay together.
+    pub fn listed_slots(&self) -> Vec<usize> {
+        let rank = |&slot: &usize| {
+            let row = self.row(slot);
+            let place = self.main_parameters.iter().position(|&name| name == row.name);
+            (row.causality == Causality::Parameter, place.unwrap_or(self.main_parameters.len()))
+        };
+        let mut slots: Vec<usize> = (0..self.slots.len()).collect();
+        slots.sort_by_key(rank);
+        slots
     }
 
     /// The slot of the variable of this name.

@@ -175,6 +175,24 @@ pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
     panic!("no row has this name")
 }
 
+/// The rows, of which those of these names are tunable: for a model that has another's struct, and can change in flight
+/// what the other cannot.
+///
+/// # Panics
+/// If a name is no row's; in a constant, the compiler says so.
+pub const fn with_tunable<const N: usize>(mut rows: [Row; N], names: &[&str]) -> [Row; N] {
+    let mut n = 0;
+    while n < names.len() {
+        let mut r = 0;
+        while !is_same(rows[r].name.as_bytes(), names[n].as_bytes()) {
+            r += 1;
+        }
+        rows[r].variability = Variability::Tunable;
+        n += 1;
+    }
+    rows
+}
+
 /// `==` for a constant.
 const fn is_same(a: &[u8], b: &[u8]) -> bool {
     let mut k = 0;

@@ -1,6 +1,6 @@
 //! Validation of parameters: each alone, and in combination.
 
-use moris_interface::{Group, Refusal, refuse};
+use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
 
 use nalgebra::{Complex, SVector};
 
@@ -55,15 +55,20 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Lateral equations, and a rider whose control is stable up to the top speed.
+/// Checks a change of parameters, of which only tunable ones may differ; otherwise as [`check`].
 ///
 /// # Errors
-/// The first parameter that cannot be used, and why.
-pub fn design_rider(
-    parameters: &Parameters,
-    longitudinal: &Longitudinal,
-    suspension: &Suspension,
-) -> Result<(Lateral, Rider), Refusal> {
+/// The first parameter that cannot be used or must not change, and why.
+pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
+    check(to)?;
+    check_fixed::<_, { slot_count(Parameters::ROWS) }>(Parameters::ROWS, from, to)
+}
+
+/// Speed \[m/s\] up to which the rider's gains are needed.
+///
+/// # Errors
+/// The speed exceeds [`LARGEST_SPEED`].
+pub fn fastest(parameters: &Parameters, longitudinal: &Longitudinal) -> Result<f64, Refusal> {
     let top = longitudinal.top_speed(STRONGEST_WIND).max(parameters.run.initial_speed);
     if top > LARGEST_SPEED {
         return refuse(
@@ -75,6 +80,18 @@ pub fn design_rider(
             ),
         );
     }
+    Ok(top.max(2.0 * parameters.rider.feet_speed))
+}
+
+/// Lateral equations, and a rider whose control is stable up to the speed `fastest` \[m/s\].
+///
+/// # Errors
+/// The first parameter that cannot be used, and why.
+pub fn design_rider(
+    parameters: &Parameters,
+    suspension: &Suspension,
+    fastest: f64,
+) -> Result<(Lateral, Rider), Refusal> {
     let Some(lateral) = Lateral::new(&Design::new(parameters)) else {
         return refuse(
             "frame.inertia.xz",
@@ -83,9 +100,9 @@ pub fn design_rider(
                 .to_owned(),
         );
     };
-    let fastest = top.max(2.0 * parameters.rider.feet_speed);
     let rider = Rider::new(&lateral, parameters, fastest)?;
-    let mut pole = suspension.fastest_pole().max(fastest_lag(parameters));
+    check_step(parameters, suspension)?;
+    let mut pole = 0.0;
     for k in 0..=SPEEDS {
         let speed = fastest * f64::from(k) / f64::from(SPEEDS);
         let closed_loop = rider.closed_loop(&lateral, speed);
@@ -103,18 +120,32 @@ pub fn design_rider(
         }
         pole = poles.iter().map(|pole| libm::hypot(pole.re, pole.im)).fold(pole, f64::max);
     }
-    let step = parameters.run.max_step;
-    if pole * step > LARGEST_POLE {
-        return refuse(
-            "solver.maxStep",
-            format!(
-                "is {step} s, too long for the fastest mode of this motorcycle; set it to {:.1e} s at most, or change \
-                 stiffnesses, time constants or relaxation lengths",
-                LARGEST_POLE / pole
-            ),
-        );
-    }
+    check_pole(parameters, pole)?;
     Ok((lateral, rider))
+}
+
+/// Checks the internal step against the suspension and the lags of throttle, brakes and rider.
+///
+/// # Errors
+/// The step is too long.
+pub fn check_step(parameters: &Parameters, suspension: &Suspension) -> Result<(), Refusal> {
+    check_pole(parameters, suspension.fastest_pole().max(fastest_lag(parameters)))
+}
+
+/// Checks the internal step against the magnitude of a pole \[rad/s\].
+fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), Refusal> {
+    let step = parameters.run.max_step;
+    if pole * step <= LARGEST_POLE {
+        return Ok(());
+    }
+    refuse(
+        "solver.maxStep",
+        format!(
+            "is {step} s, too long for the fastest mode of this motorcycle; set it to {:.1e} s at most, or change \
+             stiffnesses, time constants or relaxation lengths",
+            LARGEST_POLE / pole
+        ),
+    )
 }
 
 /// Least fraction of the weight on either wheel.

@@ -173,15 +173,15 @@ interface! {
         /// Relaxation length of the rear tyre.
         "tyre.rear.relaxationLength" rear_relaxation: f64 [M] { 1e-4 ..= 10.0 } = 0.144;
         /// Friction of the tyres on the road: the largest force along the road divided by the load.
-        "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2;
+        Tunable "tyre.friction" friction: f64 { 0.05 ..= 3.0 } = 1.2;
         /// Rolling resistance divided by the load.
-        "tyre.rollingResistance" rolling_resistance: f64 { 0.0 ..= 1.0 } = 0.018;
+        Tunable "tyre.rollingResistance" rolling_resistance: f64 { 0.0 ..= 1.0 } = 0.018;
     }
 }
 
 interface! {
     /// Drive, brakes and air.
-    pub struct Longitudinal: Parameter, Fixed {
+    pub struct Longitudinal: Parameter, Tunable {
         /// Largest power at the rear wheel.
         "drive.power" power: f64 [W] { 1.0 ..= 1e7 } = 85e3;
         /// Largest force at the rear wheel, in the lowest gear.
@@ -203,7 +203,7 @@ interface! {
         /// Density of the air.
         "aero.density" air_density: f64 [KG_PER_M3] { 1e-6 ..= 100.0 } = 1.2;
         /// Height of the point at which drag and wind act.
-        "aero.height" aero_height: f64 [M] { 0.0 ..= 3.0 } = 0.582;
+        Fixed "aero.height" aero_height: f64 [M] { 0.0 ..= 3.0 } = 0.582;
     }
 }
 
@@ -213,11 +213,11 @@ interface! {
         /// Stiffness of the front suspension at the wheel.
         "suspension.front.stiffness" front_stiffness: f64 [N_PER_M] { 1.0 ..= 1e7 } = 9e3;
         /// Damping of the front suspension at the wheel.
-        "suspension.front.damping" front_damping: f64 [N_S_PER_M] { 0.0 ..= 1e7 } = 550.0;
+        Tunable "suspension.front.damping" front_damping: f64 [N_S_PER_M] { 0.0 ..= 1e7 } = 550.0;
         /// Stiffness of the rear suspension at the wheel.
         "suspension.rear.stiffness" rear_stiffness: f64 [N_PER_M] { 1.0 ..= 1e7 } = 25.7e3;
         /// Damping of the rear suspension at the wheel.
-        "suspension.rear.damping" rear_damping: f64 [N_S_PER_M] { 0.0 ..= 1e7 } = 1100.0;
+        Tunable "suspension.rear.damping" rear_damping: f64 [N_S_PER_M] { 0.0 ..= 1e7 } = 1100.0;
     }
 }
 
@@ -225,19 +225,19 @@ interface! {
     /// The rider: limits, lean control, torso and head.
     pub struct Rider: Parameter, Fixed {
         /// Largest reference roll angle of the rider.
-        "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8;
+        Tunable "rider.leanLimit" lean_limit: f64 [RAD] { 1e-3 ..= 1.2 } = 0.698_131_700_797_731_8;
         /// Natural frequency of the rider's reference filter for a commanded roll angle.
-        "rider.leanFrequency" lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 4.0;
+        Tunable "rider.leanFrequency" lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 4.0;
         /// Largest roll rate of the rider's reference.
-        "rider.leanRateLimit" lean_rate_limit: f64 [RAD_PER_S] { 1e-3 ..= 10.0 } = 0.8;
+        Tunable "rider.leanRateLimit" lean_rate_limit: f64 [RAD_PER_S] { 1e-3 ..= 10.0 } = 0.8;
         /// Weight of the steering torque in the rider's quadratic cost: this torque costs as much as a lean error of 0.1 rad. Small values give firm control.
-        "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0;
+        Tunable "rider.torqueWeight" torque_weight: f64 [N_M] { 1e-3 ..= 1e6 } = 30.0;
         /// Lean of the rider's torso as a fraction of the reference roll angle.
-        "rider.bodyLeanShare" body_lean_share: f64 { -1.0 ..= 1.0 } = 0.1;
+        Tunable "rider.bodyLeanShare" body_lean_share: f64 { -1.0 ..= 1.0 } = 0.1;
         /// Natural frequency of the rider's torso lean.
-        "rider.bodyLeanFrequency" body_lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 8.0;
+        Tunable "rider.bodyLeanFrequency" body_lean_frequency: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 50.0 } = 8.0;
         /// Largest lean of the rider's torso relative to the motorcycle.
-        "rider.bodyLeanLimit" body_lean_limit: f64 [RAD] { 0.0 ..= 1.5 } = 0.35;
+        Tunable "rider.bodyLeanLimit" body_lean_limit: f64 [RAD] { 0.0 ..= 1.5 } = 0.35;
         /// Mass of the leaning torso with head and arms; part of frame.mass.
         "rider.torsoMass" torso_mass: f64 [KG] { 0.0 ..= 1e3 } = 44.5;
         /// Distance of the torso's centre of mass from the seat, its lean axis.

@@ -23,6 +23,18 @@ impl Model for Motorcycle {
         text: "Motorcycle and rider: from throttle, brake, lean and wind to the motion of the rider's head, as the washout takes it in.",
         rows: &ROWS,
         slots: &SLOTS,
+        main_parameters: &[
+            "initial.speed",
+            "drive.power",
+            "drive.forceLimit",
+            "brake.forceLimit",
+            "brake.frontShare",
+            "aero.dragArea",
+            "tyre.friction",
+            "rider.leanLimit",
+            "rider.torqueWeight",
+            "frame.mass",
+        ],
         stop_time: 60.0,
         step_size: 0.001,
     };
@@ -40,9 +52,8 @@ impl Model for Motorcycle {
         Motorcycle::new(&read(slots, PARAMETERS), &read(slots, INPUT))
     }
 
-    /// All parameters are fixed: there is nothing to change.
-    fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
-        Ok(())
+    fn retune(&mut self, slots: &[f64]) -> Result<(), Refusal> {
+        Motorcycle::retune(self, &read(slots, PARAMETERS))
     }
 
     fn longest_step(&self) -> f64 {

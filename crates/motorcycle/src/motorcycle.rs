@@ -6,7 +6,7 @@ use moris_washout::motion::braking_law::Motion;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::check::{check, design_rider};
+use crate::check::{check, check_change, check_step, design_rider, fastest};
 use crate::interface::{Input, Output, Parameters};
 use crate::lateral::{self, Actions, Lateral, Wheels, foot_support, place};
 use crate::longitudinal::{Accelerations, Forces, Longitudinal, Situation};
@@ -59,7 +59,7 @@ impl Motorcycle {
         check(parameters)?;
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
-        let (lateral, rider) = design_rider(parameters, &longitudinal, &suspension)?;
+        let (lateral, rider) = design_rider(parameters, &suspension, fastest(parameters, &longitudinal)?)?;
         let state = State {
             position: Vector2::zeros(),
             heading: parameters.run.initial_heading,
@@ -85,7 +85,37 @@ impl Motorcycle {
         Ok(motorcycle)
     }
 
-    /// The parameters given at construction.
+    /// Changes tunable parameters. Positions, angles, their rates and the rider's torque on the bars do not jump;
+    /// accelerations may.
+    ///
+    /// The rider's gains are designed again if `rider.torqueWeight` changes or the top speed exceeds their range. This
+    /// takes some milliseconds.
+    ///
+    /// # Errors
+    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+        check_change(&self.parameters, parameters)?;
+        let longitudinal = Longitudinal::new(parameters);
+        let suspension = Suspension::new(parameters);
+        let fastest = fastest(parameters, &longitudinal)?;
+        let same_gains = parameters.rider.torque_weight == self.parameters.rider.torque_weight;
+        if same_gains && fastest <= self.rider.fastest() {
+            check_step(parameters, &suspension)?;
+            self.rider.set_limits(parameters);
+        } else {
+            let (_, rider) = design_rider(parameters, &suspension, fastest.max(self.state.speed))?;
+            let State { rider: state, lateral, speed, .. } = &self.state;
+            let error = rider.error_for_torque_of(&self.rider, state, lateral, *speed);
+            self.state.rider.error = error;
+            self.rider = rider;
+        }
+        self.longitudinal = longitudinal;
+        self.suspension = suspension;
+        self.parameters = *parameters;
+        Ok(())
+    }
+
+    /// The parameters in force.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }

@@ -83,9 +83,10 @@ impl Rider {
             slowest: SLOWEST_FRACTION * limits.feet_speed,
             fastest,
             parameters: *limits,
-            largest_lean: libm::tan(limits.lean_limit).min(FRICTION_FRACTION * parameters.tyres.friction),
-            steer_lock: parameters.machine.steer_lock,
+            largest_lean: 0.0,
+            steer_lock: 0.0,
         };
+        rider.set_limits(parameters);
         for k in 0..SPEEDS {
             let speed = rider.knot(k);
             rider.gains[k] = design_gains(lateral, speed, limits).ok_or_else(|| Refusal {
@@ -98,6 +99,30 @@ impl Rider {
             })?;
         }
         Ok(rider)
+    }
+
+    /// Sets all limits and frequencies by these parameters; the gains stay.
+    pub fn set_limits(&mut self, parameters: &Parameters) {
+        let limits = &parameters.rider;
+        self.parameters = *limits;
+        self.largest_lean = libm::tan(limits.lean_limit).min(FRICTION_FRACTION * parameters.tyres.friction);
+        self.steer_lock = parameters.machine.steer_lock;
+    }
+
+    /// The speed \[m/s\] up to which there are gains.
+    pub fn fastest(&self) -> f64 {
+        self.fastest
+    }
+
+    /// Accumulated error \[s\] with which the torque of this rider equals that of `other`, the rider up to now. The torque
+    /// does not jump then, and the difference fades as the error does.
+    pub fn error_for_torque_of(&self, other: &Rider, state: &State, lateral: &lateral::State, speed: f64) -> f64 {
+        /// Largest change of the error \[s\]: about what accumulates in a rough simulation.
+        const LARGEST: f64 = 0.2;
+        let (gains, other_gains) = (self.gains(speed), other.gains(speed));
+        let jump = self.torque(state, lateral, &gains, 0.0) - other.torque(state, lateral, &other_gains, 0.0);
+        let change = jump / gains.error_gain;
+        if change.is_finite() { state.error + within(change, LARGEST) } else { state.error }
     }
 
     /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed: each is faster than the one

@@ -1,20 +1,19 @@
 //! Validation of parameters: each alone, and in combination.
 
-use moris_interface::{Group, Refusal, refuse};
+use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
 use moris_washout::interface::StructureParameters;
 use nalgebra::Vector6;
 
 use crate::interface::{Inertia, Parameters};
+use crate::model::parameter_rows;
 
 /// Checks parameters; `at_rest` are the forces that carry the platform at rest at neutral \[N\].
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
 pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
-    let Parameters { actuators, masses, setting, rig } = parameters;
+    let Parameters { setting, rig, .. } = parameters;
     parameters.check_ranges()?;
-    check_inertia("platform.inertia", &masses.platform_inertia, true)?;
-    check_inertia("rider.inertia", &masses.rider_inertia, false)?;
     // Rig and head are the washout's too, and so are the rules for them.
     let structure = StructureParameters {
         head_height: setting.head_height,
@@ -23,6 +22,23 @@ pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refu
         ..StructureParameters::default()
     };
     moris_washout::check(&moris_washout::Parameters { rig: *rig, structure, ..Default::default() })?;
+    check_tunable(parameters, at_rest)
+}
+
+/// Checks a change of parameters, of which only tunable ones may differ; otherwise as [`check`].
+///
+/// # Errors
+/// The first parameter that cannot be used or must not change, and why.
+pub fn check_change(from: &Parameters, to: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
+    to.check_ranges()?;
+    check_fixed::<_, { slot_count(Parameters::ROWS) }>(parameter_rows(), from, to)?;
+    check_tunable(to, at_rest)
+}
+
+fn check_tunable(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
+    let Parameters { actuators, masses, .. } = parameters;
+    check_inertia("platform.inertia", &masses.platform_inertia, true)?;
+    check_inertia("rider.inertia", &masses.rider_inertia, false)?;
     check_force_limit(actuators.force_limit, at_rest)
 }
 

@@ -35,6 +35,15 @@ impl DelayLine {
         DelayLine { ramps: [constant; CAPACITY], first: 0, count: usize::from(dead_time > 0.0), finest }
     }
 
+    /// Changes the dead time \[s\]. A straight line to the newest command replaces the pending commands, so that the output
+    /// does not jump. With a dead time of 0 the newest command is the output at once.
+    pub fn set_dead_time(&mut self, dead_time: f64) {
+        let newest = self.ramps[(self.first + self.count + CAPACITY - 1) % CAPACITY].to;
+        let next = if self.count > 0 { self.ramps[self.first % CAPACITY].from } else { newest };
+        *self = DelayLine::new(dead_time, &newest);
+        self.ramps[0].from = next;
+    }
+
     /// Appends the next command.
     pub fn push(&mut self, ramp: &Ramp) {
         if self.count > 0 {
@@ -113,6 +122,43 @@ mod tests {
                 assert!((value - expected).abs() < 1e-12, "{dead_time} {step}: at {time} {value}, not {expected}");
             }
         }
+    }
+
+    /// The command rises at 1 m/s; the dead time changes at 0.05 s.
+    #[test]
+    fn another_dead_time_makes_no_jump_and_holds_from_then_on() {
+        for (before, after) in [(0.004, 0.02), (0.02, 0.004), (0.0, 0.01), (0.01, 0.01), (0.004, 1e-9)] {
+            let step = 0.001;
+            let mut line = DelayLine::new(before, &[0.0; 6]);
+            let (mut arrived, mut end) = (0.0, 0.0);
+            for k in 0..200 {
+                if k == 50 {
+                    line.set_dead_time(after);
+                }
+                let (from, to) = (step * f64::from(k), step * f64::from(k + 1));
+                line.push(&Ramp { duration: step, from: [from; 6], to: [to; 6] });
+                let mut left = step;
+                while left > 1e-12 {
+                    let ramp = line.pop(left.min(step));
+                    assert!((ramp.from[0] - end).abs() < 1e-12, "{before} to {after}: a jump at step {k}");
+                    (end, left) = (ramp.to[0], left - ramp.duration);
+                }
+                arrived = end;
+            }
+            assert!((arrived - (0.2 - after)).abs() < 1e-9, "{before} to {after}: {arrived}");
+        }
+    }
+
+    /// What was on its way has arrived when the dead time ends; the drives smooth the jump.
+    #[test]
+    fn without_a_dead_time_the_last_command_arrives_at_once() {
+        let mut line = DelayLine::new(0.01, &[0.0; 6]);
+        line.push(&Ramp { duration: 0.001, from: [0.0; 6], to: [1.0; 6] });
+        line.pop(0.001);
+        line.set_dead_time(0.0);
+        line.push(&Ramp { duration: 0.001, from: [1.0; 6], to: [2.0; 6] });
+        assert_eq!(line.pop(0.001), Ramp { duration: 0.001, from: [1.0; 6], to: [2.0; 6] });
+        assert_eq!(line.pop(0.001).from, [2.0; 6]);
     }
 
     #[test]

@@ -115,7 +115,7 @@ interface! {
 
 interface! {
     /// Response of the actuators; their limits of stroke, speed and acceleration are the rig's.
-    pub struct Actuators: Parameter, Fixed {
+    pub struct Actuators: Parameter, Tunable {
         /// Undamped natural frequency of an actuator's response to its command; at the default damping the response is -3 dB there.
         "actuator.bandwidth" bandwidth: f64 [ANGULAR_FREQUENCY] { 0.1 ..= 1e3 } = 62.831_853_071_795_86;
         /// Damping ratio of an actuator's response.
@@ -129,7 +129,7 @@ interface! {
 
 interface! {
     /// Moving masses: platform with mock-up, rider and payload, as one rigid body. The actuators are massless.
-    pub struct Masses: Parameter, Fixed {
+    pub struct Masses: Parameter, Tunable {
         /// Mass of the platform with the motorcycle's mock-up.
         "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0;
         /// Centre of mass of the platform with the mock-up, in the platform frame.
@@ -164,7 +164,7 @@ interface! {
 }
 
 interface_tree! {
-    /// All parameters; fixed after initialisation.
+    /// All parameters.
     pub struct Parameters {
         actuators: Actuators,
         masses: Masses,

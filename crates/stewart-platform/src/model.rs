@@ -1,13 +1,15 @@
 //! The platform as a model with variables, for whoever hosts it.
 
 use moris_interface::{Group, Identity, Model, Reader, Refusal, Row, Slot, Writer};
-use moris_interface::{concat_rows, row_count, slot_count, slot_table};
+use moris_interface::{concat_rows, row_count, slot_count, slot_table, with_tunable};
 
 use crate::interface::{Clock, Input, Output, Parameters};
 use crate::stewart_platform::{MOST_INTERNAL_STEPS, StewartPlatform};
 
 const GROUPS: &[&[Row]] = &[Clock::ROWS, Input::ROWS, Output::ROWS, Parameters::ROWS];
-static ROWS: [Row; row_count(GROUPS)] = concat_rows(GROUPS);
+/// The drives' limits are the rig's, and fixed for the washout, which plans by them.
+static ROWS: [Row; row_count(GROUPS)] =
+    with_tunable(concat_rows(GROUPS), &["actuator.velocityLimit", "actuator.accelerationLimit"]);
 static SLOTS: [Slot; slot_count(&concat_rows::<{ row_count(GROUPS) }>(GROUPS))] =
     slot_table(&concat_rows::<{ row_count(GROUPS) }>(GROUPS));
 
@@ -16,6 +18,11 @@ const INPUT: usize = slot_count(Clock::ROWS);
 const OUTPUT: usize = INPUT + slot_count(Input::ROWS);
 const PARAMETERS: usize = OUTPUT + slot_count(Output::ROWS);
 
+/// The parameters' rows.
+pub fn parameter_rows() -> &'static [Row] {
+    &ROWS[ROWS.len() - Parameters::ROWS.len()..]
+}
+
 impl Model for StewartPlatform {
     const IDENTITY: Identity = Identity {
         name: "StewartPlatform",
@@ -23,6 +30,18 @@ impl Model for StewartPlatform {
         text: "Stewart platform with the dynamics of its actuators and of its body: from commanded actuator lengths to the real ones, the forces they carry, and what the rider feels on the real motion.",
         rows: &ROWS,
         slots: &SLOTS,
+        main_parameters: &[
+            "platform.mass",
+            "rider.mass",
+            "payload.mass",
+            "actuator.bandwidth",
+            "actuator.damping",
+            "actuator.deadTime",
+            "actuator.forceLimit",
+            "actuator.velocityLimit",
+            "actuator.accelerationLimit",
+            "head.height",
+        ],
         stop_time: 60.0,
         step_size: 0.001,
     };
@@ -41,9 +60,8 @@ impl Model for StewartPlatform {
         Ok(StewartPlatform::new(&read(slots, PARAMETERS))?.starting_with(input.lean))
     }
 
-    /// All parameters are fixed: there is nothing to change.
-    fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
-        Ok(())
+    fn retune(&mut self, slots: &[f64]) -> Result<(), Refusal> {
+        StewartPlatform::retune(self, &read(slots, PARAMETERS))
     }
 
     fn longest_step(&self) -> f64 {

@@ -10,7 +10,7 @@ use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
 
 use crate::body::Body;
-use crate::check::check;
+use crate::check::{check, check_change};
 use crate::delay::{DelayLine, Ramp};
 use crate::drive::{Drive, DriveTarget};
 use crate::dynamics::Dynamics;
@@ -106,7 +106,27 @@ impl StewartPlatform {
         self
     }
 
-    /// The parameters given at construction.
+    /// Changes tunable parameters. Lengths, pose and their rates do not jump; forces and accelerations may.
+    ///
+    /// # Errors
+    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+        check_change(&self.parameters, parameters, &Instant::at_rest(parameters).force)?;
+        let dead_time = parameters.actuators.dead_time;
+        if dead_time != self.parameters.actuators.dead_time {
+            self.commands.set_dead_time(dead_time);
+        }
+        // The drives keep the new limit from now on; the forces of the stops stay.
+        let limit = parameters.actuators.force_limit;
+        let (now, before) = (self.within_force_limit(self.now.force), self.within_force_limit(self.before.force));
+        self.now.force += now.map(|drive| drive.clamp(-limit, limit)) - now;
+        self.before.force += before.map(|drive| drive.clamp(-limit, limit)) - before;
+        self.body = Body::new(&parameters.masses);
+        self.parameters = *parameters;
+        Ok(())
+    }
+
+    /// The parameters in force.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
     }

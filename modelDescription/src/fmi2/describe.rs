@@ -28,7 +28,7 @@ pub fn describe<M: Model>() -> ModelDescription {
 
 /// The model description of a model that is exported for co-simulation with these start values, one for each slot.
 ///
-/// Variables are listed in the order of the slots, and a value reference is a slot's number.
+/// Variables are listed as [`Identity::listed_slots`] orders them, and a value reference is a slot's number.
 pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
     let identity = M::IDENTITY;
     ModelDescription {
@@ -53,7 +53,9 @@ pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
             step_size: identity.step_size,
         },
         model_variables: ModelVariables {
-            variables: start.iter().enumerate().map(|(slot, &value)| scalar_variable(&identity, slot, value)).collect(),
+            variables: (identity.listed_slots().into_iter())
+                .map(|slot| scalar_variable(&identity, slot, start[slot]))
+                .collect(),
         },
         model_structure: model_structure(&identity),
     }
@@ -151,7 +153,7 @@ fn values(kind: Kind, range: Option<(f64, f64)>, start: Option<f64>) -> Values {
 /// affair (the washout's felt force follows the rider's lean): no dependencies are given, which means on all that is known.
 fn model_structure(identity: &Identity) -> ModelStructure {
     let is_output = |&(_, slot): &(u32, usize)| identity.row(slot).causality == Causality::Output;
-    let outputs: Vec<u32> = (1..).zip(0..identity.slots.len()).filter(is_output).map(|(index, _)| index).collect();
+    let outputs: Vec<u32> = (1..).zip(identity.listed_slots()).filter(is_output).map(|(index, _)| index).collect();
     ModelStructure {
         outputs: Unknowns::all_with(&outputs, Some(&[])),
         initial_unknowns: Unknowns::all_with(&outputs, None),

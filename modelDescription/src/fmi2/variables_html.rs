@@ -54,12 +54,10 @@ const SECTIONS: &[Section] = &[
 
 fn section_html(identity: &Identity, start: &[f64], section: &Section, notation: &Notation) -> String {
     let mut rows = String::new();
-    let mut slot = 0;
-    for row in identity.rows {
-        let mine = &start[slot..slot + row.slots()];
-        slot += row.slots();
+    for first in identity.listed_slots().into_iter().filter(|&slot| identity.slots[slot].element == 0) {
+        let row = identity.row(first);
         if (section.holds)(row) {
-            rows.push_str(&row_html(row, mine, notation));
+            rows.push_str(&row_html(row, &start[first..first + row.slots()], notation));
         }
     }
     if rows.is_empty() {

@@ -87,7 +87,7 @@ struct Place {
 }
 
 fn places(identity: &Identity, layout: Layout) -> Vec<Place> {
-    let slots = 0..identity.slots.len();
+    let slots = identity.listed_slots().into_iter();
     match layout {
         Layout::Scalars => slots
             .map(|slot| Place {

@@ -52,6 +52,7 @@ impl Model for DoNothing {
         text: "A model that does nothing.",
         rows: &ROWS,
         slots: &SLOTS,
+        main_parameters: &[],
         stop_time: 1.0,
         step_size: 0.001,
     };

@@ -140,6 +140,7 @@ impl Model for FirstOrder {
         text: "A first-order lag.",
         rows: ROWS,
         slots: &SLOTS,
+        main_parameters: &[],
         stop_time: 2.0,
         step_size: 0.1,
     };

@@ -143,6 +143,7 @@ impl Model for Lags {
         text: "Three first-order lags.",
         rows: ROWS,
         slots: &SLOTS,
+        main_parameters: &[],
         stop_time: 2.0,
         step_size: 0.1,
     };

@@ -7,6 +7,7 @@ mod lateral;
 mod longitudinal;
 mod parameters;
 mod pose;
+mod retuning;
 mod ride;
 mod rider;
 mod steps;
