@@ -28,7 +28,7 @@ COLUMNS = 100
 
 DOC_COMMENT = re.compile(r"^\s*//[/!] ?(?P<text>.*)$")
 # A row of a table of variables: the comment above it is the variable's description, one line.
-VARIABLE = re.compile(r'\s*"[\w.@\[\]]+" \w+:')
+VARIABLE = re.compile(r'\s*(?:Tunable |Fixed )?"[\w.@#\[\]]+" \w+:')
 OPENING = re.compile(r"(What|Whether|How)\b")
 LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 # A point, question or exclamation mark ends a sentence if a capital, a digit or code follows; a colon does not.

@@ -80,6 +80,13 @@ fn its_parts_are_in_the_order_of_the_schema<M: Model>(layout: Layout) {
     assert!(elements(document.root_element()).all(|part| elements(part).count() > 0 || part.attributes().count() > 0));
 }
 
+/// The variables in the order of their value references.
+fn variables_by_reference<'a, 'input>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
+    let mut variables = variables(document);
+    variables.sort_by_key(|node| node.attribute("valueReference").unwrap().parse::<usize>().unwrap());
+    variables
+}
+
 /// The variables that the description is to have: each with its name, its row and its slots.
 fn places(identity: &Identity, layout: Layout) -> Vec<(String, &'static Row, Range<usize>)> {
     let mut first = 0;
@@ -100,8 +107,7 @@ fn places(identity: &Identity, layout: Layout) -> Vec<(String, &'static Row, Ran
 fn variables_are_the_rows<M: Model>(layout: Layout) {
     let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
-    let (mut variables, places) = (variables(&document), places(&M::IDENTITY, layout));
-    variables.sort_by_key(|node| node.attribute("valueReference").unwrap().parse::<usize>().unwrap());
+    let (variables, places) = (variables_by_reference(&document), places(&M::IDENTITY, layout));
     assert_eq!(variables.len(), places.len());
     let mut names = BTreeSet::new();
     for (variable, (expected_name, row, slots)) in variables.iter().zip(places) {
@@ -172,7 +178,7 @@ fn start_values_are_the_models_bit_for_bit<M: Model>(layout: Layout) {
     let document = Document::parse(&xml).unwrap();
     let mut start = vec![f64::NAN; M::IDENTITY.slots.len()];
     M::start(&mut start);
-    for (variable, (_, row, slots)) in variables(&document).into_iter().zip(places(&M::IDENTITY, layout)) {
+    for (variable, (_, row, slots)) in variables_by_reference(&document).into_iter().zip(places(&M::IDENTITY, layout)) {
         let name = variable.attribute("name").unwrap();
         let Some(list) = variable.attribute("start") else {
             assert!(matches!(row.causality, Causality::Independent | Causality::Output), "{name}");

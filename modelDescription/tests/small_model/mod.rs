@@ -89,7 +89,7 @@ impl Model for Small {
         text: "A model for tests.",
         rows: All::ROWS,
         slots: &SLOTS,
-        main_parameters: &["many", "turning"],
+        main_parameters: &["many"],
         stop_time: 2.5,
         step_size: 0.01,
     };
