@@ -36,7 +36,7 @@ const CHANGES: &[(&str, Change)] = &[
     ("drive.power", |p| p.longitudinal.power = 40e3),
     ("more power", |p| p.longitudinal.power = 120e3),
     ("drive.forceLimit", |p| p.longitudinal.drive_force = 1500.0),
-    ("drive.engineBraking", |p| p.longitudinal.engine_braking = 600.0),
+    ("drive.engineBraking", |p| p.longitudinal.engine_braking = 250.0),
     ("drive.timeConstant", |p| p.longitudinal.drive_time = 0.5),
     ("brake.forceLimit", |p| p.longitudinal.brake_force = 5000.0),
     ("brake.frontShare", |p| p.longitudinal.brake_front_share = 0.3),
@@ -98,12 +98,12 @@ fn the_new_values_hold() {
         let mut expected =
             Motorcycle::new(&Parameters { run: at_speed(25.0).run, ..parameters }, &Input::default()).unwrap();
         let cruise = Input { throttle: 0.15, lean: 0.1, ..Input::default() };
-        for _ in 0..40_000 {
+        for _ in 0..80_000 {
             motorcycle.step(&cruise, STEP);
             expected.step(&cruise, STEP);
         }
         let (is, should) = (motorcycle.output(), expected.output());
-        assert!((is.speed - should.speed).abs() < 1e-2 * should.speed, "{name}: {} {}", is.speed, should.speed);
+        assert!((is.speed - should.speed).abs() < 2e-2 * should.speed, "{name}: {} {}", is.speed, should.speed);
         assert!((is.orientation.roll - should.orientation.roll).abs() < 1e-4, "{name}");
         assert!(
             (is.steer_torque - should.steer_torque).abs() < 0.05,
