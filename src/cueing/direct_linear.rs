@@ -64,8 +64,7 @@ impl DirectLinearMotion {
         self.safety.motion()
     }
 
-    /// Goes on from the motion that the platform really makes if the safety units' own has been left beyond limits that
-    /// have become tighter.
+    /// Continues from the platform's real motion if the safety units' own is beyond limits that have become tighter.
     pub fn stay_within(&mut self, limits: &SafetyParameters, real: &Motions) {
         if self.safety.beyond_limits(limits) {
             self.safety.continue_from(real);

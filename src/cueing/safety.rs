@@ -1,11 +1,11 @@
-//! The safety units: surge, sway and heave are what is demanded as long as that keeps the limits, and follow it within them
-//! when it does not.
+//! The safety units: surge, sway and heave equal their demand as long as it keeps the limits, and follow it within them
+//! otherwise.
 
 use serde::{Deserialize, Serialize};
 
 use crate::interface::SafetyParameters;
 use crate::motion::Motions;
-use crate::motion::braking_law::{CATCH_UP_SHARE, FULL_SHARE, Limits, REJOIN_DISTANCE, ROUNDING};
+use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, REJOIN_DISTANCE, ROUNDING, WITH_ROUNDING};
 
 /// One safety unit for each axis of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -13,9 +13,9 @@ pub struct SafetyUnits {
     /// The longest step that may ever be taken \[s\].
     longest_step: f64,
     motion: Motions,
-    /// Whether the motion is not the demanded one, on each axis.
+    /// True on each axis whose motion is not the demanded one.
     following: [bool; 3],
-    /// Whether it is a safety limit that keeps it from being so.
+    /// True on each axis that a safety limit keeps from its demand.
     active: [bool; 3],
 }
 
@@ -38,25 +38,25 @@ impl SafetyUnits {
         &self.motion
     }
 
-    /// Whether a unit limited the motion in the last step.
+    /// True if a unit limited the motion in the last step.
     pub fn active(&self) -> bool {
         self.active.contains(&true)
     }
 
-    /// Goes on from the motion that the platform really makes, where that is not the one that the units gave.
+    /// Continues from the platform's real motion, where that is not the one that the units gave.
     #[cold]
     pub fn continue_from(&mut self, motion: &Motions) {
         self.motion = *motion;
         self.following = [true; 3];
     }
 
-    /// Whether the motion is beyond its limits, or could not stop within them: they have become tighter.
+    /// True if the motion is beyond its limits, or could not stop within them: they have become tighter.
     pub fn beyond_limits(&self, limits: &SafetyParameters) -> bool {
         let Motions { position, velocity, .. } = &self.motion;
         (0..3).any(|k| {
             let ahead = limits.position_limit[k] - position[k] * 1.0_f64.copysign(velocity[k]);
             let (speed, most) = (velocity[k].abs(), limits.acceleration_limit[k]);
-            let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * FULL_SHARE;
+            let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * WITH_ROUNDING;
             !keeps
         })
     }
@@ -83,7 +83,7 @@ impl SafetyUnits {
                 return target;
             }
             let limits = Limits::safety(limits, k, self.longest_step);
-            limits.follow(&self.motion.axis(k), &target, CATCH_UP_SHARE * limits.acceleration, step)
+            limits.follow(&self.motion.axis(k), &target, CATCH_UP_FRACTION * limits.acceleration, step)
         })
     }
 
@@ -95,7 +95,7 @@ impl SafetyUnits {
         keep
     }
 
-    /// Whether the motion on this axis at the step's end can be the demanded one.
+    /// True if the motion on this axis can be the demanded one at the step's end.
     fn may_join(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
         let keeps = self.keeps_limits(k, demand, limits, step);
         if !self.following[k] {
@@ -106,7 +106,7 @@ impl SafetyUnits {
         keeps && (demand.position[k] - expected).abs() <= near
     }
 
-    /// Whether the demand keeps the limits at the step's end, can stop before them, and is reached within them.
+    /// True if the demand keeps the limits at the step's end, can stop before them, and is reached within them.
     ///
     /// The gap between the positions' difference and the mean velocity times the step h counts as an acceleration of
     /// 2 gap/h², for who sees positions only.
@@ -122,9 +122,9 @@ impl SafetyUnits {
         let gap = (position - self.motion.position[k] - 0.5 * sum * step).abs();
         let mut keeps = position.abs() <= farthest;
         keeps &= speed <= fastest;
-        keeps &= (0.5 * sum).abs() * step + gap <= fastest * step * FULL_SHARE + ROUNDING;
+        keeps &= (0.5 * sum).abs() * step + gap <= fastest * step * WITH_ROUNDING + ROUNDING;
         keeps &= demand.acceleration[k].abs() <= most;
         keeps &= speed * (speed + most * self.longest_step) <= 2.0 * most * ahead;
-        keeps & (change * step + 2.0 * gap <= most * step * step * FULL_SHARE + 2.0 * ROUNDING)
+        keeps & (change * step + 2.0 * gap <= most * step * step * WITH_ROUNDING + 2.0 * ROUNDING)
     }
 }

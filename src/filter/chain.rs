@@ -36,7 +36,7 @@ impl Denominator {
 
 /// The exact solution of the chain over one step for an input that is linear in time (first-order hold).
 ///
-/// What each of the four states, and the input at the step's start and at its end, add to the four states.
+/// Contributions of each of the four states, and of the input at the step's start and end, to the four states.
 type Transition = [f64x4; 6];
 
 /// By the matrix exponential of the chain with its input and the input's slope as two more states.
@@ -140,7 +140,7 @@ impl Chains {
 
     /// Takes other coefficients, keeping the first `kept` states and every later term of the low-pass as they are.
     ///
-    /// What is kept is what the platform's motion is made of; the later states only remember, and are rescaled so that
+    /// The states that make up the platform's motion are kept; the later ones only remember, and are rescaled so that
     /// what the filter has already washed out stays so.
     pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
         for ((old, new), state) in self.denominators.iter().zip(&denominators).zip(&mut self.states) {

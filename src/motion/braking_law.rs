@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::motion::extremes::{larger, smaller};
+use crate::motion::extremes::{max, min};
 
 /// Position, velocity and acceleration of something that moves along a line, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -23,7 +23,7 @@ impl Motion {
     }
 }
 
-/// What a motion may not exceed.
+/// Limits of a motion along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     pub min: f64,
@@ -54,7 +54,7 @@ impl Limits {
         self.at_velocity(motion, wanted, step)
     }
 
-    /// The motion after one step at whose end this velocity is wanted. The limits hold whatever it is, as in
+    /// The motion after one step at whose end this velocity is demanded. The limits hold whatever it is, as in
     /// [`Limits::follow`].
     #[inline(always)]
     pub fn at_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> Motion {
@@ -70,16 +70,16 @@ impl Limits {
         }
     }
 
-    /// The velocity nearest to the wanted one that a motion can have after one step and still keep the limits.
+    /// The velocity nearest to the demanded one that a motion can have after one step and still keep the limits.
     pub fn nearest_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> f64 {
         let Motion { position, velocity, .. } = *motion;
         // Where the step would end if the velocity at its end were zero; each metre per second adds half a step.
         let coasted = position + 0.5 * velocity * step;
         let reserve = self.reserve(step);
-        let fastest = smaller(approach_velocity(self.max - coasted, self.acceleration, reserve), self.velocity);
-        let slowest = larger(approach_velocity(self.min - coasted, self.acceleration, reserve), -self.velocity);
+        let fastest = min(approach_velocity(self.max - coasted, self.acceleration, reserve), self.velocity);
+        let slowest = max(approach_velocity(self.min - coasted, self.acceleration, reserve), -self.velocity);
         let change = self.acceleration * step;
-        larger(smaller(wanted, fastest), slowest).clamp(velocity - change, velocity + change)
+        max(min(wanted, fastest), slowest).clamp(velocity - change, velocity + change)
     }
 
     /// The step that [`approach_velocity`] needs where the one after this may be longer.
@@ -104,9 +104,9 @@ pub fn approach_velocity(distance: f64, acceleration: f64, step: f64) -> f64 {
 /// A motion that has caught up joins its target when it is this fraction of what one step at the acceleration limit covers
 /// away from where its velocity takes it: far below what can be measured.
 pub const REJOIN_DISTANCE: f64 = 0.01;
-/// Allows a change of velocity to reach the limit but for rounding.
-pub const FULL_SHARE: f64 = 1.0 + 1e-9;
-/// What rounding may add to a difference of positions \[m\].
+/// Factor of a limit that may be reached but for rounding.
+pub const WITH_ROUNDING: f64 = 1.0 + 1e-9;
+/// Largest rounding error of a difference of positions \[m\].
 pub const ROUNDING: f64 = f64::EPSILON;
 /// Catching up uses half the acceleration; the other half is for the target's own.
-pub const CATCH_UP_SHARE: f64 = 0.5;
+pub const CATCH_UP_FRACTION: f64 = 0.5;

@@ -1,10 +1,12 @@
-//! The smaller and the larger of two numbers: one instruction, where `f64::min` and `f64::max` take six to leave out NaN on
-//! either side. Here one in the first place is left out, and one in the second is returned.
+//! Minimum and maximum of two numbers, in one instruction each.
+//!
+//! `f64::min` and `f64::max` take six, to leave out a NaN on either side. Here a NaN as the first argument is left out, and
+//! one as the second is returned.
 
-pub fn smaller(a: f64, b: f64) -> f64 {
+pub fn min(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-pub fn larger(a: f64, b: f64) -> f64 {
+pub fn max(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }

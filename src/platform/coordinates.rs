@@ -19,12 +19,12 @@ impl Coordinates {
         PlatformMotion::new(&self.linear, &Turning::new(&self.angles), neutral_height)
     }
 
-    /// The coordinates at `share` of the way from these to others, both reached from `before` in `step` seconds.
-    pub fn towards(&self, others: &Coordinates, share: f64, before: &Coordinates, step: f64) -> Self {
+    /// The coordinates at this fraction of the line from these to others, both reached from `before` in `step` seconds.
+    pub fn towards(&self, others: &Coordinates, fraction: f64, before: &Coordinates, step: f64) -> Self {
         let between = |from: &Motions, to: &Motions, before: &Motions| {
-            let velocity = from.velocity.lerp(&to.velocity, share);
+            let velocity = from.velocity.lerp(&to.velocity, fraction);
             Motions {
-                position: from.position.lerp(&to.position, share),
+                position: from.position.lerp(&to.position, fraction),
                 velocity,
                 acceleration: (velocity - before.velocity) / step,
             }

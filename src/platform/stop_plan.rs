@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::Coordinates;
 use crate::motion::Motions;
 use crate::motion::braking_law::Motion;
-use crate::motion::extremes::larger;
+use crate::motion::extremes::max;
 
 /// A trajectory of the platform from a moving state to rest, and the time already spent on it.
 ///
@@ -65,7 +65,7 @@ impl StopPlan {
     /// The same plan `step` seconds on.
     pub fn advanced(&self, step: f64) -> Self {
         let [.., last] = self.durations.breakpoints();
-        StopPlan { elapsed: (self.elapsed + step).min(larger(last, self.elapsed)), ..*self }
+        StopPlan { elapsed: (self.elapsed + step).min(max(last, self.elapsed)), ..*self }
     }
 
     /// The state now.

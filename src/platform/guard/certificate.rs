@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 use super::bounds::JointBounds;
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motions;
-use crate::motion::braking_law::{FULL_SHARE, Limits, ROUNDING};
-use crate::motion::extremes::{larger, smaller};
+use crate::motion::braking_law::{Limits, ROUNDING, WITH_ROUNDING};
+use crate::motion::extremes::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Coordinates, Geometry, Legs, PlatformMotion};
@@ -106,7 +106,7 @@ impl Machine {
     }
 
     /// Durations of a certified stop from the candidate, if bounds on the whole way there and to rest are enough to
-    /// certify it: no point of the way is looked at.
+    /// certify it, without a look at any point of the way.
     ///
     /// The whole way lies within (stop duration/2 + step) times the largest speed of the candidate.
     #[inline(always)]
@@ -118,9 +118,9 @@ impl Machine {
         let (turn, twist) = change_and_gap(&now.angles, &next.angles, step);
         let gap_acceleration = bend * (sum_of_magnitudes(&gap) + sum_of_magnitudes(&twist) * self.radius);
         let speed = Speed::of(next);
-        let rate = larger(speed.angular, from.speed.angular);
+        let rate = max(speed.angular, from.speed.angular);
         let joint_speed = speed.of_joints(self.radius);
-        let fastest = larger(joint_speed, from.speed.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
+        let fastest = max(joint_speed, from.speed.of_joints(self.radius)) + 0.5 * step * gap_acceleration;
         let curvature = fastest * fastest / self.limits.min + rate * rate * self.radius;
         // The gap turns the legs a little as well, which changes their rates.
         let gap_turning = 0.5 * step * gap_acceleration * (fastest / self.limits.min + rate);
@@ -147,7 +147,7 @@ impl Machine {
         }
         for k in 0..3 {
             let most = safety.acceleration_limit[k];
-            let ends = larger(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
+            let ends = max(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
             let fastest = ends + per_step * gap[k].abs();
             keeps &= change[k].abs() * per_step + bend * gap[k].abs() <= most;
             keeps &= next.linear.acceleration[k].abs() <= most;
@@ -173,9 +173,9 @@ impl Machine {
     /// and the safety limits of acceleration, an axis with less room sooner.
     fn stop_plan(&self, from: &Coordinates, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motions { position, velocity, .. } = to.coordinates.linear;
-        let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| larger(velocity.abs(), fastest));
+        let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
         let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
-            larger(velocity[k].abs() / safety.acceleration_limit[k], duration)
+            max(velocity[k].abs() / safety.acceleration_limit[k], duration)
         });
         let mut durations = StopDurations::common(duration);
         for k in 0..3 {
@@ -185,7 +185,7 @@ impl Machine {
             if speed * duration > 2.0 * room {
                 durations.linear[k] = 2.0 * room / speed;
             }
-            let brakes = speed <= safety.acceleration_limit[k] * FULL_SHARE * durations.linear[k];
+            let brakes = speed <= safety.acceleration_limit[k] * WITH_ROUNDING * durations.linear[k];
             if !(brakes && room >= 0.0) {
                 return None;
             }
@@ -193,7 +193,7 @@ impl Machine {
         Some(StopPlan::new(to.coordinates, durations))
     }
 
-    /// Whether the legs keep speed and acceleration at every instant of the transition. Their lengths need no look: both
+    /// True if the legs keep speed and acceleration at every instant of the transition. Their lengths need no check: both
     /// ends are inside the stroke by the reserve.
     fn transition_keeps_legs(&self, from: State, to: Candidate, step: f64) -> bool {
         let (now, next) = (from.coordinates, to.coordinates);
@@ -204,7 +204,7 @@ impl Machine {
         let left = leg_motion(&self.geometry, &PlatformMotion::turning(from.motion, &start));
         let right = self.leg_motion_of(&end);
         let (before, after) = (Speed::of(now), Speed::of(next));
-        let speeds = [larger(before.linear, after.linear), larger(before.angular, after.angular)];
+        let speeds = [max(before.linear, after.linear), max(before.angular, after.angular)];
         let accelerations = [linear.start.acceleration.norm(), sum_of_magnitudes(&angles.start.acceleration)];
         let bounds = JointBounds::new(speeds, accelerations, self.radius);
         // The gap at the end, as accelerations for who sees lengths and for who sees rates.
@@ -216,7 +216,7 @@ impl Machine {
         self.interval_keeps_legs(&left, &right, &bounds, step, (f64::NEG_INFINITY, f64::INFINITY), &gaps)
     }
 
-    /// Whether the legs keep stroke, speed and acceleration all the way to rest.
+    /// True if the legs keep stroke, speed and acceleration all the way to rest.
     fn plan_keeps_legs(&self, plan: &StopPlan) -> bool {
         let stops = plan.durations().breakpoints();
         let duration = stops[3];
@@ -242,7 +242,7 @@ impl Machine {
         true
     }
 
-    /// Whether the legs keep their limits between two breakpoints of a plan, divided into cells.
+    /// True if the legs keep their limits between two breakpoints of a plan, divided into cells.
     fn piece_keeps_legs(&self, plan: &StopPlan, begin: f64, end: f64, cells: f64) -> bool {
         let accelerating = plan.at(begin);
         let (linear, angles) = (accelerating.linear.acceleration, accelerating.angles.acceleration);
@@ -271,7 +271,7 @@ impl Machine {
         true
     }
 
-    /// Whether the legs keep their limits in an interval of steady coordinates' accelerations, from what they do at both
+    /// True if the legs keep their limits in an interval of steady coordinates' accelerations, judged by their motion at both
     /// ends; `gaps` are accelerations that each leg needs besides \[m/s2\].
     ///
     /// No instant is farther than half the interval d from the nearer end, from where the leg's jerk J is bounded. So the
@@ -294,11 +294,11 @@ impl Machine {
         let spread = bounds.leg_jerk(length) * half;
         let mut keeps = true;
         for i in 0..6 {
-            let acceleration = larger(left.acceleration[i].abs(), right.acceleration[i].abs()) + spread;
+            let acceleration = max(left.acceleration[i].abs(), right.acceleration[i].abs()) + spread;
             let from_left = left.velocity[i] + left.acceleration[i] * half;
             let from_right = right.velocity[i] - right.acceleration[i] * half;
-            let at_ends = larger(left.velocity[i].abs(), right.velocity[i].abs());
-            let speed = larger(at_ends, larger(from_left.abs(), from_right.abs()) + spread * half);
+            let at_ends = max(left.velocity[i].abs(), right.velocity[i].abs());
+            let speed = max(at_ends, max(from_left.abs(), from_right.abs()) + spread * half);
             let beyond = 0.5 * acceleration * half * half;
             keeps &= acceleration + gaps[i] <= self.limits.acceleration;
             keeps &= speed + gaps[i] * half <= self.limits.velocity;
@@ -332,7 +332,7 @@ impl Transition {
     }
 }
 
-/// Whether surge, sway and heave keep their safety limits at every instant of the transition.
+/// True if surge, sway and heave keep their safety limits at every instant of the transition.
 pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyParameters, step: f64) -> bool {
     let (now, next) = (&from.linear, &to.linear);
     let Transition { start, gap, .. } = Transition::new(now, next, step);
@@ -341,12 +341,12 @@ pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyPar
         let (before, after) = (now.velocity[k], next.velocity[k]);
         let gap = gap[k].abs();
         let turned = turning_point(now.position[k], before, after, start.acceleration[k]);
-        let most = safety.acceleration_limit[k] * FULL_SHARE;
+        let most = safety.acceleration_limit[k] * WITH_ROUNDING;
         keeps &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
         keeps &= next.acceleration[k].abs() <= most;
-        keeps &= larger(before.abs(), after.abs()) + gap / step <= safety.velocity_limit[k] * FULL_SHARE;
+        keeps &= max(before.abs(), after.abs()) + gap / step <= safety.velocity_limit[k] * WITH_ROUNDING;
         let (lowest, highest) = reachable(from, safety, k);
-        keeps &= lowest <= smaller(next.position[k], turned) && larger(next.position[k], turned) <= highest;
+        keeps &= lowest <= min(next.position[k], turned) && max(next.position[k], turned) <= highest;
     }
     keeps
 }
@@ -355,8 +355,8 @@ pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyPar
 fn reachable(from: &Coordinates, safety: &SafetyParameters, k: usize) -> (f64, f64) {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let (position, limit) = (from.linear.position[k], safety.position_limit[k]);
-    let rounding = ROUNDING * larger(position.abs(), limit);
-    (smaller(position, -limit) - rounding, larger(position, limit) + rounding)
+    let rounding = ROUNDING * max(position.abs(), limit);
+    (min(position, -limit) - rounding, max(position, limit) + rounding)
 }
 
 /// The position at which a steady acceleration turns the velocity round between these two, or the first one.

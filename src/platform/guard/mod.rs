@@ -23,7 +23,7 @@ use super::stop_plan::{StopDurations, StopPlan};
 use super::{Coordinates, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
-use crate::motion::extremes::smaller;
+use crate::motion::extremes::min;
 
 /// The guard with the motion that the platform is commanded, and with its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,7 +41,7 @@ pub struct ActuatorGuard {
     limited: Option<Limited>,
 }
 
-/// What else there is to know while the platform does not do what is demanded.
+/// The rest of the state while the platform is kept from its demand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Limited {
     demand: Coordinates,
@@ -103,7 +103,7 @@ impl ActuatorGuard {
         });
     }
 
-    /// Whether the platform may go over to the demand from where it is: the positions differ from what the velocities
+    /// True if the platform may go over to the demand from where it is: the positions differ from what the velocities
     /// account for by no more than a hundredth of what an acceleration at its limit does in a step.
     fn has_caught_up(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * step * step;
@@ -168,14 +168,14 @@ impl ActuatorGuard {
         &self.motion
     }
 
-    /// Whether the platform did not do what was demanded in the last step.
+    /// True if the platform was kept from its demand in the last step.
     pub fn limited(&self) -> bool {
         self.limited.is_some()
     }
 
     /// The smallest distance of a leg from either end of its stroke \[m\].
     pub fn stroke_margin(&self) -> f64 {
-        self.margins().fold(f64::INFINITY, |least, (margin, _)| smaller(margin, least))
+        self.margins().fold(f64::INFINITY, |least, (margin, _)| min(margin, least))
     }
 
     /// The time derivative of [`ActuatorGuard::stroke_margin`] \[m/s\].

@@ -6,7 +6,7 @@ use super::ActuatorGuard;
 use super::certificate::Candidate;
 use crate::interface::SafetyParameters;
 use crate::motion::Motions;
-use crate::motion::braking_law::{CATCH_UP_SHARE, Limits, Motion};
+use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, Motion};
 use crate::platform::stop_plan::StopPlan;
 use crate::platform::{Coordinates, Legs, PlatformMotion, inverse_kinematics, jacobian};
 
@@ -77,7 +77,7 @@ impl ActuatorGuard {
         std::array::from_fn(|i| {
             let leg = Motion { position: self.legs.length[i], velocity: self.legs.velocity[i], acceleration: 0.0 };
             let goal = Motion { position: target.length[i], velocity: target.velocity[i], acceleration: 0.0 };
-            self.pursuit.follow(&leg, &goal, CATCH_UP_SHARE * self.pursuit.acceleration, step).velocity
+            self.pursuit.follow(&leg, &goal, CATCH_UP_FRACTION * self.pursuit.acceleration, step).velocity
         })
     }
 

@@ -115,7 +115,7 @@ fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
     })
 }
 
-/// Whether leg lengths, rates and accelerations keep the machine's limits.
+/// True if leg lengths, rates and accelerations keep the machine's limits.
 fn keep(machine: &Machine, coordinates: &Coordinates) -> bool {
     let legs = leg_motion(&machine.geometry, &coordinates.motion(machine.neutral_height));
     const ROUNDING: f64 = 1.0 + 1e-9;
