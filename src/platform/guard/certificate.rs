@@ -293,15 +293,15 @@ impl Machine {
         }
         let spread = bounds.leg_jerk(length) * half;
         let mut keeps = true;
-        for i in 0..6 {
+        for (i, gap) in gaps.iter().enumerate() {
             let acceleration = max(left.acceleration[i].abs(), right.acceleration[i].abs()) + spread;
             let from_left = left.velocity[i] + left.acceleration[i] * half;
             let from_right = right.velocity[i] - right.acceleration[i] * half;
             let at_ends = max(left.velocity[i].abs(), right.velocity[i].abs());
             let speed = max(at_ends, max(from_left.abs(), from_right.abs()) + spread * half);
             let beyond = 0.5 * acceleration * half * half;
-            keeps &= acceleration + gaps[i] <= self.limits.acceleration;
-            keeps &= speed + gaps[i] * half <= self.limits.velocity;
+            keeps &= acceleration + gap <= self.limits.acceleration;
+            keeps &= speed + gap * half <= self.limits.velocity;
             keeps &= left.length[i].min(right.length[i]) - beyond >= shortest;
             keeps &= left.length[i].max(right.length[i]) + beyond <= longest;
         }
