@@ -4,20 +4,20 @@ use std::path::PathBuf;
 
 use moris_setup::{Error, Setup};
 
-/// Which rig, and which parameters.
+/// Options for rig and parameters.
 #[derive(Clone, Debug, Default, clap::Args)]
 pub struct SetupOptions {
     /// Rig file [default: the default rig]
     #[arg(long, value_name = "FILE")]
     pub rig: Option<PathBuf>,
 
-    /// Parameter file, or a shipped set: default, wake, preaction. May be given several times: later ones stand over earlier ones
+    /// Parameter file, or a preset: default, wake, preaction. May be given several times: later ones override earlier ones
     #[arg(long, value_name = "FILE|NAME")]
     pub parameters: Vec<String>,
 }
 
 impl SetupOptions {
-    /// The parameters put together and checked.
+    /// The combined and validated parameters.
     ///
     /// # Errors
     /// As [`Setup::load`].
