@@ -12,6 +12,7 @@ mod errata;
 mod evaluator;
 mod hostile;
 mod kinematics;
+mod limits_in_flight;
 mod paper_runs;
 mod preaction;
 mod reconstruction;
