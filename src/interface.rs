@@ -76,6 +76,12 @@ interface! {
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
+        /// Whether the predictive strategy's last attempt at a new plan failed, so that the plan before is carried on with.
+        "status.planKept" plan_kept: bool = false;
+        /// Time since the plan of the predictive strategy was begun.
+        "predictive.planAge" plan_age: f64 [S] = 0.0;
+        /// Iterations that the last plan of the predictive strategy took.
+        "predictive.iterations" plan_iterations: i32 = 0;
     }
 }
 
@@ -142,6 +148,32 @@ enumeration! {
         "off" Off,
         /// The tilt decreases ahead of the stop, and surge provides part of the force meanwhile.
         "on" On,
+    }
+}
+
+enumeration! {
+    /// How the cue is divided between surge, sway and tilt.
+    pub enum StrategyKind {
+        /// High-pass to travel, low-pass to tilt (the paper).
+        "classical" Classical,
+        /// A filter whose gains follow the gradient of a cost.
+        "adaptive" Adaptive,
+        /// A linear-quadratic regulator.
+        "optimal" Optimal,
+        /// A plan of the next seconds within all limits, made anew 50 times a second.
+        "predictive" Predictive,
+    }
+}
+
+enumeration! {
+    /// How the predictive strategy forecasts the specific force.
+    pub enum ForecastKind {
+        /// By a mixture of experts, one of which learns from the ride.
+        "learned" Learned,
+        /// Its slow and its fast part fade.
+        "decay" Decay,
+        /// It stays what it is.
+        "hold" Hold,
     }
 }
 
@@ -262,6 +294,8 @@ interface! {
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
         /// True if tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
+        /// How the cue is divided between surge, sway and tilt.
+        "strategy" strategy: StrategyKind = StrategyKind::Classical;
     }
 }
 
@@ -285,6 +319,80 @@ interface! {
     }
 }
 
+interface! {
+    /// The adaptive strategy, for surge and sway each.
+    pub struct AdaptiveParameters: Parameter, Tunable {
+        /// Break frequency of the adaptive strategy's high-pass from force to travel.
+        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8;
+        /// Damping ratio of the adaptive strategy's high-pass from force to travel.
+        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.34;
+        /// How fast the gain from force to travel follows the gradient of the cost.
+        "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18;
+        /// How fast the gain from force to tilt rate follows the gradient of the cost.
+        "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16;
+        /// Gain from force to travel to which the adaptation is pulled.
+        "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986;
+        /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
+        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.17;
+        /// Price of travel, beside 1 for the error of the felt force.
+        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 10.6;
+        /// Price of the travel's velocity.
+        "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13;
+        /// Price of the tilt rate.
+        "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63;
+        /// Price of the distance of the gain from force to travel from its nominal value.
+        "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115;
+        /// Price of the distance of the gain from force to tilt rate from its nominal value.
+        "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349;
+    }
+}
+
+interface! {
+    /// The optimal strategy, for surge and sway each.
+    pub struct OptimalParameters: Parameter, Tunable {
+        /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
+        "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209;
+        /// Price of the travel's velocity at its limit.
+        "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105;
+        /// Price of the tilt rate at its limit.
+        "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033;
+        /// Price of the tilt acceleration at its limit.
+        "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242;
+        /// How fast the slow part of the force is expected to fade.
+        "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345;
+        /// How fast the fast part of the force is expected to fade.
+        "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71;
+        /// Time constant that splits the force into its slow and its fast part.
+        "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117;
+    }
+}
+
+interface! {
+    /// The predictive strategy, for surge and sway together.
+    pub struct PredictiveParameters: Parameter, Tunable {
+        /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 5e-4;
+        /// Price of the travel's velocity at its limit.
+        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 1e-2;
+        /// Price of the tilt rate at its limit.
+        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.2e-3;
+        /// Price of the tilt acceleration at its limit.
+        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 7e-4;
+        /// How fast the slow part of the force is expected to fade beyond the plan.
+        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.0368;
+        /// How fast the fast part of the force is expected to fade beyond the plan.
+        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.9;
+        /// How the force is forecast.
+        "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
+        /// Time constant with which the learned forecast forgets.
+        "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 60.0;
+        /// Time constant over which the learned forecast's experts are compared.
+        "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 3.0;
+        /// What a plan leaves of an actuator's stroke at either end.
+        "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
+    }
+}
+
 interface_tree! {
     /// All parameters: the filter's and the rig's.
     pub struct Parameters {
@@ -294,6 +402,9 @@ interface_tree! {
         tilt: TiltParameters,
         safety: SafetyParameters,
         structure: StructureParameters,
+        adaptive: AdaptiveParameters,
+        optimal: OptimalParameters,
+        predictive: PredictiveParameters,
         rig: Rig,
     }
 }

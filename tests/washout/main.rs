@@ -21,4 +21,5 @@ mod retuning;
 mod rigs;
 mod small_signals;
 mod steady_state;
+mod strategies;
 mod tilt_tracker;
