@@ -50,7 +50,7 @@ def main():
     run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
-    run(sys.executable, "tests/importers/run.py")
+    run(sys.executable, "tests/importers/run.py", *(["--require"] if arguments.require else []))
     run(sys.executable, "tests/platforms/run.py", *passed_on)
     run(sys.executable, "tests/report/run.py", *passed_on)
     print("No test has failed. What is missing above has not been run.")

@@ -42,7 +42,7 @@ def ride(ssp, step=1e-3):
     """Rides with communication steps of `step` seconds. Returns the values of all connectors, a row a step, by name."""
     # fmpy sets parameters only where it is handed them; other tools take those that the system is bound to by themselves.
     parameters = read_ssv(ssp, "resources/MotorcycleSimulator.ssv")
-    commands = {"command.throttle": throttle, "command.brake": brake, "command.lean": lean}
+    commands = {"throttle": throttle, "brake": brake, "lean": lean}
     result = simulate_ssp(ssp, stop_time=DURATION, step_size=step, parameter_set=parameters, input=commands)
     # In its first step fmpy gives zero to every connected input: a rider without weight. That is over after half a second.
     return result[result["time"] >= 0.5]

@@ -16,9 +16,11 @@ class Ride:
     def __init__(self, fmu):
         with zipfile.ZipFile(fmu) as archive:
             description = ElementTree.fromstring(archive.read("modelDescription.xml"))
-            self.guid = description.get("guid")
+            self.fmi = description.get("fmiVersion")
+            # By which the library knows the description: its GUID or, in FMI 3.0, its instantiation token.
+            self.guid = description.get("guid") or description.get("instantiationToken")
             self.model = description.get("modelName")
-            self.references = {v.get("name"): int(v.get("valueReference")) for v in description.iter("ScalarVariable")}
+            self.references = {v.get("name"): int(v.get("valueReference")) for v in description.find("ModelVariables")}
             experiment = ElementTree.fromstring(archive.read(f"{LAYERED_STANDARD}/{self.model}.exp")).find("Experiment")
             self.input_text = archive.read(f"{LAYERED_STANDARD}/{self.model}_in.csv").decode()
             output_text = archive.read(f"{LAYERED_STANDARD}/{self.model}_ref.csv").decode()

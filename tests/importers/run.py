@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Runs the FMU through every importer that the package registries offer, and prints a line for each thing tried.
+"""Runs the FMUs through every importer that the package registries offer, and prints a line for each thing tried.
 
-    python3 tests/importers/run.py [--fmu FMU] [--only IMPORTER] [--require]
+    python3 tests/importers/run.py [--fmus DIRECTORY] [--only IMPORTER] [--require]
 
-Each importer gets the reference ride that is in the FMU (extra/org.fmi-standard.fmi-ls-ref), and its answers are compared
-with the reference output there, which the washout has computed without FMI. What cannot be installed is reported as missing. The
-exit status is 1 if anything has failed; with --require, also if anything is missing.
+The FMUs are those of all three models, of FMI 2.0 and 3.0. Each importer gets the reference ride that is in the FMU
+(extra/org.fmi-standard.fmi-ls-ref), and its answers are compared with the reference output there, which the model has
+computed without FMI. Importers with SSP get the whole simulator, too. Importers that cannot be installed are reported as
+missing. The exit status is 1 if anything has failed or differs from the table in docs/importers.md; with --require, also if
+anything is missing.
 
 The importers are installed under target/importers, and found there the next time.
 """
@@ -45,6 +47,11 @@ class Importer:
     install: callable
     # The script beside this one that runs it; none where it has never been seen to install.
     script: str | None
+    # The name and the home page, for people.
+    title: str = ""
+    home: str = ""
+    # Whether a registry has something that installs.
+    in_registry: bool = True
 
 
 def pip(*packages):
@@ -116,15 +123,46 @@ def fmu_runner():
     return [compiled("fmu-runner") / "release" / f"with-fmu-runner{PROGRAM}"]
 
 
+def omsimulator():
+    """OMSimulator that somebody has built: its package downloads the program from a site of its own."""
+    prefix = Path(os.environ.get("OMSIMULATOR", CACHE / "OMSimulator"))
+    library = next(iter(sorted(prefix.glob("**/libOMSimulator.so"))), None)
+    if library is None:
+        raise Missing("it has to be built from its sources; set OMSIMULATOR to where it is installed")
+    return [library]
+
+
+MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
+COLUMNS = ["2.0", "3.0", "SSP"]
+TABLE = ROOT / "docs" / "importers.md"
+
 IMPORTERS = [
-    Importer("fmpy", "0.3.32", pip("fmpy==0.3.32"), "with_fmpy.py"),
-    Importer("fmi-sim", "0.7.0", fmi_sim("0.7.0"), "with_fmi_sim.py"),
-    Importer("fmu-runner", "0.4.4", fmu_runner, "with_fmu_runner.py"),
-    Importer("libcosimpy", "0.0.6", pip("libcosimpy==0.0.6"), "with_libcosimpy.py"),
-    Importer("ecospy", "0.7.2", pip("ecospy==0.7.2", "tbb==2023.2.0"), "with_ecospy.py"),
-    Importer("fmu-manipulation-toolbox", "2.0", pip("fmu-manipulation-toolbox==2.0"), "with_fmu_manipulation_toolbox.py"),
-    Importer("OMSimulator", "3.0.0.post198", once("OMSimulator", pip("OMSimulator==3.0.0.post198")), None),
-    Importer("pyfmi", "2.5", once("pyfmi", pip("pyfmi==2.5")), None),
+    Importer("fmpy", "0.3.32", pip("fmpy==0.3.32"), "with_fmpy.py", "FMPy", "https://github.com/CATIA-Systems/FMPy"),
+    Importer(
+        "OMSimulator", "3.0.0.post114", omsimulator, "with_omsimulator.py", "OMSimulator",
+        "https://github.com/OpenModelica/OMSimulator", in_registry=False,
+    ),
+    Importer(
+        "ecospy", "0.7.2", pip("ecospy==0.7.2", "tbb==2023.2.0"), "with_ecospy.py", "Ecos",
+        "https://github.com/Ecos-platform/ecos",
+    ),
+    Importer(
+        "libcosimpy", "0.0.6", pip("libcosimpy==0.0.6"), "with_libcosimpy.py", "libcosim",
+        "https://open-simulation-platform.github.io",
+    ),
+    Importer(
+        "fmu-manipulation-toolbox", "2.0", pip("fmu-manipulation-toolbox==2.0"), "with_fmu_manipulation_toolbox.py",
+        "FMU manipulation toolbox", "https://github.com/grouperenault/fmu_manipulation_toolbox",
+    ),
+    Importer(
+        "fmuloader", "0.1.2rc0", pip("fmuloader==0.1.2rc0"), "with_fmuloader.py", "fmuloader",
+        "https://github.com/time-integral/fmuloader",
+    ),
+    Importer("fmi-sim", "0.7.0", fmi_sim("0.7.0"), "with_fmi_sim.py", "fmi-sim", "https://github.com/jondo2010/rust-fmi"),
+    Importer(
+        "fmu-runner", "0.4.4", fmu_runner, "with_fmu_runner.py", "fmu-runner", "https://github.com/Nikita240/fmu-runner-rs"
+    ),
+    Importer("pyfmi", "2.5", once("pyfmi", pip("pyfmi==2.5")), None, in_registry=False),
 ]
 
 
@@ -154,8 +192,26 @@ def last_error(text):
     return (errors or lines or ["it does not say why"])[-1][:140]
 
 
-def try_out(importer, fmu, required):
-    """Installs and runs an importer; prints its lines; returns whether nothing has failed, nor lacks that is required."""
+def row(importer, results):
+    """The importer's row in the table: in each column whether all was right, and the number of models of a version."""
+    cells = []
+    for column in COLUMNS:
+        mine = [result for result in results if result["column"] == column]
+        models = {model for model in MODELS for result in mine if result["what"].startswith(f"{model}, FMI {column}")}
+        if not mine:
+            cells.append("no")
+        elif any(result["verdict"] != "ok" for result in mine):
+            cells.append("FAILED")
+        else:
+            cells.append(f"{len(models)} models" if column != "SSP" else "yes")
+    return f"| [{importer.title}]({importer.home}) {importer.version} | {' | '.join(cells)} |"
+
+
+def try_out(importer, fmu, required, whole):
+    """Installs and runs an importer; prints its lines; returns whether nothing has failed, nor lacks that is required.
+
+    With the whole set of FMUs, the table's row for the importer has to be right, too.
+    """
     try:
         arguments = importer.install()
         if importer.script is None:
@@ -186,7 +242,11 @@ def try_out(importer, fmu, required):
         ended = f"killed by {signal.Signals(-done.returncode).name}" if done.returncode < 0 else last_error(done.stderr)
         show(importer, "-", "-", f"FAILED ({ended}; see {work / 'log.txt'})")
         return False
-    return all(result["verdict"] == "ok" for result in results)
+    passed = all(result["verdict"] == "ok" for result in results)
+    if passed and whole and (line := row(importer, results)) not in TABLE.read_text():
+        print(f"FAILED: {TABLE.name} does not say: {line}")
+        return False
+    return passed
 
 
 def show(importer, what, difference, verdict):
@@ -196,18 +256,23 @@ def show(importer, what, difference, verdict):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, default=ROOT / "target" / "fmu" / "MorisWashout.fmu", help="default: %(default)s")
+    parser.add_argument("--fmus", type=Path, default=ROOT / "target" / "fmu", help="directory of the FMUs [default: %(default)s]")
     parser.add_argument("--only", action="append", choices=[importer.name for importer in IMPORTERS], help="default: all")
-    parser.add_argument("--require", action="store_true", help="an importer that is missing is an error")
+    parser.add_argument("--require", action="store_true", help="an importer that a registry has must not be missing")
     arguments = parser.parse_args()
-    fmu = arguments.fmu.resolve()
-    if not fmu.exists():
-        sys.exit(f"{fmu} is missing: run `cargo build-fmu`")
+    directory = arguments.fmus.resolve()
+    wanted = [directory / f"{model}.{kind}" for kind in ("fmu", "fmi3.fmu") for model in MODELS]
+    wanted += [directory / f"MotorcycleSimulator.{kind}" for kind in ("ssp", "flat.ssp")]
+    if lacking := [path for path in wanted if not path.exists()]:
+        sys.exit(f"{lacking[0]} is missing: run `cargo build-fmu`, with --fmi 3 too, and `cargo build-ssp`, with --flat too")
+    fmus = ",".join(str(path) for path in wanted if path.suffix == ".fmu")
     if not PYTHON.exists():
         venv.create(VENV, with_pip=True)
     print(f"{'importer':30}{'what was run':52}{'difference':>10}  verdict")
     chosen = [importer for importer in IMPORTERS if not arguments.only or importer.name in arguments.only]
-    passed = [try_out(importer, fmu, arguments.require) for importer in chosen]
+    # The table is that of Linux: some importers have no binaries for other systems.
+    whole = sys.platform == "linux"
+    passed = [try_out(importer, fmus, arguments.require and importer.in_registry, whole) for importer in chosen]
     sys.exit(0 if all(passed) else 1)
 
 

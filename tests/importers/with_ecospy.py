@@ -46,15 +46,16 @@ def accelerate(package):
         simulation.terminate()
 
 
-def main(fmu):
-    ride = Ride(fmu)
-    report.difference("ride, in process", ride_with(ride, fmu))
+def main(fmus):
     # The package forgets to mark its program as one.
     (Path(ecospy.__file__).parent / "binaries" / "proxyfmu").chmod(0o755)
-    report.difference("ride, in another process (proxyfmu)", ride_with(ride, f"proxyfmu://localhost?file={fmu}"))
-    if package := simulator.package(fmu):
+    for fmu in fmus:
+        ride = Ride(fmu)
+        report.ride(ride, ", in process", ride_with(ride, fmu))
+        report.ride(ride, ", in another process (proxyfmu)", ride_with(ride, f"proxyfmu://localhost?file={fmu}"))
+    if package := simulator.package(fmus[0]):
         accelerate(package)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1].split(","))

@@ -8,13 +8,18 @@ from pathlib import Path
 import numpy as np
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Slave
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import read_ssv
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
 import report
+import simulator
 from ride import Ride
 
-FMU, WORK = sys.argv[1], Path(sys.argv[2])
+FMUS, WORK = sys.argv[1].split(","), Path(sys.argv[2])
+# Every option is tried with the first one, the others by the plain ride.
+FMU, *OTHERS = FMUS
 RIDE = Ride(FMU)
 # FMPy has room for the derivatives of nine inputs, no more and no fewer.
 NINE = 9
@@ -36,7 +41,7 @@ def ride_with(what, signals, **options):
 
 
 def options(signals):
-    ride_with("ride", signals)
+    report.ride(RIDE, "", RIDE.difference(answers(simulate(signals))))
     ride_with("ride, not validated, no stop time told", signals, validate=False, set_stop_time=False)
     ride_with("ride, with a tolerance, all start values applied", signals, relative_tolerance=1e-6, apply_default_start_values=True)
     calls, messages = [], []
@@ -131,6 +136,37 @@ def command_line(input_file):
     report.difference("ride by the command `fmpy simulate`", RIDE.difference_of_table(result.read_text()))
 
 
+def others():
+    """The other FMUs: validation and the plain ride."""
+    for fmu in OTHERS:
+        ride = Ride(fmu)
+        problems = validate_fmu(fmu)
+        report.check(f"{ride.model}, FMI {ride.fmi}: validation", not problems, "; ".join(problems[:3]), ride.fmi)
+        input_file = WORK / "other_in.csv"
+        input_file.write_text(ride.input_text)
+        result = simulate_fmu(
+            fmu, input=read_csv(str(input_file)), stop_time=ride.stop, output_interval=ride.step, output=ride.outputs
+        )
+        rows = np.column_stack([result[name] for name in ride.outputs])
+        answers = {round(time / ride.step): row.tolist() for time, row in zip(result["time"], rows)}
+        report.ride(ride, "", ride.difference(answers))
+
+
+def whole_simulator():
+    """A few seconds of the whole simulator, by the system's own input and outputs."""
+    package = Path(FMU).with_name("MotorcycleSimulator.ssp")
+    if not package.exists():
+        return
+    parameters = read_ssv(package, f"resources/{simulator.PARAMETER_SET}.ssv")
+    opened = simulator.STEP * simulator.OPENED_AT
+    throttle = {"throttle": lambda time: simulator.THROTTLE if time >= opened else 0.0}
+    result = simulate_ssp(
+        package, stop_time=simulator.STEP * simulator.STEPS, step_size=simulator.STEP, parameter_set=parameters, input=throttle
+    )[-1]
+    lengths = [result[f"actuatorLength{i}"] for i in range(1, 7)]
+    simulator.judge(result["speed"], lengths, simulator.VALUE, "the whole simulator, MotorcycleSimulator.ssp")
+
+
 def main():
     problems = validate_fmu(FMU)
     report.check("validation", not problems, "; ".join(problems[:3]))
@@ -144,6 +180,8 @@ def main():
     in_two_halves(signals)
     derivatives(signals)
     command_line(input_file)
+    others()
+    whole_simulator()
 
 
 if __name__ == "__main__":

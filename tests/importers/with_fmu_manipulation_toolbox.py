@@ -31,7 +31,7 @@ def complaints(said):
 
 def checks(fmu):
     found = complaints(tool("fmutool", "-input", fmu, "-check"))
-    report.check("fmutool -check", not found, "; ".join(found[:3]))
+    report.check(f"{Path(fmu).name}: fmutool -check", not found, "; ".join(found[:3]))
 
 
 def container(fmu, work, ride):
@@ -58,12 +58,13 @@ def container(fmu, work, ride):
     return ride.difference({round(time / ride.step): row.tolist() for time, row in zip(result["time"], rows)})
 
 
-def main(fmu, work):
-    ride = Ride(fmu)
+def main(fmus, work):
     os.chdir(work)
-    checks(fmu)
-    report.difference("ride inside a container, in FMPy", container(fmu, work, ride))
+    for fmu in fmus:
+        ride = Ride(fmu)
+        checks(fmu)
+        report.ride(ride, " inside a container, in FMPy", container(fmu, work, ride))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], Path(sys.argv[2]))
+    main(sys.argv[1].split(","), Path(sys.argv[2]))

@@ -38,10 +38,9 @@ def accelerate(package):
     )
 
 
-def main(fmu):
-    ride = Ride(fmu)
+def ride_with(fmu, ride):
     execution = CosimExecution.from_step_size(step_size=ride.step * NANOSECONDS)
-    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=fmu, instance_name="washout"))
+    slave = execution.add_local_slave(CosimLocalSlave(fmu_path=fmu, instance_name="fmu"))
     manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
     execution.add_manipulator(manipulator)
     execution.add_observer(observer)
@@ -51,15 +50,22 @@ def main(fmu):
     def step(_):
         assert execution.step(), "a step failed"
 
-    largest = ride.replay(
+    return ride.replay(
         lambda values: manipulator.slave_real_values(slave, inputs, values),
         step,
         lambda: observer.last_real_values(slave, outputs),
     )
-    report.difference("ride", largest)
-    if package := simulator.package(fmu):
+
+
+def main(fmus):
+    for fmu in fmus:
+        ride = Ride(fmu)
+        # libcosim has no FMI 3.0.
+        if ride.fmi == "2.0":
+            report.ride(ride, "", ride_with(fmu, ride))
+    if package := simulator.package(fmus[0]):
         accelerate(package)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main(sys.argv[1].split(","))

@@ -67,7 +67,8 @@ def test_the_flat_one_is_the_same_without_inputs_and_with_a_parameter_set_a_comp
     assert not root.xpath("ssd:System/ssd:Connectors", namespaces=NAMESPACES)
 
     def wires(root):
-        return [dict(w.attrib) for w in root.xpath("//ssd:Connection[@startElement]", namespaces=NAMESPACES)]
+        between = "//ssd:Connection[@startElement and @endElement]"
+        return [dict(w.attrib) for w in root.xpath(between, namespaces=NAMESPACES)]
 
     assert wires(root) == wires(system) == [dict(w.attrib) for w in root.xpath("//ssd:Connection", namespaces=NAMESPACES)]
     values = {}
@@ -128,15 +129,40 @@ def test_the_washout_gets_the_motorcycle_and_the_platform_gets_the_washout(syste
         for quantity in ("length", "velocity")
     }
     expected |= {("motorcycle", "rider.lean", "platform", "rider.lean")}
-    expected |= {(None, name, "motorcycle", name) for name in ("command.throttle", "command.brake", "command.lean")}
+    expected |= {(None, name, "motorcycle", f"command.{name}") for name in ("throttle", "brake", "lean")}
+    felt = [("SpecificForce", "specificForce"), ("AngularVelocity", "angularVelocity")]
+    expected |= {
+        ("platform", f"rider.{vector}.{axis}", None, f"felt{name}{axis.upper()}") for name, vector in felt for axis in AXES
+    }
+    expected |= {("platform", f"actuator[{i}].length", None, f"actuatorLength{i}") for i in range(1, 7)}
+    expected |= {("motorcycle", "vehicle.speed", None, "speed")}
+    washout = ("strokeMargin", "tiltLimited", "safetyActive", "actuatorLimited")
+    platform = ("commandRefused", "driveLimited", "forceLimited", "atStop")
+    for component, names in (("washout", washout), ("platform", platform)):
+        expected |= {(component, f"status.{name}", None, name) for name in names}
     assert sorted(map(str, ends)) == sorted(map(str, expected))
     for start, output, end, name in ends:
-        if start is not None:
+        if start is not None and end is not None:
             assert models[start][output].unit == models[end][name].unit
     # Every input that is a connector has its connection, and nothing of the platform's or the washout's is left open but this.
     for component, left in (("washout", {"engaged"}), ("platform", set())):
         inputs = {name for name, variable in models[component].items() if variable.causality == "input"}
         assert inputs - {name for _, _, end, name in ends if end == component} == left
+
+
+def test_the_system_has_inputs_and_outputs_that_are_identifiers_with_their_units(system, models):
+    connections = system.xpath("//ssd:Connection", namespaces=NAMESPACES)
+    connectors = system.xpath("ssd:System/ssd:Connectors/ssd:Connector", namespaces=NAMESPACES)
+    assert [connector.get("kind") for connector in connectors].count("input") == 3
+    for connector in connectors:
+        name, (kind,) = connector.get("name"), connector
+        assert name.isidentifier()
+        inward = [(c.get("endElement"), c.get("endConnector")) for c in connections if c.get("startElement") is None and c.get("startConnector") == name]
+        outward = [(c.get("startElement"), c.get("startConnector")) for c in connections if c.get("endElement") is None and c.get("endConnector") == name]
+        ((component, variable),) = inward if connector.get("kind") == "input" else outward
+        variable = models[component][variable]
+        assert variable.causality == connector.get("kind")
+        assert (etree.QName(kind).localname, kind.get("unit")) == (variable.type, variable.unit), name
 
 
 def test_every_parameter_is_one_of_its_fmu_with_its_unit(parameters, models):
@@ -170,6 +196,11 @@ def test_the_ride_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(exa
     lean = np.degrees(result["motorcycle.vehicle.orientation.roll"])
     assert lean.max() > 12.0 and lean.min() < -12.0
     lengths = example.legs(result, "platform", "length")
+    # The system's outputs are the components' variables.
+    assert np.array_equal(result["speed"], speed)
+    assert np.array_equal(result["actuatorLength3"], lengths[:, 2])
+    assert np.array_equal(result["feltAngularVelocityX"], result["platform.rider.angularVelocity.x"])
+    assert not np.any(result["safetyActive"])
     assert lengths.min() > 1.1 and lengths.max() < 1.52
     assert np.ptp(lengths) > 0.25
     for status in (

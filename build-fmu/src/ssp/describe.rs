@@ -7,11 +7,13 @@ use serde::Serialize;
 
 use super::parameter_set::ByComponent;
 use super::schema;
-use super::system::{Component, Connection, System};
+use super::system::{Component, Connection, Port, System};
 use super::{Form, fmu_path, parameters_path};
 
 const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
 const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";
+/// The namespace of the annotation for OMSimulator.
+const OMS: &str = "https://raw.githubusercontent.com/OpenModelica/OMSimulator/master/schema/oms.xsd";
 const SSC: &str = "http://ssp-standard.org/SSP1/SystemStructureCommon";
 
 /// Size of a component in a drawing, and the room between two.
@@ -21,11 +23,12 @@ const GAP: f64 = 40.0;
 /// The description of a system whose components start with these parameters.
 pub fn describe(system: &System, form: Form, parameters: &ByComponent) -> schema::SystemStructureDescription {
     let connections = (system.connections)();
-    let own_inputs = if form == Form::Whole { system.inputs } else { &[] };
+    let (inputs, outputs) = if form == Form::Whole { (system.inputs, system.outputs) } else { (&[][..], &[][..]) };
     let origin = origin(system);
     schema::SystemStructureDescription {
         ssd: SSD,
         ssc: SSC,
+        oms: OMS,
         version: "1.0",
         name: system.name.to_owned(),
         description: system.text.to_owned(),
@@ -36,7 +39,7 @@ pub fn describe(system: &System, form: Form, parameters: &ByComponent) -> schema
         generation_date_and_time: origin.generation_date_and_time,
         system: schema::System {
             name: "simulator".to_owned(),
-            connectors: (!own_inputs.is_empty()).then(|| inputs(system, own_inputs)),
+            connectors: (form == Form::Whole).then(|| own_connectors(system)),
             parameter_bindings: (form == Form::Whole).then(|| bound_to(system.name)),
             elements: schema::Elements {
                 components: (0..)
@@ -45,11 +48,12 @@ pub fn describe(system: &System, form: Form, parameters: &ByComponent) -> schema
                         parameter_bindings: (form == Form::Flat
                             && parameters.iter().any(|(name, _)| name == part.name))
                         .then(|| bound_to(part.name)),
-                        ..component(part, number, &connections, own_inputs)
+                        ..component(part, number, &connections, inputs, outputs)
                     })
                     .collect(),
             },
-            connections: schema::Connections { connections: wires(own_inputs, &connections) },
+            connections: schema::Connections { connections: wires(inputs, &connections, outputs) },
+            annotations: master(system),
         },
         units: units(system),
         default_experiment: schema::DefaultExperiment { start_time: 0.0, stop_time: system.stop_time },
@@ -97,29 +101,51 @@ fn bound_to(name: &str) -> schema::ParameterBindings {
     schema::ParameterBindings { bindings: vec![schema::ParameterBinding { source: parameters_path(name) }] }
 }
 
-/// The system's own connectors, each as the component's variable of that name.
-fn inputs(system: &System, inputs: &[(&str, &str)]) -> schema::Connectors {
-    let input = |&(element, name): &(&str, &str)| {
-        let component = system.component(element);
-        connector(&component.model.made.identity, name, schema::ConnectorKind::Input)
+/// The system's own connectors, inputs first, each of the type of the component's variable that it is.
+fn own_connectors(system: &System) -> schema::Connectors {
+    let own = |kind: schema::ConnectorKind| {
+        move |port: &Port| {
+            let identity = system.component(port.component).model.made.identity;
+            schema::Connector { name: port.name.to_owned(), ..connector(&identity, port.variable, kind) }
+        }
     };
-    schema::Connectors { connectors: inputs.iter().map(input).collect() }
+    let inputs = system.inputs.iter().map(own(schema::ConnectorKind::Input));
+    schema::Connectors {
+        connectors: inputs.chain(system.outputs.iter().map(own(schema::ConnectorKind::Output))).collect(),
+    }
 }
 
-/// A component with the connectors that are connected, to another or to the system's inputs, or shown.
+/// The annotation without which OMSimulator does not load a system: a master algorithm with a fixed step.
+fn master(system: &System) -> schema::Annotations {
+    let master = schema::FixedStepMaster {
+        description: "oms-ma",
+        step_size: system.step_size,
+        absolute_tolerance: 1e-4,
+        relative_tolerance: 1e-4,
+    };
+    let information = schema::SimulationInformation { master };
+    let annotations = schema::MasterAnnotations { information };
+    schema::Annotations { annotation: schema::Annotation { type_: "org.openmodelica", annotations } }
+}
+
+/// A component with the connectors that are connected, to another or to the system's own, or shown.
 fn component(
     component: &Component,
     number: i32,
     connections: &[Connection],
-    inputs: &[(&str, &str)],
+    inputs: &[Port],
+    outputs: &[Port],
 ) -> schema::Component {
     let identity = component.model.made.identity;
+    let is_port =
+        |ports: &[Port], name: &str| ports.iter().any(|port| port.component == component.name && port.variable == name);
     let has_input = |name: &str| {
-        connections.iter().any(|wire| wire.to == (component.name, name.to_owned()))
-            || inputs.contains(&(component.name, name))
+        connections.iter().any(|wire| wire.to == (component.name, name.to_owned())) || is_port(inputs, name)
     };
     let has_output = |name: &str| {
-        connections.iter().any(|wire| wire.from == (component.name, name.to_owned())) || component.shows(name)
+        connections.iter().any(|wire| wire.from == (component.name, name.to_owned()))
+            || component.shows(name)
+            || is_port(outputs, name)
     };
     let kind = |slot: usize| {
         let name = identity.variable_name(slot);
@@ -161,13 +187,19 @@ pub fn unit_name(unit: &moris_interface::Unit) -> Option<String> {
     (!unit.name.is_empty()).then(|| unit.name.to_owned())
 }
 
-/// All connections, the system's inputs first.
-fn wires(inputs: &[(&str, &str)], connections: &[Connection]) -> Vec<schema::Connection> {
-    let inputs = inputs.iter().map(|&(element, name)| schema::Connection {
+/// All connections: from the system's inputs, between components, to the system's outputs.
+fn wires(inputs: &[Port], connections: &[Connection], outputs: &[Port]) -> Vec<schema::Connection> {
+    let inputs = inputs.iter().map(|port| schema::Connection {
         start_element: None,
-        start_connector: name.to_owned(),
-        end_element: Some(element.to_owned()),
-        end_connector: name.to_owned(),
+        start_connector: port.name.to_owned(),
+        end_element: Some(port.component.to_owned()),
+        end_connector: port.variable.to_owned(),
+    });
+    let outputs = outputs.iter().map(|port| schema::Connection {
+        start_element: Some(port.component.to_owned()),
+        start_connector: port.variable.to_owned(),
+        end_element: None,
+        end_connector: port.name.to_owned(),
     });
     let inside = connections.iter().map(|Connection { from, to }| schema::Connection {
         start_element: Some(from.0.to_owned()),
@@ -175,7 +207,7 @@ fn wires(inputs: &[(&str, &str)], connections: &[Connection]) -> Vec<schema::Con
         end_element: Some(to.0.to_owned()),
         end_connector: to.1.clone(),
     });
-    inputs.chain(inside).collect()
+    inputs.chain(inside).chain(outputs).collect()
 }
 
 /// Every unit that the components' variables have, once.

@@ -15,9 +15,9 @@ pub use system::{MOTORCYCLE_SIMULATOR, System};
 /// Purpose of a package.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// The system has inputs of its own and one parameter set, as FMPy wants it.
+    /// The system has connectors of its own and one parameter set: for FMPy and OMSimulator.
     Whole,
-    /// The system has no connectors, and each component its own parameter set, as Ecos and libcosim want it.
+    /// The system has no connectors, and each component its own parameter set: for Ecos and libcosim.
     Flat,
 }
 

@@ -13,6 +13,8 @@ pub struct SystemStructureDescription {
     pub ssd: &'static str,
     #[serde(rename = "@xmlns:ssc")]
     pub ssc: &'static str,
+    #[serde(rename = "@xmlns:oms")]
+    pub oms: &'static str,
     #[serde(rename = "@version")]
     pub version: &'static str,
     #[serde(rename = "@name")]
@@ -51,6 +53,53 @@ pub struct System {
     pub elements: Elements,
     #[serde(rename = "ssd:Connections")]
     pub connections: Connections,
+    #[serde(rename = "ssd:Annotations")]
+    pub annotations: Annotations,
+}
+
+/// `Annotations`, of which there is one: the master algorithm, which OMSimulator needs to load a system.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Annotations {
+    #[serde(rename = "ssc:Annotation")]
+    pub annotation: Annotation,
+}
+
+/// `Annotation` for OMSimulator.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Annotation {
+    /// `org.openmodelica`
+    #[serde(rename = "@type")]
+    pub type_: &'static str,
+    #[serde(rename = "oms:Annotations")]
+    pub annotations: MasterAnnotations,
+}
+
+/// `oms:Annotations`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MasterAnnotations {
+    #[serde(rename = "oms:SimulationInformation")]
+    pub information: SimulationInformation,
+}
+
+/// `oms:SimulationInformation`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SimulationInformation {
+    #[serde(rename = "oms:FixedStepMaster")]
+    pub master: FixedStepMaster,
+}
+
+/// `oms:FixedStepMaster`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FixedStepMaster {
+    #[serde(rename = "@description")]
+    pub description: &'static str,
+    /// \[s\]
+    #[serde(rename = "@stepSize")]
+    pub step_size: f64,
+    #[serde(rename = "@absoluteTolerance")]
+    pub absolute_tolerance: f64,
+    #[serde(rename = "@relativeTolerance")]
+    pub relative_tolerance: f64,
 }
 
 /// `Connectors`.

@@ -14,12 +14,25 @@ pub struct System {
     pub components: &'static [Component],
     /// Which output each input gets.
     pub connections: fn() -> Vec<Connection>,
-    /// Inputs that the system has itself: the component and its variable, by whose name they go.
-    pub inputs: &'static [(&'static str, &'static str)],
+    /// Inputs of the system itself.
+    pub inputs: &'static [Port],
+    /// Outputs of the system itself.
+    pub outputs: &'static [Port],
     /// Parameters that the components start with: a table in TOML for each component.
     pub parameters: &'static str,
     /// Where the default experiment ends \[s\].
     pub stop_time: f64,
+    /// Communication step, for tools that read one \[s\].
+    pub step_size: f64,
+}
+
+/// An input or output of a system, and the component's variable that it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Port {
+    /// Letters and digits only: OMSimulator takes dots for the names of elements.
+    pub name: &'static str,
+    pub component: &'static str,
+    pub variable: &'static str,
 }
 
 /// An FMU in a system.
@@ -78,10 +91,42 @@ pub const MOTORCYCLE_SIMULATOR: System = System {
         },
     ],
     connections: simulator_connections,
-    inputs: &[("motorcycle", "command.throttle"), ("motorcycle", "command.brake"), ("motorcycle", "command.lean")],
+    inputs: &[
+        port("throttle", "motorcycle", "command.throttle"),
+        port("brake", "motorcycle", "command.brake"),
+        port("lean", "motorcycle", "command.lean"),
+    ],
+    outputs: &[
+        port("speed", "motorcycle", "vehicle.speed"),
+        port("feltSpecificForceX", "platform", "rider.specificForce.x"),
+        port("feltSpecificForceY", "platform", "rider.specificForce.y"),
+        port("feltSpecificForceZ", "platform", "rider.specificForce.z"),
+        port("feltAngularVelocityX", "platform", "rider.angularVelocity.x"),
+        port("feltAngularVelocityY", "platform", "rider.angularVelocity.y"),
+        port("feltAngularVelocityZ", "platform", "rider.angularVelocity.z"),
+        port("actuatorLength1", "platform", "actuator[1].length"),
+        port("actuatorLength2", "platform", "actuator[2].length"),
+        port("actuatorLength3", "platform", "actuator[3].length"),
+        port("actuatorLength4", "platform", "actuator[4].length"),
+        port("actuatorLength5", "platform", "actuator[5].length"),
+        port("actuatorLength6", "platform", "actuator[6].length"),
+        port("strokeMargin", "washout", "status.strokeMargin"),
+        port("tiltLimited", "washout", "status.tiltLimited"),
+        port("safetyActive", "washout", "status.safetyActive"),
+        port("actuatorLimited", "washout", "status.actuatorLimited"),
+        port("commandRefused", "platform", "status.commandRefused"),
+        port("driveLimited", "platform", "status.driveLimited"),
+        port("forceLimited", "platform", "status.forceLimited"),
+        port("atStop", "platform", "status.atStop"),
+    ],
     parameters: include_str!("../../ssp/MotorcycleSimulator.toml"),
     stop_time: 45.0,
+    step_size: 0.001,
 };
+
+const fn port(name: &'static str, component: &'static str, variable: &'static str) -> Port {
+    Port { name, component, variable }
+}
 
 /// The motorcycle to the washout, name by name; the washout's legs to the platform's; the rider's lean to both.
 fn simulator_connections() -> Vec<Connection> {

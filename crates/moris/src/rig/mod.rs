@@ -19,17 +19,18 @@ use moris_setup::load_rig;
 
 use survey::{Singularities, Survey};
 
-/// Check a rig
+/// Look at a rig
 #[derive(Clone, Debug, clap::Subcommand)]
 pub enum Command {
     /// Reach and singularities of a rig
     ///
-    /// Prints reach, speed and acceleration along each axis alone, the size of the workspace and the condition number over all
-    /// leg lengths, and draws the rig. The exit status is not 0 for an invalid rig.
+    /// Prints how far, how fast and how hard the platform goes along each axis alone, how large its workspace is and how well
+    /// conditioned it is over the whole box of its leg lengths, and draws it. The exit status is not 0 for a rig that cannot
+    /// be used.
     Check(CheckOptions),
 }
 
-/// The rig to check.
+/// Which rig to check.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckOptions {
     /// Rig file; crates/moris/rigs has examples
@@ -39,12 +40,12 @@ pub struct CheckOptions {
     #[arg(long, value_name = "DIRECTORY", default_value = "report")]
     report: PathBuf,
 
-    /// Number of points for the workspace's volume
+    /// Points to try for the workspace's volume
     #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u32).range(1000..=1_000_000_000))]
     samples: u32,
 }
 
-/// Runs the command.
+/// Does what the command says.
 ///
 /// # Errors
 /// The rig file cannot be used, or the picture cannot be written.

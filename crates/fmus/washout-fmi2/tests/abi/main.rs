@@ -6,7 +6,6 @@ mod derivatives;
 mod fixture;
 mod forged_states;
 mod hostile;
-mod hunter;
 #[cfg(target_os = "linux")]
 mod process;
 mod real_time;
