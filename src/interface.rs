@@ -24,9 +24,9 @@ interface! {
 interface! {
     /// Inputs from the vehicle model at every communication point.
     pub struct Input: Input, Continuous {
-        /// Specific force at the washout location in the rider's head axes (x forward, y left, z up): what an accelerometer there reads, (0, 0, +g) at rest.
+        /// Specific force at the washout location in the rider's head axes (x forward, y left, z up), as an accelerometer measures it: (0, 0, +g) at rest.
         "vehicle.specificForce.@" specific_force: Vector3<f64> [M_PER_S2] { -1e4 ..= 1e4 } = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
-        /// Angular velocity of the vehicle, in the axes that angularVelocityFrame says.
+        /// Angular velocity of the vehicle, in the axes given by angularVelocityFrame.
         "vehicle.angularVelocity.@" angular_velocity: Vector3<f64> [RAD_PER_S] { -1e3 ..= 1e3 } = Vector3::new(0.0, 0.0, 0.0);
         /// Orientation of the vehicle in its own world (roll about x, pitch about y with nose down positive, yaw about z).
         "vehicle.orientation.@" orientation: RollPitchYaw [RAD] { -1e6 ..= 1e6 } = RollPitchYaw::new(0.0, 0.0, 0.0);
@@ -56,13 +56,13 @@ interface! {
         "actuator[#].length" length: [f64; 6] [M] = [0.0; 6];
         /// Commanded rate of the actuator's length.
         "actuator[#].velocity" leg_velocity: [f64; 6] [M_PER_S] = [0.0; 6];
-        /// Specific force that the rider feels at the washout location on the commanded motion, in head axes.
+        /// Specific force at the washout location on the commanded motion, in head axes.
         "rider.specificForce.@" felt_specific_force: Vector3<f64> [M_PER_S2] = Vector3::new(0.0, 0.0, 0.0);
-        /// Angular velocity that the rider feels on the commanded motion, in head axes.
+        /// Angular velocity at the washout location on the commanded motion, in head axes.
         "rider.angularVelocity.@" felt_angular_velocity: Vector3<f64> [RAD_PER_S] = Vector3::new(0.0, 0.0, 0.0);
-        /// Tilt coordination's share of the platform's roll.
+        /// Part of the platform's roll due to tilt coordination.
         "tilt.roll" tilt_roll: f64 [RAD] = 0.0;
-        /// Tilt coordination's share of the platform's pitch.
+        /// Part of the platform's pitch due to tilt coordination.
         "tilt.pitch" tilt_pitch: f64 [RAD] = 0.0;
         /// Rate of tilt coordination's roll.
         "tilt.rollRate" tilt_roll_rate: f64 [RAD_PER_S] = 0.0;
@@ -76,6 +76,12 @@ interface! {
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
+        /// Whether the predictive strategy's last attempt at a new plan failed, so that the plan before is carried on with.
+        "status.planKept" plan_kept: bool = false;
+        /// Time since the plan of the predictive strategy was begun.
+        "predictive.planAge" plan_age: f64 [S] = 0.0;
+        /// Iterations that the last plan of the predictive strategy took.
+        "predictive.iterations" plan_iterations: i32 = 0;
     }
 }
 
@@ -92,7 +98,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// Which of the accelerations that tilting causes at the washout location is compensated by linear motion.
+    /// Tilt-induced accelerations at the washout location that linear motion compensates.
     pub enum Compensation {
         /// None of them.
         "none" None,
@@ -100,7 +106,7 @@ enumeration! {
         "centripetal" Centripetal,
         /// The centripetal and the tangential term.
         "full" Full,
-        /// Both, and what gravity adds where the angular channel turns the platform away from the tilt.
+        /// Both, and the part of gravity due to rotation of the platform by the angular channel.
         "gravity" Gravity,
     }
 }
@@ -118,15 +124,15 @@ enumeration! {
 enumeration! {
     /// Reconstruction of inputs within a communication step without input derivatives.
     pub enum Reconstruction {
-        /// It is held.
+        /// Hold the input.
         "hold" Hold,
-        /// It goes linearly from the last step's input to this step's, which is reached at the step's end.
+        /// Ramp linearly from the last step's input to this step's, reached at the step's end.
         "ramp" Ramp,
     }
 }
 
 enumeration! {
-    /// Where the low-frequency force for tilt coordination comes from.
+    /// Source of the low-frequency force for tilt coordination.
     pub enum LowPassKind {
         /// Complement of the high-pass, so that the two add up to the input, eq. (6).
         "complementary" Complementary,
@@ -140,15 +146,41 @@ enumeration! {
     pub enum Preaction {
         /// Nothing.
         "off" Off,
-        /// The tilt begins to end before the stop, and surge holds part of the force meanwhile.
+        /// The tilt decreases ahead of the stop, and surge provides part of the force meanwhile.
         "on" On,
+    }
+}
+
+enumeration! {
+    /// How the cue is divided between surge, sway and tilt.
+    pub enum StrategyKind {
+        /// High-pass to travel, low-pass to tilt (the paper).
+        "classical" Classical,
+        /// A filter whose gains follow the gradient of a cost.
+        "adaptive" Adaptive,
+        /// A linear-quadratic regulator.
+        "optimal" Optimal,
+        /// A plan of the next seconds within all limits, made anew 50 times a second.
+        "predictive" Predictive,
+    }
+}
+
+enumeration! {
+    /// How the predictive strategy forecasts the specific force.
+    pub enum ForecastKind {
+        /// By a mixture of experts, one of which learns from the ride.
+        "learned" Learned,
+        /// Its slow and its fast part fade.
+        "decay" Decay,
+        /// It stays what it is.
+        "hold" Hold,
     }
 }
 
 enumeration! {
     /// The point of the platform at which the vehicle's motion is given, compensated for and evaluated.
     pub enum WashoutLocation {
-        /// The rider's head, which moves with his lean.
+        /// The rider's head, which moves with the rider's lean.
         "head" Head,
         /// The origin of the platform frame.
         "platform" Platform,
@@ -196,17 +228,17 @@ interface! {
         "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
         "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
-        /// Largest scaled specific force; up to 80 % of it nothing changes, and it is approached smoothly.
+        /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(8.0, 8.0, 8.0);
-        /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), approached like the specific force's.
+        /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), limited like the specific force.
         "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] { 1e-3 ..= 1e6 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
         "input.cutoff" cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
         /// Method of removing gravity from the specific force.
         "gravityRemoval" gravity_removal: GravityRemoval = GravityRemoval::HeadVertical;
-        /// Which accelerations caused by tilting are compensated.
+        /// Tilt-induced accelerations that are compensated.
         "compensation" compensation: Compensation = Compensation::Full;
-        /// The axes of vehicle.angularVelocity.
+        /// Axes of vehicle.angularVelocity.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Break frequency of a second-order low-pass on the angular rates alone; 0 is off.
         "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
@@ -230,11 +262,11 @@ interface! {
 interface! {
     /// Block (3): the safety units, one for each axis of the base frame, about the neutral position.
     pub struct SafetyParameters: Parameter, Tunable {
-        /// Farthest that the platform goes from neutral.
+        /// Largest displacement of the platform from neutral.
         "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.45, 0.45, 0.33);
         /// Largest velocity of the platform.
         "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
-        /// Largest acceleration of the platform; it also brakes with it.
+        /// Largest acceleration of the platform, for braking too.
         "safety.@.accelerationLimit" acceleration_limit: Vector3<f64> [M_PER_S2] { 1e-9 ..= 1e9 } = Vector3::new(10.0, 10.0, 10.0);
     }
 }
@@ -246,13 +278,13 @@ interface! {
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Order of the splitter's high-pass filters.
         "splitter.order" splitter_order: i32 { 2 ..= 4 } = 4;
-        /// Where the low-frequency force comes from.
+        /// Source of the low-frequency force.
         "splitter.lowPass" low_pass: LowPassKind = LowPassKind::Complementary;
         /// Order of the angular channel's high-pass filters.
         "angular.order" angular_order: i32 { 2 ..= 4 } = 4;
         /// Height of the rider's head above the platform (the paper's h).
         "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2;
-        /// Length of the torso from seat to head, about whose lower end the rider leans (the paper's b).
+        /// Length of the torso from the seat, its lean axis, to the head (the paper's b).
         "head.torsoLength" torso_length: f64 [M] { 0.0 ..= 10.0 } = 0.75;
         /// The point at which the vehicle's motion is given, compensated for and evaluated.
         "washoutLocation" washout_location: WashoutLocation = WashoutLocation::Head;
@@ -262,11 +294,13 @@ interface! {
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
         /// True if tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
+        /// How the cue is divided between surge, sway and tilt.
+        "strategy" strategy: StrategyKind = StrategyKind::Classical;
     }
 }
 
 interface! {
-    /// The Stewart platform: its joints, and what its actuators can do.
+    /// The Stewart platform: joints and actuator limits.
     pub struct Rig: Parameter, Fixed {
         /// Height of the platform frame's origin above the base frame's at neutral.
         "rig.neutralHeight" neutral_height: f64 [M] { 1e-3 ..= 100.0 } = 1.091;
@@ -285,8 +319,82 @@ interface! {
     }
 }
 
+interface! {
+    /// The adaptive strategy, for surge and sway each.
+    pub struct AdaptiveParameters: Parameter, Tunable {
+        /// Break frequency of the adaptive strategy's high-pass from force to travel.
+        "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8;
+        /// Damping ratio of the adaptive strategy's high-pass from force to travel.
+        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.34;
+        /// How fast the gain from force to travel follows the gradient of the cost.
+        "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18;
+        /// How fast the gain from force to tilt rate follows the gradient of the cost.
+        "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16;
+        /// Gain from force to travel to which the adaptation is pulled.
+        "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986;
+        /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
+        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.17;
+        /// Price of travel, beside 1 for the error of the felt force.
+        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 10.6;
+        /// Price of the travel's velocity.
+        "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13;
+        /// Price of the tilt rate.
+        "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63;
+        /// Price of the distance of the gain from force to travel from its nominal value.
+        "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115;
+        /// Price of the distance of the gain from force to tilt rate from its nominal value.
+        "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349;
+    }
+}
+
+interface! {
+    /// The optimal strategy, for surge and sway each.
+    pub struct OptimalParameters: Parameter, Tunable {
+        /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
+        "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209;
+        /// Price of the travel's velocity at its limit.
+        "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105;
+        /// Price of the tilt rate at its limit.
+        "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033;
+        /// Price of the tilt acceleration at its limit.
+        "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242;
+        /// How fast the slow part of the force is expected to fade.
+        "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345;
+        /// How fast the fast part of the force is expected to fade.
+        "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71;
+        /// Time constant that splits the force into its slow and its fast part.
+        "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117;
+    }
+}
+
+interface! {
+    /// The predictive strategy, for surge and sway together.
+    pub struct PredictiveParameters: Parameter, Tunable {
+        /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 5e-4;
+        /// Price of the travel's velocity at its limit.
+        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 1e-2;
+        /// Price of the tilt rate at its limit.
+        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.2e-3;
+        /// Price of the tilt acceleration at its limit.
+        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 7e-4;
+        /// How fast the slow part of the force is expected to fade beyond the plan.
+        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.0368;
+        /// How fast the fast part of the force is expected to fade beyond the plan.
+        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.9;
+        /// How the force is forecast.
+        "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
+        /// Time constant with which the learned forecast forgets.
+        "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 60.0;
+        /// Time constant over which the learned forecast's experts are compared.
+        "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 3.0;
+        /// What a plan leaves of an actuator's stroke at either end.
+        "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
+    }
+}
+
 interface_tree! {
-    /// Everything that can be set: the filter's parameters and the rig.
+    /// All parameters: the filter's and the rig's.
     pub struct Parameters {
         splitter: SplitterParameters,
         angular: AngularParameters,
@@ -294,6 +402,9 @@ interface_tree! {
         tilt: TiltParameters,
         safety: SafetyParameters,
         structure: StructureParameters,
+        adaptive: AdaptiveParameters,
+        optimal: OptimalParameters,
+        predictive: PredictiveParameters,
         rig: Rig,
     }
 }

@@ -2,7 +2,7 @@
 
 use moris_interface::{Causality, Model};
 
-use crate::interface::{Parameters, Preaction};
+use crate::interface::{Parameters, Preaction, StrategyKind};
 use crate::model::parameters_in;
 use crate::washout::Washout;
 
@@ -29,6 +29,13 @@ pub const WAKE: &[(&str, f64)] = &[
 
 /// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and surge act before it comes.
 pub const PREACTION: &[(&str, f64)] = &[("preaction", 1.0 + Preaction::On as i32 as f64)]; // Items count from 1.
+
+/// The default, by the strategies beside the classical one.
+pub const ADAPTIVE: &[(&str, f64)] = &[("strategy", 1.0 + StrategyKind::Adaptive as i32 as f64)];
+/// See [`ADAPTIVE`].
+pub const OPTIMAL: &[(&str, f64)] = &[("strategy", 1.0 + StrategyKind::Optimal as i32 as f64)];
+/// See [`ADAPTIVE`].
+pub const PREDICTIVE: &[(&str, f64)] = &[("strategy", 1.0 + StrategyKind::Predictive as i32 as f64)];
 
 /// The default parameters with a set's values over them.
 ///

@@ -30,7 +30,7 @@ fn check_head(parameters: &Parameters) -> Result<(), Refusal> {
         return refuse(
             "head.torsoLength",
             format!(
-                "is {}, but the seat would be below the platform: it must not exceed head.height, {}",
+                "is {} m, which puts the seat below the platform; it must not exceed head.height, {} m",
                 structure.torso_length, structure.head_height
             ),
         );
@@ -41,7 +41,10 @@ fn check_head(parameters: &Parameters) -> Result<(), Refusal> {
 fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
     let Rig { min_length, max_length, .. } = *rig;
     if min_length >= max_length {
-        return refuse("actuator.minLength", format!("is {min_length}, not below actuator.maxLength, {max_length}"));
+        return refuse(
+            "actuator.minLength",
+            format!("is {min_length} m; it must be below actuator.maxLength, {max_length} m"),
+        );
     }
     let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig));
     for (i, length) in neutral.iter().enumerate() {

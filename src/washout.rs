@@ -9,10 +9,11 @@ use crate::cueing::compensation::compensated;
 use crate::cueing::conditioning::{Cue, InputFilter, cue, forward_acceleration};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
-use crate::cueing::gravitational::GravitationalStrategy;
 use crate::cueing::preaction::StopPreaction;
-use crate::cueing::splitter::LowPass;
-use crate::interface::{Input, Output, Parameters, Preaction, Reconstruction};
+use crate::cueing::strategy::Strategy;
+use crate::cueing::strategy::coordinated::Circumstances;
+use crate::interface::{Input, Output, Parameters, Preaction, Reconstruction, StrategyKind};
+use crate::motion::Motions;
 use crate::motion::orientation::Turning;
 use crate::platform::head::Head;
 use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
@@ -44,8 +45,7 @@ pub struct Washout {
     last: Sample,
     input_filter: InputFilter,
     preaction: StopPreaction,
-    low_pass: LowPass,
-    gravitational: GravitationalStrategy,
+    strategy: Strategy,
     angular: AngularChannel,
     direct_linear: DirectLinearMotion,
     guard: ActuatorGuard,
@@ -105,6 +105,7 @@ impl Washout {
         check(parameters)?;
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
         let guard = ActuatorGuard::new(rig, structure.max_step);
+        let strategy = Strategy::new(parameters).ok_or_else(|| no_regulator(parameters))?;
         let last = Sample::new(&Input::default(), parameters);
         let at_rest = felt(guard.motion(), &last.head, structure.gravity);
         Ok(Washout {
@@ -113,8 +114,7 @@ impl Washout {
             last,
             input_filter: InputFilter::default(),
             preaction: StopPreaction::new(structure.max_step),
-            low_pass: LowPass::new(splitter, structure.splitter_order, structure.low_pass),
-            gravitational: GravitationalStrategy::default(),
+            strategy,
             angular: AngularChannel::new(angular, structure.angular_order),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
             guard,
@@ -203,26 +203,42 @@ impl Washout {
         let rotation_at_end = self.guard.motion().rotation_after(step);
         let force_start = rotation * head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
-        let low_frequency = self.low_pass.advance(force_start, force_end, step);
-
-        let Parameters { conditioning, tilt, safety, structure, rig, .. } = &self.parameters;
+        let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
         let mut angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
-        let low_frequency = head_at_end.to_head_axes(rotation_at_end.tr_mul(&low_frequency));
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * self.engagement;
-        self.gravitational.advance(low_frequency, structure.gravity, lean, tilt, structure.max_step, step);
-
-        self.gravitational.add_to(&mut angles);
+        let circumstances = Circumstances {
+            parameters: &self.parameters,
+            guard: &self.guard,
+            head: &head_at_end,
+            force: cue_end.force,
+            angles: &angles.clone(),
+            lean,
+            engagement: self.engagement,
+            time_to_stop: self.preaction.time_left(),
+        };
+        match &mut self.strategy {
+            Strategy::Classical(classical) => {
+                let forces = [force_start, force_end];
+                classical.advance_tilt(forces, &rotation_at_end, &head_at_end, lean, &self.parameters, step);
+            }
+            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances, step),
+        }
+        self.strategy.add_tilt_to(&mut angles);
         let turning = Turning::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
-        let tilt = self.gravitational.tilt();
+        let tilt = self.strategy.tilt_angles();
         let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
-        let linear = self.direct_linear.advance(
-            [force_start - spurious, force_end - spurious],
-            self.preaction.surge(),
-            safety,
-            step,
-        );
+        let mut demand = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
+        match &self.strategy {
+            Strategy::Classical(_) => demand.add_to_axis(0, self.preaction.surge()),
+            Strategy::Coordinated(coordinated) => {
+                let heave = coordinated.heave(&demand.axis(2));
+                let [surge, sway] = coordinated.travel(&circumstances, &turning, &heave, step);
+                demand = Motions::from_axes(|k| [surge, sway, heave][k]);
+            }
+        }
+        let linear = self.direct_linear.advance_within_limits(&demand, safety, step);
 
         let wanted = Coordinates { linear: *linear, angles };
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
@@ -230,11 +246,16 @@ impl Washout {
         self.guard.advance(&wanted, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
         self.last = *end;
-        self.limited.tilt |= self.gravitational.limited;
+        self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.limited();
         if self.guard.limited() {
-            self.direct_linear.stay_within(safety, &self.guard.coordinates().linear);
+            let real = &self.guard.coordinates().linear;
+            match &self.strategy {
+                Strategy::Classical(_) => self.direct_linear.stay_within(safety, real),
+                // These decide from the real motion, so that there is nothing to catch up with.
+                Strategy::Coordinated(_) => self.direct_linear.continue_from(real),
+            }
         }
     }
 
@@ -254,8 +275,11 @@ impl Washout {
             let acceleration = self.engagement * forward_acceleration(input, conditioning, structure.gravity);
             let braking = [end.force.x, acceleration, input.speed];
             self.preaction.advance(braking, structure.gravity, tilt, safety, step);
-            start.force.x = self.preaction.tilted_force(start.force.x);
-            end.force.x = self.preaction.tilted_force(end.force.x);
+            // The predictive strategy plans for the stop itself.
+            if matches!(self.strategy, Strategy::Classical(_)) {
+                start.force.x = self.preaction.tilted_force(start.force.x);
+                end.force.x = self.preaction.tilted_force(end.force.x);
+            }
         }
     }
 
@@ -266,13 +290,15 @@ impl Washout {
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
         check_change(&self.parameters, parameters)?;
+        if !self.strategy.retune(parameters) {
+            return Err(no_regulator(parameters));
+        }
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
         self.last = Sample::new(&self.last.input, parameters);
         let now = self.input_filter.output(self.last.cue.scaled(self.engagement), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;
-        self.low_pass.retune(&parameters.splitter, order);
         self.direct_linear.retune(&parameters.splitter, order, force_before, force_after);
         self.angular.retune(&parameters.angular, parameters.structure.angular_order, rates_before, rates_after);
         Ok(())
@@ -286,7 +312,7 @@ impl Washout {
         let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
         let turning = Turning::new(&self.guard.demand().angles);
         let arm = turning.orientation.rotation * head.point;
-        let tilt = self.gravitational.tilt();
+        let tilt = self.strategy.tilt_angles();
         (force - compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity), cue.rates)
     }
 
@@ -304,6 +330,8 @@ impl Washout {
     pub fn output(&self) -> Output {
         let motion = self.guard.motion();
         let legs = self.guard.legs();
+        let [tilt_roll, tilt_pitch] = self.strategy.tilt();
+        let plan = self.strategy.plan();
         Output {
             position: motion.position,
             velocity: motion.velocity,
@@ -314,14 +342,17 @@ impl Washout {
             leg_velocity: legs.velocity,
             felt_specific_force: self.felt.specific_force,
             felt_angular_velocity: self.felt.angular_velocity,
-            tilt_roll: self.gravitational.roll.position,
-            tilt_pitch: self.gravitational.pitch.position,
-            tilt_roll_rate: self.gravitational.roll.velocity,
-            tilt_pitch_rate: self.gravitational.pitch.velocity,
+            tilt_roll: tilt_roll.position,
+            tilt_pitch: tilt_pitch.position,
+            tilt_roll_rate: tilt_roll.velocity,
+            tilt_pitch_rate: tilt_pitch.velocity,
             tilt_limited: self.limited.tilt,
             safety_active: self.limited.safety,
             actuator_limited: self.limited.actuator,
             stroke_margin: self.guard.stroke_margin(),
+            plan_kept: plan.is_some_and(|plan| plan.kept),
+            plan_age: plan.map_or(0.0, |plan| plan.age),
+            plan_iterations: plan.map_or(0, |plan| plan.iterations as i32),
         }
     }
 
@@ -332,6 +363,7 @@ impl Washout {
     pub fn output_derivative(&self) -> Output {
         let motion = self.guard.motion();
         let legs = self.guard.legs();
+        let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let per_step = if self.before.step > 0.0 { 1.0 / self.before.step } else { 0.0 };
         Output {
             position: motion.velocity,
@@ -343,14 +375,17 @@ impl Washout {
             leg_velocity: self.guard.leg_accelerations(),
             felt_specific_force: (self.felt.specific_force - self.before.felt.specific_force) * per_step,
             felt_angular_velocity: (self.felt.angular_velocity - self.before.felt.angular_velocity) * per_step,
-            tilt_roll: self.gravitational.roll.velocity,
-            tilt_pitch: self.gravitational.pitch.velocity,
-            tilt_roll_rate: self.gravitational.roll.acceleration,
-            tilt_pitch_rate: self.gravitational.pitch.acceleration,
+            tilt_roll: tilt_roll.velocity,
+            tilt_pitch: tilt_pitch.velocity,
+            tilt_roll_rate: tilt_roll.acceleration,
+            tilt_pitch_rate: tilt_pitch.acceleration,
             tilt_limited: false,
             safety_active: false,
             actuator_limited: false,
             stroke_margin: self.guard.stroke_margin_rate(),
+            plan_kept: false,
+            plan_age: f64::from(self.strategy.plan().is_some()),
+            plan_iterations: 0,
         }
     }
 }
@@ -359,4 +394,16 @@ impl Washout {
 fn faded(engagement: f64, engaged: bool, step: f64) -> f64 {
     let change = step / ENGAGE_TIME;
     if engaged { (engagement + change).min(1.0) } else { (engagement - change).max(0.0) }
+}
+
+/// The refusal of a strategy's prices for which there is no regulator in numbers.
+fn no_regulator(parameters: &Parameters) -> Refusal {
+    let prefix = if parameters.structure.strategy == StrategyKind::Predictive { "predictive" } else { "optimal" };
+    Refusal {
+        variable: format!("{prefix}.weightPosition"),
+        reason:
+            "and the strategy's other weights and poles lead to no regulator in numbers; choose them nearer to their \
+                 start values"
+                .to_owned(),
+    }
 }

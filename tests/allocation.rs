@@ -1,6 +1,6 @@
 //! A step allocates no memory, whatever happens in it.
 
-use moris_washout::interface::RollPitchYaw;
+use moris_washout::interface::{RollPitchYaw, StrategyKind};
 use moris_washout::{Input, Parameters, Washout};
 use nalgebra::Vector3;
 
@@ -29,7 +29,13 @@ fn the_counter_counts() {
 
 #[test]
 fn a_step_allocates_nothing() {
-    let mut washout = Washout::new(&Parameters::default()).unwrap();
+    for strategy in [StrategyKind::Classical, StrategyKind::Adaptive, StrategyKind::Optimal, StrategyKind::Predictive] {
+        assert_eq!(allocations_of_a_ride(strategy), 0, "{strategy:?}");
+    }
+}
+
+fn allocations_of_a_ride(strategy: StrategyKind) -> u64 {
+    let mut washout = Washout::new(&with_strategy(strategy)).unwrap();
     let (mut safety, mut actuator) = (false, false);
     let count = allocations(|| {
         for k in 0..5000 {
@@ -41,14 +47,25 @@ fn a_step_allocates_nothing() {
             actuator |= output.actuator_limited;
         }
     });
-    assert!(safety && actuator, "the ride must be rough enough");
-    assert_eq!(count, 0);
+    assert!(safety && actuator, "the ride must be rough enough for {strategy:?}");
+    count
+}
+
+fn with_strategy(strategy: StrategyKind) -> Parameters {
+    let mut parameters = Parameters::default();
+    parameters.structure.strategy = strategy;
+    parameters
 }
 
 #[test]
 fn retuning_with_the_default_rig_allocates_nothing() {
-    let mut washout = Washout::new(&Parameters::default()).unwrap();
-    let mut parameters = Parameters::default();
-    parameters.splitter.omega1.x = 1.7;
-    assert_eq!(allocations(|| washout.retune(&parameters).unwrap()), 0);
+    for strategy in [StrategyKind::Classical, StrategyKind::Adaptive, StrategyKind::Optimal, StrategyKind::Predictive] {
+        let mut parameters = with_strategy(strategy);
+        let mut washout = Washout::new(&parameters).unwrap();
+        parameters.splitter.omega1.x = 1.7;
+        parameters.adaptive.omega = 1.0;
+        parameters.optimal.weight_position = 0.3;
+        parameters.predictive.weight_position = 1e-3;
+        assert_eq!(allocations(|| washout.retune(&parameters).unwrap()), 0, "{strategy:?}");
+    }
 }

@@ -14,7 +14,7 @@ use moris_setup::{NamedValues, load_rig, load_set};
 /// Without options every model's FMU is built for this machine and lands in target/fmu. A library for Linux runs on glibc
 /// 2.17 and newer.
 ///
-/// With --rig and --parameters the FMUs start with a rig and parameters of your own instead of the models'.
+/// --rig and --parameters embed a rig and parameters as start values in place of the models' own.
 #[derive(Parser)]
 #[command(name = "cargo build-fmu", version)]
 struct Arguments {
@@ -26,24 +26,24 @@ struct Arguments {
     #[arg(long, value_name = "VERSION", default_value = "2")]
     fmi: FmiVersion,
 
-    /// With FMI 3.0: make array variables of vectors, for tools that have them
+    /// Describe vectors as array variables (FMI 3.0 only), for tools that support them
     #[arg(long)]
     arrays: bool,
 
-    /// Platforms that the FMUs shall run on, separated by commas [default: this machine's]
+    /// Platforms of the FMUs, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
 
-    /// Rig file whose rig the FMUs start with, those that have one
+    /// Rig file to embed, in the FMUs of models with a rig
     #[arg(long, value_name = "FILE")]
     rig: Option<PathBuf>,
 
-    /// Parameter file, or shipped set (wake, preaction), whose values the washout's FMU starts with; another model's if --model names
-    /// that one alone. May be given several times: later ones stand over earlier ones, and all over the rig
+    /// Parameter file, or preset (wake, preaction), to embed in the washout's FMU; in another model's if --model names that one
+    /// alone. May be given several times: later ones override earlier ones, and all of them the rig
     #[arg(long, value_name = "FILE|NAME")]
     parameters: Vec<String>,
 
-    /// Directory that the FMUs are written into [default: target/fmu in the workspace]
+    /// Directory for the FMUs [default: target/fmu in the workspace]
     #[arg(long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
 }
@@ -64,12 +64,12 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
     let fmi = fmi_version(arguments)?;
     // Before anything is compiled.
-    check_taken(arguments, &models)?;
+    check_used(arguments, &models)?;
     let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
     let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
     for (model, start) in models.iter().zip(&starts) {
         if !start.is_the_model_s_own() {
-            println!("{}: starts with {} values in place of its own", model.name, start.count());
+            println!("{}: {} embedded start values", model.name, start.count());
         }
         let report = |line: &str| println!("{line}");
         let built = build_with(model, start, fmi, &arguments.platform, &output, report)?;
@@ -87,12 +87,12 @@ fn fmi_version(arguments: &Arguments) -> Result<FmiVersion, Error> {
 }
 
 /// Checks that each option with start values applies to one of the models.
-fn check_taken(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
+fn check_used(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
     if arguments.rig.is_some() && !models.iter().any(|model| model.has_rig()) {
         return Err(Error::NotTaken { option: "rig", who: "only models with a platform have a rig" });
     }
     if !arguments.parameters.is_empty() && !models.iter().any(|model| takes_parameters(arguments, model)) {
-        let who = "of several models only the washout does; any other one has to be chosen alone";
+        let who = "with several models they are the washout's; choose another model alone with --model";
         return Err(Error::NotTaken { option: "parameters", who });
     }
     Ok(())
@@ -131,15 +131,15 @@ mod tests {
         let chosen =
             |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
         let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
-        check_taken(&arguments, &models).err().map(|error| error.to_string())
+        check_used(&arguments, &models).err().map(|error| error.to_string())
     }
 
     #[test]
     fn values_that_no_chosen_model_takes_are_refused() {
         let refused = refusal(&["--model", "Motorcycle", "--rig", "rig.toml"]).unwrap();
-        assert!(refused.contains("--rig would do nothing") && refused.contains("--model"), "{refused}");
+        assert!(refused.contains("--rig applies to none") && refused.contains("--model"), "{refused}");
         let refused = refusal(&["--model", "Motorcycle,StewartPlatform", "--parameters", "mine.toml"]).unwrap();
-        assert!(refused.contains("--parameters would do nothing"), "{refused}");
+        assert!(refused.contains("--parameters applies to none"), "{refused}");
     }
 
     #[test]

@@ -115,7 +115,7 @@ fn what_a_washout_cannot_start_with_is_refused_with_the_reason() {
     assert!(message.contains("MorisWashout") && message.contains("singular inside the stroke"), "{message}");
 
     let message = refusal(&named(&[("actuator.minLength", 1.7)]));
-    assert!(message.contains("actuator.minLength: is 1.7, not below actuator.maxLength, 1.6"), "{message}");
+    assert!(message.contains("actuator.minLength: is 1.7 m; it must be below actuator.maxLength, 1.6 m"), "{message}");
     let message = refusal(&named(&[("actuator.maxLength", 1.2)]));
     assert!(message.contains("outside its stroke"), "{message}");
     let message = refusal(&named(&[("safety.z.positionLimit", 0.4)]));

@@ -10,7 +10,6 @@ use crate::filter::bumpless::Bump;
 use crate::filter::chain::Chains;
 use crate::interface::{SafetyParameters, SplitterParameters};
 use crate::motion::Motions;
-use crate::motion::braking_law::Motion;
 
 /// The linear channel with its state: surge, sway and heave, along x, y and z of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,28 +34,28 @@ impl DirectLinearMotion {
         self.bump.add(acceleration - self.chains.high_pass(after));
     }
 
-    /// Advances by `step` seconds while the input, a force in the base frame, goes linearly from `start` to `end`.
-    /// `planned` is a surge beside the filters'. Returns surge, sway and heave from neutral, which keep the safety limits.
-    pub fn advance(
-        &mut self,
-        [start, end]: [Vector3<f64>; 2],
-        planned: &Motion,
-        limits: &SafetyParameters,
-        step: f64,
-    ) -> &Motions {
+    /// Advances the filters by `step` seconds while the input, a force in the base frame, goes linearly from `start` to
+    /// `end`. Returns the surge, sway and heave from neutral that they demand.
+    pub fn advance_filters(&mut self, [start, end]: [Vector3<f64>; 2], step: f64) -> Motions {
         let (bump_start, bump_end) = self.bump.advance(step);
         let end = end + bump_end;
         self.chains.advance(start + bump_start, end, step);
-        let mut wanted = Motions {
+        Motions {
             position: self.chains.second_integral(),
             velocity: self.chains.first_integral(),
             acceleration: self.chains.high_pass(end),
-        };
-        wanted.position.x += planned.position;
-        wanted.velocity.x += planned.velocity;
-        wanted.acceleration.x += planned.acceleration;
-        self.safety.advance(&wanted, limits, step);
+        }
+    }
+
+    /// Surge, sway and heave `step` seconds later that keep the safety limits and come nearest to the demand.
+    pub fn advance_within_limits(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) -> &Motions {
+        self.safety.advance(demand, limits, step);
         self.motion()
+    }
+
+    /// Goes on from the motion that the platform really makes.
+    pub fn continue_from(&mut self, real: &Motions) {
+        self.safety.continue_from(real);
     }
 
     /// Surge, sway and heave now.

@@ -4,7 +4,6 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::interface::TiltParameters;
-use crate::motion::Motions;
 use crate::motion::braking_law::{Limits, Motion};
 
 /// The tilt of the platform that the gravitational strategy commands.
@@ -72,15 +71,6 @@ impl GravitationalStrategy {
     /// The tilt now.
     pub fn tilt(&self) -> Tilt {
         Tilt { roll: self.roll.position, pitch: self.pitch.position }
-    }
-
-    /// Adds the tilt to roll, pitch and yaw.
-    pub fn add_to(&self, angles: &mut Motions) {
-        for (k, tilt) in [&self.roll, &self.pitch].into_iter().enumerate() {
-            angles.position[k] += tilt.position;
-            angles.velocity[k] += tilt.velocity;
-            angles.acceleration[k] += tilt.acceleration;
-        }
     }
 }
 

@@ -7,6 +7,7 @@
 //! | [`gravitational`] | (2) gravitational strategy: tilt |
 //! | [`direct_linear`], [`safety`] | (3) direct linear motion with its safety units |
 //! | [`compensation`] | (4) compensation of the accelerations that tilting causes |
+//! | [`strategy`] | blocks (1) to (3) as the classical strategy, and the strategies beside it |
 //! | [`angular`] | (5), (6) angular channel |
 //! | [`evaluator`] | specific force and angular velocity at the washout location |
 
@@ -19,3 +20,4 @@ pub mod gravitational;
 pub(crate) mod preaction;
 pub mod safety;
 pub mod splitter;
+pub mod strategy;

@@ -115,6 +115,11 @@ impl StopPreaction {
         }
     }
 
+    /// Time until the vehicle stands, infinite while it does not brake \[s\].
+    pub fn time_left(&self) -> f64 {
+        self.time_left
+    }
+
     /// The surge that is planned beside the filters' \[m\].
     pub fn surge(&self) -> &Motion {
         &self.surge

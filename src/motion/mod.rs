@@ -35,6 +35,13 @@ impl Motions {
         }
     }
 
+    /// Adds a motion to one of them.
+    pub fn add_to_axis(&mut self, k: usize, motion: &Motion) {
+        self.position[k] += motion.position;
+        self.velocity[k] += motion.velocity;
+        self.acceleration[k] += motion.acceleration;
+    }
+
     /// The motions after `step` seconds of the steady accelerations that lead to these velocities.
     pub fn at_velocity(&self, velocity: Vector3<f64>, step: f64) -> Self {
         Motions {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes a picture of a report's first screen: a page of `cargo moris run` in, an SVG with the browser's picture in it out.
+"""Makes a picture of a report's first screen: a page of `cargo moris simulate` in, an SVG with the browser's picture in it out.
 
-    cargo moris run ride.csv --report report
+    cargo moris simulate ride.csv --report report
     python3 tests/report/run.py --install          # once: Chromium and Playwright
     target/report/venv/bin/python tests/report/picture.py report/ride.html docs/report.svg --time 34.5
 """
@@ -31,7 +31,7 @@ def picture(page_file, time):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("page", help="a report, as cargo moris run makes it")
+    parser.add_argument("page", help="a report, as cargo moris simulate makes it")
     parser.add_argument("picture", help="the SVG to write")
     parser.add_argument("--time", type=float, default=0.0, help="time of the ride in seconds")
     arguments = parser.parse_args()

@@ -115,7 +115,8 @@ proptest! {
         for k in 0..1000 {
             let force = if k % 100 == 0 { random.between(-2.0, 2.0) } else { last };
             chain.advance(force, force, step);
-            let motion = unit.advance([Vector3::repeat(force); 2], &Motion::default(), &safety, step);
+            let demand = unit.advance_filters([Vector3::repeat(force); 2], step);
+            let motion = unit.advance_within_limits(&demand, &safety, step);
             // Bit by bit.
             prop_assert_eq!(motion.position, Vector3::repeat(chain.second_integral()));
             prop_assert_eq!(motion.velocity, Vector3::repeat(chain.first_integral()));
@@ -134,7 +135,8 @@ fn the_limit_is_reached_and_left_without_a_jump() {
     let mut before = *unit.motion();
     for k in 0..20_000 {
         let force = Vector3::repeat(if k < 5000 { 8.0 } else { 0.0 });
-        let now = *unit.advance([force; 2], &Motion::default(), &safety, 0.001);
+        let demand = unit.advance_filters([force; 2], 0.001);
+        let now = *unit.advance_within_limits(&demand, &safety, 0.001);
         let moved = now.position - before.position - 0.0005 * (now.velocity + before.velocity);
         // A jump is what velocities do not account for: at most the hundredth of what an acceleration does in a step.
         assert!(moved.amax() <= 0.0101 * 10.0 * 1e-6, "at {k}: {moved}");

@@ -9,20 +9,20 @@ use moris_build_fmu::{Platform, workspace};
 
 /// Builds MotorcycleSimulator.ssp: motorcycle, washout filter and platform as FMUs, connected, with their parameters.
 ///
-/// Without options the FMUs in it are for this machine, and the package lands in target/fmu.
+/// Without options the FMUs are for this machine, and the package is written to target/fmu.
 #[derive(Parser)]
 #[command(name = "cargo build-ssp", version)]
 struct Arguments {
-    /// Make MotorcycleSimulator.flat.ssp, without inputs of the system and with a parameter set for each component, for tools
-    /// that want it so (Ecos, libcosim)
+    /// Build MotorcycleSimulator.flat.ssp, without inputs of the system and with a parameter set for each component, for Ecos
+    /// and libcosim
     #[arg(long)]
     flat: bool,
 
-    /// Platforms that the FMUs shall run on, separated by commas [default: this machine's]
+    /// Platforms of the FMUs, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
 
-    /// Directory that the package is written into [default: target/fmu in the workspace]
+    /// Directory for the package [default: target/fmu in the workspace]
     #[arg(long, value_name = "DIRECTORY")]
     output: Option<PathBuf>,
 }

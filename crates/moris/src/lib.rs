@@ -1,7 +1,9 @@
-//! The workbench: from a recorded ride and a rig to a tuned washout and a report.
+//! The workbench: from a recording and a rig to a tuned washout and a report.
 //!
-//! A command each: [`rig`] looks at a platform, [`run`] rides a recording on it, [`measure`] prints a table of the figures of many, [`tune`] finds better parameters,
-//! [`respond`] measures a frequency response, [`parameters`] lists what can be tuned.
+//! One module a command: [`rig`] checks a platform, [`run`] simulates a recording on it, [`measure`] prints a table of
+//! the measures of many, [`tune`] searches for better parameters, [`respond`] measures a frequency response,
+//! [`parameters`] lists all parameters.
+//!
 //! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by the crate `moris-setup`.
 
 #![forbid(unsafe_code)]

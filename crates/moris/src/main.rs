@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 use moris::{measure, parameters, respond, rig, run, tune};
 
-/// The washout's workbench: does this ride fit my rig, how good are the cues, what limits them, which parameters are better?
+/// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
 #[command(name = "moris", version)]
 struct Arguments {
@@ -18,9 +18,11 @@ struct Arguments {
 enum Command {
     #[command(subcommand)]
     Rig(rig::Command),
+    #[command(name = "simulate", alias = "run")]
     Run(run::Options),
     Measure(measure::Options),
     Tune(tune::Options),
+    #[command(name = "frequency-response", alias = "respond")]
     Respond(respond::Options),
     Parameters(parameters::Options),
 }

@@ -81,7 +81,7 @@ fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same
 fn a_run_leaves_the_crate_s_outputs_and_a_page() {
     let directory = tempfile::tempdir().unwrap();
     write_ride(directory.path(), "ride.csv");
-    let output = moris(directory.path(), &["run", "ride.csv", "--report", "out"]);
+    let output = moris(directory.path(), &["simulate", "ride.csv", "--report", "out"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let said = text(&output.stdout);
     assert!(said.contains("The ride fits the rig") && said.contains("force x"), "{said}");
@@ -122,7 +122,7 @@ fn runs_with_other_parameters_stand_beside_the_first() {
     let directory = tempfile::tempdir().unwrap();
     write_ride(directory.path(), "ride.csv");
     let narrow = rigs().join("narrow.toml").display().to_string();
-    let output = moris(directory.path(), &["run", "ride.csv", "--rig", &narrow, "--against", "wake"]);
+    let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "wake"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let said = text(&output.stdout);
     assert!(

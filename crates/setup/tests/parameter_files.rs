@@ -120,7 +120,7 @@ fn parameters_that_do_not_go_together_are_refused() {
     let file = directory.path().join("mine.toml");
     fs::write(&file, "actuator.minLength = 1.7").unwrap();
     let message = Setup::load(None, &[file.display().to_string()]).unwrap_err().to_string();
-    assert!(message.contains("actuator.minLength: is 1.7, not below actuator.maxLength"), "{message}");
+    assert!(message.contains("actuator.minLength: is 1.7 m; it must be below actuator.maxLength"), "{message}");
 }
 
 #[test]

@@ -32,7 +32,7 @@ use targets::Targets;
 /// --fade-in says otherwise.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// Recordings (CSV), or folders of them; see `moris run --help` for their columns
+    /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns
     #[arg(required = true, value_name = "RIDE|FOLDER")]
     rides: Vec<PathBuf>,
 
@@ -105,7 +105,7 @@ impl MeasuredRide {
     }
 }
 
-/// Does what the command says.
+/// Runs the command.
 ///
 /// # Errors
 /// A ride, a rig or parameters that cannot be used.

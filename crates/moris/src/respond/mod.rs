@@ -1,4 +1,4 @@
-//! `moris respond`: the frequency response of the whole washout, from the head in the vehicle to the head on the platform.
+//! `moris frequency-response`: the frequency response of the whole washout, from the head in the vehicle to the head on the platform.
 //!
 //! In the manner of the objective motion cueing test of ICAO Doc 9625: sines of twelve frequencies on one channel at a
 //! time, and what is felt of them on every channel. [`excitation`] says what goes in, [`measure`] steps the washout
@@ -30,10 +30,10 @@ const SMALL: f64 = 1e-3;
 
 /// Measure the frequency response of the whole washout
 ///
-/// In the manner of ICAO Doc 9625's objective motion cueing test: the vehicle moves on one channel at a time (surge, sway, heave,
-/// roll, pitch, yaw) in sines of twelve frequencies from 0.1 to 15.8 rad/s, and what the rider feels is compared with it, on the
-/// same channel and on those that gravity joins it to. Everything is measured twice: with the amplitudes below, where the tilt's
-/// rate limit takes part, and with a thousandth of them, which is what the filters do by themselves.
+/// After ICAO Doc 9625's objective motion cueing test: the vehicle moves on one channel at a time (surge, sway, heave, roll,
+/// pitch, yaw) in sines of twelve frequencies from 0.1 to 15.8 rad/s. The felt motion is compared with it on the same channel
+/// and on those coupled by gravity. Each test is made twice: with the amplitudes below, where the tilt's rate limit may be
+/// active, and with a thousandth of them, which shows the linear filters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     #[command(flatten)]
@@ -48,8 +48,8 @@ pub struct Options {
     #[arg(long, value_name = "DEG/S", default_value_t = 1.0)]
     rate: f64,
 
-    /// Let the vehicle's orientation follow its roll and pitch, and gravity with it, as where a vehicle tilts without
-    /// accelerating; otherwise the rates come alone, as on a motorcycle that leans into a balanced turn
+    /// Let orientation and gravity follow the vehicle's roll and pitch, as for a vehicle that tilts without accelerating;
+    /// otherwise only the rates are present, as for a motorcycle in a balanced turn
     #[arg(long)]
     gravity_turns: bool,
 
@@ -68,7 +68,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// Measures on all cores. `progress` is told after each of [`Measured::TESTS`].
+    /// Measures on all cores. `progress` is called after each of [`Measured::TESTS`].
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.
@@ -98,7 +98,7 @@ impl Measured {
     pub const TESTS: u64 = 2 * 6 * 12;
 }
 
-/// Does what the command says.
+/// Runs the command.
 ///
 /// # Errors
 /// The rig or the parameters cannot be used, an amplitude is not positive, or a file cannot be written.

@@ -253,15 +253,15 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "AXES")]
     pub rate_frame: Option<RateFrame>,
 
-    /// Interpolate a recording that does not come at equal steps linearly, so many samples a second
+    /// Interpolate a recording with unequal steps linearly, at this many samples a second
     #[arg(long, value_name = "HERTZ")]
     pub resample: Option<f64>,
 
-    /// Lead a recording that does not begin at rest in from rest, over so many seconds
+    /// Fade in a recording that does not begin at rest, over this many seconds
     #[arg(long, value_name = "SECONDS")]
     pub fade_in: Option<f64>,
 
-    /// TOML file that says the same in the same words (force-unit = "g"), the names of columns under columns
+    /// TOML file with the same options (force-unit = "g"), names of columns under columns
     #[arg(long, value_name = "FILE")]
     #[serde(skip)]
     pub conventions: Option<PathBuf>,

@@ -19,18 +19,17 @@ use moris_setup::load_rig;
 
 use survey::{Singularities, Survey};
 
-/// Look at a rig
+/// Check a rig
 #[derive(Clone, Debug, clap::Subcommand)]
 pub enum Command {
     /// Reach and singularities of a rig
     ///
-    /// Prints how far, how fast and how hard the platform goes along each axis alone, how large its workspace is and how well
-    /// conditioned it is over the whole box of its leg lengths, and draws it. The exit status is not 0 for a rig that cannot
-    /// be used.
+    /// Prints reach, speed and acceleration along each axis alone, the size of the workspace and the condition number over all
+    /// leg lengths, and draws the rig. The exit status is not 0 for an invalid rig.
     Check(CheckOptions),
 }
 
-/// Which rig to check.
+/// The rig to check.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckOptions {
     /// Rig file; crates/moris/rigs has examples
@@ -40,12 +39,12 @@ pub struct CheckOptions {
     #[arg(long, value_name = "DIRECTORY", default_value = "report")]
     report: PathBuf,
 
-    /// Points to try for the workspace's volume
+    /// Number of points for the workspace's volume
     #[arg(long, value_name = "COUNT", default_value_t = 5_000_000, value_parser = clap::value_parser!(u32).range(1000..=1_000_000_000))]
     samples: u32,
 }
 
-/// Does what the command says.
+/// Runs the command.
 ///
 /// # Errors
 /// The rig file cannot be used, or the picture cannot be written.

@@ -1,4 +1,4 @@
-//! `moris run`: rides a recording on a rig, and says how well it is felt.
+//! `moris simulate`: simulates recordings on a rig and measures the felt motion.
 //!
 //! [`recording`] steps the washout; everything else looks at what came of it: [`output_table`] writes it down,
 //! [`measured`] measures it, [`bounds`] says how much better it could have been, [`summary`] prints it, [`findings`] puts it in words, [`page`] makes the report.
@@ -27,30 +27,30 @@ use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
 pub use recording::Recording;
 
-/// Ride recordings on a rig and report how well they are felt
+/// Simulate recordings on a rig and report the cue quality
 ///
-/// For each ride the measures are printed, and two files are written into the report's directory: RIDE.outputs.csv, every input and
-/// output at every sample by the names of the FMU's variables, and RIDE.html, a page with everything drawn, the moving
-/// platform among it, which needs no network and nothing beside it.
+/// Prints the measures of each recording and writes two files into the report's directory. RECORDING.outputs.csv has every
+/// input and output at every sample, under the names of the FMU's variables. RECORDING.html is one page with all charts and
+/// the moving platform; it needs no network and no other files.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV) with columns time, ax, ay, az (specific force, m/s2) and wx, wy, wz (rad/s) at the rider's head, x
-    /// forward, y left, z up; what is called or measured otherwise is said by the options below
-    #[arg(required = true, value_name = "RIDE")]
+    /// forward, y left, z up; the options below give other names, units and axes
+    #[arg(required = true, value_name = "RECORDING")]
     rides: Vec<PathBuf>,
 
     #[command(flatten)]
     setup: SetupOptions,
 
-    /// Other parameters to ride with, too, and to show beside the first: files or shipped sets
-    #[arg(long, value_name = "FILE|NAME")]
-    against: Vec<String>,
+    /// Further parameters to compare with: files or presets
+    #[arg(long, alias = "against", value_name = "FILE|NAME")]
+    compare: Vec<String>,
 
     /// Directory for the reports and the tables of outputs
     #[arg(long, value_name = "DIRECTORY", default_value = "report")]
     report: PathBuf,
 
-    /// Do not compute the bound, the least error that any controller could reach; it takes some seconds a ride
+    /// Do not compute the bound, the least error that any controller could reach; it takes some seconds a recording
     #[arg(long)]
     no_bound: bool,
 
@@ -58,12 +58,12 @@ pub struct Options {
     conventions: ConventionOptions,
 }
 
-/// A ride with one set of parameters, and what is to be said of it.
+/// A simulation with one set of parameters, and its measures.
 #[derive(Clone, Debug)]
 pub struct Outcome {
     /// The rig and the parameters.
     pub setup: Setup,
-    /// Everything that went in and came out.
+    /// All inputs and outputs.
     pub recording: Recording,
     /// The measures.
     pub measures: Measures,
@@ -72,7 +72,7 @@ pub struct Outcome {
 }
 
 impl Outcome {
-    /// Rides and measures. `progress` is told after each sample.
+    /// Simulates and measures. `progress` is called after each sample.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -87,7 +87,7 @@ impl Outcome {
     /// The same with its bounds.
     ///
     /// # Errors
-    /// There are none: the ride is too short, or the solver fails.
+    /// The recording is too short, or the solver fails.
     pub fn with_bounds(mut self) -> Result<Self> {
         self.bounds =
             bounds::bounds(&self.recording).context("cannot compute the bound; --no-bound does without it")?;
@@ -95,13 +95,13 @@ impl Outcome {
     }
 }
 
-/// Does what the command says.
+/// Runs the command.
 ///
 /// # Errors
-/// A ride, a rig or parameters that cannot be used, or a file that cannot be written.
+/// A recording, a rig or parameters that cannot be used, or a file that cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let mut setups = vec![options.setup.load()?];
-    for other in &options.against {
+    for other in &options.compare {
         setups.push(Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?);
     }
     check_names(&options.rides, &setups)?;
@@ -119,7 +119,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Rides with each of the setups, under a progress bar where somebody is watching.
+/// Simulates with each setup, with a progress bar on a terminal.
 fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool) -> Result<Vec<Outcome>> {
     let bar = ProgressBar::new((ride.inputs().len() * setups.len()) as u64);
     bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %")?);
@@ -157,7 +157,7 @@ fn check_names(rides: &[PathBuf], setups: &[Setup]) -> Result<()> {
             }
             match tables.insert(name.clone(), ride) {
                 Some(other) if other == ride => bail!(
-                    "{} would be ridden twice, or with two --against of the same name, and both written into {name}; name each once, \
+                    "{} would be simulated twice, or with two --compare of the same name, and both written into {name}; name each once, \
                      and rename one of two parameter files of the same name",
                     ride.display()
                 ),

@@ -37,7 +37,7 @@ use tuner::Tuner;
 /// at such a jump. It is led in from rest over this time unless another is said \[s\].
 const LEAD_IN: f64 = 1.0;
 
-/// Does what the command says.
+/// Runs the command.
 ///
 /// # Errors
 /// A ride, a rig or parameters that cannot be used, no parameters found that keep the limits, or a file that cannot be

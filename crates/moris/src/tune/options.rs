@@ -8,18 +8,18 @@ use super::space::Group;
 use crate::ride::ConventionOptions;
 use crate::setup_options::SetupOptions;
 
-/// Find parameters with which rides are felt better on a rig
+/// Search for parameters with a smaller sensed error on a rig
 ///
-/// Searches for break frequencies, dampings and scales that make the sensed error small on all rides, such that no safety unit and
-/// no actuator limit ever acts. The error of a ride: what the vestibular model makes of felt minus desired, RMS over time, counted
-/// in perception thresholds and added in quadrature over specific force and angular velocity along x, y, z; over the same of what is
-/// desired. 0 is perfect, and a platform at rest scores 1.
+/// Searches for break frequencies, dampings and scales with a small sensed error on all recordings, such that no safety unit
+/// and no actuator limit is ever active. The error of a recording: the vestibular model's response to felt minus desired, RMS
+/// over time in perception thresholds, added in quadrature over specific force and angular velocity along x, y, z, and divided
+/// by the same of the desired motion. 0 is perfect; a platform at rest scores 1.
 ///
 /// Rides are led in from rest over 1 s unless --fade-in says otherwise. The search starts from the parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result, however
 /// many cores there are.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// Recordings (CSV) to tune on; see `moris run --help` for their columns
+    /// Recordings (CSV) to tune on; see `moris simulate --help` for their columns
     #[arg(required = true, value_name = "RIDE")]
     pub rides: Vec<PathBuf>,
 
@@ -30,7 +30,7 @@ pub struct Options {
     #[arg(long, value_name = "RIDE", num_args = 1..)]
     pub hold_out: Vec<PathBuf>,
 
-    /// Leave the rides out in so many groups instead of one by one; 0: do not
+    /// Number of groups of recordings to leave out, in place of one at a time; 0 leaves none out
     #[arg(long, value_name = "NUMBER", conflicts_with = "hold_out")]
     pub folds: Option<usize>,
 
@@ -42,15 +42,15 @@ pub struct Options {
     #[arg(long, value_name = "WEIGHTS", value_parser = weights, default_value = "1,1,1,1,1,1")]
     pub weights: Channels<f64>,
 
-    /// Stroke that every actuator keeps in reserve at either end, in m: rides differ
+    /// Stroke reserve of every actuator at either end, in m
     #[arg(long, value_name = "METRES", value_parser = reserve, default_value = "0.01")]
     pub stroke_reserve: f64,
 
-    /// Parameter sets that each search tries after its coarse scan, whose sets are not counted
+    /// Parameter sets evaluated by each search after its coarse scan
     #[arg(long, value_name = "NUMBER", default_value_t = 3000)]
     pub evaluations: usize,
 
-    /// Where the random numbers begin
+    /// Seed of the random numbers
     #[arg(long, value_name = "NUMBER", default_value_t = 1)]
     pub seed: u64,
 
@@ -58,7 +58,7 @@ pub struct Options {
     #[arg(long, value_name = "FILE", default_value = "tuned.toml")]
     pub output: PathBuf,
 
-    /// Directory for the reports of before and after: tune.md and a page for each ride
+    /// Directory for the reports: tune.md and a page for each recording
     #[arg(long, value_name = "DIRECTORY", default_value = "report")]
     pub report: PathBuf,
 

@@ -6,6 +6,7 @@ mod derivatives;
 mod fixture;
 mod forged_states;
 mod hostile;
+mod hunter;
 #[cfg(target_os = "linux")]
 mod process;
 mod real_time;

@@ -1,0 +1,413 @@
+//! The judgement of a run by its outputs alone.
+//!
+//! # Promise
+//! No actuator is commanded beyond its stroke, speed or acceleration, and surge, sway and heave keep the safety limits on
+//! position, velocity and acceleration, at every instant. The oracle knows the outputs at the communication points, the
+//! lengths h of the steps between them and the parameters set. With q a leg's length or a coordinate, v the velocity
+//! reported with it, m = (q - q') / h the mean velocity over a step (a prime marks the value before) and A the limit of the
+//! acceleration, a motion that keeps its limits at every instant has
+//!
+//! | quantity | bound | because |
+//! |---|---|---|
+//! | q | the position limits | |
+//! | v, m | the velocity limit V | m is a mean of velocities |
+//! | (v - v') / h | A | a mean of accelerations |
+//! | 2 (m - v') / h and 2 (v - m) / h | A | weighted means of accelerations, the weights linear in time |
+//! | 2 (m - m') / (h + h') | A | the same, with a trapezoid as weight, whatever h and h' |
+//! | the reported acceleration | A | |
+//!
+//! A communication step may span several internal steps: the left sides are means then, and the bounds hold all the same.
+//! Before the first step the platform rests, so that v' = 0 there.
+//!
+//! # Tolerances
+//! Positions: [`POSITION_TOLERANCE`]. Velocities and accelerations: [`RELATIVE_TOLERANCE`] of the limit, and the rounding
+//! of the difference. A leg's length comes from p + R a - b with a few roundings each of numbers no larger than
+//! |p|, |a| and |b|: it is known to [`ROUNDINGS`] units of |p| + |a| + |b|. So is a coordinate, which follows from lengths
+//! where legs limit the motion. A velocity is known to as many units of the speed that it belongs to. A difference over h
+//! is known to twice that over h.
+//!
+//! # Limits changed in flight
+//! The legs' limits never change. A safety limit that is tightened cannot always be kept at once. From outputs alone, what
+//! remains of the promise is, for each axis, until it has settled:
+//!
+//! - velocity and acceleration keep the larger of the old limits and the new ones;
+//! - a speed above the new limit never grows;
+//! - a position beyond the new limit keeps the old one, and once the axis has come to rest it only comes nearer.
+//!
+//! An axis has settled after the longest time that a stop within the old limits takes, [`Oracle::settling_time`]. From
+//! then on velocity and acceleration keep the new limits. A position beyond its limit may stay there, but only comes nearer:
+//! nothing obliges a platform at rest to move. Of changes in quick succession the largest limits count until the last has
+//! settled.
+
+use serde::{Deserialize, Serialize};
+
+/// What a position may be beyond its limit \[m\].
+pub const POSITION_TOLERANCE: f64 = 1e-9;
+/// What a velocity or an acceleration may be beyond its limit, relative to the limit.
+pub const RELATIVE_TOLERANCE: f64 = 1e-6;
+/// Roundings that a length, a coordinate or a velocity may have gone through, in units in the last place of its parts.
+pub const ROUNDINGS: f64 = 8.0;
+/// Stopping times that an axis is given to settle.
+const STOPPING_TIMES: f64 = 4.0;
+/// Longest steps that an axis is given to settle beside them.
+const SETTLING_STEPS: f64 = 8.0;
+
+/// The outputs that the oracle knows. Positions in m from neutral; lengths in m; the rest in their SI units.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    pub position: [f64; 3],
+    pub velocity: [f64; 3],
+    pub acceleration: [f64; 3],
+    pub angular_velocity: [f64; 3],
+    pub length: [f64; 6],
+    pub leg_velocity: [f64; 6],
+    /// The sum of all outputs, which is a number if every one of them is.
+    pub sum: f64,
+}
+
+/// What the actuators may do, and how large the machine is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Machine {
+    /// Shortest and longest length of a leg \[m\].
+    pub stroke: [f64; 2],
+    /// Speed of a leg \[m/s\].
+    pub velocity: f64,
+    /// Acceleration of a leg \[m/s2\].
+    pub acceleration: f64,
+    /// The farthest platform joint from the platform's origin \[m\].
+    pub radius: f64,
+    /// |p| + |a| + |b| at neutral, for the farthest joints \[m\].
+    pub size: f64,
+    /// Longest internal step \[s\].
+    pub longest_step: f64,
+}
+
+/// Limits of surge, sway and heave \[m, m/s, m/s2\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Safety {
+    pub position: [f64; 3],
+    pub velocity: [f64; 3],
+    pub acceleration: [f64; 3],
+}
+
+/// A quantity that has a limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quantity {
+    /// A value that is not a number.
+    NotFinite,
+    /// A leg's length, beyond its stroke.
+    LegLength,
+    /// A leg's velocity.
+    LegVelocity,
+    /// A leg's mean velocity, from its lengths.
+    LegMeanVelocity,
+    /// A leg's change of velocity over the step.
+    LegAcceleration,
+    /// A leg's mean velocity against the velocity at either end of the step.
+    LegPositionAgainstVelocity,
+    /// A leg's change of mean velocity.
+    LegSecondDifference,
+    /// Surge, sway or heave.
+    Position,
+    /// A position beyond a tightened limit that moves away from it.
+    PositionMovesAway,
+    /// Velocity of surge, sway or heave.
+    Velocity,
+    /// Mean velocity, from positions.
+    MeanVelocity,
+    /// The reported acceleration.
+    Acceleration,
+    /// Change of velocity over the step.
+    VelocityDifference,
+    /// Mean velocity against the velocity at either end of the step.
+    PositionAgainstVelocity,
+    /// Change of mean velocity.
+    SecondDifference,
+}
+
+/// All quantities, in the order of their numbers.
+pub const QUANTITIES: [Quantity; 15] = [
+    Quantity::NotFinite,
+    Quantity::LegLength,
+    Quantity::LegVelocity,
+    Quantity::LegMeanVelocity,
+    Quantity::LegAcceleration,
+    Quantity::LegPositionAgainstVelocity,
+    Quantity::LegSecondDifference,
+    Quantity::Position,
+    Quantity::PositionMovesAway,
+    Quantity::Velocity,
+    Quantity::MeanVelocity,
+    Quantity::Acceleration,
+    Quantity::VelocityDifference,
+    Quantity::PositionAgainstVelocity,
+    Quantity::SecondDifference,
+];
+
+/// A limit that was broken.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Breach {
+    /// Number of the step at whose end it shows, from 0.
+    pub step: usize,
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The leg or the axis, from 1.
+    pub index: usize,
+    /// What it is, less what rounding may have added.
+    pub value: f64,
+    /// What it may be at most.
+    pub limit: f64,
+}
+
+impl std::fmt::Display for Breach {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Breach { step, quantity, index, value, limit } = self;
+        write!(f, "after step {step}: {quantity:?} {index} is {value}, limit {limit} ({:.9} times)", value / limit)
+    }
+}
+
+/// The largest ratio of each quantity to its limit so far; of positions, the excess in units of the tolerance.
+pub type Worst = [f64; QUANTITIES.len()];
+
+/// One axis with the limits that it is held to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Axis {
+    /// Position limit set last.
+    position_limit: f64,
+    /// Velocity limit set last.
+    velocity_limit: f64,
+    /// Acceleration limit set last.
+    acceleration_limit: f64,
+    /// What the position may be now.
+    position: f64,
+    /// What the velocity may be now.
+    velocity: f64,
+    /// What the acceleration may be now, and what it might have been during the last step.
+    acceleration: [f64; 2],
+    /// The smallest acceleration limit under which the platform may still be coming to rest.
+    slowest: f64,
+    /// Whether the axis has come to rest since its limits changed.
+    stopped: bool,
+}
+
+/// Watches a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Oracle {
+    machine: Machine,
+    axes: [Axis; 3],
+    /// Whether some axis is held to limits other than those set last, and the time that is left for it \[s\].
+    settling: bool,
+    remaining: f64,
+    before: Sample,
+    /// Mean velocities over the last step, legs first, and how long that was; zero before the first.
+    mean: [f64; 9],
+    last_step: f64,
+}
+
+impl Oracle {
+    /// Begins at rest with the outputs before the first step.
+    pub fn new(machine: Machine, safety: &Safety, at_rest: &Sample) -> Self {
+        let axes = std::array::from_fn(|k| Axis {
+            position_limit: safety.position[k],
+            velocity_limit: safety.velocity[k],
+            acceleration_limit: safety.acceleration[k],
+            position: safety.position[k],
+            velocity: safety.velocity[k],
+            acceleration: [safety.acceleration[k]; 2],
+            slowest: safety.acceleration[k],
+            stopped: true,
+        });
+        let (mean, last_step) = ([0.0; 9], 0.0);
+        Oracle { machine, axes, settling: false, remaining: 0.0, before: *at_rest, mean, last_step }
+    }
+
+    /// Other safety limits from here on.
+    pub fn change(&mut self, safety: &Safety) {
+        // The stop may have begun under any of the limits since the axes settled last.
+        self.remaining = self.remaining.max(self.settling_time());
+        self.settling = true;
+        for (k, axis) in self.axes.iter_mut().enumerate() {
+            axis.position_limit = safety.position[k];
+            axis.velocity_limit = safety.velocity[k];
+            axis.acceleration_limit = safety.acceleration[k];
+            axis.position = axis.position.max(safety.position[k]);
+            axis.velocity = axis.velocity.max(safety.velocity[k]);
+            axis.acceleration[0] = axis.acceleration[0].max(safety.acceleration[k]);
+            axis.slowest = axis.slowest.min(safety.acceleration[k]);
+            axis.stopped = self.before.velocity[k] == 0.0;
+        }
+    }
+
+    /// The longest time that coming to rest from here may take within the limits in force since the axes settled last: the
+    /// time to stop surge, sway and heave with their accelerations and the joints with the legs', several times over, because
+    /// the legs' acceleration is needed for their turning, too.
+    pub fn settling_time(&self) -> f64 {
+        let Sample { velocity, angular_velocity, .. } = &self.before;
+        let joints = norm(velocity) + norm(angular_velocity) * self.machine.radius;
+        let axes = (0..3).map(|k| velocity[k].abs() / self.axes[k].slowest);
+        let stopping = axes.fold(joints / self.machine.acceleration, f64::max);
+        STOPPING_TIMES * stopping + SETTLING_STEPS * self.last_step.max(self.machine.longest_step)
+    }
+
+    /// Judges the outputs after a step of `step` seconds, and keeps the worst.
+    ///
+    /// # Errors
+    /// The worst breach of this step; its number is left at 0.
+    #[inline]
+    pub fn judge(&mut self, now: &Sample, step: f64, worst: &mut Worst) -> Result<(), Breach> {
+        if self.settling {
+            self.tighten(step);
+        }
+        let mut ratios = [0.0; QUANTITIES.len()];
+        let mut finite = now.sum.is_finite();
+        self.measure(now, step, |quantity, _, value, limit| {
+            let ratio = value / limit;
+            finite &= !ratio.is_nan();
+            let largest = &mut ratios[quantity as usize];
+            *largest = if ratio > *largest { ratio } else { *largest };
+        });
+        for (worst, ratio) in worst.iter_mut().zip(&ratios) {
+            *worst = worst.max(*ratio);
+        }
+        let within = ratios.iter().all(|&ratio| ratio <= 1.0 + RELATIVE_TOLERANCE);
+        if !(finite && within) {
+            return Err(self.worst_breach(now, step));
+        }
+        self.advance(now, step);
+        Ok(())
+    }
+
+    /// Every quantity of this step with its leg or axis, its value less rounding, and its limit. A position's value is the
+    /// excess over its limit, and its limit the tolerance of it.
+    #[inline(always)]
+    fn measure(&self, now: &Sample, step: f64, mut each: impl FnMut(Quantity, usize, f64, f64)) {
+        let Machine { stroke, velocity: fastest, acceleration: most, radius, size, .. } = self.machine;
+        let before = &self.before;
+        let joint_speed = norm(&now.velocity) + norm(&now.angular_velocity) * radius;
+        let joint_speed = joint_speed.max(norm(&before.velocity) + norm(&before.angular_velocity) * radius);
+        let last = self.last_step;
+        let length_rounding = ROUNDINGS * f64::EPSILON * size;
+        let speed_rounding = ROUNDINGS * f64::EPSILON * joint_speed * (1.0 + size / stroke[0]);
+        let rounding = Rounding::new(length_rounding, speed_rounding, step, last);
+        for i in 0..6 {
+            let (length, velocity) = (now.length[i], now.leg_velocity[i]);
+            let beyond = (stroke[0] - length).max(length - stroke[1]);
+            each(Quantity::LegLength, i, beyond, POSITION_TOLERANCE);
+            each(Quantity::LegVelocity, i, velocity.abs() - speed_rounding, fastest);
+            let mean = (length - before.length[i]) / step;
+            each(Quantity::LegMeanVelocity, i, mean.abs() - rounding.mean, fastest);
+            let change = (velocity - before.leg_velocity[i]).abs() / step;
+            each(Quantity::LegAcceleration, i, change - rounding.change, most);
+            let against = 2.0 * (mean - before.leg_velocity[i]).abs().max((mean - velocity).abs()) / step;
+            each(Quantity::LegPositionAgainstVelocity, i, against - rounding.against, most);
+            let second = if last > 0.0 { 2.0 * (mean - self.mean[i]).abs() / (step + last) } else { 0.0 };
+            each(Quantity::LegSecondDifference, i, second - rounding.second, most);
+        }
+        for (k, axis) in self.axes.iter().enumerate() {
+            let (position, velocity) = (now.position[k], now.velocity[k]);
+            let speed_rounding = ROUNDINGS * f64::EPSILON * velocity.abs().max(before.velocity[k].abs());
+            let rounding = Rounding::new(length_rounding, speed_rounding, step, last);
+            let (fastest, [most, most_before]) = (axis.velocity, axis.acceleration);
+            let most_of_both = most.max(most_before);
+            let kept =
+                if axis.position > axis.position_limit { Quantity::PositionMovesAway } else { Quantity::Position };
+            each(kept, k, position.abs() - axis.position, POSITION_TOLERANCE);
+            each(Quantity::Velocity, k, velocity.abs() - speed_rounding, fastest);
+            let mean = (position - before.position[k]) / step;
+            each(Quantity::MeanVelocity, k, mean.abs() - rounding.mean, fastest);
+            each(Quantity::Acceleration, k, now.acceleration[k].abs() - rounding.change, most);
+            let change = (velocity - before.velocity[k]).abs() / step;
+            each(Quantity::VelocityDifference, k, change - rounding.change, most);
+            let against = 2.0 * (mean - before.velocity[k]).abs().max((mean - velocity).abs()) / step;
+            each(Quantity::PositionAgainstVelocity, k, against - rounding.against, most);
+            let second = if last > 0.0 { 2.0 * (mean - self.mean[6 + k]).abs() / (step + last) } else { 0.0 };
+            each(Quantity::SecondDifference, k, second - rounding.second, most_of_both);
+        }
+    }
+
+    #[cold]
+    fn worst_breach(&self, now: &Sample, step: f64) -> Breach {
+        let not_finite = Breach { step: 0, quantity: Quantity::NotFinite, index: 0, value: now.sum, limit: 0.0 };
+        let (mut found, mut largest, mut finite) = (not_finite, 0.0, now.sum.is_finite());
+        self.measure(now, step, |quantity, index, value, limit| {
+            let ratio = value / limit;
+            finite &= !ratio.is_nan();
+            if ratio > largest {
+                largest = ratio;
+                let (value, limit) = match quantity {
+                    Quantity::LegLength => (
+                        now.length[index],
+                        self.machine.stroke[usize::from(now.length[index] > self.machine.stroke[1])],
+                    ),
+                    Quantity::Position | Quantity::PositionMovesAway => {
+                        (now.position[index].abs(), self.axes[index].position)
+                    }
+                    _ => (value, limit),
+                };
+                found = Breach { step: 0, quantity, index: index + 1, value, limit };
+            }
+        });
+        if finite { found } else { not_finite }
+    }
+
+    fn advance(&mut self, now: &Sample, step: f64) {
+        for i in 0..6 {
+            self.mean[i] = (now.length[i] - self.before.length[i]) / step;
+        }
+        for (k, axis) in self.axes.iter_mut().enumerate() {
+            self.mean[6 + k] = (now.position[k] - self.before.position[k]) / step;
+            axis.acceleration[1] = axis.acceleration[0];
+            // Both do nothing unless a limit was tightened.
+            axis.stopped |= now.velocity[k] * self.before.velocity[k] <= 0.0 || !self.settling;
+            if axis.stopped {
+                axis.position = axis.position_limit.max(axis.position.min(now.position[k].abs()));
+            }
+            axis.velocity = axis.velocity_limit.max(axis.velocity.min(now.velocity[k].abs()));
+        }
+        self.last_step = step;
+        self.before = *now;
+    }
+
+    /// Lets time pass for the axes to settle.
+    #[cold]
+    fn tighten(&mut self, step: f64) {
+        // A step that begins before they must have settled may hold the end of a stop.
+        if self.remaining <= 0.0 {
+            self.settling = false;
+            for axis in &mut self.axes {
+                axis.velocity = axis.velocity_limit;
+                axis.acceleration[0] = axis.acceleration_limit;
+                axis.slowest = axis.acceleration_limit;
+            }
+        }
+        self.remaining -= step;
+    }
+}
+
+/// What rounding may add to the differences of a step.
+struct Rounding {
+    mean: f64,
+    change: f64,
+    against: f64,
+    second: f64,
+}
+
+impl Rounding {
+    /// For positions and velocities known to these roundings, over a step and the one before.
+    #[inline(always)]
+    fn new(position: f64, velocity: f64, step: f64, last: f64) -> Self {
+        let mean = 2.0 * position / step;
+        let mean_before = if last > 0.0 { 2.0 * position / last } else { 0.0 };
+        Rounding {
+            mean,
+            change: 2.0 * velocity / step,
+            against: 2.0 * (mean + velocity) / step,
+            second: 2.0 * (mean + mean_before) / (step + last),
+        }
+    }
+}
+
+fn norm([x, y, z]: &[f64; 3]) -> f64 {
+    (x * x + y * y + z * z).sqrt()
+}

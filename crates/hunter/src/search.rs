@@ -1,0 +1,252 @@
+//! Many episodes on many machines, on several threads.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+use serde::Serialize;
+
+use crate::episode::Episode;
+use crate::machine::Machines;
+use crate::oracle::{Breach, QUANTITIES, Worst};
+use crate::random::Random;
+use crate::run::{Outcome, Runner};
+use crate::scenario::Scenarios;
+use crate::shrink::{is_geometry, shrink};
+use crate::target::Target;
+
+/// How long and where a search looks.
+#[derive(Clone, Copy, Debug)]
+pub struct Plan {
+    /// The search's seed.
+    pub seed: u64,
+    /// Number of the first machine.
+    pub first_machine: u64,
+    /// The search ends when it has made so many communication steps ...
+    pub steps: u64,
+    /// ... or looked at so many machines ...
+    pub machines: u64,
+    /// ... or found so many breaches.
+    pub breaches: usize,
+    /// Threads that search.
+    pub threads: usize,
+    /// Whether what is found is shrunk.
+    pub shrink: bool,
+}
+
+/// Something that must not be.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Failure {
+    /// A limit is broken.
+    Breach(Breach),
+    /// A right call is refused, or the washout panics.
+    Refused(String),
+}
+
+/// An episode that fails.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Found {
+    /// The episode, shrunk if that was asked for.
+    pub episode: Episode,
+    /// What fails in it.
+    pub failure: Failure,
+    /// How many steps the episode had in which it was found.
+    pub found_after: usize,
+}
+
+/// What a search has seen.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Summary {
+    pub seed: u64,
+    pub first_machine: u64,
+    /// Machines that were made, and those that were refused.
+    pub machines: u64,
+    pub refused_machines: u64,
+    pub episodes: u64,
+    pub steps: u64,
+    pub seconds: f64,
+    /// The largest ratio of each quantity to its limit; of positions, the largest excess in units of the tolerance.
+    pub worst: Vec<(String, f64)>,
+    pub found: Vec<Found>,
+}
+
+/// Episodes on a machine of the default geometry, and on others, which take longer to make.
+const EPISODES: [usize; 2] = [4, 24];
+
+/// What the threads share.
+struct Shared<'a> {
+    plan: &'a Plan,
+    runner: &'a Runner,
+    next_machine: AtomicU64,
+    refused: AtomicU64,
+    episodes: AtomicU64,
+    steps: AtomicU64,
+    running: AtomicUsize,
+    found: Mutex<Vec<Found>>,
+    worst: Mutex<Worst>,
+    stop: AtomicBool,
+}
+
+/// Searches with one target a thread. `progress` hears of the search once a second, and at once of what is found.
+///
+/// # Errors
+/// A target cannot be made, or the washout's interface is another.
+pub fn search<T: Target>(
+    plan: &Plan,
+    target: impl Fn() -> Result<T> + Sync,
+    mut progress: impl FnMut(&Summary),
+) -> Result<Summary> {
+    let runner = Runner::new()?;
+    let started = Instant::now();
+    let shared = Shared {
+        plan,
+        runner: &runner,
+        next_machine: AtomicU64::new(0),
+        refused: AtomicU64::new(0),
+        episodes: AtomicU64::new(0),
+        steps: AtomicU64::new(0),
+        running: AtomicUsize::new(plan.threads),
+        found: Mutex::default(),
+        worst: Mutex::default(),
+        stop: AtomicBool::new(false),
+    };
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..plan.threads)
+            .map(|_| {
+                scope.spawn(|| {
+                    let result = target().and_then(|mut target| shared.hunt(&mut target));
+                    shared.running.fetch_sub(1, Ordering::Relaxed);
+                    if result.is_err() {
+                        shared.stop.store(true, Ordering::Relaxed);
+                    }
+                    result
+                })
+            })
+            .collect();
+        let mut told = (Instant::now(), 0);
+        while shared.running.load(Ordering::Relaxed) > 0 {
+            std::thread::sleep(Duration::from_millis(20));
+            let found = lock(&shared.found).len();
+            if told.0.elapsed() >= Duration::from_secs(1) || found > told.1 {
+                told = (Instant::now(), found);
+                progress(&shared.summary(started));
+            }
+        }
+        for thread in threads {
+            thread.join().expect("a searching thread catches what panics")?;
+        }
+        Ok(shared.summary(started))
+    })
+}
+
+impl Shared<'_> {
+    fn hunt<T: Target>(&self, target: &mut T) -> Result<()> {
+        let variables = self.runner.variables();
+        let machines = Machines::new(variables)?;
+        let scenarios = Scenarios::new(variables, &machines);
+        while !self.is_over() {
+            let machine = self.next_machine.fetch_add(1, Ordering::Relaxed);
+            if machine >= self.plan.machines {
+                break;
+            }
+            self.hunt_on(self.plan.first_machine + machine, &machines, &scenarios, target)?;
+        }
+        Ok(())
+    }
+
+    fn is_over(&self) -> bool {
+        self.stop.load(Ordering::Relaxed) || self.steps.load(Ordering::Relaxed) >= self.plan.steps
+    }
+
+    /// All episodes on one machine.
+    fn hunt_on<T: Target>(
+        &self,
+        number: u64,
+        machines: &Machines,
+        scenarios: &Scenarios,
+        target: &mut T,
+    ) -> Result<()> {
+        let mut random = Random::numbered(self.plan.seed, number);
+        let parameters = machines.draw(&mut random);
+        if self.runner.make(&parameters, target).is_err() {
+            self.refused.fetch_add(1, Ordering::Relaxed);
+            return Ok(());
+        }
+        let default_geometry = !parameters.keys().any(|name| is_geometry(name));
+        for index in 0..EPISODES[usize::from(!default_geometry)] {
+            let mut episode = scenarios.draw(&mut random, &parameters);
+            episode.origin = Some([self.plan.seed as i64, number as i64, index as i64]);
+            let Some(failure) = self.run(&episode, target) else {
+                if self.is_over() {
+                    break;
+                }
+                continue;
+            };
+            let found = self.shrunk(episode, failure, target)?;
+            self.runner.make(&parameters, target)?;
+            let mut all = lock(&self.found);
+            all.push(found);
+            if all.len() >= self.plan.breaches {
+                self.stop.store(true, Ordering::Relaxed);
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs an episode; what fails in it, if anything.
+    fn run<T: Target>(&self, episode: &Episode, target: &mut T) -> Option<Failure> {
+        let failure = match catch_unwind(AssertUnwindSafe(|| self.runner.run(episode, target))) {
+            Ok(Ok(outcome)) => {
+                let Outcome { steps, breach, worst } = outcome;
+                self.steps.fetch_add(steps as u64, Ordering::Relaxed);
+                if breach.is_none() {
+                    let mut all = lock(&self.worst);
+                    for (all, worst) in all.iter_mut().zip(worst) {
+                        *all = all.max(worst);
+                    }
+                }
+                breach.map(Failure::Breach)
+            }
+            Ok(Err(error)) => Some(Failure::Refused(format!("{error:#}"))),
+            Err(_) => Some(Failure::Refused("a panic".to_owned())),
+        };
+        self.episodes.fetch_add(1, Ordering::Relaxed);
+        failure
+    }
+
+    fn shrunk<T: Target>(&self, episode: Episode, failure: Failure, target: &mut T) -> Result<Found> {
+        let found_after = match failure {
+            Failure::Breach(breach) => breach.step + 1,
+            Failure::Refused(_) => episode.count,
+        };
+        let Failure::Breach(breach) = failure else { return Ok(Found { episode, failure, found_after }) };
+        let (episode, breach) =
+            if self.plan.shrink { shrink(self.runner, target, &episode, breach)? } else { (episode, breach) };
+        Ok(Found { episode, failure: Failure::Breach(breach), found_after })
+    }
+
+    fn summary(&self, started: Instant) -> Summary {
+        let worst = *lock(&self.worst);
+        let refused = self.refused.load(Ordering::Relaxed);
+        let machines = self.next_machine.load(Ordering::Relaxed).min(self.plan.machines);
+        Summary {
+            seed: self.plan.seed,
+            first_machine: self.plan.first_machine,
+            machines: machines - refused.min(machines),
+            refused_machines: refused,
+            episodes: self.episodes.load(Ordering::Relaxed),
+            steps: self.steps.load(Ordering::Relaxed),
+            seconds: started.elapsed().as_secs_f64(),
+            worst: QUANTITIES.iter().map(|quantity| (format!("{quantity:?}"), worst[*quantity as usize])).collect(),
+            found: lock(&self.found).clone(),
+        }
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}

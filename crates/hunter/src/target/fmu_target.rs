@@ -1,0 +1,250 @@
+//! The washout through the C functions of its shared library, as a host of FMI 2.0 calls them.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use anyhow::{Result, ensure};
+use moris_fmu_host::{Fmu, Instance, State, Status, Variable, VariableKind};
+use moris_interface::{Causality, Kind, Variability};
+use moris_washout::Washout;
+
+use super::{Inputs, Target};
+use crate::episode::Scope;
+use crate::oracle::Sample;
+use crate::variables::{IDENTITY, REAL_INPUTS, Variables};
+
+/// An instance with what a host keeps beside it. Fields are dropped in their order.
+pub struct FmuTarget {
+    instance: Option<Instance>,
+    fmu: Fmu,
+    time: f64,
+    fresh: Option<State>,
+    saved: Option<(State, f64)>,
+    bytes: Option<(Vec<u8>, f64)>,
+    inputs: Vec<u32>,
+    engaged: u32,
+    outputs: Vec<u32>,
+    values: Vec<f64>,
+    /// Where the outputs that the oracle knows begin among the real outputs.
+    places: Places,
+}
+
+/// Places among the real outputs.
+struct Places {
+    position: usize,
+    velocity: usize,
+    acceleration: usize,
+    angular_velocity: usize,
+    length: usize,
+    leg_velocity: usize,
+}
+
+impl FmuTarget {
+    /// Opens an FMU (a file ending in `.fmu`) or its shared library alone.
+    ///
+    /// # Errors
+    /// It cannot be opened.
+    pub fn open(file: &Path, variables: &Variables) -> Result<Self> {
+        let fmu = if file.extension().is_some_and(|extension| extension == "fmu") {
+            Fmu::open(file)?
+        } else {
+            Fmu::with_variables(file, &moris_interface::guid::<Washout>(), by_name())?
+        };
+        let reference = |name: &str| Ok::<_, anyhow::Error>(variables.slot(name)? as u32);
+        let inputs = variables.inputs();
+        let outputs: Vec<u32> = (0..IDENTITY.slots.len())
+            .filter(|&slot| {
+                let row = IDENTITY.row(slot);
+                row.causality == Causality::Output && matches!(row.kind, Kind::Real(_))
+            })
+            .map(|slot| slot as u32)
+            .collect();
+        let place = |name: &str| {
+            let slot = reference(name)?;
+            outputs.iter().position(|&output| output == slot).ok_or_else(|| anyhow::anyhow!("{name} is no output"))
+        };
+        let places = Places {
+            position: place("platform.position.x")?,
+            velocity: place("platform.velocity.x")?,
+            acceleration: place("platform.acceleration.x")?,
+            angular_velocity: place("platform.angularVelocity.x")?,
+            length: place("actuator[1].length")?,
+            leg_velocity: place("actuator[1].velocity")?,
+        };
+        Ok(FmuTarget {
+            instance: None,
+            fmu,
+            time: 0.0,
+            fresh: None,
+            saved: None,
+            bytes: None,
+            inputs: inputs[..REAL_INPUTS].iter().map(|(name, _)| reference(name)).collect::<Result<_>>()?,
+            engaged: reference(&inputs[REAL_INPUTS].0)?,
+            values: vec![0.0; outputs.len()],
+            outputs,
+            places,
+        })
+    }
+
+    fn instance(&mut self) -> &mut Instance {
+        self.instance.as_mut().expect("a machine is made before it is driven")
+    }
+
+    fn free_states(&mut self) {
+        if let Some(instance) = &mut self.instance {
+            for state in self.fresh.take().into_iter().chain(self.saved.take().map(|(state, _)| state)) {
+                instance.free_state(state);
+            }
+        }
+        self.bytes = None;
+    }
+}
+
+impl Drop for FmuTarget {
+    fn drop(&mut self) {
+        self.free_states();
+    }
+}
+
+impl Target for FmuTarget {
+    fn make(&mut self, slots: &[f64]) -> Result<()> {
+        self.free_states();
+        self.time = 0.0;
+        let mut instance = self.fmu.instantiate("hunter")?;
+        let parameters: Vec<(String, f64)> = [Variability::Fixed, Variability::Tunable]
+            .into_iter()
+            .flat_map(|variability| {
+                let is_set = move |slot: &usize| {
+                    let row = IDENTITY.row(*slot);
+                    row.causality == Causality::Parameter && row.variability == variability
+                };
+                (0..IDENTITY.slots.len()).filter(is_set).map(|slot| (IDENTITY.variable_name(slot), slots[slot]))
+            })
+            .collect();
+        let parameters: Vec<(&str, f64)> = parameters.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+        instance.initialize(&parameters, None)?;
+        self.fresh = Some(instance.get_state()?);
+        self.instance = Some(instance);
+        Ok(())
+    }
+
+    fn rewind(&mut self) {
+        if let Some((state, _)) = self.saved.take() {
+            self.instance().free_state(state);
+        }
+        self.bytes = None;
+        self.time = 0.0;
+        let FmuTarget { instance: Some(instance), fresh: Some(fresh), .. } = self else { return };
+        instance.set_state(fresh);
+    }
+
+    fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool {
+        let is_real = |slot: &&usize| matches!(IDENTITY.row(**slot).kind, Kind::Real(_));
+        let (reals, others): (Vec<&usize>, Vec<&usize>) = changed.iter().partition(is_real);
+        let references: Vec<u32> = reals.iter().map(|&&slot| slot as u32).collect();
+        let values: Vec<f64> = reals.iter().map(|&&slot| slots[slot]).collect();
+        // An empty call is right, too, but says nothing.
+        let set = references.is_empty() || self.instance().set_real(&references, &values) == Status::Ok;
+        let references: Vec<u32> = others.iter().map(|&&slot| slot as u32).collect();
+        let values: Vec<i32> = others.iter().map(|&&slot| slots[slot] as i32).collect();
+        set && (references.is_empty() || self.instance().set_integer(&references, &values) == Status::Ok)
+    }
+
+    fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()> {
+        let (time, engaged) = (self.time, self.engaged);
+        let references = std::mem::take(&mut self.inputs);
+        let instance = self.instance();
+        // What is not a number is refused, and the inputs stay as they were.
+        let set = instance.set_real(&references, &start.reals);
+        if let Some(end) = end.filter(|_| set == Status::Ok) {
+            let slopes: [f64; REAL_INPUTS] = std::array::from_fn(|k| (end.reals[k] - start.reals[k]) / step);
+            instance.set_real_input_derivatives(&references, &slopes);
+        }
+        if set != Status::Ok {
+            instance.take_messages();
+        }
+        instance.set_boolean(&[engaged], &[i32::from(start.engaged)]);
+        let status = instance.do_step(time, step);
+        ensure!(status == Status::Ok, "fmi2DoStep: {status:?}: {:?}", instance.take_messages());
+        self.inputs = references;
+        self.time = time + step;
+        Ok(())
+    }
+
+    fn sample(&mut self, neutral_height: f64) -> Sample {
+        let mut values = std::mem::take(&mut self.values);
+        let outputs = std::mem::take(&mut self.outputs);
+        let status = self.instance().get_real(&outputs, &mut values);
+        let read = |place: usize| [values[place], values[place + 1], values[place + 2]];
+        let legs = |place: usize| std::array::from_fn(|i| values[place + i]);
+        let places = &self.places;
+        let mut sample = Sample {
+            position: read(places.position),
+            velocity: read(places.velocity),
+            acceleration: read(places.acceleration),
+            angular_velocity: read(places.angular_velocity),
+            length: legs(places.length),
+            leg_velocity: legs(places.leg_velocity),
+            sum: values.iter().sum(),
+        };
+        sample.position[2] -= neutral_height;
+        if status != Status::Ok {
+            sample.sum = f64::NAN;
+        }
+        (self.values, self.outputs) = (values, outputs);
+        sample
+    }
+
+    fn save(&mut self, scope: Scope) -> Result<()> {
+        let time = self.time;
+        let instance = self.instance.as_mut().expect("a machine is made before it is driven");
+        match scope {
+            Scope::Memory => {
+                let (mut state, _) = match self.saved.take() {
+                    Some(saved) => saved,
+                    None => (instance.get_state()?, time),
+                };
+                let status = instance.get_state_into(&mut state);
+                self.saved = Some((state, time));
+                ensure!(status == Status::Ok, "fmi2GetFMUstate: {status:?}");
+            }
+            Scope::Bytes => {
+                let state = instance.get_state()?;
+                self.bytes = Some((instance.serialize(&state)?, time));
+                instance.free_state(state);
+            }
+        }
+        Ok(())
+    }
+
+    fn restore(&mut self, scope: Scope) -> Result<()> {
+        let instance = self.instance.as_mut().expect("a machine is made before it is driven");
+        let (status, time) = match (scope, &self.saved, &self.bytes) {
+            (Scope::Memory, Some((state, time)), _) => (instance.set_state(state), *time),
+            (Scope::Bytes, _, Some((bytes, time))) => {
+                let state = instance.deserialize(bytes)?;
+                let status = instance.set_state(&state);
+                instance.free_state(state);
+                (status, *time)
+            }
+            _ => anyhow::bail!("no state has been saved"),
+        };
+        ensure!(status == Status::Ok, "fmi2SetFMUstate: {status:?}");
+        self.time = time;
+        Ok(())
+    }
+}
+
+/// The library's variables, as the model has them.
+fn by_name() -> HashMap<String, Variable> {
+    let variable = |slot: usize| {
+        let kind = match IDENTITY.row(slot).kind {
+            Kind::Real(_) => VariableKind::Real,
+            Kind::Integer => VariableKind::Integer,
+            Kind::Boolean => VariableKind::Boolean,
+            Kind::Enumeration(_) => VariableKind::Enumeration,
+        };
+        (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
+    };
+    (0..IDENTITY.slots.len()).map(variable).collect()
+}

@@ -1,0 +1,59 @@
+//! What is driven: the washout, through the crate or through the C functions of its shared library.
+
+mod crate_target;
+mod fmu_target;
+mod traced;
+
+use anyhow::Result;
+
+pub use crate_target::CrateTarget;
+pub use fmu_target::FmuTarget;
+pub use traced::Traced;
+
+use crate::episode::Scope;
+use crate::oracle::Sample;
+use crate::variables::REAL_INPUTS;
+
+/// Values of all inputs: the real ones, and whether the washout is engaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inputs {
+    pub reals: [f64; REAL_INPUTS],
+    pub engaged: bool,
+}
+
+/// Something that is stepped as the washout is. A target keeps one saved state of each scope.
+pub trait Target {
+    /// Makes a machine of these values of all variables, at rest at neutral.
+    ///
+    /// # Errors
+    /// The parameters are refused.
+    fn make(&mut self, slots: &[f64]) -> Result<()>;
+
+    /// Goes back to where [`Target::make`] left the machine, and forgets the saved states.
+    fn rewind(&mut self);
+
+    /// Sets the tunable parameters among these values of all variables; `changed` are the slots that differ. False where
+    /// they are refused, and then nothing has changed.
+    fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool;
+
+    /// Advances by `step` \[s\] while the inputs stay as they are at `start` or go linearly to those at `end`.
+    ///
+    /// # Errors
+    /// A step that is refused.
+    fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()>;
+
+    /// The outputs now; `neutral_height` is subtracted from the platform's height.
+    fn sample(&mut self, neutral_height: f64) -> Sample;
+
+    /// Saves the state.
+    ///
+    /// # Errors
+    /// The state cannot be saved.
+    fn save(&mut self, scope: Scope) -> Result<()>;
+
+    /// Goes back to the saved state, which there must be.
+    ///
+    /// # Errors
+    /// The state is refused.
+    fn restore(&mut self, scope: Scope) -> Result<()>;
+}

@@ -1,0 +1,172 @@
+//! The adaptive strategy: a coordinated filter of each axis whose two gains follow the gradient of a cost.
+//!
+//! After Parrish, Dieudonne, Bowles and Martin (*Coordinated Adaptive Washout for Motion Simulators*, 1975) and Nahon, Reid
+//! and Kirdeikis (1992). With u = f - g sin q what the tilt leaves of the reference f,
+//!
+//! ```text
+//!     a = P1 (u + H alpha) - d v - e x,    q' = P2 u within the tilt's limits
+//!     J = [(felt - f)^2 + rho_x x^2 + rho_v v^2 + rho_w w^2 + k1 (P1 - P10)^2 + k2 (P2 - P20)^2] / 2
+//!     P1' = -K1 dJ/dP1,    P2' = -K2 dJ/dP2
+//! ```
+//!
+//! The sensitivities dx/dP1, dx/dP2 and dq/dP2 are integrated beside the motion. Towards the ends of the actuators' strokes
+//! travel becomes dearer.
+
+use serde::{Deserialize, Serialize};
+
+use super::regulator::AxisModel;
+use super::{AxisState, Decision, at_rest_if_tiny};
+use crate::interface::AdaptiveParameters;
+
+/// The strategy with its state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Adaptive {
+    models: [AxisModel; 2],
+    tuning: Tuning,
+    axes: [Adaptation; 2],
+}
+
+/// The tunable parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tuning {
+    /// Break frequency \[rad/s\] and damping ratio of the travel's high-pass.
+    pub omega: f64,
+    pub zeta: f64,
+    /// How fast P1 and P2 follow the gradient.
+    pub adaptation: [f64; 2],
+    /// P1, and P2 \[(rad/s)/(m/s2)\], to which the gains are pulled.
+    pub nominal: [f64; 2],
+    /// Price of travel \[1/s4\], its velocity \[1/s2\] and the tilt rate \[(m/s)^2\].
+    pub position_weight: f64,
+    pub velocity_weight: f64,
+    pub tilt_rate_weight: f64,
+    /// Price of either gain's distance from its nominal value.
+    pub pull: [f64; 2],
+}
+
+/// The gains of one axis, and the sensitivities to them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct Adaptation {
+    gains: [f64; 2],
+    /// Of the position and the velocity to P1.
+    to_travel_gain: [f64; 2],
+    /// Of the position and the velocity to P2.
+    to_tilt_gain: [f64; 2],
+    /// Of the tilt to P2.
+    tilt: f64,
+}
+
+/// Sensitivities stay within this: what they are good for ends long before.
+const LARGEST_SENSITIVITY: f64 = 1e3;
+/// The fraction of its nominal value below which no gain falls: without a gain, the tilt would never come back.
+const LEAST_GAIN: f64 = 0.1;
+/// While a limit holds the tilt, its sensitivity decays at this rate \[1/s\].
+const SENSITIVITY_DECAY: f64 = 0.2;
+/// Travel becomes dearer when less than this is left of a stroke \[m\] ...
+const NEAR_END: f64 = 0.1;
+/// ... up to so many times as dear at the end.
+const DEARER: f64 = 10.0;
+
+impl From<&AdaptiveParameters> for Tuning {
+    fn from(parameters: &AdaptiveParameters) -> Self {
+        Tuning {
+            omega: parameters.omega,
+            zeta: parameters.zeta,
+            adaptation: [parameters.gain1, parameters.gain2],
+            nominal: [parameters.nominal1, parameters.nominal2],
+            position_weight: parameters.weight_position,
+            velocity_weight: parameters.weight_velocity,
+            tilt_rate_weight: parameters.weight_tilt_rate,
+            pull: [parameters.pull1, parameters.pull2],
+        }
+    }
+}
+
+impl Adaptive {
+    /// At rest, with the nominal gains.
+    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Self {
+        let axis = Adaptation { gains: tuning.nominal, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: 0.0 };
+        Adaptive { models: *models, tuning: *tuning, axes: [axis; 2] }
+    }
+
+    /// Takes other parameters. The gains go on from where they are.
+    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) {
+        (self.models, self.tuning) = (*models, *tuning);
+    }
+
+    /// What to do in a step of `step` seconds that begins in these states, with these references at its end, when the
+    /// actuators have so much left of their strokes \[m\].
+    pub fn decide(
+        &mut self,
+        states: &[AxisState; 2],
+        references: [f64; 2],
+        stroke_margin: f64,
+        step: f64,
+    ) -> [Decision; 2] {
+        let near_end = (1.0 - stroke_margin / NEAR_END).max(0.0);
+        let dearer = 1.0 + DEARER * near_end * near_end;
+        [0, 1]
+            .map(|k: usize| self.axes[k].decide(&self.models[k], &self.tuning, &states[k], references[k], dearer, step))
+    }
+}
+
+impl Adaptation {
+    fn decide(
+        &mut self,
+        model: &AxisModel,
+        tuning: &Tuning,
+        state: &AxisState,
+        reference: f64,
+        dearer: f64,
+        step: f64,
+    ) -> Decision {
+        let AxisState { position, velocity, tilt, tilt_rate } = *state;
+        let (sin, cos) = libm::sincos(tilt);
+        let [travel_gain, tilt_gain] = self.gains;
+        let left = reference - model.gravity * sin;
+        let rate = (tilt_gain * left).clamp(-model.rate_limit, model.rate_limit);
+        let demanded = (rate - tilt_rate) / step;
+        let alpha = demanded.clamp(-model.acceleration_limit, model.acceleration_limit);
+        let (damping, stiffness) = (2.0 * tuning.zeta * tuning.omega, tuning.omega * tuning.omega);
+        let inertial = left + model.head_height * alpha;
+        let dropped = (travel_gain - 1.0) * inertial - damping * velocity - stiffness * position;
+
+        let limited = alpha != demanded || rate != tilt_gain * left || tilt.abs() >= model.angle_limit;
+        let gravity = model.gravity * cos;
+        let tilt_change = if limited { -SENSITIVITY_DECAY * self.tilt } else { left - tilt_gain * gravity * self.tilt };
+        let forced = |[x, v]: [f64; 2], by: f64| by - damping * v - stiffness * x;
+        let travel_acceleration = forced(self.to_travel_gain, inertial);
+        let tilt_acceleration = forced(self.to_tilt_gain, -travel_gain * gravity * self.tilt);
+
+        let (price_x, price_v) =
+            (dearer * tuning.position_weight * position, dearer * tuning.velocity_weight * velocity);
+        let gradients = [
+            dropped * travel_acceleration
+                + price_x * self.to_travel_gain[0]
+                + price_v * self.to_travel_gain[1]
+                + tuning.pull[0] * (travel_gain - tuning.nominal[0]),
+            dropped * (tilt_acceleration + gravity * self.tilt)
+                + price_x * self.to_tilt_gain[0]
+                + price_v * self.to_tilt_gain[1]
+                + tuning.tilt_rate_weight * tilt_rate * tilt_change
+                + tuning.pull[1] * (tilt_gain - tuning.nominal[1]),
+        ];
+        for k in 0..2 {
+            self.gains[k] = (self.gains[k] - step * tuning.adaptation[k] * gradients[k])
+                .clamp(LEAST_GAIN * tuning.nominal[k].min(1.0), 1.0);
+        }
+        self.to_travel_gain = integrated(self.to_travel_gain, travel_acceleration, step);
+        self.to_tilt_gain = integrated(self.to_tilt_gain, tilt_acceleration, step);
+        self.tilt = sensitivity(self.tilt + step * tilt_change);
+        Decision { dropped_force: dropped, tilt_acceleration: alpha }
+    }
+}
+
+/// A sensitivity of position and velocity after a step.
+fn integrated([x, v]: [f64; 2], acceleration: f64, step: f64) -> [f64; 2] {
+    [sensitivity(x + step * v), sensitivity(v + step * acceleration)]
+}
+
+fn sensitivity(value: f64) -> f64 {
+    at_rest_if_tiny(value.clamp(-LARGEST_SENSITIVITY, LARGEST_SENSITIVITY))
+}

@@ -1,0 +1,270 @@
+//! Travel and tilt that add up: what the adaptive, the optimal and the predictive strategy have in common.
+//!
+//! On either axis, with a tilt q whose gravity acts along it (surge: nose up; sway: roll), the rider feels
+//!
+//! ```text
+//!     felt = cos(q + b) a - H (alpha + b'') + (g + z'') sin(q + b)
+//! ```
+//!
+//! where b is what else turns the platform about that axis, z heave and H the height of the head. A strategy decides on the
+//! tilt's acceleration alpha and on a *dropped force* e; the travel's acceleration a follows from felt = r + e, with r the
+//! cue at the step's end. However seldom a strategy decides, what it does not drop is felt at once.
+//!
+//! Strategies follow the *effective reference* f = r - g sin(b) + H b'', so that b is no concern of theirs.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::adaptive::Adaptive;
+use super::optimal::Optimal;
+use super::predictive::legs::Surroundings;
+use super::predictive::{Plan, Predictive};
+use super::regulator::AxisModel;
+use super::{AxisState, at_rest_if_tiny};
+use crate::cueing::compensation::{centripetal, tangential};
+use crate::interface::{Parameters, StrategyKind};
+use crate::motion::Motions;
+use crate::motion::braking_law::{Limits, Motion};
+use crate::motion::orientation::Turning;
+use crate::platform::head::Head;
+use crate::platform::{ActuatorGuard, Geometry};
+
+/// Travel and tilt of surge and sway, and the law that decides on them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Coordinated {
+    geometry: Geometry,
+    law: Law,
+    /// The tilts q of surge and sway.
+    tilt: [Motion; 2],
+    /// Whether a limit keeps either tilt from moving on.
+    pub limited: bool,
+    dropped_force: [f64; 2],
+    /// How much of the law is in force; the rest returns to neutral.
+    share: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+enum Law {
+    Adaptive(Adaptive),
+    Optimal(Optimal),
+    Predictive(Box<Predictive>),
+}
+
+/// What a step begins with, and what is known of its end.
+#[derive(Clone, Copy, Debug)]
+pub struct Circumstances<'a> {
+    pub parameters: &'a Parameters,
+    pub guard: &'a ActuatorGuard,
+    pub head: &'a Head,
+    /// The cue at the step's end, in head axes \[m/s2\].
+    pub force: Vector3<f64>,
+    /// Roll, pitch and yaw beside the tilt, at the step's end.
+    pub angles: &'a Motions,
+    /// The rider's lean as far as the platform makes up for it \[rad\].
+    pub lean: f64,
+    /// 1: engaged, 0: disengaged, between them: on the way.
+    pub engagement: f64,
+    /// Time until the vehicle stands, infinite while no stop is foreseen \[s\].
+    pub time_to_stop: f64,
+}
+
+/// Disengaged, travel returns to neutral critically damped at this frequency \[rad/s\].
+const RETURN_FREQUENCY: f64 = 1.0;
+/// A tilt within this fraction of its angle's or rate's limit counts as limited.
+const NEARLY: f64 = 0.999;
+/// The determinant of the head's axes below which the platform is turned over; nothing more is divided by it.
+const LEAST_DETERMINANT: f64 = 0.1;
+/// Heave under the predictive strategy stays below this, and is nearly what it was far below it \[m\].
+const SOFT_HEAVE: f64 = 0.1;
+
+impl Coordinated {
+    /// At rest at neutral, by the strategy that the parameters choose. None if its parameters cannot be used.
+    pub fn new(parameters: &Parameters) -> Option<Self> {
+        let models = models(parameters);
+        let law = match parameters.structure.strategy {
+            StrategyKind::Adaptive => Law::Adaptive(Adaptive::new(&models, &(&parameters.adaptive).into())),
+            StrategyKind::Predictive => {
+                Law::Predictive(Box::new(Predictive::new(&models, &(&parameters.predictive).into())?))
+            }
+            StrategyKind::Optimal | StrategyKind::Classical => {
+                Law::Optimal(Optimal::new(&models, &(&parameters.optimal).into())?)
+            }
+        };
+        Some(Coordinated {
+            geometry: Geometry::from(&parameters.rig),
+            law,
+            tilt: [Motion::default(); 2],
+            limited: false,
+            dropped_force: [0.0; 2],
+            share: 1.0,
+        })
+    }
+
+    /// Takes other parameters. False, and nothing changes, if they cannot be used.
+    pub fn retune(&mut self, parameters: &Parameters) -> bool {
+        let models = models(parameters);
+        match &mut self.law {
+            Law::Adaptive(adaptive) => {
+                adaptive.retune(&models, &(&parameters.adaptive).into());
+                true
+            }
+            Law::Optimal(optimal) => optimal.retune(&models, &(&parameters.optimal).into()),
+            Law::Predictive(predictive) => predictive.retune(&models, &(&parameters.predictive).into()),
+        }
+    }
+
+    /// Roll and pitch of the tilt.
+    pub fn tilt(&self) -> [Motion; 2] {
+        let [surge, sway] = self.tilt;
+        let pitch = Motion { position: -surge.position, velocity: -surge.velocity, acceleration: -surge.acceleration };
+        [sway, pitch]
+    }
+
+    /// The plan of the predictive strategy.
+    pub fn plan(&self) -> Option<&Plan> {
+        match &self.law {
+            Law::Predictive(predictive) => Some(predictive.plan()),
+            Law::Adaptive(_) | Law::Optimal(_) => None,
+        }
+    }
+
+    /// Advances the tilt by `step` seconds, and decides on the dropped force.
+    pub fn advance_tilt(&mut self, circumstances: &Circumstances, step: f64) {
+        let Circumstances { parameters, guard, engagement, .. } = *circumstances;
+        let linear = &guard.coordinates().linear;
+        let states = [0, 1].map(|k: usize| AxisState {
+            position: linear.position[k],
+            velocity: linear.velocity[k],
+            tilt: self.tilt[k].position,
+            tilt_rate: self.tilt[k].velocity,
+        });
+        let references = circumstances.effective_references();
+        let decisions = match &mut self.law {
+            Law::Adaptive(adaptive) => Some(adaptive.decide(&states, references, guard.stroke_margin(), step)),
+            Law::Optimal(optimal) => Some(optimal.decide(&states, references, step)),
+            Law::Predictive(predictive) => {
+                let decisions = predictive.decide(
+                    &states,
+                    &circumstances.surroundings(&self.geometry),
+                    circumstances.time_to_stop,
+                    step,
+                );
+                predictive.observe(references, step);
+                decisions
+            }
+        };
+        let share = if decisions.is_some() { engagement } else { 0.0 };
+        let decisions = decisions.unwrap_or_default();
+        let tilt = &parameters.tilt;
+        let longest_step = parameters.structure.max_step;
+        let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, longest_step);
+        self.limited = false;
+        for (k, decision) in decisions.iter().enumerate() {
+            let now = self.tilt[k];
+            let level = limits.follow(&now, &Motion::default(), tilt.acceleration_limit, step);
+            let decided = now.velocity + decision.tilt_acceleration * step;
+            let next = limits.at_velocity(&now, share * decided + (1.0 - share) * level.velocity, step);
+            self.limited |= next.position.abs() >= NEARLY * tilt.angle_limit;
+            self.limited |= next.velocity.abs() >= NEARLY * tilt.rate_limit;
+            self.tilt[k] = flushed(&next);
+            self.dropped_force[k] = decision.dropped_force;
+        }
+        self.share = share;
+    }
+
+    /// Surge and sway at the end of a step, so that the rider feels the cue less the dropped force; `turning` is how the
+    /// platform turns there, and `heave` how it heaves.
+    pub fn travel(&self, circumstances: &Circumstances, turning: &Turning, heave: &Motion, step: f64) -> [Motion; 2] {
+        let Circumstances { parameters, guard, head, force, .. } = *circumstances;
+        let rotation = &turning.orientation.rotation;
+        let arm = rotation * head.point;
+        let mut beside = tangential(turning.acceleration, arm) + centripetal(turning.velocity, arm);
+        beside.z += heave.acceleration + parameters.structure.gravity;
+        // The head's x and y, in the base frame: felt = axis . (a + beside).
+        let axes = [Vector3::x(), Vector3::y()].map(|axis| rotation * head.to_platform_axes(axis));
+        let needed = [0, 1].map(|k: usize| force[k] + self.dropped_force[k] - axes[k].dot(&beside));
+        let determinant = axes[0].x * axes[1].y - axes[0].y * axes[1].x;
+        let divisor = determinant.abs().max(LEAST_DETERMINANT).copysign(determinant);
+        let accelerations = [
+            (needed[0] * axes[1].y - needed[1] * axes[0].y) / divisor,
+            (needed[1] * axes[0].x - needed[0] * axes[1].x) / divisor,
+        ];
+        let now = &guard.coordinates().linear;
+        [0, 1].map(|k: usize| {
+            let now = now.axis(k);
+            let homewards = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
+            let acceleration = self.share * accelerations[k] + (1.0 - self.share) * homewards;
+            let limits = Limits::safety(&parameters.safety, k, parameters.structure.max_step);
+            flushed(&limits.at_velocity(&now, now.velocity + acceleration * step, step))
+        })
+    }
+
+    /// Heave as this strategy lets it through.
+    pub fn heave(&self, heave: &Motion) -> Motion {
+        match &self.law {
+            Law::Predictive(_) => softened(heave),
+            Law::Adaptive(_) | Law::Optimal(_) => *heave,
+        }
+    }
+}
+
+/// A motion at rest at neutral once it is too small to tell.
+fn flushed(motion: &Motion) -> Motion {
+    Motion {
+        position: at_rest_if_tiny(motion.position),
+        velocity: at_rest_if_tiny(motion.velocity),
+        acceleration: at_rest_if_tiny(motion.acceleration),
+    }
+}
+
+/// z -> L tanh(z/L).
+fn softened(heave: &Motion) -> Motion {
+    let ratio = libm::tanh(heave.position / SOFT_HEAVE);
+    let slope = 1.0 - ratio * ratio;
+    let speed = heave.velocity;
+    Motion {
+        position: SOFT_HEAVE * ratio,
+        velocity: slope * speed,
+        acceleration: slope * (heave.acceleration - 2.0 * ratio * speed * speed / SOFT_HEAVE),
+    }
+}
+
+impl Circumstances<'_> {
+    /// The effective references of surge and sway \[m/s2\].
+    fn effective_references(&self) -> [f64; 2] {
+        let Circumstances { force, angles, head, lean, .. } = self;
+        let gravity = self.parameters.structure.gravity;
+        let turned = [-angles.position.y, angles.position.x + lean];
+        let turning = [-angles.acceleration.y, angles.acceleration.x];
+        [0, 1].map(|k: usize| force[k] - gravity * libm::sin(turned[k]) + head.point.z * turning[k])
+    }
+
+    fn surroundings<'a>(&'a self, geometry: &'a Geometry) -> Surroundings<'a> {
+        let Parameters { rig, predictive, .. } = self.parameters;
+        let stroke = [rig.min_length, rig.max_length];
+        // A margin beyond half the stroke would leave nothing.
+        let margin = predictive.leg_margin.min(0.25 * (rig.max_length - rig.min_length));
+        Surroundings {
+            geometry,
+            neutral_height: rig.neutral_height,
+            stroke: [stroke[0] + margin, stroke[1] - margin],
+            heave: self.guard.coordinates().linear.position.z,
+            angles: self.angles.position,
+        }
+    }
+}
+
+/// Surge and sway as the strategies see them.
+fn models(parameters: &Parameters) -> [AxisModel; 2] {
+    let Parameters { tilt, safety, structure, .. } = parameters;
+    let head_height = Head::new(structure, 0.0).point.z;
+    [0, 1].map(|k: usize| AxisModel {
+        head_height,
+        gravity: structure.gravity,
+        position_limit: safety.position_limit[k],
+        velocity_limit: safety.velocity_limit[k],
+        angle_limit: tilt.angle_limit,
+        rate_limit: tilt.rate_limit,
+        acceleration_limit: tilt.acceleration_limit,
+    })
+}

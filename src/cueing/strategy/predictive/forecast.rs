@@ -1,0 +1,439 @@
+//! The forecast of one axis's reference over the horizon, learned while it is followed.
+//!
+//! Four experts forecast the reference's mean over each block, and its slow and fast part at the horizon's end. Each is
+//! linear in the reference and low-passes of it. Three are fixed; the fourth is the least-squares fit to what followed
+//! in the past (direct multi-step: one regression for each target), which forgets and falls back on a prior. The
+//! forecast is a mixture of the four with weights by the size of their latest errors.
+//!
+//! Only the past enters: an error is used once the time that was forecast is over.
+
+use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
+
+use super::horizon::{BLOCKS, DURATIONS, HORIZON, HORIZON_SAMPLES, SAMPLE, SAMPLES, end_samples, ends};
+use crate::cueing::strategy::at_rest_if_tiny;
+use crate::interface::ForecastKind;
+
+/// Time constants of the reference's low-passes \[s\]: those that the fit uses, and two for a trend.
+const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.06, 0.2, 0.6, 2.0, 6.0, 0.1, 0.3];
+const LOW_PASSES: usize = 7;
+/// The low-pass that stands for the slow part of the reference.
+const SLOW: usize = 2;
+/// The two low-passes for a trend.
+const TREND: [usize; 2] = [5, 6];
+/// Number of features of the fit: the reference and its first five low-passes.
+const FEATURES: usize = 6;
+/// What is forecast: the means over the blocks, and the slow and the fast part at the horizon's end.
+const TARGETS: usize = BLOCKS + 2;
+const EXPERTS: usize = 4;
+
+/// Samples that are remembered: the horizon's and the present one.
+const MEMORY: usize = HORIZON_SAMPLES + 1;
+
+/// Decay of the expert that holds the reference \[1/s\].
+const HOLD_DECAY: f64 = 0.02;
+/// Decay of the slow and the fast part for the expert that lets them fade \[1/s\].
+const FADE_DECAY: [f64; 2] = [0.1, 3.0];
+/// Time over which a trend goes on \[s\].
+const TREND_TIME: f64 = 1.5;
+/// The prior of the fit counts as much as so much time \[s\].
+const PRIOR_TIME: f64 = 1.0;
+/// Ridge of the prior \[(m/s2)^2\].
+const RIDGE: f64 = 3e-3;
+/// Poles \[rad/s\] and variances \[(m/s2)^2\] of the prior's reference: a sum of Ornstein-Uhlenbeck processes.
+const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
+/// The least squared error that an expert is taken to have \[(m/s2)^2\].
+const LEAST_ERROR: f64 = 1e-4;
+/// Samples from one fit to the next.
+const FIT_EVERY: u32 = 5;
+
+type Features = SVector<f64, FEATURES>;
+type Targets = SVector<f64, TARGETS>;
+/// A forecast that is linear in the features.
+type Linear = SMatrix<f64, TARGETS, FEATURES>;
+type Covariance = SMatrix<f64, FEATURES, FEATURES>;
+
+/// The expected reference.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Forecast {
+    /// Its mean over each block \[m/s2\].
+    pub means: SVector<f64, BLOCKS>,
+    /// Its slow and its fast part at the horizon's end \[m/s2\].
+    pub end: [f64; 2],
+}
+
+/// How long the forecaster remembers \[s\].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Memory {
+    /// Of the fit.
+    pub fit: f64,
+    /// Of the experts' errors.
+    pub selection: f64,
+}
+
+/// The forecaster of one axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Forecaster {
+    value: f64,
+    low_passes: SVector<f64, LOW_PASSES>,
+    /// Integral of the reference \[m/s\].
+    integral: f64,
+    /// The step that the low-passes' decays are for \[s\].
+    step: f64,
+    decays: SVector<f64, LOW_PASSES>,
+    /// A ring of [`MEMORY`] samples, the latest at `latest`.
+    samples: Vec<Sample>,
+    latest: u32,
+    /// Sums of x x' and x y' over the past, the prior included.
+    squares: Covariance,
+    products: SMatrix<f64, FEATURES, TARGETS>,
+    fitted: Linear,
+    until_fit: u32,
+    /// Mean squared error of each expert on each target.
+    errors: SMatrix<f64, EXPERTS, TARGETS>,
+    forecast: Forecast,
+}
+
+/// What is remembered of an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Sample {
+    value: f64,
+    low_passes: SVector<f64, LOW_PASSES>,
+    integral: f64,
+    /// The fit's forecast.
+    fitted: Targets,
+}
+
+impl Sample {
+    fn features(&self) -> Features {
+        let low = &self.low_passes;
+        Features::new(self.value, low[0], low[1], low[2], low[3], low[4])
+    }
+
+    /// What the fixed experts forecast of this instant: hold, trend, fade.
+    fn fixed_forecasts(&self, tables: &Tables) -> [Targets; EXPERTS - 1] {
+        let slow = self.low_passes[SLOW];
+        let fast = self.value - slow;
+        let hold = slow * tables.hold[0] + fast * tables.hold[1];
+        let [quick, lagging] = TREND.map(|k| self.low_passes[k]);
+        let slope = (quick - lagging) / (TIME_CONSTANTS[TREND[1]] - TIME_CONSTANTS[TREND[0]]);
+        let fade = slow * tables.fade[0] + fast * tables.fade[1];
+        [hold, hold + slope * tables.trend, fade]
+    }
+}
+
+/// What every forecaster needs and nothing changes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tables {
+    /// Targets of the fixed experts for a slow and a fast part of 1, and for a slope of 1.
+    hold: [Targets; 2],
+    fade: [Targets; 2],
+    trend: Targets,
+    /// The sums x x' and x y' with which the fit starts, and to which it forgets.
+    prior_squares: Covariance,
+    prior_products: SMatrix<f64, FEATURES, TARGETS>,
+}
+
+impl Tables {
+    pub fn new() -> Self {
+        let [slow, fast] = FADE_DECAY;
+        let fade = [exponential(slow, true), exponential(fast, false)];
+        let prior_squares = (prior_covariance() + RIDGE * Covariance::identity()) * (PRIOR_TIME / SAMPLE);
+        Tables {
+            hold: [exponential(HOLD_DECAY, true), exponential(HOLD_DECAY, false)],
+            fade,
+            trend: trend(),
+            prior_squares,
+            prior_products: prior_squares * from_features(&fade).transpose(),
+        }
+    }
+}
+
+/// Means over the blocks of a part that decays from 1, and the part at the end: the slow one or the fast one.
+fn exponential(decay: f64, slow: bool) -> Targets {
+    let ends = ends();
+    Targets::from_fn(|k, _| match k {
+        BLOCKS => {
+            if slow {
+                libm::exp(-decay * HORIZON)
+            } else {
+                0.0
+            }
+        }
+        k if k > BLOCKS => {
+            if slow {
+                0.0
+            } else {
+                libm::exp(-decay * HORIZON)
+            }
+        }
+        _ => {
+            let start = ends[k] - DURATIONS[k];
+            (libm::exp(-decay * start) - libm::exp(-decay * ends[k])) / (decay * DURATIONS[k])
+        }
+    })
+}
+
+/// What a slope of 1 adds by the middle of each block, and by the end, half of it to either part.
+fn trend() -> Targets {
+    let grown = |time: f64| TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME));
+    let ends = ends();
+    Targets::from_fn(|k, _| if k < BLOCKS { grown(ends[k] - 0.5 * DURATIONS[k]) } else { 0.5 * grown(HORIZON) })
+}
+
+/// What a slow and a fast part of 1 lead to, as a forecast from the features.
+fn from_features([slow, fast]: &[Targets; 2]) -> Linear {
+    let mut linear = Linear::zeros();
+    linear.set_column(0, fast);
+    linear.set_column(1 + SLOW, &(slow - fast));
+    linear
+}
+
+/// Covariance of the features for the prior's reference.
+fn prior_covariance() -> Covariance {
+    // The reference itself is a low-pass without lag.
+    let pole = |feature: usize| if feature == 0 { f64::INFINITY } else { 1.0 / TIME_CONSTANTS[feature - 1] };
+    Covariance::from_fn(|i, j| {
+        let (a, b) = (pole(i), pole(j));
+        PRIOR.iter().fold(0.0, |sum, &(s, variance)| {
+            sum + variance
+                * match (a.is_finite(), b.is_finite()) {
+                    (false, false) => 1.0,
+                    (false, true) => b / (b + s),
+                    (true, false) => a / (a + s),
+                    (true, true) => a * b / (a + b) * (1.0 / (a + s) + 1.0 / (b + s)),
+                }
+        })
+    })
+}
+
+impl Forecaster {
+    /// Nothing has happened yet.
+    pub fn new(tables: &Tables) -> Self {
+        Forecaster {
+            value: 0.0,
+            low_passes: SVector::zeros(),
+            integral: 0.0,
+            step: 0.0,
+            decays: SVector::zeros(),
+            samples: vec![Sample::default(); MEMORY],
+            latest: 0,
+            squares: tables.prior_squares,
+            products: tables.prior_products,
+            fitted: from_features(&tables.fade),
+            until_fit: 0,
+            errors: SMatrix::repeat(LEAST_ERROR),
+            forecast: Forecast::default(),
+        }
+    }
+
+    /// Lets `step` seconds pass in which the reference is `value` \[m/s2\].
+    pub fn advance(&mut self, value: f64, step: f64) {
+        if step != self.step {
+            self.step = step;
+            self.decays = SVector::from(TIME_CONSTANTS).map(|time| 1.0 - libm::exp(-step / time));
+        }
+        self.value = value;
+        self.low_passes += self.decays.component_mul(&self.low_passes.map(|low| value - low));
+        self.low_passes.apply(|low| *low = at_rest_if_tiny(*low));
+        self.integral += value * step;
+    }
+
+    /// The latest forecast.
+    pub fn forecast(&self) -> &Forecast {
+        &self.forecast
+    }
+
+    /// The forecast for a reference that stays what it is until the vehicle stops, and is zero from then on.
+    pub fn until_stop(&self, time: f64) -> Forecast {
+        let ends = ends();
+        let before = |k: usize| ((time - ends[k] + DURATIONS[k]) / DURATIONS[k]).clamp(0.0, 1.0);
+        let slow = self.low_passes[SLOW];
+        let end = if time < HORIZON { [0.0; 2] } else { [slow, self.value - slow] };
+        Forecast { means: SVector::from_fn(|k, _| self.value * before(k)), end }
+    }
+
+    /// Learns from what has come, and forecasts anew. To be called once every [`SAMPLE`].
+    pub fn sample(&mut self, tables: &Tables, kind: ForecastKind, memory: &Memory) {
+        self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
+        let mut now = Sample {
+            value: self.value,
+            low_passes: self.low_passes,
+            integral: self.integral,
+            fitted: Targets::zeros(),
+        };
+        self.remember(&now);
+        self.compare(tables, memory);
+        self.learn(tables, memory);
+        now.fitted = self.fitted * now.features();
+        self.remember(&now);
+        let [hold, trend, fade] = now.fixed_forecasts(tables);
+        let targets = match kind {
+            ForecastKind::Hold => hold,
+            ForecastKind::Decay => fade,
+            ForecastKind::Learned => self.mixture(&[hold, trend, fade, now.fitted]),
+        };
+        self.forecast = Forecast {
+            means: targets.fixed_rows::<BLOCKS>(0).into_owned(),
+            end: [targets[BLOCKS], targets[BLOCKS + 1]],
+        };
+    }
+
+    fn remember(&mut self, now: &Sample) {
+        if let Some(sample) = self.samples.get_mut(self.latest as usize) {
+            *sample = *now;
+        }
+    }
+
+    /// The sample that is so many samples old.
+    fn ago(&self, count: usize) -> Sample {
+        let index = (self.latest as usize + MEMORY - count) % MEMORY;
+        self.samples.get(index).copied().unwrap_or_default()
+    }
+
+    /// The reference's mean over a block that ended so many samples ago.
+    fn mean(&self, block: usize, ended: usize) -> f64 {
+        (self.ago(ended).integral - self.ago(ended + SAMPLES[block]).integral) / DURATIONS[block]
+    }
+
+    /// Takes down the errors of what was forecast for the times that have just become known.
+    fn compare(&mut self, tables: &Tables, memory: &Memory) {
+        let keep = libm::exp(-SAMPLE / memory.selection);
+        let end_samples = end_samples();
+        let now = self.ago(0);
+        for target in 0..TARGETS {
+            let age = end_samples[target.min(BLOCKS - 1)];
+            let truth = match target {
+                BLOCKS => now.low_passes[SLOW],
+                target if target > BLOCKS => now.value - now.low_passes[SLOW],
+                block => self.mean(block, 0),
+            };
+            let then = self.ago(age);
+            let [hold, trend, fade] = then.fixed_forecasts(tables);
+            for (expert, forecast) in [hold, trend, fade, then.fitted].iter().enumerate() {
+                let error = forecast[target] - truth;
+                let mean = &mut self.errors[(expert, target)];
+                *mean = keep * *mean + (1.0 - keep) * (LEAST_ERROR + error * error);
+            }
+        }
+    }
+
+    /// Adds what followed the oldest sample to the fit's sums, and fits anew every few samples.
+    fn learn(&mut self, tables: &Tables, memory: &Memory) {
+        let x = self.ago(HORIZON_SAMPLES).features();
+        let now = self.ago(0);
+        let end_samples = end_samples();
+        let y = Targets::from_fn(|target, _| match target {
+            BLOCKS => now.low_passes[SLOW],
+            target if target > BLOCKS => now.value - now.low_passes[SLOW],
+            block => self.mean(block, HORIZON_SAMPLES - end_samples[block]),
+        });
+        let keep = libm::exp(-SAMPLE / memory.fit);
+        self.squares = keep * self.squares + (1.0 - keep) * tables.prior_squares + x * x.transpose();
+        self.products = keep * self.products + (1.0 - keep) * tables.prior_products + x * y.transpose();
+        if self.until_fit == 0 {
+            self.until_fit = FIT_EVERY;
+            if let Some(factor) = self.squares.cholesky() {
+                self.fitted = factor.solve(&self.products).transpose();
+            }
+        }
+        self.until_fit = self.until_fit.saturating_sub(1);
+    }
+
+    /// The experts' forecasts, each target weighted by the inverse fourth power of the mean squared errors.
+    fn mixture(&self, forecasts: &[Targets; EXPERTS]) -> Targets {
+        Targets::from_fn(|target, _| {
+            let errors = self.errors.column(target);
+            let least = errors.min();
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for (forecast, error) in forecasts.iter().zip(errors.iter()) {
+                let squared = (least / error) * (least / error);
+                sum += squared * squared * forecast[target];
+                weights += squared * squared;
+            }
+            sum / weights
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MEMORY: Memory = Memory { fit: 60.0, selection: 3.0 };
+
+    /// The forecaster after so many seconds of a reference, sampled every 20 ms.
+    fn followed(reference: impl Fn(f64) -> f64, time: f64, kind: ForecastKind) -> Forecaster {
+        let tables = Tables::new();
+        let mut forecaster = Forecaster::new(&tables);
+        for k in 0..(time / SAMPLE).round() as usize {
+            for j in 0..20 {
+                forecaster.advance(reference(k as f64 * SAMPLE + f64::from(j + 1) * 0.001), 0.001);
+            }
+            forecaster.sample(&tables, kind, &MEMORY);
+        }
+        forecaster
+    }
+
+    /// Means of a reference over the blocks that follow a time.
+    fn means(reference: impl Fn(f64) -> f64, time: f64) -> SVector<f64, BLOCKS> {
+        let ends = ends();
+        SVector::from_fn(|k, _| {
+            let start = time + ends[k] - DURATIONS[k];
+            (0..1000).map(|i| reference(start + DURATIONS[k] * (f64::from(i) + 0.5) / 1000.0)).sum::<f64>() / 1000.0
+        })
+    }
+
+    #[test]
+    fn a_periodic_reference_is_learned() {
+        let reference = |t: f64| 2.0 * (1.3 * t).sin() + 0.5 * (4.0 * t).cos();
+        let error = |kind| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for time in [61.0, 62.3, 63.9, 65.2] {
+                let forecaster = followed(reference, time, kind);
+                sum += (forecaster.forecast().means - means(reference, time)).norm_squared();
+                count += BLOCKS as f64;
+            }
+            (sum / count).sqrt()
+        };
+        let (learned, hold, decay) =
+            (error(ForecastKind::Learned), error(ForecastKind::Hold), error(ForecastKind::Decay));
+        assert!(learned < 0.15, "{learned}");
+        assert!(learned < 0.2 * hold && learned < 0.2 * decay, "{learned}, {hold}, {decay}");
+    }
+
+    #[test]
+    fn a_constant_reference_is_expected_to_stay_and_none_to_stay_none() {
+        let forecast = *followed(|_| 1.5, 30.0, ForecastKind::Learned).forecast();
+        assert!(forecast.means.iter().all(|mean| (mean - 1.5).abs() < 0.05), "{}", forecast.means);
+        assert_eq!(*followed(|_| 0.0, 10.0, ForecastKind::Learned).forecast(), Forecast::default());
+    }
+
+    #[test]
+    fn low_passes_follow_a_step_as_exponentials() {
+        let forecaster = followed(|_| 1.0, 0.6, ForecastKind::Hold);
+        for (low, time) in forecaster.low_passes.iter().zip(TIME_CONSTANTS) {
+            assert!((low - (1.0 - (-0.6 / time).exp())).abs() < 1e-12);
+        }
+        assert!((forecaster.integral - 0.6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_priors_covariance_is_that_of_a_simulated_process() {
+        // An Ornstein-Uhlenbeck process of one pole through one low-pass, by its Lyapunov equation.
+        let covariance = prior_covariance();
+        for (feature, time) in TIME_CONSTANTS[..FEATURES - 1].iter().enumerate() {
+            let a = 1.0 / time;
+            let (mut variance, mut with_input) = (0.0, 0.0);
+            for (s, input_variance) in PRIOR {
+                // y' = a (u - y), E u^2 = 1: E uy = a/(a + s), E y^2 = E uy.
+                let cross = a / (a + s);
+                with_input += input_variance * cross;
+                variance += input_variance * cross;
+            }
+            assert!((covariance[(0, feature + 1)] - with_input).abs() < 1e-12);
+            assert!((covariance[(feature + 1, feature + 1)] - variance).abs() < 1e-12);
+        }
+        assert!(covariance.symmetric_eigenvalues().min() > 0.0);
+    }
+}

@@ -1,0 +1,107 @@
+//! The actuators' lengths along a plan, linearized about the plan before.
+
+use nalgebra::Vector3;
+
+use super::horizon::{BLOCKS, ends};
+use super::program::Nodes;
+use crate::motion::orientation::{Orientation, RollPitchYaw};
+use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
+
+/// The machine, and what else moves the platform.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    pub geometry: &'a Geometry,
+    /// Height of the platform's origin at neutral \[m\].
+    pub neutral_height: f64,
+    /// Shortest and longest length of an actuator in a plan \[m\].
+    pub stroke: [f64; 2],
+    /// Heave from neutral \[m\].
+    pub heave: f64,
+    /// Roll, pitch and yaw beside the tilt \[rad\].
+    pub angles: Vector3<f64>,
+}
+
+/// A leg's length near a pose, and how it changes with position and tilt of surge and sway.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LegRow {
+    /// The length less what the nominal positions and tilts contribute by the slopes \[m\].
+    pub offset: f64,
+    /// By position, of surge and sway.
+    pub by_position: [f64; 2],
+    /// By tilt, of surge and sway \[m/rad\].
+    pub by_tilt: [f64; 2],
+}
+
+/// Heave is expected to stay for so long, and to fade with a time constant after that \[s\].
+const HEAVE_STAYS: f64 = 0.1;
+const HEAVE_FADES: f64 = 0.4;
+
+/// The legs at each node of a plan for surge and sway.
+pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2]) -> [[LegRow; 6]; BLOCKS] {
+    let ends = ends();
+    std::array::from_fn(|node| {
+        let heave = surroundings.heave * libm::exp(-(ends[node] - HEAVE_STAYS).max(0.0) / HEAVE_FADES);
+        let position = [0, 1].map(|axis: usize| plan[axis][4 * node]);
+        let tilt = [0, 1].map(|axis: usize| plan[axis][4 * node + 2]);
+        legs_near(surroundings, position, tilt, heave)
+    })
+}
+
+fn legs_near(surroundings: &Surroundings, position: [f64; 2], tilt: [f64; 2], heave: f64) -> [LegRow; 6] {
+    let Surroundings { geometry, neutral_height, angles, .. } = *surroundings;
+    let orientation = Orientation::new(RollPitchYaw::new(angles.x + tilt[1], angles.y - tilt[0], angles.z));
+    let pose = Pose { position: Vector3::new(position[0], position[1], neutral_height + heave), orientation };
+    let lengths = leg_lengths(geometry, &pose);
+    let jacobian = jacobian(geometry, &pose);
+    // A surge's tilt is a pitch nose up.
+    let about = [RollPitchYaw::new(0.0, -1.0, 0.0), RollPitchYaw::new(1.0, 0.0, 0.0)]
+        .map(|rates| orientation.angular_velocity(rates));
+    std::array::from_fn(|leg| {
+        let turning = Vector3::new(jacobian[(leg, 3)], jacobian[(leg, 4)], jacobian[(leg, 5)]);
+        let by_position = [jacobian[(leg, 0)], jacobian[(leg, 1)]];
+        let by_tilt = about.map(|axis| turning.dot(&axis));
+        let nominal: f64 = (0..2).map(|k| by_position[k] * position[k] + by_tilt[k] * tilt[k]).sum();
+        LegRow { offset: lengths[leg] - nominal, by_position, by_tilt }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::Rig;
+
+    #[test]
+    fn slopes_are_those_of_finite_differences() {
+        let rig = Rig::default();
+        let geometry = Geometry::from(&rig);
+        let surroundings = Surroundings {
+            geometry: &geometry,
+            neutral_height: rig.neutral_height,
+            stroke: [rig.min_length, rig.max_length],
+            heave: 0.03,
+            angles: Vector3::new(0.05, -0.04, 0.1),
+        };
+        let (position, tilt) = ([0.1, -0.2], [0.15, -0.1]);
+        let length = |position: [f64; 2], tilt: [f64; 2], leg: usize| {
+            let row = legs_near(&surroundings, position, tilt, 0.03)[leg];
+            row.offset + (0..2).map(|k| row.by_position[k] * position[k] + row.by_tilt[k] * tilt[k]).sum::<f64>()
+        };
+        let step = 1e-5;
+        for (leg, row) in legs_near(&surroundings, position, tilt, 0.03).iter().enumerate() {
+            for axis in 0..2 {
+                let moved = |values: [f64; 2], by: f64| {
+                    let mut moved = values;
+                    moved[axis] += by;
+                    moved
+                };
+                let by_position = (length(moved(position, step), tilt, leg)
+                    - length(moved(position, -step), tilt, leg))
+                    / (2.0 * step);
+                let by_tilt = (length(position, moved(tilt, step), leg) - length(position, moved(tilt, -step), leg))
+                    / (2.0 * step);
+                assert!((by_position - row.by_position[axis]).abs() < 1e-8);
+                assert!((by_tilt - row.by_tilt[axis]).abs() < 1e-8);
+            }
+        }
+    }
+}

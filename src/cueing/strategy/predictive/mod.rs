@@ -1,0 +1,378 @@
+//! The predictive strategy: a plan of surge, sway and tilt over the next seconds, made anew 50 times a second.
+//!
+//! A plan is the solution of a quadratic [`program`] over blocks of a [`horizon`]: the least dropped force for the
+//! reference that is [`forecast`], within the limits of travel, tilt and the actuators' lengths ([`legs`]). The
+//! [`dual_active_set`] method solves it a few iterations at a time, so that no internal step takes long.
+//!
+//! A plan says how much force to drop and how the tilt accelerates. The rest follows from what comes in, at once: see
+//! [`coordinated`](super::coordinated).
+
+pub mod dual_active_set;
+pub mod forecast;
+pub mod horizon;
+pub mod legs;
+pub mod program;
+
+use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
+
+use self::dual_active_set::{DualActiveSet, Rows, Status};
+use self::forecast::{Forecaster, Memory, Tables};
+use self::horizon::{BLOCKS, SAMPLE, block_at};
+use self::legs::{Surroundings, leg_rows};
+use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, AxisProgram, CONTROLS, Nodes, ROWS};
+use super::regulator::{AxisModel, Regulator, Weights};
+use super::{AxisState, Decision};
+use crate::interface::{ForecastKind, PredictiveParameters};
+
+/// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
+const ITERATIONS_PER_STEP: f64 = 8.0;
+const PACE: f64 = 0.001;
+/// A plan that takes more iterations is given up.
+const MAX_ITERATIONS: u32 = 120;
+/// Differences of time below this are rounding \[s\].
+const INSTANT: f64 = 1e-9;
+
+/// The tunable parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Tuning {
+    pub weights: Weights,
+    pub forecast: ForecastKind,
+    pub memory: Memory,
+}
+
+/// The strategy with its state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Predictive {
+    models: [AxisModel; 2],
+    tuning: Tuning,
+    tables: Box<Tables>,
+    forecasters: [Box<Forecaster>; 2],
+    until_sample: f64,
+    axes: [Box<AxisProgram>; 2],
+    factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
+    rows: Box<Rows<CONTROLS, ROWS>>,
+    solver: Box<DualActiveSet<CONTROLS, ROWS>>,
+    /// Whether a new plan is to be made.
+    due: bool,
+    /// The nodes without control of the plan that is being made, and the time since it was begun \[s\].
+    free: [Nodes; 2],
+    begun: f64,
+    plan: Plan,
+}
+
+/// A plan, and how far it has been carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Plan {
+    controls: [AxisControls; 2],
+    nodes: [Nodes; 2],
+    /// Time since the plan was begun \[s\].
+    pub age: f64,
+    /// Iterations that it took.
+    pub iterations: u32,
+    /// Whether the last attempt at a newer plan failed.
+    pub kept: bool,
+}
+
+impl From<&PredictiveParameters> for Tuning {
+    fn from(parameters: &PredictiveParameters) -> Self {
+        Tuning {
+            weights: Weights {
+                position: parameters.weight_position,
+                velocity: parameters.weight_velocity,
+                tilt_rate: parameters.weight_tilt_rate,
+                tilt_acceleration: parameters.weight_tilt_acceleration,
+                slow_pole: parameters.slow_pole,
+                fast_pole: parameters.fast_pole,
+            },
+            forecast: parameters.forecast,
+            memory: Memory { fit: parameters.memory, selection: parameters.selection },
+        }
+    }
+}
+
+impl Predictive {
+    /// At rest. None if the weights cannot be used.
+    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
+        let tables = Box::new(Tables::new());
+        let program = |axis: usize| AxisProgram::new(&models[axis], &tuning.weights).map(Box::new);
+        let axes = [program(0)?, program(1)?];
+        let plan = Plan {
+            controls: [AxisControls::zeros(); 2],
+            nodes: [Nodes::zeros(); 2],
+            age: 0.0,
+            iterations: 0,
+            kept: false,
+        };
+        Some(Predictive {
+            models: *models,
+            tuning: *tuning,
+            forecasters: [0, 1].map(|_| Box::new(Forecaster::new(&tables))),
+            tables,
+            until_sample: SAMPLE,
+            factor: Box::new(program::factor(&axes)?),
+            rows: Box::new(program::rows(&axes)),
+            axes,
+            solver: Box::new(DualActiveSet::new()),
+            due: true,
+            free: [Nodes::zeros(); 2],
+            begun: 0.0,
+            plan,
+        })
+    }
+
+    /// Takes other parameters. The plan stays; the next one is made with them. False, and nothing changes, if they cannot
+    /// be used.
+    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> bool {
+        if (models, tuning) == (&self.models, &self.tuning) {
+            return true;
+        }
+        if models.iter().any(|model| Regulator::new(model, &tuning.weights).is_none()) {
+            return false;
+        }
+        for (axis, model) in self.axes.iter_mut().zip(models) {
+            if let Some(program) = AxisProgram::new(model, &tuning.weights) {
+                **axis = program;
+            }
+        }
+        if let Some(factor) = program::factor(&self.axes) {
+            *self.factor = factor;
+        }
+        program::set_axis_normals(&mut self.rows, &self.axes);
+        (self.models, self.tuning) = (*models, *tuning);
+        self.solver.abandon();
+        self.due = true;
+        true
+    }
+
+    /// The plan that is being carried out.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// What to do in a step of `step` seconds, at whose beginning surge and sway are in these states. None once the plan
+    /// is over. `time_to_stop` is infinite while no stop of the vehicle is foreseen.
+    pub fn decide(
+        &mut self,
+        states: &[AxisState; 2],
+        surroundings: &Surroundings,
+        time_to_stop: f64,
+        step: f64,
+    ) -> Option<[Decision; 2]> {
+        if self.due && self.solver.status() != Status::Running {
+            self.begin(states, surroundings, time_to_stop);
+        } else {
+            self.proceed(step);
+        }
+        let decisions = block_at(self.plan.age).map(|block| {
+            [0, 1].map(|axis: usize| Decision {
+                dropped_force: self.plan.controls[axis][block],
+                tilt_acceleration: self.axes[axis].acceleration_limit() * self.plan.controls[axis][BLOCKS + block],
+            })
+        });
+        self.plan.age += step;
+        self.begun += step;
+        decisions
+    }
+
+    /// Lets `step` seconds pass in which the references of surge and sway are these.
+    pub fn observe(&mut self, references: [f64; 2], step: f64) {
+        let mut left = step;
+        loop {
+            let chunk = if left <= self.until_sample + INSTANT { left } else { self.until_sample };
+            for (forecaster, reference) in self.forecasters.iter_mut().zip(references) {
+                forecaster.advance(reference, chunk);
+            }
+            left -= chunk;
+            self.until_sample -= chunk;
+            if self.until_sample <= INSTANT {
+                self.until_sample = SAMPLE;
+                self.due = true;
+                for forecaster in &mut self.forecasters {
+                    forecaster.sample(&self.tables, self.tuning.forecast, &self.tuning.memory);
+                }
+            }
+            if left <= INSTANT {
+                break;
+            }
+        }
+    }
+
+    /// Begins a new plan from these states.
+    fn begin(&mut self, states: &[AxisState; 2], surroundings: &Surroundings, time_to_stop: f64) {
+        self.due = false;
+        self.begun = 0.0;
+        let mut gradient = SVector::<f64, CONTROLS>::zeros();
+        for (k, axis) in self.axes.iter().enumerate() {
+            let forecaster = &self.forecasters[k];
+            // A stop takes the reference of surge away.
+            let stops = k == 0 && time_to_stop.is_finite();
+            let forecast = if stops { forecaster.until_stop(time_to_stop) } else { *forecaster.forecast() };
+            let data = program::data(&states[k], &forecast);
+            self.free[k] = axis.free_nodes(&data);
+            gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
+            let free = axis.rows(&self.free[k], &AxisControls::zeros());
+            self.rows.lower.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| -1.0 - value));
+            self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| 1.0 - value));
+        }
+        self.limit_legs(surroundings);
+        self.solver.start(&self.factor, &gradient);
+    }
+
+    /// Sets the rows of the actuators, in halves of the stroke.
+    fn limit_legs(&mut self, surroundings: &Surroundings) {
+        let [min, max] = surroundings.stroke;
+        let scale = 2.0 / (max - min);
+        for (node, legs) in leg_rows(surroundings, &self.plan.nodes).iter().enumerate() {
+            for (leg, row) in legs.iter().enumerate() {
+                let mut free = row.offset;
+                let number = 2 * AXIS_ROWS + 6 * node + leg;
+                let Some(normal) = self.rows.normals.get_mut(number) else { continue };
+                for (axis, program) in self.axes.iter().enumerate() {
+                    let (by_position, by_tilt) = (row.by_position[axis], row.by_tilt[axis]);
+                    free += by_position * self.free[axis][4 * node] + by_tilt * self.free[axis][4 * node + 2];
+                    let controls = by_position * program.response(node, 0) + by_tilt * program.response(node, 2);
+                    normal.fixed_rows_mut::<AXIS_CONTROLS>(axis * AXIS_CONTROLS).copy_from(&(scale * controls));
+                }
+                self.rows.lower[number] = scale * (min - free);
+                self.rows.upper[number] = scale * (max - free);
+            }
+        }
+    }
+
+    /// Goes on with the plan that is being made, and takes it over when it is done.
+    fn proceed(&mut self, step: f64) {
+        if self.solver.status() != Status::Running {
+            return;
+        }
+        let pace = (ITERATIONS_PER_STEP * step / PACE).clamp(ITERATIONS_PER_STEP, f64::from(MAX_ITERATIONS));
+        match self.solver.advance(&self.rows, pace as u32) {
+            Status::Running if self.solver.iterations() < MAX_ITERATIONS => {}
+            Status::Solved => self.take_over(),
+            Status::Running | Status::Failed => {
+                self.plan.kept = true;
+                self.plan.iterations = self.solver.iterations();
+                self.solver.abandon();
+            }
+        }
+    }
+
+    fn take_over(&mut self) {
+        for (k, axis) in self.axes.iter().enumerate() {
+            let controls = self.solver.solution().fixed_rows::<AXIS_CONTROLS>(k * AXIS_CONTROLS).into_owned();
+            self.plan.nodes[k] = axis.nodes(&self.free[k], &controls);
+            self.plan.controls[k] = controls;
+        }
+        self.plan.age = self.begun;
+        self.plan.iterations = self.solver.iterations();
+        self.plan.kept = false;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::{Parameters, Rig};
+    use crate::platform::Geometry;
+    use nalgebra::Vector3;
+
+    const MODEL: AxisModel = AxisModel {
+        head_height: 1.2,
+        gravity: 9.80665,
+        position_limit: 0.45,
+        velocity_limit: 1.0,
+        angle_limit: 0.38,
+        rate_limit: 0.052,
+        acceleration_limit: 0.2,
+    };
+
+    fn predictive() -> Predictive {
+        Predictive::new(&[MODEL; 2], &(&Parameters::default().predictive).into()).unwrap()
+    }
+
+    fn surroundings(geometry: &Geometry) -> Surroundings<'_> {
+        let rig = Rig::default();
+        Surroundings {
+            geometry,
+            neutral_height: rig.neutral_height,
+            stroke: [rig.min_length, rig.max_length],
+            heave: 0.0,
+            angles: Vector3::zeros(),
+        }
+    }
+
+    /// Lets so many steps of 1 ms pass at this reference; the last step's decisions.
+    fn passed(predictive: &mut Predictive, steps: usize, reference: f64) -> Option<[Decision; 2]> {
+        let geometry = Geometry::from(&Rig::default());
+        let mut decisions = None;
+        for _ in 0..steps {
+            decisions = predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, 0.001);
+            predictive.observe([reference; 2], 0.001);
+        }
+        decisions
+    }
+
+    #[test]
+    fn a_plan_is_made_every_20_ms_and_is_never_older_than_that_and_its_making() {
+        let mut predictive = predictive();
+        for _ in 0..500 {
+            passed(&mut predictive, 1, 3.0);
+            assert!(predictive.plan().age < 0.04, "{}", predictive.plan().age);
+        }
+        assert!(predictive.plan().iterations > 0 && !predictive.plan().kept);
+    }
+
+    #[test]
+    fn without_a_new_plan_the_one_before_is_carried_out_to_its_end() {
+        let mut predictive = predictive();
+        passed(&mut predictive, 500, 3.0);
+        // Nothing can be planned for what is not a number.
+        let decisions = passed(&mut predictive, 1000, f64::NAN).expect("the plan reaches 3 s ahead");
+        assert!(predictive.plan().kept);
+        assert!(decisions.iter().all(|decision| decision.dropped_force.is_finite()));
+        assert!((0.9..1.1).contains(&predictive.plan().age));
+        assert_eq!(passed(&mut predictive, 2100, f64::NAN), None);
+    }
+
+    #[test]
+    fn the_plan_keeps_its_rows() {
+        let mut predictive = predictive();
+        passed(&mut predictive, 2000, 6.0);
+        for (axis, program) in predictive.axes.iter().enumerate() {
+            let rows = program.rows(&predictive.plan.nodes[axis], &predictive.plan.controls[axis]);
+            assert!(rows.amax() <= 1.0 + 1e-8, "{}", rows.amax());
+            assert!(rows.amax() > 0.999, "a strong reference must reach a limit");
+        }
+    }
+
+    #[test]
+    fn condensed_nodes_are_those_of_the_block_equations() {
+        let predictive = predictive();
+        let controls = AxisControls::from_fn(|k, _| 0.3 * (k as f64).sin());
+        let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
+        let mut forecast = forecast::Forecast::default();
+        forecast.means.fill(0.7);
+        let data = program::data(&state, &forecast);
+        let axis = &predictive.axes[0];
+        let nodes = axis.nodes(&axis.free_nodes(&data), &controls);
+        let (mut x, mut v, mut q, mut w) = (0.1, -0.2, 0.05, 0.01);
+        for block in 0..BLOCKS {
+            let alpha = MODEL.acceleration_limit * controls[BLOCKS + block];
+            let steps = 20_000;
+            let step = horizon::DURATIONS[block] / f64::from(steps);
+            for _ in 0..steps {
+                let middle = q + 0.5 * step * (w + step * alpha / 3.0);
+                let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + controls[block];
+                x += step * (v + 0.5 * step * a);
+                v += step * a;
+                q += step * (w + 0.5 * step * alpha);
+                w += step * alpha;
+            }
+            let expected = [x, v, q, w];
+            for (k, expected) in expected.iter().enumerate() {
+                let found = nodes[4 * block + k];
+                assert!((found - expected).abs() < 1e-8, "block {block}, state {k}: {found}, {expected}");
+            }
+        }
+    }
+}

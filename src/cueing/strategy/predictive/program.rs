@@ -1,0 +1,250 @@
+//! The plan as a quadratic program, condensed: its variables are the blocks' dropped forces and tilt accelerations alone.
+//!
+//! Over block j of duration T, with the reference's mean F and constant dropped force e and tilt acceleration alpha,
+//!
+//! ```text
+//!     u  = F + H alpha + e
+//!     x' = x + v T + u T^2/2 - g' (q T^2/2 + w T^3/6 + alpha T^4/24)
+//!     v' = v + u T - g' (q T + w T^2/2 + alpha T^3/6)
+//!     q' = q + w T + alpha T^2/2,   w' = w + alpha T
+//! ```
+//!
+//! with g' somewhat below g, the chord of the sine. The nodes' states are linear in the start, the reference and the
+//! variables. The cost is that of the regulator, by the trapezoidal rule, with the regulator's cost to come at the end.
+
+use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
+use serde::{Deserialize, Serialize};
+
+use super::dual_active_set::Rows;
+use super::forecast::Forecast;
+use super::horizon::{BLOCKS, DURATIONS};
+use crate::cueing::strategy::AxisState;
+use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
+
+/// Variables of an axis: dropped forces \[m/s2\], then tilt accelerations relative to their limit.
+pub const AXIS_CONTROLS: usize = 2 * BLOCKS;
+/// Variables: those of surge, then those of sway.
+pub const CONTROLS: usize = 2 * AXIS_CONTROLS;
+/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, position in the middle of the blocks after the
+/// first, tilt acceleration, and two for the end.
+pub const AXIS_ROWS: usize = 6 * BLOCKS + 1;
+/// Rows of the actuators' lengths, six for each node.
+pub const LEG_ROWS: usize = 6 * BLOCKS;
+/// Rows: those of surge, of sway, and of the actuators.
+pub const ROWS: usize = 2 * AXIS_ROWS + LEG_ROWS;
+
+/// Position, velocity, tilt and tilt rate at each node, node by node.
+pub type Nodes = SVector<f64, { 4 * BLOCKS }>;
+/// The start's four, the reference's means, and its slow and fast part at the end.
+pub type Data = SVector<f64, { BLOCKS + 6 }>;
+/// The variables of an axis.
+pub type AxisControls = SVector<f64, AXIS_CONTROLS>;
+
+/// The fractions of the limits that a plan uses; the rest is for what the plan does not see.
+const POSITION_FRACTION: f64 = 0.435 / 0.45;
+const VELOCITY_FRACTION: f64 = 0.95;
+const RATE_FRACTION: f64 = 0.999;
+/// The plan must be able to stop inside its limits from the end: position plus so much time at the velocity \[s\].
+const STOPPING_TIME: f64 = 0.3;
+/// Gravity along the tilt relative to the sine's tangent.
+pub const CHORD: f64 = 0.985;
+/// A little price on tilt acceleration keeps the program strictly convex.
+const LEAST_PRICE: f64 = 1e-5;
+
+/// One axis of the program: what does not change from plan to plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AxisProgram {
+    model: AxisModel,
+    from_data: SMatrix<f64, { 4 * BLOCKS }, { BLOCKS + 6 }>,
+    from_controls: SMatrix<f64, { 4 * BLOCKS }, AXIS_CONTROLS>,
+    gradient: SMatrix<f64, AXIS_CONTROLS, { BLOCKS + 6 }>,
+    hessian: SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS>,
+}
+
+impl AxisProgram {
+    /// The program of an axis. None if there is no regulator for these weights.
+    pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
+        let regulator = Regulator::new(model, weights)?;
+        let from_data = responses(model, |data: &Data| {
+            (data.fixed_rows::<4>(0).into_owned(), data.fixed_rows::<BLOCKS>(4).into_owned(), AxisControls::zeros())
+        });
+        let from_controls = responses(model, |controls: &AxisControls| (Vector4::zeros(), SVector::zeros(), *controls));
+        let mut weighted = SMatrix::<f64, { 4 * BLOCKS }, AXIS_CONTROLS>::zeros();
+        for node in 0..BLOCKS {
+            let weight = node_weight(model, weights, &regulator, node);
+            let states = weight * from_controls.fixed_rows::<4>(4 * node);
+            weighted.fixed_rows_mut::<4>(4 * node).copy_from(&states);
+        }
+        let mut hessian = from_controls.tr_mul(&weighted);
+        for (block, duration) in DURATIONS.iter().enumerate() {
+            hessian[(block, block)] += duration;
+            hessian[(BLOCKS + block, BLOCKS + block)] += duration * (weights.tilt_acceleration + LEAST_PRICE);
+        }
+        let mut gradient = weighted.tr_mul(&from_data);
+        let end_to_end = regulator.cost.fixed_view::<4, 2>(0, 4);
+        let end = from_controls.fixed_rows::<4>(4 * (BLOCKS - 1)).tr_mul(&end_to_end);
+        gradient.fixed_columns_mut::<2>(BLOCKS + 4).copy_from(&end);
+        Some(AxisProgram { model: *model, from_data, from_controls, gradient, hessian })
+    }
+
+    /// Largest tilt acceleration, which the controls are relative to \[rad/s2\].
+    pub fn acceleration_limit(&self) -> f64 {
+        self.model.acceleration_limit
+    }
+
+    /// The nodes without any control.
+    pub fn free_nodes(&self, data: &Data) -> Nodes {
+        self.from_data * data
+    }
+
+    /// The nodes under these controls.
+    pub fn nodes(&self, free: &Nodes, controls: &AxisControls) -> Nodes {
+        free + self.from_controls * controls
+    }
+
+    /// The gradient of the cost without any control.
+    pub fn gradient(&self, data: &Data) -> AxisControls {
+        self.gradient * data
+    }
+
+    /// What one unit of each control does to a state (0: position, 2: tilt) of a node.
+    pub fn response(&self, node: usize, state: usize) -> AxisControls {
+        self.from_controls.row(4 * node + state).transpose()
+    }
+
+    /// Matrix of the cost's quadratic part.
+    pub fn hessian(&self) -> &SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS> {
+        &self.hessian
+    }
+
+    /// The normals of the axis's rows; all rows lie within -1 and 1.
+    pub fn normals(&self) -> SMatrix<f64, AXIS_CONTROLS, AXIS_ROWS> {
+        let mut normals = SMatrix::<f64, AXIS_CONTROLS, AXIS_ROWS>::zeros();
+        for control in 0..AXIS_CONTROLS {
+            let mut controls = AxisControls::zeros();
+            controls[control] = 1.0;
+            let nodes = self.from_controls.column(control).into_owned();
+            normals.set_row(control, &self.rows(&nodes, &controls).transpose());
+        }
+        normals
+    }
+
+    /// The values of the axis's rows.
+    pub fn rows(&self, nodes: &Nodes, controls: &AxisControls) -> SVector<f64, AXIS_ROWS> {
+        let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = self.model;
+        let position = 1.0 / (POSITION_FRACTION * position_limit);
+        let scales = [
+            position,
+            1.0 / (VELOCITY_FRACTION * velocity_limit),
+            1.0 / angle_limit,
+            1.0 / (RATE_FRACTION * rate_limit),
+        ];
+        let mut rows = SVector::zeros();
+        for node in 0..BLOCKS {
+            for (state, scale) in scales.iter().enumerate() {
+                rows[4 * node + state] = scale * nodes[4 * node + state];
+            }
+            rows[4 * BLOCKS + node] = controls[BLOCKS + node];
+            if node + 1 < BLOCKS {
+                let middle = nodes[4 * node] + 0.5 * DURATIONS[node + 1] * nodes[4 * node + 1];
+                rows[5 * BLOCKS + node] = position * middle;
+            }
+        }
+        let end = nodes.fixed_rows::<4>(4 * (BLOCKS - 1));
+        let tilt_stopping_time = 0.5 * rate_limit / acceleration_limit;
+        rows[AXIS_ROWS - 2] = position * (end[0] + STOPPING_TIME * end[1]);
+        rows[AXIS_ROWS - 1] = (end[2] + tilt_stopping_time * end[3]) / angle_limit;
+        rows
+    }
+}
+
+/// What the program starts from.
+pub fn data(state: &AxisState, forecast: &Forecast) -> Data {
+    let start = [state.position, state.velocity, state.tilt, state.tilt_rate];
+    Data::from_fn(|k, _| match k {
+        0..4 => start[k],
+        k if k < BLOCKS + 4 => forecast.means[k - 4],
+        k => forecast.end[k - BLOCKS - 4],
+    })
+}
+
+/// The nodes' response to one unit of each argument.
+fn responses<const K: usize>(
+    model: &AxisModel,
+    split: impl Fn(&SVector<f64, K>) -> (Vector4<f64>, SVector<f64, BLOCKS>, AxisControls),
+) -> SMatrix<f64, { 4 * BLOCKS }, K> {
+    let mut responses = SMatrix::<f64, { 4 * BLOCKS }, K>::zeros();
+    for k in 0..K {
+        let mut unit = SVector::<f64, K>::zeros();
+        unit[k] = 1.0;
+        let (start, reference, controls) = split(&unit);
+        responses.set_column(k, &rolled_out(model, start, &reference, &controls));
+    }
+    responses
+}
+
+/// The nodes that follow from a start, a reference and controls.
+fn rolled_out(
+    model: &AxisModel,
+    start: Vector4<f64>,
+    reference: &SVector<f64, BLOCKS>,
+    controls: &AxisControls,
+) -> Nodes {
+    let mut nodes = Nodes::zeros();
+    let [mut x, mut v, mut q, mut w]: [f64; 4] = start.into();
+    for (block, &t) in DURATIONS.iter().enumerate() {
+        let alpha = model.acceleration_limit * controls[BLOCKS + block];
+        let constant = reference[block] + model.head_height * alpha + controls[block];
+        let gravity = CHORD * model.gravity;
+        // The tilt's first and second integral over the block.
+        let once = t * (q + t * (w / 2.0 + t * alpha / 6.0));
+        let twice = t * t * (q / 2.0 + t * (w / 6.0 + t * alpha / 24.0));
+        (x, v) = (x + t * (v + 0.5 * t * constant) - gravity * twice, v + t * constant - gravity * once);
+        (q, w) = (q + w * t + 0.5 * alpha * t * t, w + alpha * t);
+        nodes.fixed_rows_mut::<4>(4 * block).copy_from(&Vector4::new(x, v, q, w));
+    }
+    nodes
+}
+
+/// The price of a node's state: by the trapezoidal rule, and at the last one the cost to come.
+fn node_weight(model: &AxisModel, weights: &Weights, regulator: &Regulator, node: usize) -> Matrix4<f64> {
+    let last = node + 1 == BLOCKS;
+    let time = 0.5 * (DURATIONS[node] + if last { 0.0 } else { DURATIONS[node + 1] });
+    let prices = Vector4::new(
+        weights.position / model.position_limit.powi(2),
+        weights.velocity / model.velocity_limit.powi(2),
+        0.0,
+        weights.tilt_rate / model.rate_limit.powi(2),
+    );
+    let running = Matrix4::from_diagonal(&(time * prices));
+    if last { running + regulator.cost.fixed_view::<4, 4>(0, 0) } else { running }
+}
+
+/// L^-T of the Hessian L L' of both axes. None if rounding has made it indefinite.
+pub fn factor(axes: &[Box<AxisProgram>; 2]) -> Option<SMatrix<f64, CONTROLS, CONTROLS>> {
+    let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
+    for (k, axis) in axes.iter().enumerate() {
+        let inverse = axis.hessian.cholesky()?.l().try_inverse()?;
+        let begin = k * AXIS_CONTROLS;
+        factor.fixed_view_mut::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin).copy_from(&inverse.transpose());
+    }
+    Some(factor)
+}
+
+/// The rows, those of the actuators without their normals.
+pub fn rows(axes: &[Box<AxisProgram>; 2]) -> Rows<CONTROLS, ROWS> {
+    let mut rows =
+        Rows { normals: vec![SVector::zeros(); ROWS], lower: SVector::repeat(-1.0), upper: SVector::repeat(1.0) };
+    set_axis_normals(&mut rows, axes);
+    rows
+}
+
+/// Sets the normals that do not change from plan to plan.
+pub fn set_axis_normals(rows: &mut Rows<CONTROLS, ROWS>, axes: &[Box<AxisProgram>; 2]) {
+    for (k, axis) in axes.iter().enumerate() {
+        let normals = axis.normals();
+        for (normal, column) in rows.normals.iter_mut().skip(k * AXIS_ROWS).zip(normals.column_iter()) {
+            normal.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&column);
+        }
+    }
+}

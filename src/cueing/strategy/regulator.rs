@@ -1,0 +1,171 @@
+//! The linear-quadratic regulator of one axis: the price of dropped force, stroke and tilting, and the gains that make it
+//! least.
+
+use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
+
+use super::riccati;
+
+/// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast part of the reference
+/// \[m/s2\].
+pub type State = SVector<f64, 6>;
+/// Gains from the state to dropped force \[m/s2\] and tilt acceleration \[rad/s2\].
+pub type Gains = SMatrix<f64, 2, 6>;
+
+/// One axis as the strategies see it: travel x and a tilt q whose gravity acts along +x.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AxisModel {
+    /// Height of the washout location above the platform \[m\].
+    pub head_height: f64,
+    /// What a radian of tilt adds to the felt force \[m/s2\].
+    pub gravity: f64,
+    /// Farthest travel \[m\] and largest velocity \[m/s\].
+    pub position_limit: f64,
+    pub velocity_limit: f64,
+    /// Largest tilt \[rad\], tilt rate \[rad/s\] and tilt acceleration \[rad/s2\].
+    pub angle_limit: f64,
+    pub rate_limit: f64,
+    pub acceleration_limit: f64,
+}
+
+/// The price of what a controller does, relative to 1 for a dropped force of 1 m/s2; each of the rest at its limit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Weights {
+    pub position: f64,
+    pub velocity: f64,
+    pub tilt_rate: f64,
+    pub tilt_acceleration: f64,
+    /// How fast the slow and the fast part of the reference are expected to fade \[rad/s\].
+    pub slow_pole: f64,
+    pub fast_pole: f64,
+}
+
+/// A regulator: (dropped force, tilt acceleration) = -gains * state, at a cost to come of state' cost state.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Regulator {
+    pub gains: Gains,
+    pub cost: SMatrix<f64, 6, 6>,
+}
+
+/// Without a price on the tilt itself the equation would have no solution; this one changes nothing that can be seen.
+const PRICE_OF_TILT: f64 = 1e-9;
+/// The same for every scaled state.
+const PRICE_OF_STATE: f64 = 1e-10;
+
+impl Regulator {
+    /// The regulator that is least in the mean for these prices. None if the Riccati equation has no solution in numbers.
+    pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
+        let (a, b) = dynamics(model, weights);
+        let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = *model;
+        let scale = State::new(position_limit, velocity_limit, angle_limit, rate_limit, 1.0, 1.0);
+        let input_scale = SVector::<f64, 2>::new(1.0, acceleration_limit);
+        // In states and inputs relative to their scales.
+        let a = SMatrix::from_fn(|i, j| a[(i, j)] * scale[j] / scale[i]);
+        let b: SMatrix<f64, 6, 2> = SMatrix::from_fn(|i, j| b[(i, j)] * input_scale[j] / scale[i]);
+        let tilt = PRICE_OF_TILT * angle_limit * angle_limit;
+        let prices = State::new(weights.position, weights.velocity, tilt, weights.tilt_rate, 0.0, 0.0);
+        let q = SMatrix::from_diagonal(&prices.add_scalar(PRICE_OF_STATE));
+        let to_input = SMatrix::from_fn(|i, j| b[(j, i)] / if i == 0 { 1.0 } else { weights.tilt_acceleration });
+        let cost = riccati::solve(&a, &(b * to_input), &q)?;
+        let gains = to_input * cost;
+        Some(Regulator {
+            gains: SMatrix::from_fn(|i, j| gains[(i, j)] * input_scale[i] / scale[j]),
+            cost: SMatrix::from_fn(|i, j| cost[(i, j)] / (scale[i] * scale[j])),
+        })
+    }
+
+    /// Dropped force \[m/s2\] and tilt acceleration \[rad/s2\] in a state.
+    pub fn control(&self, state: &State) -> [f64; 2] {
+        (-(self.gains * state)).into()
+    }
+}
+
+/// x' = A x + B u: a = slow + fast - g q + e + H alpha, where the parts of the reference fade.
+pub fn dynamics(model: &AxisModel, weights: &Weights) -> (SMatrix<f64, 6, 6>, SMatrix<f64, 6, 2>) {
+    let mut a = SMatrix::zeros();
+    let mut b = SMatrix::zeros();
+    a[(0, 1)] = 1.0;
+    a[(1, 2)] = -model.gravity;
+    a[(1, 4)] = 1.0;
+    a[(1, 5)] = 1.0;
+    a[(2, 3)] = 1.0;
+    a[(4, 4)] = -weights.slow_pole;
+    a[(5, 5)] = -weights.fast_pole;
+    b[(1, 0)] = 1.0;
+    b[(1, 1)] = model.head_height;
+    b[(3, 1)] = 1.0;
+    (a, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::STANDARD_GRAVITY;
+
+    const MODEL: AxisModel = AxisModel {
+        head_height: 1.2,
+        gravity: STANDARD_GRAVITY,
+        position_limit: 0.45,
+        velocity_limit: 1.0,
+        angle_limit: 0.38,
+        rate_limit: 0.052_359_877_559_829_88,
+        acceleration_limit: 0.2,
+    };
+    const WEIGHTS: Weights = Weights {
+        position: 0.209,
+        velocity: 0.0105,
+        tilt_rate: 0.0033,
+        tilt_acceleration: 0.0242,
+        slow_pole: 0.345,
+        fast_pole: 4.71,
+    };
+
+    #[test]
+    fn the_gains_are_those_of_another_solver() {
+        // By scipy.linalg.solve_continuous_are, to the digits printed.
+        let expected = [[0.881, 0.891, -4.91, -1.838, 0.442, 0.151], [-0.653, -1.272, 10.924, 6.141, -0.925, -0.239]];
+        let regulator = Regulator::new(&MODEL, &WEIGHTS).unwrap();
+        for (i, row) in expected.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                let found = regulator.gains[(i, j)];
+                assert!((found - value).abs() < 6e-3, "gain {i} {j}: {found} beside {value}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_cost_solves_the_riccati_equation_and_the_loop_is_stable() {
+        for weights in [
+            WEIGHTS,
+            Weights {
+                position: 5e-4,
+                velocity: 1e-2,
+                tilt_rate: 1.2e-3,
+                tilt_acceleration: 7e-4,
+                slow_pole: 0.0368,
+                fast_pole: 2.9,
+            },
+            Weights { position: 10.0, slow_pole: 1e-4, fast_pole: 1e2, ..WEIGHTS },
+        ] {
+            let Regulator { gains, cost } = Regulator::new(&MODEL, &weights).unwrap();
+            let (a, b) = dynamics(&MODEL, &weights);
+            let price = weights.tilt_acceleration / MODEL.acceleration_limit.powi(2);
+            let prices = State::new(
+                (weights.position + PRICE_OF_STATE) / MODEL.position_limit.powi(2),
+                weights.velocity + PRICE_OF_STATE,
+                PRICE_OF_TILT + PRICE_OF_STATE / MODEL.angle_limit.powi(2),
+                (weights.tilt_rate + PRICE_OF_STATE) / MODEL.rate_limit.powi(2),
+                PRICE_OF_STATE,
+                PRICE_OF_STATE,
+            );
+            let s = b.column(0) * b.column(0).transpose() + b.column(1) * b.column(1).transpose() / price;
+            let q = SMatrix::from_diagonal(&prices);
+            let residual = riccati::residual(&a, &s, &q, &cost);
+            let size = (cost * s * cost).amax();
+            assert!(residual.amax() < 1e-8 * size, "residual {:e} beside terms of {size:e}", residual.amax());
+            let poles = (a - b * gains).complex_eigenvalues();
+            assert!(poles.iter().all(|pole| pole.re < 0.0), "unstable: {poles}");
+            assert!(cost.symmetric_eigenvalues().min() > -1e-9 * cost.amax());
+        }
+    }
+}

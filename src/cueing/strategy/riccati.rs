@@ -1,0 +1,75 @@
+//! The algebraic Riccati equation of a linear-quadratic regulator.
+
+use nalgebra::SMatrix;
+
+/// Size of the regulator's state.
+const N: usize = 6;
+type Square = SMatrix<f64, N, N>;
+type Hamiltonian = SMatrix<f64, { 2 * N }, { 2 * N }>;
+
+/// The matrix sign iteration converges quadratically; a solvable equation needs 10 to 20.
+const MAX_ITERATIONS: usize = 60;
+
+/// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None if there is no such P.
+///
+/// By the matrix sign function (Roberts, *International Journal of Control* 32 (1980) 677-687): the sign W of the
+/// Hamiltonian [A -S; -Q -A'] satisfies (W + I) [I; P] = 0. Newton's iteration W <- (c W + (c W)^-1) / 2 is scaled by
+/// norms. The states and inputs should be scaled to about 1.
+pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
+    let mut w = Hamiltonian::zeros();
+    w.fixed_view_mut::<N, N>(0, 0).copy_from(a);
+    w.fixed_view_mut::<N, N>(0, N).copy_from(&-s);
+    w.fixed_view_mut::<N, N>(N, 0).copy_from(&-q);
+    w.fixed_view_mut::<N, N>(N, N).copy_from(&-a.transpose());
+    for _ in 0..MAX_ITERATIONS {
+        let inverse = w.try_inverse()?;
+        let scale = (inverse.norm() / w.norm()).sqrt();
+        let next = 0.5 * (scale * w + inverse / scale);
+        let change = (next - w).norm() / next.norm();
+        w = next;
+        if change < 1e-14 {
+            break;
+        }
+    }
+    w += Hamiltonian::identity();
+    // The last N columns times P are minus the first N.
+    let (left, right) = (w.fixed_columns::<N>(0).into_owned(), w.fixed_columns::<N>(N).into_owned());
+    let qr = right.qr();
+    let mut p = -(qr.q().transpose() * left);
+    if !qr.r().solve_upper_triangular_mut(&mut p) {
+        return None;
+    }
+    let p = 0.5 * (p + p.transpose());
+    p.iter().all(|entry| entry.is_finite()).then_some(p)
+}
+
+/// The left side of the equation, which a solution makes zero.
+#[cfg(test)]
+pub fn residual(a: &Square, s: &Square, q: &Square, p: &Square) -> Square {
+    a.transpose() * p + p * a + q - p * s * p
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uncoupled_scalar_equations_have_their_closed_form() {
+        let a = Square::from_fn(|i, j| if i == j { [-2.0, -1.0, 0.0, 0.5, 1.0, -0.01][i] } else { 0.0 });
+        let s = Square::from_fn(|i, j| if i == j { [1.0, 0.1, 2.0, 3.0, 0.5, 1.0][i] } else { 0.0 });
+        let q = Square::from_fn(|i, j| if i == j { [1.0, 5.0, 0.3, 1.0, 2.0, 0.04][i] } else { 0.0 });
+        let p = solve(&a, &s, &q).unwrap();
+        for k in 0..N {
+            let (a, s, q) = (a[(k, k)], s[(k, k)], q[(k, k)]);
+            let expected = (a + (a * a + s * q).sqrt()) / s;
+            assert!((p[(k, k)] - expected).abs() < 1e-12 * expected, "{k}: {} beside {expected}", p[(k, k)]);
+        }
+    }
+
+    #[test]
+    fn an_equation_without_a_stabilizing_solution_has_none_or_a_large_residual() {
+        // Unstable, and without an input.
+        let a = Square::identity();
+        assert!(solve(&a, &Square::zeros(), &Square::identity()).is_none_or(|p| p.amax() > 1e6 || p.amax() < 0.0));
+    }
+}
