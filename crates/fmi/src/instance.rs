@@ -2,7 +2,7 @@
 
 use moris_interface::Model;
 
-use crate::{Mode, Run, Tables};
+use crate::{InstanceState, Mode, Tables};
 
 /// An instance of a model.
 ///
@@ -10,7 +10,7 @@ use crate::{Mode, Run, Tables};
 /// `serialisation`.
 pub struct Instance<M> {
     pub(crate) tables: Tables,
-    pub(crate) run: Run<M>,
+    pub(crate) state: InstanceState<M>,
     /// Room for the outputs' time derivatives.
     pub(crate) output_derivatives: Box<[f64]>,
     /// Room for all values as they were before parameters are set.
@@ -20,19 +20,24 @@ pub struct Instance<M> {
 impl<M: Model> Instance<M> {
     /// A fresh instance of the model to which the tables belong.
     pub fn new(tables: Tables) -> Self {
-        let room = || vec![0.0; tables.start.len()].into();
-        Instance { tables, run: Run::fresh(tables.start), output_derivatives: room(), old_values: room() }
+        let buffer = || vec![0.0; tables.start.len()].into();
+        Instance {
+            tables,
+            state: InstanceState::fresh(tables.start),
+            output_derivatives: buffer(),
+            old_values: buffer(),
+        }
     }
 
     /// Where in its life the instance is.
     #[inline]
     pub fn mode(&self) -> Mode {
-        self.run.mode
+        self.state.mode
     }
 
     /// The present communication point \[s\].
     pub fn time(&self) -> f64 {
-        self.run.time
+        self.state.time
     }
 
     /// Tables shared by all instances of the model.
@@ -42,35 +47,35 @@ impl<M: Model> Instance<M> {
 
     /// Makes the instance as it was when it was new.
     pub fn reset(&mut self) {
-        self.run = Run::fresh(self.tables.start);
+        self.state = InstanceState::fresh(self.tables.start);
     }
 
     /// Ends the run.
     pub fn terminate(&mut self) {
-        self.run.mode = Mode::Terminated;
+        self.state.mode = Mode::Terminated;
     }
 
     /// Marks the instance as unusable until it is reset or a state restored: the model broke off in the middle.
     pub fn fail(&mut self) {
-        self.run.mode = Mode::Error;
-        self.run.untried = false;
+        self.state.mode = Mode::Error;
+        self.state.dirty = false;
     }
 
     /// Everything that distinguishes the instance from a fresh one.
-    pub fn run(&self) -> &Run<M> {
-        &self.run
+    pub fn state(&self) -> &InstanceState<M> {
+        &self.state
     }
 
-    /// Makes the instance as it was when `run` was taken from it or from another instance of the model.
-    pub fn restore(&mut self, run: &Run<M>) {
-        self.run.clone_from(run);
+    /// Makes the instance as it was when `state` was taken from it or from another instance of the model.
+    pub fn restore(&mut self, state: &InstanceState<M>) {
+        self.state.clone_from(state);
     }
 
     /// Moves to the time `time` \[s\], which the independent variable shows.
     pub(crate) fn set_time(&mut self, time: f64) {
-        self.run.time = time;
+        self.state.time = time;
         if let Some(slot) = self.tables.time_slot {
-            self.run.values[slot] = time;
+            self.state.values[slot] = time;
         }
     }
 }

@@ -9,26 +9,26 @@
 
 pub mod abi;
 mod access;
-mod complaint;
+mod call_error;
 pub mod fmi2;
 pub mod fmi3;
 mod initialization;
 mod instance;
+mod instance_state;
 mod log_categories;
 mod mode;
 mod panics;
-mod run;
 mod serialisation;
 mod step;
 mod tables;
-mod variable_check;
+mod variable_info;
 mod variables;
 
-pub use complaint::{Complaint, Severity};
+pub use call_error::{CallError, Severity};
 pub use instance::Instance;
+pub use instance_state::InstanceState;
 pub use log_categories::{LOG_CATEGORIES, LogCategory};
 pub use mode::{Mode, Modes};
-pub use run::Run;
 pub use tables::{Guid, SharedTables, Tables, slot_count};
-pub use variable_check::{Role, Scalar, ValueType, VariableCheck};
+pub use variable_info::{Role, Scalar, ValueType, VariableInfo};
 pub use variables::{Scalars, Variables};

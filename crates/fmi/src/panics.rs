@@ -4,7 +4,7 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
 use std::sync::Once;
 
-use crate::Complaint;
+use crate::CallError;
 
 /// Makes panics silent, which by default are printed; their text goes to the host's logger instead.
 ///
@@ -17,13 +17,13 @@ pub fn silence() {
 
 /// Runs `body`; a panic becomes the text that it carries. What `body` was changing may then be half changed.
 #[inline]
-pub fn contain<R>(body: impl FnOnce() -> R) -> Result<R, Complaint> {
-    catch_unwind(AssertUnwindSafe(body)).map_err(|payload| complaint(payload.as_ref()))
+pub fn contain<R>(body: impl FnOnce() -> R) -> Result<R, CallError> {
+    catch_unwind(AssertUnwindSafe(body)).map_err(|payload| error(payload.as_ref()))
 }
 
 #[cold]
-fn complaint(payload: &(dyn Any + Send)) -> Complaint {
+fn error(payload: &(dyn Any + Send)) -> CallError {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given");
-    Complaint::error(format!("internal error, please report it: {text}"))
+    CallError::error(format!("internal error, please report it: {text}"))
 }

@@ -2,21 +2,21 @@
 
 use moris_interface::Model;
 
-use crate::{Complaint, Guid, Mode, Run, Tables};
+use crate::{CallError, Guid, InstanceState, Mode, Tables};
 
 /// Marks bytes as a run.
 const MARK: [u8; 8] = *b"FMI-RUN\n";
-/// To be raised whenever [`Run`] changes.
+/// To be raised whenever [`InstanceState`] changes.
 const FORMAT: u32 = 3;
 
-impl<M: Model> Run<M> {
+impl<M: Model> InstanceState<M> {
     /// The run as bytes: mark, format, the model's GUID, length and checksum of the rest, and the rest.
     ///
     /// # Errors
     /// The model cannot be written as bytes.
-    pub fn to_bytes(&self, guid: &Guid) -> Result<Vec<u8>, Complaint> {
+    pub fn to_bytes(&self, guid: &Guid) -> Result<Vec<u8>, CallError> {
         let body = postcard::to_allocvec(self)
-            .map_err(|error| Complaint::error(format!("the state cannot be serialized: {error}")))?;
+            .map_err(|error| CallError::error(format!("the state cannot be serialized: {error}")))?;
         let length = (body.len() as u64).to_le_bytes();
         let checksum = checksum(&body).to_le_bytes();
         let parts: [&[u8]; 6] = [&MARK, &FORMAT.to_le_bytes(), guid, &length, &checksum, &body];
@@ -26,9 +26,9 @@ impl<M: Model> Run<M> {
     /// The run that these bytes are, of the model to which the tables belong.
     ///
     /// # Errors
-    /// The bytes are anything but what [`Run::to_bytes`] of this very model gave.
-    pub fn from_bytes(mut bytes: &[u8], tables: &Tables) -> Result<Self, Complaint> {
-        let refuse = |why: &str| Complaint::error(format!("the serialized state is refused: {why}"));
+    /// The bytes are anything but what [`InstanceState::to_bytes`] of this very model gave.
+    pub fn from_bytes(mut bytes: &[u8], tables: &Tables) -> Result<Self, CallError> {
+        let refuse = |why: &str| CallError::error(format!("the serialized state is refused: {why}"));
         let truncated = || refuse("it is truncated");
         if take(&mut bytes).ok_or_else(truncated)? != MARK {
             return Err(refuse("it is no state of an instance"));
@@ -60,7 +60,7 @@ impl<M: Model> Run<M> {
             && (self.model.is_some() || !initialized)
             && self.time.is_finite()
             && self.derivatives.iter().all(|derivative| derivative.is_finite())
-            && tables.checks.iter().zip(&self.values).all(|(check, &value)| check.accepts(value))
+            && tables.infos.iter().zip(&self.values).all(|(info, &value)| info.accepts(value))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use moris_interface::Model;
 
-use crate::{Complaint, Instance};
+use crate::{CallError, Instance};
 
 /// Tolerance of a step's end beyond a limit, relative to the limit.
 const LIMIT_TOLERANCE: f64 = 1e-9;
@@ -19,11 +19,13 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// A step that cannot be made; then nothing has changed.
     #[inline]
-    pub fn step(&mut self, time: f64, step: f64) -> Result<(), Complaint> {
+    pub fn step(&mut self, time: f64, step: f64) -> Result<(), CallError> {
         let end = time + step;
-        let Some(model) = self.run.model.as_mut() else { return Err(Complaint::error("the model is not initialized")) };
-        let stop = self.run.experiment.and_then(|experiment| experiment.stop).unwrap_or(f64::INFINITY);
-        let off = (time - self.run.time).abs();
+        let Some(model) = self.state.model.as_mut() else {
+            return Err(CallError::error("the model is not initialized"));
+        };
+        let stop = self.state.experiment.and_then(|experiment| experiment.stop).unwrap_or(f64::INFINITY);
+        let off = (time - self.state.time).abs();
         let fits = step > 0.0
             && end.is_finite()
             && off <= TIME_TOLERANCE * time.abs() + STEP_TOLERANCE * step
@@ -32,12 +34,12 @@ impl<M: Model> Instance<M> {
         if !fits {
             return Err(self.why_no_step(time, step));
         }
-        let derivatives = self.run.derivatives_given.then_some(&*self.run.derivatives);
-        model.step(&self.run.values, derivatives, step);
-        model.outputs(&mut self.run.values);
-        if self.run.derivatives_given {
-            self.run.derivatives.fill(0.0);
-            self.run.derivatives_given = false;
+        let derivatives = self.state.derivatives_given.then_some(&*self.state.derivatives);
+        model.step(&self.state.values, derivatives, step);
+        model.outputs(&mut self.state.values);
+        if self.state.derivatives_given {
+            self.state.derivatives.fill(0.0);
+            self.state.derivatives_given = false;
         }
         self.set_time(end);
         Ok(())
@@ -45,11 +47,11 @@ impl<M: Model> Instance<M> {
 
     #[cold]
     #[inline(never)]
-    fn why_no_step(&self, time: f64, step: f64) -> Complaint {
-        let (present, end) = (self.run.time, time + step);
-        let stop = self.run.experiment.and_then(|experiment| experiment.stop).unwrap_or(f64::INFINITY);
-        let longest = self.run.model.as_ref().map_or(f64::INFINITY, M::longest_step);
-        Complaint::error(if !(step > 0.0 && step.is_finite()) {
+    fn why_no_step(&self, time: f64, step: f64) -> CallError {
+        let (present, end) = (self.state.time, time + step);
+        let stop = self.state.experiment.and_then(|experiment| experiment.stop).unwrap_or(f64::INFINITY);
+        let longest = self.state.model.as_ref().map_or(f64::INFINITY, M::longest_step);
+        CallError::error(if !(step > 0.0 && step.is_finite()) {
             format!("the communication step size {step} is not a positive, finite number")
         } else if !end.is_finite() {
             format!("the communication point {time} is not a finite number, or the step ends beyond all numbers")

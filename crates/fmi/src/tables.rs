@@ -4,39 +4,39 @@ use std::sync::OnceLock;
 
 use moris_interface::{Model, guid_of, read_start_values, start_values};
 
-use crate::variable_check::{Role, VariableCheck, variable_checks};
+use crate::variable_info::{Role, VariableInfo, variable_infos};
 
 /// A GUID in braces, in ASCII.
 pub type Guid = [u8; 38];
 
 /// Tables shared by all instances of a model. The export macro makes one static of it.
 pub struct SharedTables<const N: usize> {
-    checks: [VariableCheck; N],
+    infos: [VariableInfo; N],
     time_slot: Option<usize>,
-    baked: Option<&'static str>,
+    embedded: Option<&'static str>,
     start: OnceLock<[f64; N]>,
     guid: OnceLock<Guid>,
 }
 
 impl<const N: usize> SharedTables<N> {
-    /// The tables of the model `M`, which has `N` slots. `baked` are start values in place of the model's own, as
+    /// The tables of the model `M`, which has `N` slots. `embedded` are start values in place of the model's own, as
     /// [`write_start_values`](moris_interface::write_start_values) gives them.
-    pub const fn new<M: Model>(baked: Option<&'static str>) -> Self {
+    pub const fn new<M: Model>(embedded: Option<&'static str>) -> Self {
         assert!(M::IDENTITY.slots.len() == N);
-        let checks = variable_checks(&M::IDENTITY);
-        let time_slot = time_slot(&checks);
-        SharedTables { checks, time_slot, baked, start: OnceLock::new(), guid: OnceLock::new() }
+        let infos = variable_infos(&M::IDENTITY);
+        let time_slot = time_slot(&infos);
+        SharedTables { infos, time_slot, embedded, start: OnceLock::new(), guid: OnceLock::new() }
     }
 
     /// The tables, filled on the first call. `M` is the model that they were made for.
     pub fn get<M: Model>(&'static self) -> Tables {
         let start = self.start.get_or_init(|| {
-            let baked = self.baked.map(read_start_values).unwrap_or_default();
-            start_values::<M>(&baked).try_into().expect("a model has as many start values as slots")
+            let embedded = self.embedded.map(read_start_values).unwrap_or_default();
+            start_values::<M>(&embedded).try_into().expect("a model has as many start values as slots")
         });
         let guid =
             self.guid.get_or_init(|| guid_of::<M>(start).as_bytes().try_into().expect("a GUID has 38 characters"));
-        Tables { checks: &self.checks, time_slot: self.time_slot, start, guid }
+        Tables { infos: &self.infos, time_slot: self.time_slot, start, guid }
     }
 }
 
@@ -49,7 +49,7 @@ pub const fn slot_count<M: Model>() -> usize {
 #[derive(Clone, Copy)]
 pub struct Tables {
     /// Access to each slot.
-    pub checks: &'static [VariableCheck],
+    pub infos: &'static [VariableInfo],
     /// The slot of the independent variable, where there is one.
     pub time_slot: Option<usize>,
     /// The start value of each slot.
@@ -58,10 +58,10 @@ pub struct Tables {
     pub guid: &'static Guid,
 }
 
-const fn time_slot(checks: &[VariableCheck]) -> Option<usize> {
+const fn time_slot(infos: &[VariableInfo]) -> Option<usize> {
     let mut slot = 0;
-    while slot < checks.len() {
-        if matches!(checks[slot].role, Role::Time) {
+    while slot < infos.len() {
+        if matches!(infos[slot].role, Role::Time) {
             return Some(slot);
         }
         slot += 1;

@@ -10,8 +10,8 @@ pub trait Variables: Copy {
     fn slots(self) -> impl Iterator<Item = u32>;
     /// The variables, each with its part of the values.
     fn with_values<S>(self, values: &[S]) -> impl Iterator<Item = (u32, &[S])>;
-    /// The variables, each with room for its part of the values.
-    fn with_room<S>(self, room: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])>;
+    /// The variables, each with a buffer for its part of the values.
+    fn with_buffer<S>(self, buffer: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])>;
 }
 
 /// Variables of one slot each.
@@ -30,7 +30,7 @@ impl Variables for Scalars<'_> {
     }
 
     #[inline]
-    fn with_room<S>(self, room: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])> {
-        self.slots().zip(room.iter_mut().map(from_mut))
+    fn with_buffer<S>(self, buffer: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])> {
+        self.slots().zip(buffer.iter_mut().map(from_mut))
     }
 }

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use moris_interface::{Identity, Model};
 
 use super::{Function, with_default_arithmetic};
-use crate::{Complaint, Instance, Mode, Severity, panics};
+use crate::{CallError, Instance, Mode, Severity, panics};
 
 /// The host of an instance, as one version of FMI has it: takes messages, and is told how calls end.
 pub trait Host {
@@ -82,7 +82,7 @@ impl<M, H> Component<M, H> {
 pub unsafe fn call<M: Model, H: Host>(
     component: *mut c_void,
     function: &Function,
-    body: impl FnOnce(&mut Component<M, H>) -> Result<(), Complaint>,
+    body: impl FnOnce(&mut Component<M, H>) -> Result<(), CallError>,
 ) -> H::Status {
     // SAFETY: the caller vouches for it.
     let Some(component) = (unsafe { Component::<M, H>::at(component) }) else { return H::ERROR };
@@ -91,25 +91,25 @@ pub unsafe fn call<M: Model, H: Host>(
     }
     match with_default_arithmetic(|| panics::contain(|| body(component))) {
         Ok(Ok(())) => H::OK,
-        Ok(Err(complaint)) => component.complain(function, complaint),
-        Err(complaint) => component.break_off(function, complaint),
+        Ok(Err(error)) => component.report(function, error),
+        Err(error) => component.fail(function, error),
     }
 }
 
 impl<M: Model, H: Host> Component<M, H> {
     #[cold]
     #[inline(never)]
-    fn complain(&self, function: &Function, complaint: Complaint) -> H::Status {
-        let text = self.logger.rename(&M::IDENTITY, complaint.text);
-        self.logger.failure(complaint.severity, &format!("{}: {text}", function.name))
+    fn report(&self, function: &Function, error: CallError) -> H::Status {
+        let text = self.logger.rename(&M::IDENTITY, error.text);
+        self.logger.failure(error.severity, &format!("{}: {text}", function.name))
     }
 
     /// Complains of a panic, after which the instance cannot be used.
     #[cold]
     #[inline(never)]
-    fn break_off(&mut self, function: &Function, complaint: Complaint) -> H::Status {
+    fn fail(&mut self, function: &Function, error: CallError) -> H::Status {
         self.instance.fail();
-        self.complain(function, complaint)
+        self.report(function, error)
     }
 
     #[cold]
@@ -120,6 +120,6 @@ impl<M: Model, H: Host> Component<M, H> {
         let allowed = if allowed.is_empty() { "none".into() } else { allowed.join(", ") };
         let state = H::mode_name(self.instance.mode());
         let text = format!("not allowed in state '{state}'; the states in which it is: {allowed}");
-        self.complain(function, Complaint::error(text))
+        self.report(function, CallError::error(text))
     }
 }

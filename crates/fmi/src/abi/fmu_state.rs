@@ -5,9 +5,9 @@ use std::ptr::null_mut;
 
 use moris_interface::Model;
 
-use super::pointers::{answer, place, room, slice};
+use super::pointers::{answer, buffer, out_param, slice};
 use super::{Component, Function, Host, call};
-use crate::{Complaint, Guid, Run};
+use crate::{CallError, Guid, InstanceState};
 
 /// A saved state, as the host holds it.
 type FmuState = *mut c_void;
@@ -20,7 +20,7 @@ const MARK: u64 = u64::from_le_bytes(*b"FMUstate");
 struct State<M> {
     /// Belongs to whom; looked at before the rest is believed.
     owner: Owner,
-    run: Run<M>,
+    instance: InstanceState<M>,
 }
 
 /// Tells a state of this model in this very library from other memory, as far as that can be done.
@@ -41,30 +41,30 @@ impl Owner {
 ///
 /// # Safety
 /// `pointer` is null or leads to memory that can be read.
-unsafe fn state<M: Model>(pointer: FmuState, owner: Owner) -> Result<*mut State<M>, Complaint> {
+unsafe fn state<M: Model>(pointer: FmuState, owner: Owner) -> Result<*mut State<M>, CallError> {
     let pointer = pointer.cast::<State<M>>();
     // SAFETY: not null and aligned where it is read; for the rest the caller vouches, and all bits make an owner.
     if pointer.is_null() || !pointer.is_aligned() || unsafe { pointer.cast::<Owner>().read() } != owner {
-        return Err(Complaint::error("the state is null, freed already, or none of this model's"));
+        return Err(CallError::error("the state is null, freed already, or none of this model's"));
     }
     Ok(pointer)
 }
 
-fn into_pointer<M: Model>(owner: Owner, run: Run<M>) -> FmuState {
-    Box::into_raw(Box::new(State { owner, run })).cast()
+fn into_pointer<M: Model>(owner: Owner, instance: InstanceState<M>) -> FmuState {
+    Box::into_raw(Box::new(State { owner, instance })).cast()
 }
 
 /// `fmi3GetFMUState`: into the state that is there, or else into a new one.
 pub unsafe fn get<M: Model, H: Host>(component: *mut c_void, function: &Function, pointer: *mut FmuState) -> H::Status {
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's place for the state.
-        let pointer = unsafe { place(pointer) }?;
+        let pointer = unsafe { out_param(pointer) }?;
         let owner = Owner::of(component);
         if pointer.is_null() {
-            *pointer = into_pointer(owner, component.instance.run().clone());
+            *pointer = into_pointer(owner, component.instance.state().clone());
         } else {
             // SAFETY: the host's state, which is nobody else's during the call.
-            unsafe { &mut *state::<M>(*pointer, owner)? }.run.clone_from(component.instance.run());
+            unsafe { &mut *state::<M>(*pointer, owner)? }.instance.clone_from(component.instance.state());
         }
         Ok(())
     };
@@ -77,7 +77,7 @@ pub unsafe fn set<M: Model, H: Host>(component: *mut c_void, function: &Function
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call.
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
-        component.instance.restore(&state.run);
+        component.instance.restore(&state.instance);
         Ok(())
     };
     // SAFETY: the host's component.
@@ -95,7 +95,7 @@ pub unsafe fn free<M: Model, H: Host>(
             return Ok(());
         }
         // SAFETY: the host's place for the state.
-        let pointer = unsafe { place(pointer) }?;
+        let pointer = unsafe { out_param(pointer) }?;
         if pointer.is_null() {
             return Ok(());
         }
@@ -123,7 +123,7 @@ pub unsafe fn serialized_size<M: Model, H: Host>(
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call.
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
-        let length = state.run.to_bytes(component.instance.tables().guid)?.len();
+        let length = state.instance.to_bytes(component.instance.tables().guid)?.len();
         // SAFETY: the host's room for the answer.
         unsafe { answer(size, length) }?;
         Ok(())
@@ -142,13 +142,13 @@ pub unsafe fn serialize<M: Model, H: Host>(
 ) -> H::Status {
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call, and its room for `size` bytes.
-        let (state, room) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, room(bytes, size)?) };
-        let bytes = state.run.to_bytes(component.instance.tables().guid)?;
-        let (length, available) = (bytes.len(), room.len());
-        let room = room.get_mut(..length).ok_or_else(|| {
-            Complaint::error(format!("the state takes {length} bytes, and there is room for {available}"))
+        let (state, buffer) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, buffer(bytes, size)?) };
+        let bytes = state.instance.to_bytes(component.instance.tables().guid)?;
+        let (length, available) = (bytes.len(), buffer.len());
+        let buffer = buffer.get_mut(..length).ok_or_else(|| {
+            CallError::error(format!("the state takes {length} bytes, and there is room for {available}"))
         })?;
-        room.write_copy_of_slice(&bytes);
+        buffer.write_copy_of_slice(&bytes);
         Ok(())
     };
     // SAFETY: the host's component.
@@ -165,14 +165,14 @@ pub unsafe fn deserialize<M: Model, H: Host>(
 ) -> H::Status {
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's bytes, and its place for the state.
-        let (bytes, pointer) = unsafe { (slice(bytes, size)?, place(pointer)?) };
-        let run = Run::from_bytes(bytes, component.instance.tables())?;
+        let (bytes, pointer) = unsafe { (slice(bytes, size)?, out_param(pointer)?) };
+        let instance = InstanceState::from_bytes(bytes, component.instance.tables())?;
         let owner = Owner::of(component);
         if pointer.is_null() {
-            *pointer = into_pointer(owner, run);
+            *pointer = into_pointer(owner, instance);
         } else {
             // SAFETY: the host's state, which is nobody else's during the call.
-            unsafe { &mut *state::<M>(*pointer, owner)? }.run = run;
+            unsafe { &mut *state::<M>(*pointer, owner)? }.instance = instance;
         }
         Ok(())
     };

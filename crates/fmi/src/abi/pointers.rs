@@ -3,9 +3,9 @@
 use std::ffi::{CStr, CString, c_char};
 use std::mem::MaybeUninit;
 
-use crate::Complaint;
+use crate::CallError;
 
-/// A pointer that does not lead to as many values as the host says. It becomes a complaint out of the way of the calls that
+/// A pointer that does not lead to as many values as the host says. It becomes a error out of the way of the calls that
 /// have nothing to complain about.
 #[derive(Debug)]
 pub struct NotAnArray {
@@ -39,7 +39,7 @@ pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], 
 /// # Errors
 /// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
 #[inline]
-pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [MaybeUninit<T>], NotAnArray> {
+pub unsafe fn buffer<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [MaybeUninit<T>], NotAnArray> {
     if length == 0 {
         return Ok(&mut []);
     }
@@ -50,14 +50,14 @@ pub unsafe fn room<'a, T>(pointer: *mut T, length: usize) -> Result<&'a mut [May
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), length) })
 }
 
-/// The place that `pointer` leads to.
+/// The value that `pointer` leads to.
 ///
 /// # Safety
 /// Unless null, `pointer` leads to a `T` that nothing else uses during `'a`.
 ///
 /// # Errors
 /// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
-pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray> {
+pub unsafe fn out_param<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray> {
     if !is_array(pointer, 1) {
         return Err(NotAnArray { length: 1 });
     }
@@ -101,10 +101,10 @@ fn is_array<T>(pointer: *const T, length: usize) -> bool {
     !pointer.is_null() && pointer.is_aligned() && length <= isize::MAX as usize / size_of::<T>()
 }
 
-impl From<NotAnArray> for Complaint {
+impl From<NotAnArray> for CallError {
     #[cold]
     #[inline(never)]
     fn from(refused: NotAnArray) -> Self {
-        Complaint::error(format!("a pointer to {} values is null or leads nowhere", refused.length))
+        CallError::error(format!("a pointer to {} values is null or leads nowhere", refused.length))
     }
 }

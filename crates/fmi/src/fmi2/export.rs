@@ -333,7 +333,7 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2CancelStep(component: fmi2Component) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::CANCEL_STEP) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::CANCEL_STEP) }
             }
 
             #[unsafe(no_mangle)]
@@ -385,7 +385,7 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2EnterEventMode(component: fmi2Component) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::ENTER_EVENT_MODE) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::ENTER_EVENT_MODE) }
             }
 
             #[unsafe(no_mangle)]
@@ -393,12 +393,12 @@ macro_rules! export_fmi2 {
                 component: fmi2Component,
                 _event_info: *mut c_void,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::NEW_DISCRETE_STATES) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::NEW_DISCRETE_STATES) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(component: fmi2Component) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::ENTER_CONTINUOUS_TIME_MODE) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::ENTER_CONTINUOUS_TIME_MODE) }
             }
 
             #[unsafe(no_mangle)]
@@ -408,12 +408,12 @@ macro_rules! export_fmi2 {
                 _enter_event_mode: *mut fmi2Boolean,
                 _terminate: *mut fmi2Boolean,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::COMPLETED_INTEGRATOR_STEP) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::COMPLETED_INTEGRATOR_STEP) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2SetTime(component: fmi2Component, _time: fmi2Real) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::SET_TIME) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::SET_TIME) }
             }
 
             #[unsafe(no_mangle)]
@@ -422,7 +422,7 @@ macro_rules! export_fmi2 {
                 _states: *const fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::SET_CONTINUOUS_STATES) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::SET_CONTINUOUS_STATES) }
             }
 
             #[unsafe(no_mangle)]
@@ -431,7 +431,7 @@ macro_rules! export_fmi2 {
                 _derivatives: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::GET_DERIVATIVES) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::GET_DERIVATIVES) }
             }
 
             #[unsafe(no_mangle)]
@@ -440,7 +440,7 @@ macro_rules! export_fmi2 {
                 _indicators: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::GET_EVENT_INDICATORS) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::GET_EVENT_INDICATORS) }
             }
 
             #[unsafe(no_mangle)]
@@ -449,7 +449,7 @@ macro_rules! export_fmi2 {
                 _states: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::GET_CONTINUOUS_STATES) }
+                unsafe { common::unsupported::<$model, Logger>(component, &function::GET_CONTINUOUS_STATES) }
             }
 
             #[unsafe(no_mangle)]
@@ -458,7 +458,9 @@ macro_rules! export_fmi2 {
                 _nominals: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::never::<$model, Logger>(component, &function::GET_NOMINALS_OF_CONTINUOUS_STATES) }
+                unsafe {
+                    common::unsupported::<$model, Logger>(component, &function::GET_NOMINALS_OF_CONTINUOUS_STATES)
+                }
             }
         }
     };

@@ -9,7 +9,7 @@ use super::types::*;
 use super::{Component, Logger, calling_sequence as function};
 use crate::abi::pointers::{slice, string};
 use crate::abi::{Host, call, with_default_arithmetic};
-use crate::{Complaint, Instance, LogCategory, Severity, SharedTables, panics};
+use crate::{CallError, Instance, LogCategory, Severity, SharedTables, panics};
 
 /// `fmi2Instantiate`; the resources' location and visibility make no difference.
 pub unsafe fn instantiate<M: Model, const N: usize>(
@@ -35,24 +35,24 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
             logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
             Component::into_pointer(instance, logger)
         }
-        Err(complaint) => {
-            logger.failure(Severity::Error, &format!("fmi2Instantiate: {}", complaint.text));
+        Err(error) => {
+            logger.failure(Severity::Error, &format!("fmi2Instantiate: {}", error.text));
             null_mut()
         }
     }
 }
 
-fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expected: &[u8]) -> Result<(), Complaint> {
+fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expected: &[u8]) -> Result<(), CallError> {
     if name.is_none_or(CStr::is_empty) {
-        return Err(Complaint::error("the instance has no name"));
+        return Err(CallError::error("the instance has no name"));
     }
     if fmu_type != CO_SIMULATION {
-        return Err(Complaint::error("only co-simulation is possible"));
+        return Err(CallError::error("only co-simulation is possible"));
     }
     if guid.map(CStr::to_bytes) != Some(expected) {
         let given = guid.map_or("none".into(), CStr::to_string_lossy);
         let expected = String::from_utf8_lossy(expected);
-        return Err(Complaint::error(format!(
+        return Err(CallError::error(format!(
             "the GUID is {given}, not {expected}: modelDescription.xml and the shared library do not belong together"
         )));
     }
@@ -73,7 +73,7 @@ pub unsafe fn set_debug_logging<M: Model>(
             // SAFETY: as above.
             let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
             let category = LogCategory::named(&name)
-                .ok_or_else(|| Complaint::error(format!("'{name}' is no category of modelDescription.xml")))?;
+                .ok_or_else(|| CallError::error(format!("'{name}' is no category of modelDescription.xml")))?;
             events |= matches!(category, LogCategory::Events | LogCategory::All);
         }
         component.logger.log_events(events && logging_on.0 != 0);
@@ -105,7 +105,7 @@ pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component) -> f
         component
             .instance
             .enter_initialization()
-            .map_err(|complaint| Complaint::error(format!("{}: call fmi2SetupExperiment before", complaint.text)))
+            .map_err(|error| CallError::error(format!("{}: call fmi2SetupExperiment before", error.text)))
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::ENTER_INITIALIZATION_MODE, body) }

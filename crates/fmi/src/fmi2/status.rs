@@ -6,7 +6,7 @@ use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};
-use crate::Complaint;
+use crate::CallError;
 use crate::abi::pointers::answer;
 use crate::abi::{Function, call};
 
@@ -48,6 +48,6 @@ pub unsafe fn nothing_pending<M: Model>(component: fmi2Component, function: &Fun
     unsafe { call(component, function, |_: &mut Component<M>| Err(not_known(kind))) }
 }
 
-fn not_known(kind: c_int) -> Complaint {
-    Complaint::discard(format!("nothing is known of status kind {kind}: a step is over when fmi2DoStep returns"))
+fn not_known(kind: c_int) -> CallError {
+    CallError::discard(format!("nothing is known of status kind {kind}: a step is over when fmi2DoStep returns"))
 }

@@ -5,13 +5,13 @@ use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};
-use crate::Complaint;
+use crate::CallError;
 use crate::abi::call;
 
 /// `fmi2GetDirectionalDerivative`
 pub unsafe fn get_directional_derivative<M: Model>(component: fmi2Component) -> fmi2Status {
     let body = |_: &mut Component<M>| {
-        Err(Complaint::error("not provided, as providesDirectionalDerivative in modelDescription.xml says"))
+        Err(CallError::error("not provided, as providesDirectionalDerivative in modelDescription.xml says"))
     };
     // SAFETY: the host's component.
     unsafe { call(component, &function::GET_DIRECTIONAL_DERIVATIVE, body) }

@@ -4,9 +4,9 @@ use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};
-use crate::abi::pointers::{room, slice};
+use crate::abi::pointers::{buffer, slice};
 use crate::abi::{Function, call};
-use crate::{Complaint, Scalar, Scalars};
+use crate::{CallError, Scalar, Scalars};
 
 /// `fmi2GetReal`, `fmi2GetInteger`, `fmi2GetBoolean`
 #[inline]
@@ -19,7 +19,7 @@ pub unsafe fn get<M: Model, S: Scalar>(
 ) -> fmi2Status {
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
-        let (references, values) = unsafe { (slice(references, count)?, room(values, count)?) };
+        let (references, values) = unsafe { (slice(references, count)?, buffer(values, count)?) };
         component.instance.get(Scalars(references), values)
     };
     // SAFETY: the host's component.
@@ -48,7 +48,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
 pub unsafe fn strings<M: Model>(component: fmi2Component, function: &Function, count: usize) -> fmi2Status {
     let body = |_: &mut Component<M>| match count {
         0 => Ok(()),
-        _ => Err(Complaint::error("the model has no variables of type String")),
+        _ => Err(CallError::error("the model has no variables of type String")),
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }
@@ -83,7 +83,7 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
         let (references, orders, values) =
-            unsafe { (slice(references, count)?, slice(orders, count)?, room(values, count)?) };
+            unsafe { (slice(references, count)?, slice(orders, count)?, buffer(values, count)?) };
         let requests = references.iter().copied().zip(orders.iter().copied());
         component.instance.get_output_derivatives(requests, values)
     };

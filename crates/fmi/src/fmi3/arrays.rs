@@ -3,12 +3,12 @@
 use std::mem::{MaybeUninit, take};
 
 use super::types::fmi3ValueReference;
-use crate::{VariableCheck, Variables};
+use crate::{VariableInfo, Variables};
 
 /// Variables by their value references, all of which are there.
 #[derive(Clone, Copy)]
 pub struct Arrays<'a> {
-    pub checks: &'a [VariableCheck],
+    pub infos: &'a [VariableInfo],
     pub references: &'a [fmi3ValueReference],
 }
 
@@ -22,17 +22,17 @@ impl Variables for Arrays<'_> {
     fn with_values<S>(self, values: &[S]) -> impl Iterator<Item = (u32, &[S])> {
         let mut rest = values;
         self.slots().map(move |reference| {
-            let (mine, others) = rest.split_at(self.checks[reference as usize].row_slots as usize);
+            let (mine, others) = rest.split_at(self.infos[reference as usize].row_slots as usize);
             rest = others;
             (reference, mine)
         })
     }
 
     #[inline]
-    fn with_room<S>(self, room: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])> {
-        let mut rest = room;
+    fn with_buffer<S>(self, buffer: &mut [MaybeUninit<S>]) -> impl Iterator<Item = (u32, &mut [MaybeUninit<S>])> {
+        let mut rest = buffer;
         self.slots().map(move |reference| {
-            let (mine, others) = take(&mut rest).split_at_mut(self.checks[reference as usize].row_slots as usize);
+            let (mine, others) = take(&mut rest).split_at_mut(self.infos[reference as usize].row_slots as usize);
             rest = others;
             (reference, mine)
         })

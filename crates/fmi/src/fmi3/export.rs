@@ -383,7 +383,7 @@ macro_rules! export_fmi3_never {
         $(
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn $name(instance: fmi3Instance $(, _: $argument)*) -> fmi3Status {
-                unsafe { common::never::<$model, Logger>(instance, &function::$constant) }
+                unsafe { common::unsupported::<$model, Logger>(instance, &function::$constant) }
             }
         )+
     };

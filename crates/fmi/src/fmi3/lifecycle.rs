@@ -10,7 +10,7 @@ use super::types::*;
 use super::{Component, LOG_CATEGORIES, Layout, Logger, calling_sequence as function};
 use crate::abi::pointers::{slice, string};
 use crate::abi::{Host, call, with_default_arithmetic};
-use crate::{Complaint, Guid, Instance, Severity, SharedTables, panics};
+use crate::{CallError, Guid, Instance, Severity, SharedTables, panics};
 
 /// Options of instantiation.
 pub struct Request {
@@ -40,8 +40,8 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
             logger.event(&format!("{} {} instantiated", M::IDENTITY.name, M::IDENTITY.version));
             Component::into_pointer(instance, logger)
         }
-        Err(complaint) => {
-            logger.failure(Severity::Error, &format!("fmi3InstantiateCoSimulation: {}", complaint.text));
+        Err(error) => {
+            logger.failure(Severity::Error, &format!("fmi3InstantiateCoSimulation: {}", error.text));
             null_mut()
         }
     }
@@ -51,25 +51,25 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
 ///
 /// # Safety
 /// The request's strings are null, or ended by a zero.
-unsafe fn check_request(request: &Request, guid: &Guid) -> Result<Layout, Complaint> {
+unsafe fn check_request(request: &Request, guid: &Guid) -> Result<Layout, CallError> {
     // SAFETY: the caller vouches for it.
     let (name, token) = unsafe { (string(request.instance_name), string(request.instantiation_token)) };
     if name.is_none_or(|name| name.to_bytes().trim_ascii().is_empty()) {
-        return Err(Complaint::error("the instance has no name"));
+        return Err(CallError::error("the instance has no name"));
     }
     let Some(layout) = token.and_then(|token| Layout::of_token(token.to_bytes(), guid)) else {
         let given = token.map_or("none".into(), CStr::to_string_lossy);
         let expected = String::from_utf8_lossy(guid);
-        return Err(Complaint::error(format!(
+        return Err(CallError::error(format!(
             "the instantiation token is {given}, not {expected}: \
              modelDescription.xml and the shared library do not belong together"
         )));
     };
     if request.event_mode_used.is_true() {
-        return Err(Complaint::error("there is no event mode, as hasEventMode in modelDescription.xml says"));
+        return Err(CallError::error("there is no event mode, as hasEventMode in modelDescription.xml says"));
     }
     if request.intermediate_variable_count > 0 {
-        return Err(Complaint::error(
+        return Err(CallError::error(
             "variables cannot be accessed within a step, as providesIntermediateUpdate in modelDescription.xml says",
         ));
     }
@@ -97,7 +97,7 @@ pub unsafe fn set_debug_logging<M: Model>(
             // SAFETY: as above.
             let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
             let known = LOG_CATEGORIES.iter().map(|&(category, _)| category).find(|category| category.name() == name);
-            let unknown = || Complaint::error(format!("'{name}' is no category of modelDescription.xml"));
+            let unknown = || CallError::error(format!("'{name}' is no category of modelDescription.xml"));
             chosen.push(known.ok_or_else(unknown)?);
         }
         if count == 0 {

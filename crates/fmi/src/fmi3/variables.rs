@@ -7,9 +7,9 @@ use moris_interface::Model;
 use super::arrays::Arrays;
 use super::types::*;
 use super::{Component, Layout, calling_sequence as function};
-use crate::abi::pointers::{room, slice};
+use crate::abi::pointers::{buffer, slice};
 use crate::abi::{Function, call};
-use crate::{Complaint, Scalar, Scalars, VariableCheck};
+use crate::{CallError, Scalar, Scalars, VariableInfo};
 
 /// `fmi3GetFloat64`, `fmi3GetInt32`, `fmi3GetInt64`, `fmi3GetBoolean`
 #[inline]
@@ -23,14 +23,14 @@ pub unsafe fn get<M: Model, S: Scalar>(
 ) -> fmi3Status {
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` and `value_count` elements.
-        let (references, values) = unsafe { (slice(references, count)?, room(values, value_count)?) };
-        let checks = component.instance.tables().checks;
-        check_length::<M>(component.logger.layout, checks, references, value_count)?;
+        let (references, values) = unsafe { (slice(references, count)?, buffer(values, value_count)?) };
+        let infos = component.instance.tables().infos;
+        check_length::<M>(component.logger.layout, infos, references, value_count)?;
         // A value each: there is no array among them.
         if references.len() == value_count {
             return component.instance.get(Scalars(references), values);
         }
-        component.instance.get(Arrays { checks, references }, values)
+        component.instance.get(Arrays { infos, references }, values)
     };
     // SAFETY: the host's component.
     unsafe { call(instance, function, body) }
@@ -49,13 +49,13 @@ pub unsafe fn set<M: Model, S: Scalar>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` and `value_count` elements.
         let (references, values) = unsafe { (slice(references, count)?, slice(values, value_count)?) };
-        let checks = component.instance.tables().checks;
-        check_length::<M>(component.logger.layout, checks, references, value_count)?;
+        let infos = component.instance.tables().infos;
+        check_length::<M>(component.logger.layout, infos, references, value_count)?;
         // A value each: there is no array among them.
         if references.len() == value_count {
             return component.instance.set(Scalars(references), values);
         }
-        component.instance.set(Arrays { checks, references }, values)
+        component.instance.set(Arrays { infos, references }, values)
     };
     // SAFETY: the host's component.
     unsafe { call(instance, function, body) }
@@ -65,7 +65,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
 pub unsafe fn none_of_this_type<M: Model>(instance: fmi3Instance, function: &Function, count: usize) -> fmi3Status {
     let body = |_: &mut Component<M>| match count {
         0 => Ok(()),
-        _ => Err(Complaint::error("the model has no variables of this type")),
+        _ => Err(CallError::error("the model has no variables of this type")),
     };
     // SAFETY: the host's component.
     unsafe { call(instance, function, body) }
@@ -83,13 +83,13 @@ pub unsafe fn get_output_derivatives<M: Model>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` and `value_count` elements.
         let (references, orders, values) =
-            unsafe { (slice(references, count)?, slice(orders, count)?, room(values, value_count)?) };
-        let checks = component.instance.tables().checks;
+            unsafe { (slice(references, count)?, slice(orders, count)?, buffer(values, value_count)?) };
+        let infos = component.instance.tables().infos;
         let layout = component.logger.layout;
-        check_length::<M>(layout, checks, references, value_count)?;
+        check_length::<M>(layout, infos, references, value_count)?;
         let pairs = references.iter().zip(orders);
         let requests =
-            pairs.flat_map(move |(&reference, &order)| slots(layout, checks, reference).map(move |slot| (slot, order)));
+            pairs.flat_map(move |(&reference, &order)| slots(layout, infos, reference).map(move |slot| (slot, order)));
         component.instance.get_output_derivatives(requests, values)
     };
     // SAFETY: the host's component.
@@ -100,24 +100,24 @@ pub unsafe fn get_output_derivatives<M: Model>(
 #[inline]
 fn check_length<M: Model>(
     layout: Layout,
-    checks: &[VariableCheck],
+    infos: &[VariableInfo],
     references: &[fmi3ValueReference],
     value_count: usize,
-) -> Result<(), Complaint> {
+) -> Result<(), CallError> {
     let expected = match layout {
         Layout::Scalars => references.len(),
-        Layout::Arrays => total_length::<M>(checks, references)?,
+        Layout::Arrays => total_length::<M>(infos, references)?,
     };
     if expected == value_count { Ok(()) } else { Err(wrong_length::<M>(layout, references, expected, value_count)) }
 }
 
 /// Number of values that array variables have together.
 #[inline]
-fn total_length<M: Model>(checks: &[VariableCheck], references: &[fmi3ValueReference]) -> Result<usize, Complaint> {
+fn total_length<M: Model>(infos: &[VariableInfo], references: &[fmi3ValueReference]) -> Result<usize, CallError> {
     let mut total = 0;
     for &reference in references {
-        match checks.get(reference as usize) {
-            Some(check) if check.row_slots > 0 => total += check.row_slots as usize,
+        match infos.get(reference as usize) {
+            Some(info) if info.row_slots > 0 => total += info.row_slots as usize,
             _ => return Err(no_such_variable::<M>(reference)),
         }
     }
@@ -125,19 +125,19 @@ fn total_length<M: Model>(checks: &[VariableCheck], references: &[fmi3ValueRefer
 }
 
 /// The slots of a variable. With arrays, the variable has to be there.
-fn slots(layout: Layout, checks: &[VariableCheck], reference: fmi3ValueReference) -> RangeInclusive<u32> {
+fn slots(layout: Layout, infos: &[VariableInfo], reference: fmi3ValueReference) -> RangeInclusive<u32> {
     let others = match layout {
         Layout::Scalars => 0,
-        Layout::Arrays => checks[reference as usize].row_slots - 1,
+        Layout::Arrays => infos[reference as usize].row_slots - 1,
     };
     reference..=reference + others
 }
 
 #[cold]
-fn no_such_variable<M: Model>(reference: fmi3ValueReference) -> Complaint {
+fn no_such_variable<M: Model>(reference: fmi3ValueReference) -> CallError {
     let identity = M::IDENTITY;
     let slot = reference as usize;
-    Complaint::error(match identity.slots.get(slot) {
+    CallError::error(match identity.slots.get(slot) {
         None => format!("no variable has the value reference {reference}"),
         Some(place) => format!(
             "no variable has the value reference {reference}: the array '{}' has {}",
@@ -153,7 +153,7 @@ fn wrong_length<M: Model>(
     references: &[fmi3ValueReference],
     expected: usize,
     value_count: usize,
-) -> Complaint {
+) -> CallError {
     let identity = M::IDENTITY;
     if let Some(unknown) = references.iter().find(|&&reference| reference as usize >= identity.slots.len()) {
         return no_such_variable::<M>(*unknown);
@@ -166,5 +166,5 @@ fn wrong_length<M: Model>(
         (2..=5, names) => format!("{names} together have"),
         (_, names) => format!("{names} and others together have"),
     };
-    Complaint::error(format!("{who} {expected} values, and the call comes with {value_count}"))
+    CallError::error(format!("{who} {expected} values, and the call comes with {value_count}"))
 }

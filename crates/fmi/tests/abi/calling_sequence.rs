@@ -129,7 +129,7 @@ fn call(function: &str, instance: &mut Instance) -> i32 {
 fn initialization_wants_an_experiment_and_wants_it_again_after_reset() {
     let mut instance = instantiated();
     let status = instance.enter_initialization_mode();
-    assert_complaint(&instance, status, Status::Error, &["fmi2EnterInitializationMode", "fmi2SetupExperiment"]);
+    assert_call_error(&instance, status, Status::Error, &["fmi2EnterInitializationMode", "fmi2SetupExperiment"]);
     instance.initialize(&[], None).unwrap();
     assert_eq!(instance.reset(), Status::Ok);
     assert_eq!(instance.enter_initialization_mode(), Status::Error);

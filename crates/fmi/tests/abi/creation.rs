@@ -192,7 +192,7 @@ fn debug_logging_chooses_events_and_refuses_unknown_categories() {
         assert_eq!(instance.do_step(0.0, 1.0), Status::Error);
         assert_eq!(last_message(&instance).category, "logStatusError");
     }
-    assert_complaint(&instance, set(0, &[c"logEvents", c"log%s"]), Status::Error, &["fmi2SetDebugLogging", "log%s"]);
+    assert_call_error(&instance, set(0, &[c"logEvents", c"log%s"]), Status::Error, &["fmi2SetDebugLogging", "log%s"]);
     let said = instance.messages().len();
     assert_eq!(instance.reset(), Status::Ok);
     assert_eq!(instance.messages().len(), said + 1, "a refused call changes nothing");

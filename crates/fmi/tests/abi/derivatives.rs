@@ -47,18 +47,18 @@ fn only_what_exists_has_derivatives() {
     let u = reference("u");
     for name in ["time", "offset", "frozen", "y", "gain", "tau"] {
         let status = instance.set_real_input_derivatives(&[u, reference(name)], &[1.0, 1.0]);
-        assert_complaint(&instance, status, Status::Error, &["fmi2SetRealInputDerivatives", &format!("'{name}'")]);
+        assert_call_error(&instance, status, Status::Error, &["fmi2SetRealInputDerivatives", &format!("'{name}'")]);
     }
     for name in ["time", "u", "count", "rising", "methodUsed", "gain"] {
         let mut values = [-1.0, -1.0];
         let status = instance.get_real_output_derivatives(&[reference("y"), reference(name)], &mut values);
-        assert_complaint(&instance, status, Status::Error, &["fmi2GetRealOutputDerivatives", &format!("'{name}'")]);
+        assert_call_error(&instance, status, Status::Error, &["fmi2GetRealOutputDerivatives", &format!("'{name}'")]);
         assert_eq!(values, [-1.0, -1.0]);
     }
     assert_eq!(instance.set_real_input_derivatives(&[u, 999], &[1.0, 1.0]), Status::Error);
     for value in [f64::NAN, f64::INFINITY] {
         let status = instance.set_real_input_derivatives(&[u, u], &[1.0, value]);
-        assert_complaint(&instance, status, Status::Discard, &["'u'"]);
+        assert_call_error(&instance, status, Status::Discard, &["'u'"]);
     }
     for order in [0, 2, -1] {
         // SAFETY: the component is alive, and the pointers lead to one element.

@@ -76,7 +76,7 @@ pub fn last_message(instance: &Instance) -> Message {
 
 /// Asserts that the call failed with this status, and that the last message has all of these parts.
 #[track_caller]
-pub fn assert_complaint(instance: &Instance, status: Status, expected: Status, parts: &[&str]) {
+pub fn assert_call_error(instance: &Instance, status: Status, expected: Status, parts: &[&str]) {
     assert_eq!(status, expected);
     let message = last_message(instance);
     assert_eq!(message.status, expected, "{message:?}");

@@ -11,13 +11,13 @@ fn an_experiment_that_cannot_be_is_refused() {
     let cases = [(nan, None), (inf, None), (-inf, None), (0.0, Some(nan)), (0.0, Some(inf)), (1.0, Some(0.5))];
     for (start, stop) in cases {
         let status = instance.setup_experiment(start, stop);
-        assert_complaint(&instance, status, Status::Error, &["fmi2SetupExperiment", "time"]);
+        assert_call_error(&instance, status, Status::Error, &["fmi2SetupExperiment", "time"]);
     }
     let (c, api) = (instance.component(), instance.api());
     for tolerance in [0.0, -1e-6, nan, inf] {
         // SAFETY: the component is alive.
         let status = unsafe { (api.setup_experiment)(c, 1, tolerance, 0.0, 0, nan) };
-        assert_complaint(&instance, status.into(), Status::Error, &["tolerance"]);
+        assert_call_error(&instance, status.into(), Status::Error, &["tolerance"]);
     }
     // SAFETY: the component is alive. What is not defined does not matter.
     assert_eq!(unsafe { (api.setup_experiment)(c, 0, nan, 0.0, 0, nan) }, 0);
@@ -60,7 +60,7 @@ fn a_refused_parameter_can_be_set_again() {
     for _ in 0..2 {
         let status = instance.exit_initialization_mode();
         let parts = ["fmi2ExitInitializationMode", "tau: must be positive", "try again"];
-        assert_complaint(&instance, status, Status::Error, &parts);
+        assert_call_error(&instance, status, Status::Error, &parts);
     }
     instance.set("tau", 1.0).unwrap();
     assert_eq!(instance.exit_initialization_mode(), Status::Ok);

@@ -8,9 +8,9 @@ use crate::fixture::*;
 
 /// The model has panicked: what remains is to look, to restore, and to begin again.
 fn assert_failed(instance: &mut Instance, status: Status, parts: &[&str]) {
-    assert_complaint(instance, status, Status::Error, parts);
+    assert_call_error(instance, status, Status::Error, parts);
     let status = instance.do_step(0.0, 0.1);
-    assert_complaint(instance, status, Status::Error, &["fmi2DoStep", "'error'"]);
+    assert_call_error(instance, status, Status::Error, &["fmi2DoStep", "'error'"]);
     instance.get("y").unwrap();
     assert_eq!(instance.reset(), Status::Ok);
     instance.initialize(&[], None).unwrap();
@@ -49,7 +49,7 @@ fn a_state_from_before_the_panic_can_be_restored() {
     assert_eq!(instance.free_state(state), Status::Ok);
 }
 
-/// Run in a process of its own, so that its streams can be looked at: see the next test.
+/// InstanceState in a process of its own, so that its streams can be looked at: see the next test.
 #[test]
 #[ignore = "a part of a_panic_prints_nothing, which runs it"]
 fn panic_in_a_process_of_its_own() {

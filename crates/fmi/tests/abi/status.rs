@@ -36,5 +36,5 @@ fn directional_derivatives_are_refused_with_a_reason() {
     let (c, api) = (instance.component(), instance.api());
     // SAFETY: the component is alive, and the pointers lead to one element.
     let status = unsafe { (api.get_directional_derivative)(c, &4, 1, &1, 1, &1.0, &mut 0.0) };
-    assert_complaint(&instance, status.into(), moris_fmu_host::Status::Error, &["providesDirectionalDerivative"]);
+    assert_call_error(&instance, status.into(), moris_fmu_host::Status::Error, &["providesDirectionalDerivative"]);
 }

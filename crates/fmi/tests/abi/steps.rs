@@ -54,7 +54,7 @@ fn wrong_steps_are_refused_and_nothing_is_lost() {
     ];
     for (time, step, part) in cases {
         let status = instance.do_step(time, step);
-        assert_complaint(&instance, status, Status::Error, &["fmi2DoStep", part]);
+        assert_call_error(&instance, status, Status::Error, &["fmi2DoStep", part]);
         assert_eq!(bytes(&mut instance), before, "{time} {step}");
     }
     instance.step(0.25, 0.1).unwrap();
@@ -71,7 +71,7 @@ fn the_stop_time_is_reached_and_not_passed() {
         time += 0.1;
     }
     let status = instance.do_step(time, 1e-6);
-    assert_complaint(&instance, status, Status::Error, &["stop time 1"]);
+    assert_call_error(&instance, status, Status::Error, &["stop time 1"]);
 }
 
 #[test]

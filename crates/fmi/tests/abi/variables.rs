@@ -78,7 +78,7 @@ fn variables_have_one_type() {
         }
     }
     let status = instance.set_integer(&[reference("gain")], &[1]);
-    assert_complaint(&instance, status, Status::Error, &["fmi2SetInteger", "'gain'", "Real", "Integer"]);
+    assert_call_error(&instance, status, Status::Error, &["fmi2SetInteger", "'gain'", "Real", "Integer"]);
 }
 
 #[test]
@@ -99,7 +99,7 @@ fn there_are_no_strings() {
 fn assert_discarded(instance: &mut Instance, set: impl FnOnce(&mut Instance) -> Status, parts: &[&str]) {
     let before = bytes(instance);
     let status = set(instance);
-    assert_complaint(instance, status, Status::Discard, parts);
+    assert_call_error(instance, status, Status::Discard, parts);
     assert!(bytes(instance) == before, "a discarded value changed something");
 }
 
@@ -134,11 +134,11 @@ fn a_call_is_taken_as_a_whole_or_not_at_all() {
         for wrong in [y, 10_000, u32::MAX, reference("frozen"), reference("time")] {
             // A wrong reference outweighs a wrong value, wherever it stands.
             let status = instance.set_real(&[u, gain, wrong], &[f64::NAN, 2.0, 1.0]);
-            assert_complaint(&instance, status, Status::Error, &["fmi2SetReal"]);
+            assert_call_error(&instance, status, Status::Error, &["fmi2SetReal"]);
             let mut values = [-1.0; 3];
             if wrong != y && wrong != reference("time") {
                 let status = instance.get_real(&[u, gain, wrong], &mut values);
-                assert_complaint(&instance, status, Status::Error, &["fmi2GetReal"]);
+                assert_call_error(&instance, status, Status::Error, &["fmi2GetReal"]);
                 assert_eq!(values, [-1.0; 3]);
             }
         }

@@ -126,12 +126,12 @@ fn check(function: &str, allowed: bool, state: &str, instance: &Instance) {
     let refused = messages.iter().any(|(_, _, text)| text.contains("not allowed in state"));
     assert_eq!(!refused, allowed, "{function} in state '{state}': {messages:?}");
     if NOT_PROVIDED.contains(&function) && allowed {
-        instance.assert_complaint(status, ERROR, &[function, "not provided, as provides"]);
+        instance.assert_call_error(status, ERROR, &[function, "not provided, as provides"]);
     } else if !refused {
         assert_eq!(status, OK, "{function} in state '{state}': {messages:?}");
         return;
     } else {
-        instance.assert_complaint(status, ERROR, &[&format!("{function}: "), &format!("'{state}'")]);
+        instance.assert_call_error(status, ERROR, &[&format!("{function}: "), &format!("'{state}'")]);
     }
     assert_eq!(instance.bytes(), before, "{function} in state '{state}' changed something");
 }

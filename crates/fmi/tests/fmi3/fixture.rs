@@ -102,7 +102,7 @@ impl Instance {
 
     /// Asserts that the call failed with this status, and that the last message has all of these parts.
     #[track_caller]
-    pub fn assert_complaint(&self, status: c_int, expected: c_int, parts: &[&str]) {
+    pub fn assert_call_error(&self, status: c_int, expected: c_int, parts: &[&str]) {
         let (said_status, category, text) = self.last_message();
         assert_eq!((status, said_status), (expected, expected), "{text}");
         assert_eq!(category, if expected == DISCARD { "logStatusDiscard" } else { "logStatusError" });

@@ -49,7 +49,7 @@ fn a_step_needs_room_for_every_answer() {
         let last = if missing == 3 { null_mut() } else { &raw mut time };
         // SAFETY: the instance is alive; null is to be refused.
         let status = unsafe { do_step(c, 0.0, 0.1, 1, event, terminate, early, last) };
-        instance.assert_complaint(status, ERROR, &["fmi3DoStep", "null"]);
+        instance.assert_call_error(status, ERROR, &["fmi3DoStep", "null"]);
         assert_eq!(instance.bytes(), before);
     }
 }

@@ -9,12 +9,12 @@ fn an_experiment_that_cannot_be_is_refused() {
     let (nan, inf) = (f64::NAN, f64::INFINITY);
     for (start, stop) in [(nan, None), (inf, None), (0.0, Some(nan)), (0.0, Some(inf)), (1.0, Some(0.5))] {
         let status = instance.enter_initialization_mode(start, stop);
-        instance.assert_complaint(status, ERROR, &["fmi3EnterInitializationMode", "time"]);
+        instance.assert_call_error(status, ERROR, &["fmi3EnterInitializationMode", "time"]);
     }
     for tolerance in [0.0, -1e-6, nan, inf] {
         // SAFETY: the instance is alive.
         let status = unsafe { (instance.api().enter_initialization_mode)(instance.pointer, 1, tolerance, 0.0, 0, nan) };
-        instance.assert_complaint(status, ERROR, &["tolerance"]);
+        instance.assert_call_error(status, ERROR, &["tolerance"]);
     }
     assert_eq!(instance.bytes(), fresh);
     assert_eq!(instance.enter_initialization_mode(2.0, Some(2.0)), OK);
@@ -39,7 +39,7 @@ fn a_refused_parameter_can_be_set_again() {
     let instance = initializing();
     instance.set_real("tau", &[0.0]);
     let status = instance.exit_initialization_mode();
-    instance.assert_complaint(status, ERROR, &["fmi3ExitInitializationMode", "tau: must be positive"]);
+    instance.assert_call_error(status, ERROR, &["fmi3ExitInitializationMode", "tau: must be positive"]);
     instance.set_real("tau", &[1.0]);
     assert_eq!(instance.exit_initialization_mode(), OK);
 }

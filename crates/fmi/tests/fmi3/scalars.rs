@@ -87,7 +87,7 @@ fn derivatives_go_by_the_elements_too() {
         assert!((value - u / 0.5 * (-0.2_f64).exp()).abs() < 1e-12, "{value}");
     }
     let (status, values) = derivatives(&[u32::MAX]);
-    instance.assert_complaint(status, ERROR, &["no variable", &u32::MAX.to_string()]);
+    instance.assert_call_error(status, ERROR, &["no variable", &u32::MAX.to_string()]);
     assert!(values[0].is_nan());
 }
 
@@ -96,11 +96,11 @@ fn lengths_have_to_fit() {
     let instance = initializing_with(Layout::Scalars);
     let before = instance.bytes();
     let u = slot("u.x");
-    instance.assert_complaint(instance.set(&[u], &[1.0; 3]), ERROR, &["'u.x' has 1 values", "comes with 3"]);
-    instance.assert_complaint(instance.get(&[u, u + 1], &mut [0.0; 3]), ERROR, &["'u.x', 'u.y' together have 2"]);
-    instance.assert_complaint(instance.set(&[u32::MAX], &[1.0; 2]), ERROR, &["no variable", "4294967295"]);
-    instance.assert_complaint(instance.set(&[u32::MAX], &[1.0]), ERROR, &["no variable", "4294967295"]);
-    instance.assert_complaint(instance.get(&[u32::MAX], &mut [1.0]), ERROR, &["no variable"]);
+    instance.assert_call_error(instance.set(&[u], &[1.0; 3]), ERROR, &["'u.x' has 1 values", "comes with 3"]);
+    instance.assert_call_error(instance.get(&[u, u + 1], &mut [0.0; 3]), ERROR, &["'u.x', 'u.y' together have 2"]);
+    instance.assert_call_error(instance.set(&[u32::MAX], &[1.0; 2]), ERROR, &["no variable", "4294967295"]);
+    instance.assert_call_error(instance.set(&[u32::MAX], &[1.0]), ERROR, &["no variable", "4294967295"]);
+    instance.assert_call_error(instance.get(&[u32::MAX], &mut [1.0]), ERROR, &["no variable"]);
     assert_eq!(instance.bytes(), before);
 }
 
@@ -114,14 +114,14 @@ fn messages_name_variables_as_the_description_does() {
     ];
     for (name, value, as_scalar, as_element) in cases {
         let instance = initializing_with(Layout::Scalars);
-        instance.assert_complaint(instance.set(&[slot(name)], value), DISCARD, &[as_scalar]);
+        instance.assert_call_error(instance.set(&[slot(name)], value), DISCARD, &[as_scalar]);
         let instance = initializing_with(Layout::Arrays);
         let row = IDENTITY.slots[slot(name) as usize];
         let first = slot(name) - u32::from(row.element);
         let mut values = vec![1.0; IDENTITY.row(slot(name) as usize).slots()];
         values[usize::from(row.element)] = value[0];
         let status = instance.set(&[first], &values);
-        instance.assert_complaint(status, DISCARD, &[as_element]);
+        instance.assert_call_error(status, DISCARD, &[as_element]);
         let (_, _, said) = instance.last_message();
         assert!(as_scalar == as_element || !said.contains(as_scalar), "{said}");
     }

@@ -86,7 +86,7 @@ fn what_is_no_state_is_refused() {
         assert_eq!((api.deserialize_fmu_state)(c, null(), 100, &mut pointer), ERROR);
         let state = instance.get_state();
         let status = (api.serialize_fmu_state)(c, state, room.as_mut_ptr(), room.len());
-        instance.assert_complaint(status, ERROR, &["fmi3SerializeFMUState", "room"]);
+        instance.assert_call_error(status, ERROR, &["fmi3SerializeFMUState", "room"]);
         instance.free_state(state);
         assert_eq!((api.free_fmu_state)(c, &mut null_mut()), OK);
     }

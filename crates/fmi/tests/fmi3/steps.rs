@@ -43,7 +43,7 @@ fn wrong_steps_are_refused_and_nothing_is_lost() {
     ];
     for (time, step, part) in cases {
         let (status, last) = instance.do_step(time, step);
-        instance.assert_complaint(status, ERROR, &["fmi3DoStep", part]);
+        instance.assert_call_error(status, ERROR, &["fmi3DoStep", part]);
         assert_eq!(last, 0.25, "the time that was reached");
         assert_eq!(instance.bytes(), before);
     }
@@ -53,7 +53,7 @@ fn wrong_steps_are_refused_and_nothing_is_lost() {
 #[test]
 fn a_panic_is_an_error_and_a_reset_helps() {
     let instance = failed();
-    instance.assert_complaint(ERROR, ERROR, &["fmi3DoStep", "internal error", "trapped in step"]);
+    instance.assert_call_error(ERROR, ERROR, &["fmi3DoStep", "internal error", "trapped in step"]);
     instance.real::<3>("y");
     assert_eq!(instance.reset(), OK);
     assert_eq!(instance.enter_initialization_mode(0.0, None), OK);
@@ -94,14 +94,14 @@ fn only_what_exists_has_derivatives() {
     for (wrong, length) in [(u, 3), (count, 1), (gain, 3)] {
         let mut values = vec![-1.0; 3 + length];
         let status = output_derivatives(&instance, &[y, wrong], &[1, 1], &mut values);
-        instance.assert_complaint(status, ERROR, &["fmi3GetOutputDerivatives", "has no derivative"]);
+        instance.assert_call_error(status, ERROR, &["fmi3GetOutputDerivatives", "has no derivative"]);
         assert!(values.iter().all(|&value| value == -1.0));
     }
     for order in [0, 2, -1] {
         let status = output_derivatives(&instance, &[y], &[order], &mut [0.0; 3]);
-        instance.assert_complaint(status, ERROR, &["'y[1]'", "order"]);
+        instance.assert_call_error(status, ERROR, &["'y[1]'", "order"]);
     }
     let status = output_derivatives(&instance, &[y], &[1], &mut [0.0; 2]);
-    instance.assert_complaint(status, ERROR, &["'y'", "3 values"]);
+    instance.assert_call_error(status, ERROR, &["'y'", "3 values"]);
     assert_eq!(instance.bytes(), before);
 }

@@ -37,12 +37,12 @@ fn several_scalars_are_set_and_read_together_or_not_at_all() {
     assert_eq!(values, [3.0, 0.0, 3.0]);
     let before = instance.bytes();
     let status = instance.set(&[tau, tau], &[4.0, f64::NAN]);
-    instance.assert_complaint(status, DISCARD, &["fmi3SetFloat64", "'tau'", "finite"]);
+    instance.assert_call_error(status, DISCARD, &["fmi3SetFloat64", "'tau'", "finite"]);
     let status = instance.set(&[tau, time], &[4.0, 5.0]);
-    instance.assert_complaint(status, ERROR, &["'time'"]);
+    instance.assert_call_error(status, ERROR, &["'time'"]);
     assert_eq!(instance.bytes(), before);
     let status = instance.get(&[tau, time, count], &mut values);
-    instance.assert_complaint(status, ERROR, &["fmi3GetFloat64", "'count'", "Int32"]);
+    instance.assert_call_error(status, ERROR, &["fmi3GetFloat64", "'count'", "Int32"]);
     assert_eq!(values, [3.0, 0.0, 3.0]);
 }
 
@@ -53,19 +53,19 @@ fn lengths_have_to_fit() {
     let [u, gain, y, time] = ["u", "gain", "y", "time"].map(reference);
     for length in [0, 1, 2, 4, 5, 100] {
         let status = instance.set(&[u], &vec![1.0; length]);
-        instance.assert_complaint(status, ERROR, &["fmi3SetFloat64", "'u'", "3 values", &length.to_string()]);
+        instance.assert_call_error(status, ERROR, &["fmi3SetFloat64", "'u'", "3 values", &length.to_string()]);
         let mut room = vec![-1.0; length];
         let status = instance.get(&[y], &mut room);
-        instance.assert_complaint(status, ERROR, &["fmi3GetFloat64", "'y'"]);
+        instance.assert_call_error(status, ERROR, &["fmi3GetFloat64", "'y'"]);
         assert!(room.iter().all(|&value| value == -1.0));
     }
     assert_eq!(instance.get(&[y, time, gain], &mut [0.0; 6]), ERROR);
     assert_eq!(instance.get(&[y, time, gain], &mut [0.0; 7]), OK);
     let mut room = [-1.0; 4];
-    instance.assert_complaint(instance.get(&[y, reference("count")], &mut room), ERROR, &["'count'", "Int32"]);
+    instance.assert_call_error(instance.get(&[y, reference("count")], &mut room), ERROR, &["'count'", "Int32"]);
     assert_eq!(room, [-1.0; 4]);
     assert_eq!(instance.get(&[], &mut [0.0]), ERROR);
-    instance.assert_complaint(instance.set(&[], &[0.0]), ERROR, &["no variables"]);
+    instance.assert_call_error(instance.set(&[], &[0.0]), ERROR, &["no variables"]);
     assert_eq!(instance.bytes(), before);
 }
 
@@ -75,12 +75,12 @@ fn an_array_goes_by_its_first_element() {
     let u = reference("u");
     for inner in [u + 1, u + 2] {
         let parts = ["fmi3SetFloat64", &inner.to_string(), "'u'", &format!("has {u}")];
-        instance.assert_complaint(instance.set(&[inner], &[1.0]), ERROR, &parts);
-        instance.assert_complaint(instance.get(&[inner], &mut [0.0]), ERROR, &["fmi3GetFloat64", "'u'"]);
+        instance.assert_call_error(instance.set(&[inner], &[1.0]), ERROR, &parts);
+        instance.assert_call_error(instance.get(&[inner], &mut [0.0]), ERROR, &["fmi3GetFloat64", "'u'"]);
     }
     for unknown in [IDENTITY.slots.len() as u32, 1_000_000, u32::MAX] {
-        instance.assert_complaint(instance.set(&[unknown], &[1.0]), ERROR, &["no variable", &unknown.to_string()]);
-        instance.assert_complaint(instance.get(&[unknown], &mut [0.0]), ERROR, &["no variable"]);
+        instance.assert_call_error(instance.set(&[unknown], &[1.0]), ERROR, &["no variable", &unknown.to_string()]);
+        instance.assert_call_error(instance.get(&[unknown], &mut [0.0]), ERROR, &["no variable"]);
     }
 }
 
@@ -129,7 +129,7 @@ fn variables_have_one_type() {
     }
     // SAFETY: the instance is alive, and the arrays have one element.
     let status = unsafe { (api.set_int32)(c, &reference("method"), 1, &1, 1) };
-    instance.assert_complaint(status, ERROR, &["fmi3SetInt32", "'method'", "Int64"]);
+    instance.assert_call_error(status, ERROR, &["fmi3SetInt32", "'method'", "Int64"]);
 }
 
 #[test]
@@ -171,11 +171,11 @@ fn booleans_are_bytes_and_enumerations_are_long() {
         let before = instance.bytes();
         for item in [0, 3, -1, i64::MAX, i64::MIN] {
             let status = (api.set_int64)(c, &method, 1, &item, 1);
-            instance.assert_complaint(status, DISCARD, &["'method'", "1 (exact), 2 (euler)"]);
+            instance.assert_call_error(status, DISCARD, &["'method'", "1 (exact), 2 (euler)"]);
         }
         for value in [6, i32::MIN] {
             let status = (api.set_int32)(c, &offset, 1, &value, 1);
-            instance.assert_complaint(status, DISCARD, &["'offset'", "-5 to 5"]);
+            instance.assert_call_error(status, DISCARD, &["'offset'", "-5 to 5"]);
         }
         assert_eq!(instance.bytes(), before);
     }
@@ -187,15 +187,15 @@ fn a_call_is_taken_as_a_whole_or_not_at_all() {
         let before = instance.bytes();
         let [u, gain, y] = ["u", "gain", "y"].map(reference);
         let status = instance.set(&[u, gain], &[1.0, 2.0, 3.0, 4.0, f64::NAN, 6.0]);
-        instance.assert_complaint(status, DISCARD, &["fmi3SetFloat64", "'gain[2]'", "finite"]);
+        instance.assert_call_error(status, DISCARD, &["fmi3SetFloat64", "'gain[2]'", "finite"]);
         let status = instance.set(&[u, gain, y], &[1.0; 9]);
-        instance.assert_complaint(status, ERROR, &["'y[1]'", "output"]);
+        instance.assert_call_error(status, ERROR, &["'y[1]'", "output"]);
         assert_eq!(instance.bytes(), before);
     }
     let instance = stepping();
     let before = instance.bytes();
     let status = instance.set(&[reference("u"), reference("gain")], &[9.0, 9.0, 9.0, 1.0, -1.0, 1.0]);
-    instance.assert_complaint(status, DISCARD, &["gain: must not be negative"]);
+    instance.assert_call_error(status, DISCARD, &["gain: must not be negative"]);
     assert_eq!(instance.bytes(), before);
 }
 

@@ -11,19 +11,19 @@ pub enum Severity {
 
 /// Why a call did not do what was asked: what, which variable, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Complaint {
+pub struct CallError {
     pub severity: Severity,
     pub text: String,
 }
 
-impl Complaint {
-    /// A complaint about a value.
+impl CallError {
+    /// A error about a value.
     pub fn discard(text: impl Into<String>) -> Self {
-        Complaint { severity: Severity::Discard, text: text.into() }
+        CallError { severity: Severity::Discard, text: text.into() }
     }
 
-    /// A complaint about the call.
+    /// A error about the call.
     pub fn error(text: impl Into<String>) -> Self {
-        Complaint { severity: Severity::Error, text: text.into() }
+        CallError { severity: Severity::Error, text: text.into() }
     }
 }

@@ -41,7 +41,7 @@ pub enum Role {
 
 /// Access rights of one variable.
 #[derive(Clone, Copy, Debug)]
-pub struct VariableCheck {
+pub struct VariableInfo {
     pub value_type: ValueType,
     pub role: Role,
     /// Number of slots of the row that begins here; 0 for its other slots. FMI 3.0 has a variable a row.
@@ -53,8 +53,8 @@ pub struct VariableCheck {
     upper: f64,
 }
 
-impl VariableCheck {
-    /// The check of a row's scalar variable number `element` (from 0).
+impl VariableInfo {
+    /// What may be done with a row's scalar variable number `element` (from 0).
     pub const fn of(row: &Row, element: usize) -> Self {
         let value_type = match row.kind {
             Kind::Real(_) => ValueType::Real,
@@ -68,7 +68,7 @@ impl VariableCheck {
             _ => row.bounds(),
         };
         let row_slots = if element == 0 { row.slots() as u32 } else { 0 };
-        VariableCheck { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
+        VariableInfo { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
     }
 
     /// Checks that the variable accepts `value`.
@@ -99,14 +99,14 @@ const fn settable(row: &Row) -> Modes {
     }
 }
 
-/// The check of every slot. `N` is the number of slots.
-pub(crate) const fn variable_checks<const N: usize>(identity: &Identity) -> [VariableCheck; N] {
-    let mut checks = [VariableCheck::of(&identity.rows[0], 0); N];
+/// What may be done with every slot. `N` is the number of slots.
+pub(crate) const fn variable_infos<const N: usize>(identity: &Identity) -> [VariableInfo; N] {
+    let mut infos = [VariableInfo::of(&identity.rows[0], 0); N];
     let mut slot = 0;
     while slot < N {
         let place = identity.slots[slot];
-        checks[slot] = VariableCheck::of(&identity.rows[place.row as usize], place.element as usize);
+        infos[slot] = VariableInfo::of(&identity.rows[place.row as usize], place.element as usize);
         slot += 1;
     }
-    checks
+    infos
 }

@@ -13,7 +13,7 @@ pub struct Experiment {
 
 /// State of an instance: mode, time, values and the model.
 #[derive(Debug, Serialize, Deserialize)]
-pub struct Run<M> {
+pub struct InstanceState<M> {
     pub(crate) mode: Mode,
     /// The experiment, once the host has defined it.
     pub(crate) experiment: Option<Experiment>,
@@ -28,13 +28,13 @@ pub struct Run<M> {
     /// The model: there from the end of initialization on, and before that whenever `values` has been tried.
     pub(crate) model: Option<M>,
     /// During initialization: something has been set since `values` was last tried.
-    pub(crate) untried: bool,
+    pub(crate) dirty: bool,
 }
 
-impl<M> Run<M> {
+impl<M> InstanceState<M> {
     /// A run that has not begun, with these start values.
     pub(crate) fn fresh(start: &[f64]) -> Self {
-        Run {
+        InstanceState {
             mode: Mode::Instantiated,
             experiment: None,
             time: 0.0,
@@ -42,14 +42,19 @@ impl<M> Run<M> {
             derivatives: vec![0.0; start.len()].into(),
             derivatives_given: false,
             model: None,
-            untried: false,
+            dirty: false,
         }
     }
 }
 
-impl<M: Clone> Clone for Run<M> {
+impl<M: Clone> Clone for InstanceState<M> {
     fn clone(&self) -> Self {
-        Run { values: self.values.clone(), derivatives: self.derivatives.clone(), model: self.model.clone(), ..*self }
+        InstanceState {
+            values: self.values.clone(),
+            derivatives: self.derivatives.clone(),
+            model: self.model.clone(),
+            ..*self
+        }
     }
 
     /// Copies into memory that is there already.
@@ -57,8 +62,8 @@ impl<M: Clone> Clone for Run<M> {
         self.values.clone_from(&source.values);
         self.derivatives.clone_from(&source.derivatives);
         self.model.clone_from(&source.model);
-        let Run { mode, experiment, time, derivatives_given, untried, .. } = *source;
+        let InstanceState { mode, experiment, time, derivatives_given, dirty, .. } = *source;
         (self.mode, self.experiment, self.time) = (mode, experiment, time);
-        (self.derivatives_given, self.untried) = (derivatives_given, untried);
+        (self.derivatives_given, self.dirty) = (derivatives_given, dirty);
     }
 }
