@@ -1,8 +1,7 @@
-//! Builds a model's shared library for each platform and packs it, with all that belongs to it, into an FMU.
+//! Builds a model's shared library for each platform and packs it into an FMU.
 //!
-//! `cargo build-fmu` is the command; [`build`] is the same for a program. What an FMU holds is decided in [`contents`],
-//! the models that there are in [`model`], the platforms in [`platform`], the versions of FMI in [`fmi_version`]. [`ssp`]
-//! packs several FMUs into a system.
+//! `cargo build-fmu` is the command; [`build`] is the same for a program. [`contents`] lists the files of an FMU, [`model`]
+//! the models, [`platform`] the platforms, [`fmi_version`] the versions of FMI. [`ssp`] packs several FMUs into a system.
 
 pub mod archive;
 pub mod compile;
@@ -10,6 +9,7 @@ pub mod contents;
 pub mod documentation;
 mod error;
 pub mod fmi_version;
+mod fmu;
 pub mod functions;
 pub mod icon;
 pub mod library;
@@ -22,94 +22,9 @@ mod start_values;
 mod tools;
 pub mod workspace;
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 pub use error::Error;
 pub use fmi_version::FmiVersion;
+pub use fmu::{Built, build, build_with, fmu};
 pub use model::{MODELS, Model};
 pub use platform::Platform;
 pub use start_values::Start;
-
-/// An FMU that has been written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Built {
-    pub file: PathBuf,
-    /// Size of the file \[bytes\].
-    pub size: usize,
-}
-
-/// Builds a model's FMU into the directory `output`, which is made where it does not exist, and says through `report`
-/// what it does, a line at a time.
-///
-/// Without platforms the FMU is for this machine.
-///
-/// # Errors
-/// A tool that is missing, a library that does not compile or is not fit to be shipped, a file that cannot be written.
-pub fn build(
-    model: &Model,
-    fmi: FmiVersion,
-    platforms: &[Platform],
-    output: &Path,
-    report: impl FnMut(&str),
-) -> Result<Built, Error> {
-    build_with(model, &Start::own(model), fmi, platforms, output, report)
-}
-
-/// Builds a model's FMU that starts with these values; otherwise as [`build`].
-///
-/// # Errors
-/// As [`build`].
-pub fn build_with(
-    model: &Model,
-    start: &Start,
-    fmi: FmiVersion,
-    platforms: &[Platform],
-    output: &Path,
-    report: impl FnMut(&str),
-) -> Result<Built, Error> {
-    let archive = fmu_with(model, start, fmi, platforms, report)?;
-    let file = output.join(fmi.fmu_file(model.name));
-    write_whole(&file, &archive)?;
-    Ok(Built { file, size: archive.len() })
-}
-
-/// Builds a model's FMU and returns its bytes; otherwise as [`build`].
-///
-/// # Errors
-/// As [`build`].
-pub fn fmu(model: &Model, fmi: FmiVersion, platforms: &[Platform], report: impl FnMut(&str)) -> Result<Vec<u8>, Error> {
-    fmu_with(model, &Start::own(model), fmi, platforms, report)
-}
-
-/// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as [`build`].
-fn fmu_with(
-    model: &Model,
-    start: &Start,
-    fmi: FmiVersion,
-    platforms: &[Platform],
-    mut report: impl FnMut(&str),
-) -> Result<Vec<u8>, Error> {
-    let plans = compile::plan(platforms)?;
-    let mut libraries = Vec::new();
-    for plan in &plans {
-        report(&format!("{}: {plan}", plan.platform));
-        let bytes = compile::compile(model, start, fmi, plan)?;
-        let facts = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
-            .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
-        report(&format!("{}: {facts}", plan.platform));
-        libraries.push((plan.platform, bytes));
-    }
-    archive::pack(&contents::contents(model, start, fmi, libraries))
-}
-
-/// Writes a file that others never see half written.
-fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let part = file.with_extension(format!("part.{}", std::process::id()));
-    let write = || {
-        fs::create_dir_all(file.parent().unwrap_or(Path::new(".")))?;
-        fs::write(&part, bytes)?;
-        fs::rename(&part, file)
-    };
-    write().map_err(|reason| Error::Write { file: file.to_owned(), reason })
-}

@@ -23,7 +23,8 @@ pub enum Form {
 
 use crate::archive::{self, Contents};
 use crate::contents::LICENCES;
-use crate::{Built, Error, FmiVersion, Platform, fmu, write_whole};
+use crate::fmu::write_whole;
+use crate::{Built, Error, FmiVersion, Platform, fmu};
 
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";
