@@ -2,7 +2,7 @@
 
 use crate::archive::Contents;
 use crate::reference::{self, Stimuli};
-use crate::{FmiVersion, Model, Platform, Start, documentation};
+use crate::{FmiVersion, Model, Platform, Start, documentation, terminals};
 
 /// Under which licences the FMU and its sources are: the choice is the user's.
 pub const LICENCES: &str = concat!(
@@ -20,6 +20,7 @@ pub fn contents(model: &Model, start: &Start, fmi: FmiVersion, libraries: Vec<(P
     contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());
     contents.insert(fmi.icon_file().to_owned(), (model.icon)());
     contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi, start).into_bytes());
+    contents.insert(terminals::FILE.to_owned(), terminals::xml(model, fmi).into_bytes());
     // The tables' columns are scalar variables.
     if fmi.choose_names(true, false) {
         let input = Stimuli::new(model.reference_input);

@@ -19,6 +19,7 @@ pub mod platform;
 pub mod reference;
 pub mod ssp;
 mod start_values;
+pub mod terminals;
 mod tools;
 pub mod workspace;
 

@@ -57,6 +57,7 @@ fn an_fmu_holds_what_fmi_asks_for() {
         "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
         "model.png",
         "modelDescription.xml",
+        "terminalsAndIcons/terminalsAndIcons.xml",
     ];
     assert_eq!(paths, expected);
 }
@@ -79,6 +80,7 @@ fn an_fmu_holds_what_fmi_3_asks_for() {
         "documentation/licenses/license.txt",
         "modelDescription.xml",
         "terminalsAndIcons/icon.png",
+        "terminalsAndIcons/terminalsAndIcons.xml",
     ];
     for (layout, ride) in [(Layout::Scalars, &ride[..]), (Layout::Arrays, &[])] {
         let contents = with_every_platform(&WASHOUT, FmiVersion::Fmi3(layout));

@@ -21,7 +21,9 @@ def ride_with(fmu, ride, work, program):
 def main(fmus, work, program):
     for fmu in fmus:
         ride = Ride(fmu)
-        report.ride(ride, "", ride_with(fmu, ride, work, program))
+        # fmi-sim does not know the attribute `unit` of FMI 3.0's variables.
+        if ride.fmi == "2.0":
+            report.ride(ride, "", ride_with(fmu, ride, work, program))
 
 
 if __name__ == "__main__":

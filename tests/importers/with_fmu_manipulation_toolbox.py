@@ -58,8 +58,36 @@ def container(fmu, work, ride):
     return ride.difference({round(time / ride.step): row.tolist() for time, row in zip(result["time"], rows)})
 
 
+def joined(fmus, work):
+    """Puts three models into a container, joined by three lines between terminals; says whether the platform moves."""
+    names = [Path(fmu).name for fmu in fmus]
+    washout, motorcycle, platform = names
+    lines = [
+        (motorcycle, "vehicle", washout, "vehicle"),
+        (washout, "actuators", platform, "actuators"),
+        (motorcycle, "rider", platform, "rider"),
+    ]
+    rows = ["rule;from_fmu;from_port;to_fmu;to_port"]
+    rows += [f"FMU;{name};;;" for name in (motorcycle, washout, platform)]
+    rows += [f"LINK;{';'.join(line)}" for line in lines]
+    rows += [f"INPUT;;throttle;{motorcycle};command.throttle", f"OUTPUT;{platform};actuator[1].length;;length"]
+    specification = work / "joined.csv"
+    specification.write_text("\n".join(rows) + "\n")
+    for fmu in fmus:
+        (work / Path(fmu).name).write_bytes(Path(fmu).read_bytes())
+    said = tool("fmucontainer", "-fmu-directory", work, "-container", f"{specification}:0.001")
+    ride = np.array([(0.0, 0.0), (1.0, 0.3), (5.0, 0.3)], dtype=[("time", float), ("throttle", float)])
+    result = simulate_fmu(str(work / "joined.fmu"), input=ride, stop_time=5.0, output_interval=0.01, output=["length"])
+    moved = float(np.ptp(result["length"]))
+    version = Ride(fmus[0]).fmi
+    what = f"three models joined by three terminals, FMI {version}"
+    report.check(what, moved > 0.02, f"the actuator moves by {moved} m; {complaints(said)[:2]}", version)
+
+
 def main(fmus, work):
     os.chdir(work)
+    joined(fmus[:3], work)
+    joined(fmus[3:], work)
     for fmu in fmus:
         ride = Ride(fmu)
         checks(fmu)

@@ -13,6 +13,7 @@ use moris_setup::NamedValues;
 
 use crate::documentation::Section;
 use crate::reference::{self, Stimuli};
+use crate::terminals::Terminal;
 use crate::{FmiVersion, Start};
 
 pub use motorcycle::MOTORCYCLE;
@@ -41,6 +42,8 @@ pub struct Model {
     /// Texts of the sections that depend on the version. Further places are `fmi`, the version's name, and `discard`, its
     /// status for a value that is not taken.
     pub wording: &'static [Wording],
+    /// Groups of variables that a tool connects at once.
+    pub terminals: &'static [Terminal],
     /// Draws `model.png`.
     pub icon: fn() -> Vec<u8>,
     /// The input of the reference ride: a table for [`Stimuli::new`].
@@ -106,6 +109,37 @@ impl Made {
             reference_output: reference::output::<M>,
         }
     }
+}
+
+/// Terminals of both ends of a connection: a motorcycle's outputs are a washout's inputs, say.
+const VEHICLE: (&str, &str) = ("moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
+const RIDER: (&str, &str) = ("moris.rider", "Lean of the rider");
+const ACTUATORS: (&str, &str) = ("moris.actuators", "Lengths and velocities of the six actuators");
+const POSE: (&str, &str) = ("moris.platform", "Position, velocity and acceleration of the platform");
+
+/// Members of a terminal of the vehicle.
+const VEHICLE_MEMBERS: &[(&str, &str)] = &[
+    ("vehicle.specificForce", "specificForce"),
+    ("vehicle.angularVelocity", "angularVelocity"),
+    ("vehicle.orientation", "orientation"),
+    ("vehicle.speed", "speed"),
+    ("rider.lean", "lean"),
+];
+/// Members of a terminal of the platform.
+const POSE_MEMBERS: &[(&str, &str)] = &[
+    ("platform.position", "position"),
+    ("platform.velocity", "velocity"),
+    ("platform.acceleration", "acceleration"),
+    ("platform.orientation", "orientation"),
+    ("platform.angularVelocity", "angularVelocity"),
+];
+
+const fn terminal(
+    name: &'static str,
+    (kind, text): (&'static str, &'static str),
+    members: &'static [(&'static str, &'static str)],
+) -> Terminal {
+    Terminal { name, kind, text, members }
 }
 
 impl Model {

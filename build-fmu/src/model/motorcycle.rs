@@ -4,7 +4,7 @@ use moris_motorcycle::Motorcycle;
 
 use moris_setup::NamedValues;
 
-use super::{Made, Model, Wording};
+use super::{Made, Model, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -34,6 +34,7 @@ pub const MOTORCYCLE: Model = Model {
         fmi3: include_str!("../../documentation/Motorcycle/example.fmi3.html"),
         fmi3_arrays: include_str!("../../documentation/Motorcycle/example.fmi3.arrays.html"),
     }],
+    terminals: &[terminal("vehicle", VEHICLE, VEHICLE_MEMBERS), terminal("rider", RIDER, &[("rider.lean", "lean")])],
     icon: icon::motorcycle,
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),
 };

@@ -5,7 +5,7 @@ use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
-use super::{Made, Model, Wording};
+use super::{ACTUATORS, Made, Model, POSE, POSE_MEMBERS, RIDER, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -60,6 +60,11 @@ pub const STEWART_PLATFORM: Model = Model {
             fmi3: include_str!("../../documentation/StewartPlatform/example.fmi3.html"),
             fmi3_arrays: include_str!("../../documentation/StewartPlatform/example.fmi3.arrays.html"),
         },
+    ],
+    terminals: &[
+        terminal("actuators", ACTUATORS, &[("command.length", "length"), ("command.velocity", "velocity")]),
+        terminal("rider", RIDER, &[("rider.lean", "lean")]),
+        terminal("platform", POSE, POSE_MEMBERS),
     ],
     icon: icon::stewart_platform,
     reference_input: include_str!("../../reference/StewartPlatform_in.csv"),

@@ -4,7 +4,7 @@ use moris_washout::Washout;
 
 use moris_setup::NamedValues;
 
-use super::{Made, Model, Wording};
+use super::{ACTUATORS, Made, Model, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -59,6 +59,11 @@ pub const WASHOUT: Model = Model {
             fmi3: include_str!("../../documentation/MorisWashout/example.fmi3.html"),
             fmi3_arrays: include_str!("../../documentation/MorisWashout/example.fmi3.arrays.html"),
         },
+    ],
+    terminals: &[
+        terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
+        terminal("actuators", ACTUATORS, &[("actuator.length", "length"), ("actuator.velocity", "velocity")]),
+        terminal("platform", POSE, POSE_MEMBERS),
     ],
     icon: icon::motorcycle_on_platform,
     reference_input: include_str!("../../reference/MorisWashout_in.csv"),

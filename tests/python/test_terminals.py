@@ -1,0 +1,86 @@
+"""The FMUs' terminals: valid by FMI 3.0's schema, made of variables that exist, and fitting each other."""
+
+import zipfile
+from pathlib import Path
+
+import fmpy
+import pytest
+from fmpy import read_model_description
+from lxml import etree
+
+from conftest import ROOT
+
+SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
+MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
+KINDS = ["fmu", "fmi3.fmu", "fmi3.arrays.fmu"]
+# From an output terminal to an input terminal: a line each.
+LINES = [
+    ("Motorcycle", "vehicle", "MorisWashout", "vehicle"),
+    ("MorisWashout", "actuators", "StewartPlatform", "actuators"),
+    ("Motorcycle", "rider", "StewartPlatform", "rider"),
+]
+
+
+def fmu(model, kind):
+    path = ROOT / "target" / "fmu" / f"{model}.{kind}"
+    assert path.exists(), f"{path} is missing: run `cargo build-fmu`, with --fmi 3 too, and with --fmi 3 --arrays"
+    return path
+
+
+def root(path):
+    with zipfile.ZipFile(path) as archive:
+        return etree.fromstring(archive.read("terminalsAndIcons/terminalsAndIcons.xml"))
+
+
+def terminals(path):
+    """The variables of each terminal by the names of its members, with the terminal's kind and rule."""
+    variables = {v.name: v for v in read_model_description(path).modelVariables}
+    found = {}
+    for terminal in root(path).iterfind("Terminals/Terminal"):
+        members = terminal.findall("TerminalMemberVariable")
+        assert all(member.get("variableKind") == "signal" for member in members)
+        by_name = {member.get("memberName"): variables[member.get("variableName")] for member in members}
+        assert len(by_name) == len(members)
+        found[terminal.get("name")] = ((terminal.get("terminalKind"), terminal.get("matchingRule")), by_name)
+    return found
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("model", MODELS)
+def test_the_file_is_valid_and_names_variables_of_one_causality(model, kind):
+    path = fmu(model, kind)
+    etree.XMLSchema(file=str(SCHEMA)).assertValid(root(path))
+    found = terminals(path)
+    assert len(found) >= 2
+    for name, (_, members) in found.items():
+        assert len({variable.causality for variable in members.values()}) == 1, name
+        assert {variable.causality for variable in members.values()} <= {"input", "output"}, name
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("source, output, target, input", LINES)
+def test_terminals_fit_member_by_member(source, output, target, input, kind):
+    (kind_from, members_from) = terminals(fmu(source, kind))[output]
+    (kind_to, members_to) = terminals(fmu(target, kind))[input]
+    assert kind_from == kind_to and members_from.keys() == members_to.keys()
+    for name in members_from:
+        start, end = members_from[name], members_to[name]
+        assert (start.causality, end.causality) == ("output", "input"), name
+        assert (start.type, start.unit, start.shape) == (end.type, end.unit, end.shape), name
+
+
+def test_the_lines_are_all_connections_of_the_whole_simulator():
+    with zipfile.ZipFile(ROOT / "target" / "fmu" / "MotorcycleSimulator.ssp") as archive:
+        system = etree.fromstring(archive.read("SystemStructure.ssd"))
+    names = {"motorcycle": "Motorcycle", "washout": "MorisWashout", "platform": "StewartPlatform"}
+    ssd = {"ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription"}
+    wired = {
+        (names[c.get("startElement")], c.get("startConnector"), names[c.get("endElement")], c.get("endConnector"))
+        for c in system.iterfind(".//ssd:Connection", ssd)
+        if c.get("startElement") and c.get("endElement")
+    }
+    joined = set()
+    for source, output, target, input in LINES:
+        outputs, inputs = terminals(fmu(source, "fmu"))[output][1], terminals(fmu(target, "fmu"))[input][1]
+        joined |= {(source, outputs[name].name, target, inputs[name].name) for name in outputs}
+    assert joined == wired
