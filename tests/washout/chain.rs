@@ -1,6 +1,7 @@
 //! The filter chain against closed forms, an integration of its equation, and itself.
 
-use moris_washout::filter::chain::Denominator;
+use moris_washout::filter::chain::{Chains, Denominator};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::chain::Chain;
@@ -184,5 +185,45 @@ fn chains_at_the_ends_of_what_is_accepted_stay_accurate() {
         }
         assert!((chain.high_pass(1.0) - 1.0).abs() < 1e-3, "{omega} {zeta}");
         assert!((chain.second_integral() - 50.0).abs() < 1e-2, "{omega} {zeta}: {}", chain.second_integral());
+    }
+}
+
+#[test]
+fn other_coefficients_leave_the_motion_and_what_is_washed_out() {
+    // Coefficients of eq. (3)'s denominator, multiplied out by hand.
+    let coefficients = |[w1, z1, w2, z2]: [f64; 4]| {
+        [
+            2.0 * (z1 * w1 + z2 * w2),
+            w1 * w1 + w2 * w2 + 4.0 * z1 * z2 * w1 * w2,
+            2.0 * w1 * w2 * (z1 * w2 + z2 * w1),
+            w1 * w1 * w2 * w2,
+        ]
+    };
+    let (before, after) = ([1.3, 0.8, 2.1, 0.6], [0.4, 1.1, 3.7, 0.9]);
+    let denominators = |[w1, z1, w2, z2]: [f64; 4]| [Denominator::new(4, w1, z1, w2, z2); 3];
+    let input = Vector3::new(1.0, -2.0, 0.5);
+    for moving in [0.7, 60.0] {
+        let mut chains = Chains::new(denominators(before));
+        for _ in 0..(moving / 0.01) as usize {
+            chains.advance(input, input, 0.01);
+        }
+        let remembered = |chains: &Chains, [c1, c2, ..]: [f64; 4]| {
+            chains.low_pass() - c1 * chains.first_integral() - c2 * chains.second_integral()
+        };
+        let (velocity, position) = (chains.first_integral(), chains.second_integral());
+        let washed_out = remembered(&chains, coefficients(before));
+        chains.retune(denominators(after), 2);
+        assert_eq!((chains.first_integral(), chains.second_integral()), (velocity, position));
+        let error = remembered(&chains, coefficients(after)) - washed_out;
+        assert!(error.amax() < 1e-12, "after {moving} s: {error}");
+    }
+    // After a minute nothing of the held input is left, and nothing comes back.
+    let mut chains = Chains::new(denominators(before));
+    for k in 0..12_000 {
+        if k == 6000 {
+            chains.retune(denominators(after), 2);
+        }
+        chains.advance(input, input, 0.01);
+        assert!(k < 6000 || chains.second_integral().amax() < 1e-9, "{}", chains.second_integral());
     }
 }

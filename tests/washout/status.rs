@@ -1,0 +1,79 @@
+//! The outputs that tell of limits.
+
+use moris_washout::interface::RollPitchYaw;
+use moris_washout::{Input, Output};
+use nalgebra::Vector3;
+
+use crate::common::{G, parameters, ride, washout};
+
+#[test]
+fn the_stroke_margin_is_the_distance_to_the_nearer_end_of_any_stroke() {
+    let rig = parameters(&[]).rig;
+    let mut washout = washout(&[("splitter.z.omega1", 0.5), ("splitter.z.omega2", 0.5)]);
+    let heaving =
+        |t: f64| Input { specific_force: Vector3::new(0.5, 0.0, G + 4.0 * (4.0 * t).cos()), ..Input::default() };
+    let (mut near_short, mut near_long) = (0, 0);
+    ride(&mut washout, 10.0, 0.001, heaving, |t, output| {
+        let shortest = output.length.iter().copied().fold(f64::INFINITY, f64::min);
+        let longest = output.length.iter().copied().fold(0.0, f64::max);
+        let (short, long) = (shortest - rig.min_length, rig.max_length - longest);
+        assert_eq!(output.stroke_margin, short.min(long), "at {t}");
+        if short < long - 0.02 {
+            near_short += 1;
+        }
+        if long < short - 0.02 {
+            near_long += 1;
+        }
+    });
+    assert!(near_short > 100 && near_long > 100, "{near_short} {near_long}");
+}
+
+/// Blows and rests, each of which makes something be limited for a while.
+fn blows(k: usize, force: f64, rate: f64) -> Input {
+    let blow = |period: usize, value: f64| if (k / period).is_multiple_of(5) { value } else { 0.0 };
+    Input {
+        specific_force: force * Vector3::new(blow(23, 0.9), blow(61, -0.5), blow(17, 0.8)) + Vector3::new(0.0, 0.0, G),
+        angular_velocity: rate * Vector3::new(blow(29, 1.0), blow(31, -0.8), blow(37, 0.5)),
+        orientation: RollPitchYaw::default(),
+        ..Input::default()
+    }
+}
+
+fn flags(output: &Output) -> [bool; 3] {
+    [output.tilt_limited, output.safety_active, output.actuator_limited]
+}
+
+/// How often each flag's cause ended before the last internal step of a communication step, whose flags tell of all.
+fn ended_within_a_step(set: &[(&str, f64)], force: f64, rate: f64) -> [usize; 3] {
+    const INTERNAL: usize = 8;
+    const STEP: f64 = 0.001;
+    let (mut fine, mut coarse) = (washout(set), washout(set));
+    let mut count = [0; 3];
+    for k in 0..4000 {
+        let input = blows(k, force, rate);
+        let (mut any, mut last) = ([false; 3], [false; 3]);
+        for _ in 0..INTERNAL {
+            fine.step(&input, STEP);
+            last = flags(&fine.output());
+            any = std::array::from_fn(|i| any[i] || last[i]);
+        }
+        coarse.step(&input, INTERNAL as f64 * STEP);
+        assert_eq!(coarse.output().position, fine.output().position, "at {k}");
+        assert_eq!(flags(&coarse.output()), any, "at {k}");
+        for i in 0..3 {
+            count[i] += usize::from(any[i] && !last[i]);
+        }
+    }
+    count
+}
+
+#[test]
+fn the_flags_tell_of_every_internal_step() {
+    let quick_tilt = [("tilt.rateLimit", 1.0), ("tilt.accelerationLimit", 20.0)];
+    let [tilt, ..] = ended_within_a_step(&quick_tilt, 10.0, 0.0);
+    let narrow = [("safety.z.positionLimit", 0.1), ("safety.x.positionLimit", 0.1)];
+    let [_, safety, _] = ended_within_a_step(&[narrow, quick_tilt].concat(), 10.0, 2.0);
+    let slow_legs = [("actuator.accelerationLimit", 3.0)];
+    let [.., actuator] = ended_within_a_step(&slow_legs, 0.0, 0.5);
+    assert!(tilt > 1 && safety > 1 && actuator > 1, "{tilt} {safety} {actuator}");
+}
