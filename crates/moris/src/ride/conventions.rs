@@ -1,6 +1,7 @@
 //! Names, units and axes of a recording's columns.
 //!
-//! Said by options, or by a small TOML file with the same words, or both: options stand over the file.
+//! They are given by options, by a small TOML file with the same words, or by both: options take precedence over the
+//! file. Units in the recording's header take precedence over the defaults.
 //!
 //! ```toml
 //! axes = "forward-right-down"
@@ -20,6 +21,8 @@ use moris_washout::interface::AngularVelocityFrame;
 use serde::Deserialize;
 
 use super::RideError;
+use super::units::choices;
+pub use super::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
 
 /// A quantity that a recording may hold, by the key under which its column is named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -33,7 +36,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Every quantity with its key, which is also its column's name unless another is said.
+    /// Every quantity with its key, which is also its column's name unless another is given.
     pub const ALL: [(Quantity, &'static str); 12] = [
         (Quantity::Time, "time"),
         (Quantity::Force(0), "ax"),
@@ -49,9 +52,20 @@ impl Quantity {
         (Quantity::Lean, "lean"),
     ];
 
-    /// True for a required column: time, specific force and rates.
+    /// True for time, specific force and rates, which every recording must have.
     pub fn is_required(self) -> bool {
         matches!(self, Quantity::Time | Quantity::Force(_) | Quantity::Rate(_))
+    }
+
+    /// The dimension of its units.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Quantity::Time => Dimension::Time,
+            Quantity::Force(_) => Dimension::Force,
+            Quantity::Rate(_) => Dimension::Rate,
+            Quantity::Angle(_) | Quantity::Lean => Dimension::Angle,
+            Quantity::Speed => Dimension::Speed,
+        }
     }
 
     /// The quantity's key.
@@ -61,70 +75,8 @@ impl Quantity {
     }
 }
 
-/// Declares an enumeration whose items users write, on the command line and in TOML alike.
-macro_rules! choices {
-    ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
-        $(#[$attribute])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
-        pub enum $name {
-            $( $(#[doc = $text])+ #[value(name = $word)] #[serde(rename = $word)] $item, )+
-        }
-
-        impl $name {
-            /// The word that users write.
-            pub fn word(self) -> &'static str {
-                match self { $( $name::$item => $word, )+ }
-            }
-        }
-    };
-}
-
 choices! {
-    /// Unit of the time.
-    TimeUnit {
-        /// Seconds
-        "s" Second,
-        /// Milliseconds
-        "ms" Millisecond,
-        /// Microseconds
-        "us" Microsecond,
-        /// Nanoseconds
-        "ns" Nanosecond,
-    }
-}
-
-choices! {
-    /// Unit of the specific force.
-    ForceUnit {
-        /// Metres per second squared
-        "m/s2" MetrePerSecondSquared,
-        /// Standard gravity, 9.80665 m/s2
-        "g" Gravity,
-    }
-}
-
-choices! {
-    /// Unit of the angular velocity.
-    RateUnit {
-        /// Radians per second
-        "rad/s" RadianPerSecond,
-        /// Degrees per second
-        "deg/s" DegreePerSecond,
-    }
-}
-
-choices! {
-    /// Unit of the angles.
-    AngleUnit {
-        /// Radians
-        "rad" Radian,
-        /// Degrees
-        "deg" Degree,
-    }
-}
-
-choices! {
-    /// True if the accelerations are specific forces.
+    /// Presence of gravity's reaction in the accelerations.
     Gravity {
         /// Gravity's reaction is in: (0, 0, +9.81) at rest, what an accelerometer reads
         "included" Included,
@@ -134,7 +86,7 @@ choices! {
 }
 
 choices! {
-    /// Where x, y and z point.
+    /// Directions of x, y and z.
     Axes {
         /// x forward, y left, z up (ISO 8855)
         "forward-left-up" ForwardLeftUp,
@@ -153,50 +105,8 @@ choices! {
     }
 }
 
-impl TimeUnit {
-    /// \[s\]
-    pub fn in_si(self) -> f64 {
-        match self {
-            TimeUnit::Second => 1.0,
-            TimeUnit::Millisecond => 1e-3,
-            TimeUnit::Microsecond => 1e-6,
-            TimeUnit::Nanosecond => 1e-9,
-        }
-    }
-}
-
-impl ForceUnit {
-    /// \[m/s2\]
-    pub fn in_si(self) -> f64 {
-        match self {
-            ForceUnit::MetrePerSecondSquared => 1.0,
-            ForceUnit::Gravity => moris_washout::interface::STANDARD_GRAVITY,
-        }
-    }
-}
-
-impl RateUnit {
-    /// \[rad/s\]
-    pub fn in_si(self) -> f64 {
-        match self {
-            RateUnit::RadianPerSecond => 1.0,
-            RateUnit::DegreePerSecond => 1f64.to_radians(),
-        }
-    }
-}
-
-impl AngleUnit {
-    /// \[rad\]
-    pub fn in_si(self) -> f64 {
-        match self {
-            AngleUnit::Radian => 1.0,
-            AngleUnit::Degree => 1f64.to_radians(),
-        }
-    }
-}
-
 impl Axes {
-    /// By what x, y and z are multiplied to be x forward, y left, z up.
+    /// Factors that turn x, y and z into x forward, y left, z up.
     pub fn signs(self) -> [f64; 3] {
         match self {
             Axes::ForwardLeftUp => [1.0, 1.0, 1.0],
@@ -214,38 +124,42 @@ impl From<RateFrame> for AngularVelocityFrame {
     }
 }
 
-/// Conventions of a recording, each given or left to the default.
+/// Options that describe a recording.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
-#[command(next_help_heading = "What the recording's columns are")]
+#[command(next_help_heading = "Columns of the recording")]
 pub struct ConventionOptions {
     /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any, roll pitch yaw, speed,
-    /// lean): time=t,ax=accel_x
+    /// lean): time=t,ax=accel_x. Upper and lower case are the same
     #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
     #[serde(deserialize_with = "columns_of_table")]
     pub columns: Vec<(Quantity, String)>,
 
-    /// Unit of time [default: s]
+    /// Unit of time [default: the header's, otherwise s]
     #[arg(long, value_name = "UNIT")]
     pub time_unit: Option<TimeUnit>,
 
-    /// Unit of ax ay az [default: m/s2]
+    /// Unit of ax ay az [default: the header's, otherwise m/s2]
     #[arg(long, value_name = "UNIT")]
     pub force_unit: Option<ForceUnit>,
 
-    /// Unit of wx wy wz [default: rad/s]
+    /// Unit of wx wy wz [default: the header's, otherwise rad/s]
     #[arg(long, value_name = "UNIT")]
     pub rate_unit: Option<RateUnit>,
 
-    /// Unit of roll pitch yaw and lean [default: rad]
+    /// Unit of roll pitch yaw and lean [default: the header's, otherwise rad]
     #[arg(long, value_name = "UNIT")]
     pub angle_unit: Option<AngleUnit>,
 
-    /// Gravity in ax ay az: included, as an accelerometer measures it, or not [default: included]
-    #[arg(long, value_name = "WHETHER")]
+    /// Unit of speed [default: the header's, otherwise m/s]
+    #[arg(long, value_name = "UNIT")]
+    pub speed_unit: Option<SpeedUnit>,
+
+    /// Presence of gravity's reaction in ax ay az, as an accelerometer reads it [default: included]
+    #[arg(long, value_name = "GRAVITY")]
     pub gravity: Option<Gravity>,
 
-    /// Where x, y and z point [default: forward-left-up]
+    /// Directions of x, y and z [default: forward-left-up]
     #[arg(long, value_name = "AXES")]
     pub axes: Option<Axes>,
 
@@ -253,41 +167,39 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "AXES")]
     pub rate_frame: Option<RateFrame>,
 
-    /// Interpolate a recording with unequal steps linearly, at this many samples a second
+    /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
     #[arg(long, value_name = "HERTZ")]
     pub resample: Option<f64>,
 
-    /// Fade in a recording that does not begin at rest, over this many seconds
+    /// Fade in a recording that does not begin at rest, over this time
     #[arg(long, value_name = "SECONDS")]
     pub fade_in: Option<f64>,
 
-    /// TOML file with the same options (force-unit = "g"), names of columns under columns
+    /// TOML file with these options by the same names (force-unit = "g"), the names of columns under columns
     #[arg(long, value_name = "FILE")]
     #[serde(skip)]
     pub conventions: Option<PathBuf>,
 }
 
-/// Conventions of a recording that is read.
+/// Names, units and axes of a recording, given or by default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conventions {
     /// Column names that are not the keys.
     pub columns: BTreeMap<Quantity, String>,
-    pub time_unit: TimeUnit,
-    pub force_unit: ForceUnit,
-    pub rate_unit: RateUnit,
-    pub angle_unit: AngleUnit,
+    /// Units that are given; the header gives the others, or the defaults hold.
+    pub units: BTreeMap<Dimension, Unit>,
     pub gravity: Gravity,
     pub axes: Axes,
     pub rate_frame: RateFrame,
     /// Samples a second to interpolate at \[1/s\].
     pub resample: Option<f64>,
-    /// Time over which the recording is led in from rest \[s\].
+    /// Time over which the recording is faded in from rest \[s\].
     pub fade_in: f64,
 }
 
 impl Default for Conventions {
     fn default() -> Self {
-        ConventionOptions::default().said()
+        ConventionOptions::default().conventions()
     }
 }
 
@@ -296,33 +208,38 @@ impl Conventions {
     pub fn column(&self, quantity: Quantity) -> &str {
         self.columns.get(&quantity).map_or(quantity.key(), String::as_str)
     }
+
+    /// The unit that is given for a dimension.
+    pub fn unit(&self, dimension: Dimension) -> Option<Unit> {
+        self.units.get(&dimension).copied()
+    }
 }
 
 impl ConventionOptions {
-    /// The given conventions: options over file over defaults.
+    /// The conventions: the options' over the file's over the defaults.
     ///
     /// # Errors
-    /// The file cannot be read or says something that cannot be said.
+    /// The file cannot be read or has an unknown word or value.
     pub fn load(&self) -> Result<Conventions, RideError> {
         self.load_or_fade_in(0.0)
     }
 
-    /// The same, with another time to lead recordings in where neither the options nor the file say one \[s\].
+    /// The conventions, with a time to fade recordings in where neither the options nor the file give one \[s\].
     ///
     /// # Errors
     /// As [`ConventionOptions::load`].
     pub fn load_or_fade_in(&self, fade_in: f64) -> Result<Conventions, RideError> {
-        let said = self.with_file()?;
-        ConventionOptions { fade_in: said.fade_in.or(Some(fade_in)), ..said }.checked()
+        let given = self.with_file()?;
+        ConventionOptions { fade_in: given.fade_in.or(Some(fade_in)), ..given }.checked()
     }
 
-    /// The options over what the file says, if there is one.
+    /// The options over the file's, if there is one.
     fn with_file(&self) -> Result<ConventionOptions, RideError> {
         let Some(file) = &self.conventions else { return Ok(self.clone()) };
         let text = fs::read_to_string(file).map_err(|reason| RideError::Read { file: file.clone(), reason })?;
-        let said: ConventionOptions = toml::from_str(&text)
+        let given: ConventionOptions = toml::from_str(&text)
             .map_err(|error| RideError::Conventions { file: file.clone(), reason: error.to_string() })?;
-        Ok(self.over(said))
+        Ok(self.over(given))
     }
 
     /// These options over others.
@@ -334,6 +251,7 @@ impl ConventionOptions {
             force_unit: self.force_unit.or(under.force_unit),
             rate_unit: self.rate_unit.or(under.rate_unit),
             angle_unit: self.angle_unit.or(under.angle_unit),
+            speed_unit: self.speed_unit.or(under.speed_unit),
             gravity: self.gravity.or(under.gravity),
             axes: self.axes.or(under.axes),
             rate_frame: self.rate_frame.or(under.rate_frame),
@@ -348,21 +266,25 @@ impl ConventionOptions {
             ("resample", self.resample, 1.0..=1e5, "samples a second"),
             ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
         ];
-        for (name, said, range, unit) in allowed {
-            if let Some(value) = said.filter(|value| !range.contains(value)) {
+        for (name, given, range, unit) in allowed {
+            if let Some(value) = given.filter(|value| !range.contains(value)) {
                 return Err(RideError::Option { name, value, min: *range.start(), max: *range.end(), unit });
             }
         }
-        Ok(self.said())
+        Ok(self.conventions())
     }
 
-    fn said(&self) -> Conventions {
+    fn conventions(&self) -> Conventions {
+        let units = [
+            (Dimension::Time, self.time_unit.map(TimeUnit::unit)),
+            (Dimension::Force, self.force_unit.map(ForceUnit::unit)),
+            (Dimension::Rate, self.rate_unit.map(RateUnit::unit)),
+            (Dimension::Angle, self.angle_unit.map(AngleUnit::unit)),
+            (Dimension::Speed, self.speed_unit.map(SpeedUnit::unit)),
+        ];
         Conventions {
             columns: self.columns.iter().cloned().collect(),
-            time_unit: self.time_unit.unwrap_or(TimeUnit::Second),
-            force_unit: self.force_unit.unwrap_or(ForceUnit::MetrePerSecondSquared),
-            rate_unit: self.rate_unit.unwrap_or(RateUnit::RadianPerSecond),
-            angle_unit: self.angle_unit.unwrap_or(AngleUnit::Radian),
+            units: units.into_iter().filter_map(|(dimension, unit)| Some((dimension, unit?))).collect(),
             gravity: self.gravity.unwrap_or(Gravity::Included),
             axes: self.axes.unwrap_or(Axes::ForwardLeftUp),
             rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
@@ -378,7 +300,7 @@ fn column_name(text: &str) -> Result<(Quantity, String), String> {
     Ok((quantity(key.trim())?, name.trim().to_owned()))
 }
 
-/// The quantity of a key, or which keys there are.
+/// The quantity of a key.
 fn quantity(key: &str) -> Result<Quantity, String> {
     let found = Quantity::ALL.iter().find(|(_, known)| *known == key);
     let keys = || Quantity::ALL.map(|(_, key)| key).join(", ");

@@ -1,4 +1,4 @@
-//! From the recording's units and axes to the washout's.
+//! Conversion from the recording's axes to the washout's.
 
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -13,12 +13,12 @@ use super::table::Table;
 pub fn inputs(table: &Table, conventions: &Conventions) -> Vec<Input> {
     let signs = Vector3::from(conventions.axes.signs());
     // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
-    let vector = |sample: usize, quantity: fn(usize) -> Quantity, unit: f64| {
-        Vector3::from_fn(|axis, _| at(table, quantity(axis), sample) * unit * signs[axis])
+    let vector = |sample: usize, quantity: fn(usize) -> Quantity| {
+        Vector3::from_fn(|axis, _| at(table, quantity(axis), sample) * signs[axis])
     };
     let input = |sample: usize| {
-        let orientation = RollPitchYaw::from_vector(vector(sample, Quantity::Angle, conventions.angle_unit.in_si()));
-        let acceleration = vector(sample, Quantity::Force, conventions.force_unit.in_si());
+        let orientation = RollPitchYaw::from_vector(vector(sample, Quantity::Angle));
+        let acceleration = vector(sample, Quantity::Force);
         let gravity = match conventions.gravity {
             Gravity::Included => Vector3::zeros(),
             Gravity::Removed => {
@@ -27,17 +27,17 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Vec<Input> {
         };
         Input {
             specific_force: acceleration + gravity,
-            angular_velocity: vector(sample, Quantity::Rate, conventions.rate_unit.in_si()),
+            angular_velocity: vector(sample, Quantity::Rate),
             orientation,
             speed: at(table, Quantity::Speed, sample),
-            lean: at(table, Quantity::Lean, sample) * conventions.angle_unit.in_si(),
+            lean: at(table, Quantity::Lean, sample),
             engaged: true,
         }
     };
     (0..table.time.len()).map(input).collect()
 }
 
-/// Leads the inputs in from rest over the first `duration` seconds: x^2 (3 - 2x) of the way after a share x of the time.
+/// Fades the inputs in from rest over the first `duration` seconds, by x^2 (3 - 2x) after a fraction x of the time.
 pub fn fade_in(inputs: &mut [Input], step: f64, duration: f64) {
     let rest = Input::default();
     let faded = inputs.iter_mut().enumerate().map(|(k, input)| (k as f64 * step, input));

@@ -1,9 +1,9 @@
-//! Why a recording cannot be ridden.
+//! Reasons why a recording cannot be simulated.
 
 use std::io;
 use std::path::PathBuf;
 
-/// Why a recording cannot be ridden, with the place and what to do.
+/// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum RideError {
     /// A file cannot be read.
@@ -12,19 +12,13 @@ pub enum RideError {
     /// The file with the conventions is not one.
     #[error("{}: {reason}", file.display())]
     Conventions { file: PathBuf, reason: String },
-    /// An option has a value that it cannot have.
+    /// An option has a value out of its range.
     #[error("{name} is {value}, but must be from {min} to {max} {unit}")]
     Option { name: &'static str, value: f64, min: f64, max: f64, unit: &'static str },
-    /// A column is not there.
-    #[error(
-        "{}: there is no column {column}; there are {}{}; say what it is called with --columns {key}=NAME",
-        file.display(), present.join(", "), nearest.as_ref().map(|name| format!(" (is it {name}?)")).unwrap_or_default()
-    )]
-    NoColumn { file: PathBuf, key: &'static str, column: String, present: Vec<String>, nearest: Option<String> },
-    /// A line or a value in it is not what it should be.
+    /// A line or a value in it cannot be used.
     #[error("{}, line {line}{}: {reason}", file.display(), column.as_ref().map(|name| format!(", column {name}")).unwrap_or_default())]
     Line { file: PathBuf, line: u64, column: Option<String>, reason: String },
-    /// The file as a whole is not what it should be.
+    /// The file as a whole cannot be used.
     #[error("{}: {reason}", file.display())]
     Whole { file: PathBuf, reason: String },
 }

@@ -4,27 +4,26 @@ use super::RideError;
 use super::conventions::{Conventions, Quantity};
 use super::table::Table;
 
-/// Tolerance of a sample's time against equal steps \[fraction of a step\]: clocks that are written with few
-/// digits are off by that.
+/// Largest distance of a sample from its place at equal steps \[fractions of a step\]. Clocks that are written with few
+/// digits need it.
 const JITTER: f64 = 0.2;
-/// A recording coarser than this says too little of what was felt \[s\].
+/// Coarsest step of a usable recording \[s\].
 const COARSEST: f64 = 0.25;
-/// A recording finer than this is not in the unit that it is said to be in \[s\].
+/// Finest step: below it, time is in another unit \[s\].
 const FINEST: f64 = 1e-5;
 /// More samples than this are a mistake: a day at 100 Hz.
 const MOST_SAMPLES: f64 = 1e7;
-/// A gap longer than this is told of when it is interpolated over \[s\].
+/// Longest gap that is interpolated over without a warning \[s\].
 const GAP: f64 = 0.2;
 
-/// The recording at equal steps, and what is to be said about it: unchanged where it is so already, interpolated where
-/// that has been asked for.
+/// The recording at equal steps, with warnings: unchanged where its steps are equal, interpolated on demand.
 ///
 /// # Errors
-/// Time stands still or goes back; the steps are not equal and interpolation has not been asked for; the steps are too
-/// coarse or too fine to be in the unit that they are said to be in.
+/// Time stands still or goes back; the steps are unequal and interpolation is off; the steps are too coarse or too fine
+/// for the unit of time.
 pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RideError> {
     check_order(&table)?;
-    check_unit(&table, conventions)?;
+    check_unit(&table)?;
     match conventions.resample {
         Some(rate) => resampled(&table, rate),
         None => check_equal(&table).map(|()| (table, Vec::new())),
@@ -54,13 +53,13 @@ fn usual_step(table: &Table) -> f64 {
     steps[steps.len() / 2]
 }
 
-fn check_unit(table: &Table, conventions: &Conventions) -> Result<(), RideError> {
+fn check_unit(table: &Table) -> Result<(), RideError> {
     let usual = usual_step(table);
-    let unit = conventions.time_unit.word();
+    let unit = table.column(Quantity::Time).map_or("s", |column| column.unit.word);
     let reason = if usual > COARSEST {
-        "too coarse for a washout; if time is in ms or another unit, say so with --time-unit"
+        "too coarse for a washout; if time is in ms or another unit, give it with --time-unit"
     } else if usual < FINEST {
-        "finer than any recording; say in which unit time is with --time-unit"
+        "finer than any recording; give the unit of time with --time-unit"
     } else {
         return Ok(());
     };
@@ -74,7 +73,7 @@ fn check_equal(table: &Table) -> Result<(), RideError> {
     let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
         return Ok(());
     };
-    // The sample that is off is rarely where the step was odd: say where the first odd step is.
+    // The sample that is off is rarely the one whose step is odd: name the first odd step.
     let step_to = |k: usize| table.time[k] - table.time[k - 1];
     let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
     let reason = format!(
@@ -108,12 +107,12 @@ fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RideError
         })
         .collect();
     let interpolated = |values: &Vec<f64>| {
-        places.iter().map(|&(k, share)| values[k - 1] + share * (values[k] - values[k - 1])).collect::<Vec<f64>>()
+        places.iter().map(|&(k, t)| values[k - 1] + t * (values[k] - values[k - 1])).collect::<Vec<f64>>()
     };
     let columns = table.columns.iter().map(|(&quantity, values)| (quantity, interpolated(values))).collect();
     let lines = places.iter().map(|&(k, _)| table.lines[k]).collect();
     let remarks = gaps(table);
-    Ok((Table { file: table.file.clone(), time, columns, lines }, remarks))
+    Ok((Table { file: table.file.clone(), time, columns, layout: table.layout.clone(), lines }, remarks))
 }
 
 fn gaps(table: &Table) -> Vec<String> {

@@ -1,14 +1,14 @@
-//! The numbers of a recording, column by column, in the recording's own units.
+//! The numbers of a recording, column by column, in SI units.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use csv::{ByteRecord, ReaderBuilder};
-use moris_setup::nearest;
+use csv::{ReaderBuilder, StringRecord};
 
 use super::RideError;
 use super::conventions::{Conventions, Quantity};
+use super::header::{Column, Header, quoted};
+use super::source;
 
 /// A recording's columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +17,10 @@ pub struct Table {
     pub file: PathBuf,
     /// The time column \[s\].
     pub time: Vec<f64>,
-    /// All others, as they are in the file.
+    /// All others, in SI units and the file's axes.
     pub columns: BTreeMap<Quantity, Vec<f64>>,
+    /// The columns of the file, with their units.
+    pub layout: Vec<Column>,
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
 }
@@ -32,52 +34,67 @@ impl Table {
         }
     }
 
-    /// True if the recording has the vehicle's orientation: roll and pitch at least.
+    /// True where the recording holds the vehicle's orientation: its roll and pitch at least.
     pub fn has_orientation(&self) -> bool {
         self.columns.contains_key(&Quantity::Angle(0)) && self.columns.contains_key(&Quantity::Angle(1))
+    }
+
+    /// The column of a quantity in the file.
+    pub fn column(&self, quantity: Quantity) -> Option<&Column> {
+        self.layout.iter().find(|column| column.quantity == quantity)
     }
 }
 
 /// Reads a recording: a header of names, then lines of numbers, with commas, semicolons or tabulators between them. Lines
-/// that begin with # are comments.
+/// that begin with # are comments. Between semicolons or tabulators, numbers may have a decimal comma.
 ///
 /// # Errors
-/// The file cannot be read or holds no samples, a column is missing, a value is not a number.
+/// The file cannot be read or holds no samples, columns are missing, a unit contradicts an option, a value is not a
+/// number.
 pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
-    let bytes = fs::read(file).map_err(|reason| RideError::Read { file: file.to_owned(), reason })?;
-    let whole = |reason: &str| RideError::Whole { file: file.to_owned(), reason: reason.to_owned() };
-    let delimiter = delimiter(&bytes);
+    let text = source::text(file)?;
+    let text = text.trim_start_matches('\u{feff}');
+    let file = source::shown(file);
+    let whole = |reason: &str| RideError::Whole { file: file.clone(), reason: reason.to_owned() };
+    let delimiter = delimiter(text);
     let mut reader =
-        ReaderBuilder::new().delimiter(delimiter).comment(Some(b'#')).flexible(true).from_reader(&bytes[..]);
-    let header: Vec<String> = match reader.byte_headers() {
-        Ok(names) => names.iter().map(|name| bare(&String::from_utf8_lossy(name))).collect(),
+        ReaderBuilder::new().delimiter(delimiter).comment(Some(b'#')).flexible(true).from_reader(text.as_bytes());
+    let mut header = match reader.headers() {
+        Ok(names) => Header::new(names),
         Err(error) => return Err(whole(&error.to_string())),
     };
-    if header.iter().all(String::is_empty) {
+    if header.is_blank() {
         return Err(whole("is empty; the first line must name the columns"));
     }
-    if header.iter().all(|name| name.parse::<f64>().is_ok()) {
+    if header.is_numbers() {
         return Err(whole("begins with numbers; the first line must name the columns: time,ax,ay,az,wx,wy,wz"));
     }
-    let places = places(file, &header, conventions)?;
 
-    let mut table = Table { file: file.to_owned(), time: Vec::new(), columns: BTreeMap::new(), lines: Vec::new() };
-    let mut record = ByteRecord::new();
-    while reader.read_byte_record(&mut record).map_err(|error| whole(&error.to_string()))? {
+    let mut record = StringRecord::new();
+    let mut advance = |record: &mut StringRecord| reader.read_record(record).map_err(|error| whole(&error.to_string()));
+    let mut is_sample = advance(&mut record)?;
+    if is_sample && header.take_units(record.iter()) {
+        is_sample = advance(&mut record)?;
+    }
+    let layout = header.columns(&file, conventions)?;
+    let mut table = Table { file: file.clone(), time: Vec::new(), columns: BTreeMap::new(), layout, lines: Vec::new() };
+    let mut numbers = Numbers::default();
+    while is_sample {
         let line = record.position().map_or(0, csv::Position::line);
-        for &(quantity, place) in &places {
-            let value = number(record.get(place)).map_err(|reason| RideError::Line {
-                file: file.to_owned(),
-                line,
-                column: Some(header[place].clone()),
-                reason,
-            })?;
+        let refused = |column, reason| RideError::Line { file: file.clone(), line, column, reason };
+        if record.iter().skip(header.width()).any(|field| !field.trim().is_empty()) {
+            return Err(refused(None, too_many_fields(record.len(), header.width())));
+        }
+        for Column { quantity, place, unit, .. } in &table.layout {
+            let value =
+                numbers.parse(record.get(*place)).map_err(|reason| refused(Some(header.shown(*place)), reason))?;
             match quantity {
-                Quantity::Time => table.time.push(value * conventions.time_unit.in_si()),
-                _ => table.columns.entry(quantity).or_default().push(value),
+                Quantity::Time => table.time.push(value * unit.in_si),
+                _ => table.columns.entry(*quantity).or_default().push(value * unit.in_si),
             }
         }
         table.lines.push(line);
+        is_sample = advance(&mut record)?;
     }
     if table.time.len() < 2 {
         return Err(whole("has fewer than two samples below its header"));
@@ -85,56 +102,51 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
     Ok(table)
 }
 
+fn too_many_fields(fields: usize, columns: usize) -> String {
+    format!(
+        "has {fields} fields below a header of {columns}; if its numbers have decimal commas, separate the columns with \
+         semicolons"
+    )
+}
+
 /// Which of comma, semicolon and tabulator there are most of in the first line that is no comment.
-fn delimiter(bytes: &[u8]) -> u8 {
-    let header = bytes.split(|&byte| byte == b'\n').find(|line| !line.starts_with(b"#")).unwrap_or_default();
-    let count = |delimiter: u8| header.iter().filter(|&&byte| byte == delimiter).count();
+fn delimiter(text: &str) -> u8 {
+    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty()).unwrap_or_default();
+    let count = |delimiter: u8| header.bytes().filter(|&byte| byte == delimiter).count();
     [b',', b';', b'\t'].into_iter().rev().max_by_key(|&delimiter| count(delimiter)).unwrap_or(b',')
 }
 
-/// A column's name without spaces around it and without a unit in brackets behind it.
-fn bare(name: &str) -> String {
-    let name = name.trim_start_matches('\u{feff}');
-    let end = name.find(['[', '(']).filter(|&end| end > 0).unwrap_or(name.len());
-    name[..end].trim().to_owned()
+/// Parses numbers that all have the same decimal mark.
+#[derive(Default)]
+struct Numbers {
+    mark: Option<char>,
 }
 
-/// Where the columns are that the recording has.
-fn places(file: &Path, header: &[String], conventions: &Conventions) -> Result<Vec<(Quantity, usize)>, RideError> {
-    let mut places = Vec::new();
-    for (quantity, key) in Quantity::ALL {
-        let name = conventions.column(quantity);
-        match header.iter().position(|present| present == name) {
-            Some(place) => places.push((quantity, place)),
-            None if quantity.is_required() || conventions.columns.contains_key(&quantity) => {
-                return Err(RideError::NoColumn {
-                    file: file.to_owned(),
-                    key,
-                    column: name.to_owned(),
-                    present: header.to_vec(),
-                    nearest: nearest(name, header.iter().map(String::as_str)).first().map(|&name| name.to_owned()),
-                });
+impl Numbers {
+    /// A field's number, or the reason why it is none.
+    fn parse(&mut self, field: Option<&str>) -> Result<f64, String> {
+        let text = field.ok_or("is missing: the line has too few fields")?.trim();
+        let number = match text.find([',', '.']).map(|place| text.as_bytes()[place] as char) {
+            None => text.parse::<f64>(),
+            Some(mark) => {
+                let number = if mark == ',' { text.replacen(',', ".", 1).parse::<f64>() } else { text.parse::<f64>() };
+                if number.is_ok() && *self.mark.get_or_insert(mark) != mark {
+                    return Err(format!(
+                        "is {}, but numbers before it have a decimal {}; write all with the same",
+                        quoted(text),
+                        if mark == ',' { "point" } else { "comma" }
+                    ));
+                }
+                number
             }
-            None => {}
+        };
+        match number {
+            Ok(number) if number.is_finite() => Ok(number),
+            Ok(_) => Err(format!("is {}; cut this part off, or fill the gap with plausible values", quoted(text))),
+            Err(_) if text.is_empty() => {
+                Err("is empty; cut this part off, or fill the gap with plausible values".to_owned())
+            }
+            Err(_) => Err(format!("is \"{}\", which is not a number", quoted(text))),
         }
-    }
-    Ok(places)
-}
-
-/// A field's number, or what is wrong with it.
-fn number(field: Option<&[u8]>) -> Result<f64, String> {
-    let Some(field) = field else { return Err("is missing: the line has too few fields".to_owned()) };
-    let text = String::from_utf8_lossy(field);
-    let text = text.trim();
-    match text.parse::<f64>() {
-        Ok(number) if number.is_finite() => Ok(number),
-        Ok(_) => Err(format!("is {text}; cut this part off, or fill the gap with what was really felt")),
-        Err(_) if text.is_empty() => {
-            Err("is empty; cut this part off, or fill the gap with what was really felt".to_owned())
-        }
-        Err(_) if text.replace(',', ".").parse::<f64>().is_ok() => {
-            Err(format!("is {text}; write numbers with a decimal point, not a comma"))
-        }
-        Err(_) => Err(format!("is \"{text}\", which is not a number")),
     }
 }

@@ -1,0 +1,113 @@
+//! The bytes of a recording: from a file or standard input, decompressed, and recognised as text.
+
+use std::fs;
+use std::io::{Read, stdin};
+use std::path::{Path, PathBuf};
+
+use flate2::read::MultiGzDecoder;
+
+use super::RideError;
+
+/// The argument that stands for standard input.
+const STANDARD_INPUT: &str = "-";
+/// Largest recording \[bytes\]. A day at 1 kHz with ten columns is 8 GB; an hour is 0.3 GB.
+const LARGEST: u64 = 2_000_000_000;
+/// Part of a file in which a zero byte shows that it is no text \[bytes\].
+const HEAD: usize = 4096;
+
+/// The name of the recording in a file: without directory, `.csv` and `.gz`; `stdin` for standard input.
+pub fn name(file: &Path) -> String {
+    if is_standard_input(file) {
+        return "stdin".to_owned();
+    }
+    let is_packed = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
+    let stem = file.file_stem().map(PathBuf::from).unwrap_or_default();
+    let stem = if is_packed { stem.file_stem().map(PathBuf::from).unwrap_or_default() } else { stem };
+    stem.to_string_lossy().into_owned()
+}
+
+/// The file as messages name it.
+pub fn shown(file: &Path) -> PathBuf {
+    if is_standard_input(file) { PathBuf::from("standard input") } else { file.to_owned() }
+}
+
+fn is_standard_input(file: &Path) -> bool {
+    file.as_os_str() == STANDARD_INPUT
+}
+
+/// The text of a recording, unpacked if it is compressed with gzip.
+///
+/// # Errors
+/// The file cannot be read or unpacked, is too large, or is of a known format that is not CSV: what to do about it.
+pub fn text(file: &Path) -> Result<String, RideError> {
+    let unreadable = |reason| RideError::Read { file: shown(file), reason };
+    let refused = |reason: &str| RideError::Whole { file: shown(file), reason: reason.to_owned() };
+    let mut bytes = if is_standard_input(file) {
+        let mut bytes = Vec::new();
+        stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+        bytes
+    } else {
+        fs::read(file).map_err(unreadable)?
+    };
+    if bytes.starts_with(&[0x1f, 0x8b]) {
+        let mut unpacked = Vec::new();
+        let mut decoder = MultiGzDecoder::new(&bytes[..]).take(LARGEST + 1);
+        decoder.read_to_end(&mut unpacked).map_err(unreadable)?;
+        bytes = unpacked;
+    }
+    if bytes.len() as u64 > LARGEST {
+        return Err(refused("is larger than 2 GB; cut it into parts"));
+    }
+    if let Some(reason) = other_format(&bytes) {
+        return Err(refused(reason));
+    }
+    // Loggers that do not write UTF-8 write Latin-1, of which headers use ° and ².
+    Ok(String::from_utf8(bytes).unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect()))
+}
+
+/// The remedy for a file that its first bytes show not to be CSV.
+fn other_format(bytes: &[u8]) -> Option<&'static str> {
+    let head = &bytes[..bytes.len().min(HEAD)];
+    let contains = |part: &[u8]| head.windows(part.len()).any(|window| window == part);
+    let first = |magic: &[u8]| head.starts_with(magic);
+    let text = head.trim_ascii_start();
+    Some(if first(b"PK\x03\x04") && (contains(b"[Content_Types].xml") || contains(b"xl/")) {
+        "is an Excel workbook; save the sheet as CSV"
+    } else if first(b"PK\x03\x04") {
+        "is a zip archive; unpack it and pass the CSV file in it"
+    } else if first(b"\xd0\xcf\x11\xe0") {
+        "is an old Excel workbook; save the sheet as CSV"
+    } else if first(b"PAR1") {
+        "is a Parquet file; convert it to CSV, in Python: pandas.read_parquet(FILE).to_csv(\"ride.csv\", index=False)"
+    } else if first(b"MATLAB") {
+        "is a MATLAB file; write its signals as CSV, in MATLAB: writetable(table(time, ax, ay, az, wx, wy, wz), 'ride.csv')"
+    } else if first(b"\x89HDF") {
+        "is an HDF5 file; write its signals as CSV, in Python with h5py"
+    } else if first(b"MDF     ") || first(b"UnFinMF ") {
+        "is an MDF measurement (MF4); export it as CSV, in Python: asammdf.MDF(FILE).export(\"csv\", \"ride\")"
+    } else if first(b"SQLite format 3") {
+        "is an SQLite database; export the table as CSV"
+    } else if first(b"\xff\xfe") || first(b"\xfe\xff") || is_utf_16(head) {
+        "is text in UTF-16; save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE > ride.csv"
+    } else if first(b"\x28\xb5\x2f\xfd") || first(b"BZh") || first(b"\xfd7zXZ") || first(b"7z\xbc\xaf") {
+        "is compressed; unpack it first, or compress it with gzip, which is read as it is"
+    } else if head.contains(&0) {
+        "is no text but a binary file; export the recording as CSV from the program that wrote it"
+    } else if text.starts_with(b"<") {
+        "is XML or HTML; export the recording as CSV"
+    } else if text.starts_with(b"{") || text.starts_with(b"[{") {
+        "is JSON; export the recording as CSV"
+    } else {
+        return None;
+    })
+}
+
+/// Text in UTF-16 without a byte order mark: every other byte of ASCII is zero.
+fn is_utf_16(head: &[u8]) -> bool {
+    let head = &head[..head.len() & !1];
+    let zeros = |odd: usize| head.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
+    head.len() >= 8
+        && [(zeros(0), zeros(1)), (zeros(1), zeros(0))]
+            .iter()
+            .any(|&(many, none)| none == 0 && many * 10 >= head.len() / 2 * 9)
+}
