@@ -1,15 +1,11 @@
-//! Agreement of one signal with another.
+//! Fidelity with which one signal follows another: errors, correlation and delay.
 
-/// Longest delay, of either sign, that is looked for \[s\].
-const LONGEST_DELAY: f64 = 2.0;
-
-/// Signals that correlate less than this at any shift are not the same signal, only later.
-const SAME_SIGNAL: f64 = 0.9;
+use crate::delay::delay;
 
 /// A signal whose values differ by less than this is constant: far below what anybody feels \[m/s2 or rad/s\].
-const CONSTANT: f64 = 1e-9;
+pub(crate) const CONSTANT: f64 = 1e-9;
 
-/// Agreement of a felt signal with the desired one.
+/// Fidelity of a felt signal to the desired one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fidelity {
     /// Root mean square of the error \[the signal's unit\].
@@ -18,7 +14,7 @@ pub struct Fidelity {
     pub peak_error: f64,
     /// Pearson's correlation; none where one of the signals is constant.
     pub correlation: Option<f64>,
-    /// Delay of the felt signal \[s\]; see [`delay`].
+    /// Time by which the felt signal is later \[s\]; see [`delay`].
     pub delay: Option<f64>,
 }
 
@@ -64,41 +60,7 @@ pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
     Some(ab / (aa * bb).sqrt())
 }
 
-/// Delay of `felt` against `desired` \[s\]: the shift that makes them correlate best, found between the samples
-/// by a parabola through the best shift and its neighbours. Each shift is judged on the samples that overlap.
-///
-/// None where a signal is constant, where the signals correlate by less than 0.9 at the best shift, and where that is not
-/// within two seconds: then there is no delay that would mean anything.
-pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
-    let longest = ((LONGEST_DELAY / step).round() as i64).min(desired.len() as i64 / 2);
-    let at_shift: Vec<f64> =
-        (-longest..=longest).map(|shift| correlation_at(desired, felt, shift)).collect::<Option<_>>()?;
-    let best = (0..at_shift.len()).max_by(|&i, &j| at_shift[i].total_cmp(&at_shift[j]))?;
-    if best == 0 || best + 1 == at_shift.len() || at_shift[best] < SAME_SIGNAL {
-        return None;
-    }
-    let vertex = parabola_vertex(at_shift[best - 1], at_shift[best], at_shift[best + 1]);
-    Some((best as f64 - longest as f64 + vertex) * step)
-}
-
-/// The correlation of `desired` with what is felt `shift` samples later.
-fn correlation_at(desired: &[f64], felt: &[f64], shift: i64) -> Option<f64> {
-    let offset = shift.unsigned_abs() as usize;
-    let overlap = desired.len() - offset;
-    if shift < 0 {
-        correlation(&desired[offset..], &felt[..overlap])
-    } else {
-        correlation(&desired[..overlap], &felt[offset..])
-    }
-}
-
-/// Where, between -1 and 1, the parabola through the values at -1, 0 and 1 has its vertex; the middle is the largest.
-fn parabola_vertex(before: f64, middle: f64, after: f64) -> f64 {
-    let curvature = before - 2.0 * middle + after;
-    if curvature == 0.0 { 0.0 } else { 0.5 * (before - after) / curvature }
-}
-
-fn mean(values: &[f64]) -> f64 {
+pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
@@ -154,38 +116,6 @@ mod tests {
         let (constant, sine) = (sampled(|_| 9.80665), sampled(f64::sin));
         assert_eq!(correlation(&constant, &sine), None);
         assert_eq!(correlation(&sine, &constant), None);
-        assert_eq!(delay(&constant, &sine, STEP), None);
-    }
-
-    #[test]
-    fn a_delayed_pulse_s_delay_is_found_between_the_samples_in_either_direction() {
-        let pulse = |t: f64| (-(t - 5.0).powi(2)).exp();
-        let desired = sampled(pulse);
-        for expected in [-0.5, -0.01234, 0.0, 0.0003, 0.0417, 0.9] {
-            let felt = sampled(|t| 0.8 * pulse(t - expected) + 1.0);
-            assert_near(delay(&desired, &felt, STEP).unwrap(), expected, 0.001 * STEP);
-        }
-    }
-
-    #[test]
-    fn a_delayed_sine_s_delay_is_found() {
-        let desired = sampled(|t| (TAU * 0.4 * t).sin());
-        let felt = sampled(|t| (TAU * 0.4 * (t - 0.1234)).sin());
-        assert_near(delay(&desired, &felt, STEP).unwrap(), 0.1234, 0.001 * STEP);
-    }
-
-    #[test]
-    fn ramps_have_no_delay_in_common() {
-        let desired = sampled(|t| t);
-        let felt = sampled(|t| (t / 10.0).exp());
-        assert_eq!(delay(&desired, &felt, STEP), None);
-    }
-
-    #[test]
-    fn different_signals_have_no_delay_in_common() {
-        let desired = sampled(|t| (TAU * t).sin());
-        let felt = sampled(|t| (TAU * t).sin() + (TAU * 1.7 * t).sin());
-        assert_eq!(delay(&desired, &felt, STEP), None);
     }
 
     #[test]

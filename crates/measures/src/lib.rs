@@ -6,7 +6,8 @@
 //!
 //! | module | what it measures |
 //! |---|---|
-//! | [`fidelity`](mod@fidelity) | RMS and peak error, correlation, delay of one signal behind another |
+//! | [`fidelity`](mod@fidelity) | RMS and peak error, correlation |
+//! | [`delay`](mod@delay) | delay of one signal behind another |
 //! | [`vestibular`] | what the semicircular canals and the otoliths make of a signal |
 //! | [`cues`] | time above the perception thresholds: false cues, missing cues |
 //! | [`effort`](mod@effort) | stroke used, time limited |
@@ -18,6 +19,7 @@
 
 pub mod bound;
 pub mod cues;
+pub mod delay;
 pub mod effort;
 pub mod fidelity;
 mod listing;
