@@ -10,6 +10,7 @@
 
 pub mod measure;
 pub mod parameters;
+mod progress;
 pub mod respond;
 pub mod ride;
 pub mod rig;
@@ -17,3 +18,6 @@ pub mod run;
 pub mod setup_options;
 pub mod text_table;
 pub mod tune;
+
+/// Directory for reports unless `--report` gives another. No directory of the sources is called so.
+pub const REPORT_DIRECTORY: &str = "moris-report";

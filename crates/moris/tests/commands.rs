@@ -74,7 +74,7 @@ fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same
     let lengths = said.split("lengths of\n").nth(1).unwrap().lines().next().unwrap();
     let lengths: Vec<f64> = lengths.trim().trim_end_matches(" m").split(", ").map(|l| l.parse().unwrap()).collect();
     assert!(lengths.len() == 6 && lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{said}");
-    assert!(directory.path().join("report/singular.svg").exists());
+    assert!(directory.path().join("moris-report/singular.svg").exists());
 }
 
 #[test]
@@ -129,20 +129,21 @@ fn runs_with_other_parameters_stand_beside_the_first() {
         said.contains("Narrow mock-up, 0.45 m stroke, parameters default:") && said.contains("parameters wake:"),
         "{said}"
     );
+    assert!(text(&output.stderr).starts_with("ride: reading\nride: simulating\n"), "{}", text(&output.stderr));
     for file in ["ride.outputs.csv", "ride.wake.outputs.csv", "ride.html"] {
-        assert!(directory.path().join("report").join(file).exists(), "{file}");
+        assert!(directory.path().join("moris-report").join(file).exists(), "{file}");
     }
 }
 
 #[test]
 fn a_recording_in_the_report_s_directory_is_left_as_it_is() {
     let directory = tempfile::tempdir().unwrap();
-    fs::create_dir(directory.path().join("report")).unwrap();
-    write_ride(directory.path(), "report/ride.csv");
-    let before = fs::read(directory.path().join("report/ride.csv")).unwrap();
-    let output = moris(directory.path(), &["run", "report/ride.csv", "--no-bound"]);
+    fs::create_dir(directory.path().join("moris-report")).unwrap();
+    write_ride(directory.path(), "moris-report/ride.csv");
+    let before = fs::read(directory.path().join("moris-report/ride.csv")).unwrap();
+    let output = moris(directory.path(), &["simulate", "moris-report/ride.csv", "--no-bound"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    assert_eq!(fs::read(directory.path().join("report/ride.csv")).unwrap(), before);
+    assert_eq!(fs::read(directory.path().join("moris-report/ride.csv")).unwrap(), before);
 }
 
 #[test]
@@ -154,15 +155,15 @@ fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
         write_ride(here, name);
     }
     for arguments in [
-        &["run", "ride.csv", "other/ride.csv"][..],
-        &["run", "ride.csv", "--against", "wake", "--against", "wake"],
-        &["run", "ride.csv", "ride.outputs.csv"],
+        &["simulate", "ride.csv", "other/ride.csv"][..],
+        &["simulate", "ride.csv", "--compare", "wake", "--compare", "wake"],
+        &["simulate", "ride.csv", "ride.outputs.csv"],
     ] {
         let output = moris(here, arguments);
         assert!(!output.status.success(), "{arguments:?}");
         let said = text(&output.stderr);
         assert!(said.contains("outputs.csv") && said.contains("rename"), "{said}");
-        assert!(!here.join("report").exists());
+        assert!(!here.join("moris-report").exists());
     }
 }
 
@@ -175,13 +176,13 @@ fn errors_say_what_to_do_and_fail() {
         assert!(!output.status.success(), "{arguments:?}");
         text(&output.stderr)
     };
-    assert!(failure(&["run", "ride.csv", "--parameters", "wakee"]).contains("did you mean wake?"));
-    assert!(failure(&["run", "missing.csv"]).contains("cannot read missing.csv"));
-    assert!(failure(&["run", "ride.csv", "--columns", "ax=acc"]).contains("--columns ax=NAME"));
-    assert!(failure(&["run", "ride.csv", "--columns", "bx=acc"]).contains("there is no key bx"));
-    assert!(failure(&["run", "ride.csv", "--resample", "0"]).contains("resample is 0, but must be from 1"));
+    assert!(failure(&["simulate", "ride.csv", "--parameters", "wakee"]).contains("did you mean wake?"));
+    assert!(failure(&["simulate", "missing.csv"]).contains("cannot read missing.csv"));
+    assert!(failure(&["simulate", "ride.csv", "--columns", "ax=acc"]).contains("--columns ax=NAME"));
+    assert!(failure(&["simulate", "ride.csv", "--columns", "bx=acc"]).contains("there is no key bx"));
+    assert!(failure(&["simulate", "ride.csv", "--resample", "0"]).contains("resample is 0, but must be from 1"));
     let singular = singular_rig(directory.path());
-    assert!(failure(&["run", "ride.csv", "--rig", &singular]).contains("singular inside the stroke"));
+    assert!(failure(&["simulate", "ride.csv", "--rig", &singular]).contains("singular inside the stroke"));
 }
 
 #[test]
@@ -196,4 +197,61 @@ fn parameters_print_a_file_that_reads_back() {
     };
     assert!(changed("wake").contains("\"splitter.x.omega1\" = 0.35"));
     assert_eq!(changed("all.toml"), changed("wake"));
+}
+
+#[test]
+fn the_names_of_version_0_1_are_hidden_aliases() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    let printed = |arguments: &[&str]| {
+        let output = moris(directory.path(), arguments);
+        assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let new = printed(&["simulate", "ride.csv", "--no-bound", "--compare", "preaction"]);
+    assert_eq!(printed(&["run", "ride.csv", "--no-bound", "--against", "preaction"]), new);
+    let help = printed(&["--help"]);
+    assert!(help.contains("simulate") && help.contains("frequency-response"), "{help}");
+    assert!(!help.contains("  run") && !help.contains("  respond"), "{help}");
+    assert_eq!(printed(&["respond", "--help"]), printed(&["frequency-response", "--help"]));
+}
+
+#[test]
+fn one_recording_that_cannot_be_read_does_not_end_the_others() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    fs::write(directory.path().join("broken.csv"), "time,ax\n0,1\n").unwrap();
+    let output = moris(directory.path(), &["simulate", "missing.csv", "broken.csv", "ride.csv", "--no-bound"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = text(&output.stderr);
+    let errors: Vec<&str> = said.lines().filter(|line| line.starts_with("error")).collect();
+    assert_eq!(errors.len(), 2, "{said}");
+    assert!(errors[0].contains("cannot read missing.csv") && errors[1].matches("broken.csv").count() == 1, "{said}");
+    assert!(text(&output.stdout).contains("The ride fits the rig"));
+    assert!(directory.path().join("moris-report/ride.html").exists());
+}
+
+/// A recording that the platform cannot follow: 6 m/s2 to and fro in heave, at twice its gain.
+#[test]
+fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    let mut rough = "time,ax,ay,az,wx,wy,wz\n".to_owned();
+    for k in 0..400 {
+        let t = f64::from(k) / 100.0;
+        writeln!(rough, "{t},{},0,{},0,0,0", 8.0 * (3.0 * t).sin(), 9.80665 + 8.0 * (5.0 * t).sin()).unwrap();
+    }
+    fs::write(directory.path().join("rough.csv"), rough).unwrap();
+    let narrow = rigs().join("narrow.toml").display().to_string();
+    let arguments = ["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"];
+    let output = moris(directory.path(), &arguments);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(all[0]["recording"], "ride");
+    assert_eq!((&all[0]["results"][0]["fits"], &all[1]["results"][0]["fits"]), (&true.into(), &false.into()));
+    let measures = all[1]["results"][0]["measures"].as_array().unwrap();
+    let peak = measures.iter().find(|row| row["subject"] == "specific force x" && row["name"] == "peak error").unwrap();
+    assert!(peak["value"].as_f64().unwrap() > 0.0 && peak["unit"] == "m/s²");
+    assert_eq!(all[1]["files"].as_array().unwrap().len(), 2);
+    assert_eq!(moris(directory.path(), &arguments[..2]).status.code(), Some(0));
 }

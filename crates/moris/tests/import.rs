@@ -280,7 +280,7 @@ fn standard_input_is_read() {
     let directory = tempfile::tempdir().unwrap();
     let run = |text: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_moris"));
-        command.args(["run", "-", "--no-bound", "--report"]).arg(directory.path());
+        command.args(["simulate", "-", "--no-bound", "--report"]).arg(directory.path());
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
         child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
         child.wait_with_output().unwrap()

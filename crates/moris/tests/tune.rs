@@ -201,7 +201,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     assert!(!said.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{said}");
     let tuned = Setup::load(None, &[here.join("tuned.toml").display().to_string()]).unwrap();
     assert_ne!(tuned.parameters, Parameters::default());
-    for file in ["out/tune.md", "out/weaving.html", "out/brisk.html"] {
+    for file in ["out/tune.md", "out/weaving.tuned.html", "out/brisk.tuned.html"] {
         assert!(here.join(file).exists(), "{file}");
     }
     let again = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--output", "again.toml"]);

@@ -36,7 +36,7 @@ pub struct CheckOptions {
     rig: PathBuf,
 
     /// Directory for the picture
-    #[arg(long, value_name = "DIRECTORY", default_value = "report")]
+    #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     report: PathBuf,
 
     /// Number of points for the workspace's volume

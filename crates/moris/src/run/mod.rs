@@ -1,10 +1,12 @@
-//! `moris simulate`: simulates recordings on a rig and measures the felt motion.
+//! `moris simulate`: simulates a recording on a rig and measures the cues.
 //!
-//! [`recording`] steps the washout; everything else looks at what came of it: [`output_table`] writes it down,
-//! [`measured`] measures it, [`bounds`] says how much better it could have been, [`summary`] prints it, [`findings`] puts it in words, [`page`] makes the report.
+//! [`recording`] steps the washout; everything else reads its result: [`output_table`] writes it down, [`measured`]
+//! measures it, [`bounds`] computes the least possible error, [`summary`] and [`json`] print it, [`findings`] puts it in
+//! sentences, [`page`] makes the report.
 
 pub mod bounds;
 pub mod findings;
+pub mod json;
 pub mod measured;
 pub mod output_table;
 pub mod page;
@@ -18,41 +20,52 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
 use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
 
-use crate::ride::{ConventionOptions, Ride};
+use crate::progress::Progress;
+use crate::ride::{ConventionOptions, Conventions, Ride};
 use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
 pub use recording::Recording;
 
-/// Simulate recordings on a rig and report the cue quality
+/// Exit status where a recording does not fit the rig.
+const DOES_NOT_FIT: u8 = 3;
+
+/// Simulate recordings on a rig and report how well they are felt
 ///
-/// Prints the measures of each recording and writes two files into the report's directory. RECORDING.outputs.csv has every
-/// input and output at every sample, under the names of the FMU's variables. RECORDING.html is one page with all charts and
-/// the moving platform; it needs no network and no other files.
+/// Prints the measures of each recording and writes two files: NAME.outputs.csv, every input and output at every sample
+/// by the names of the FMU's variables, and NAME.html, a page with all curves and the moving platform, which needs no
+/// network and nothing beside it. A recording that cannot be used does not end the others.
+///
+/// Exit status: 0 if every recording fits the rig; 3 if a safety unit or an actuator's limit was active on one, with the
+/// first parameters; 1 if one could not be simulated.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// Recordings (CSV) with columns time, ax, ay, az (specific force, m/s2) and wx, wy, wz (rad/s) at the rider's head, x
-    /// forward, y left, z up; the options below give other names, units and axes
+    /// Recordings (CSV, also .csv.gz; - is standard input) with columns time, ax, ay, az (specific force, m/s2) and wx,
+    /// wy, wz (rad/s) at the rider's head, x forward, y left, z up. Units in the header's brackets are read. Other names,
+    /// units and axes are given by the options below
     #[arg(required = true, value_name = "RECORDING")]
     rides: Vec<PathBuf>,
 
     #[command(flatten)]
     setup: SetupOptions,
 
-    /// Further parameters to compare with: files or presets
+    /// Other parameters to simulate with, shown beside the first: files or shipped sets
     #[arg(long, alias = "against", value_name = "FILE|NAME")]
     compare: Vec<String>,
 
     /// Directory for the reports and the tables of outputs
-    #[arg(long, value_name = "DIRECTORY", default_value = "report")]
+    #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     report: PathBuf,
 
     /// Do not compute the bound, the least error that any controller could reach; it takes some seconds a recording
     #[arg(long)]
     no_bound: bool,
+
+    /// Print the measures as JSON, an array with an object for each recording
+    #[arg(long)]
+    json: bool,
 
     #[command(flatten)]
     conventions: ConventionOptions,
@@ -95,10 +108,10 @@ impl Outcome {
     }
 }
 
-/// Runs the command.
+/// Simulates the recordings.
 ///
 /// # Errors
-/// A recording, a rig or parameters that cannot be used, or a file that cannot be written.
+/// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let mut setups = vec![options.setup.load()?];
     for other in &options.compare {
@@ -106,32 +119,79 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     check_names(&options.rides, &setups)?;
     let conventions = options.conventions.load()?;
-    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    let (mut all_fit, mut any_failed) = (true, false);
+    let mut objects = Vec::new();
     for file in &options.rides {
-        let ride = Ride::read(file, &conventions)?;
-        let outcomes = outcomes(&ride, &setups, !options.no_bound)?;
-        write!(out, "{}", summary::text(&ride, &outcomes))?;
-        for file in write_files(&options.report, &ride, &outcomes)? {
+        let simulated = match simulate(options, file, &setups, &conventions) {
+            Ok(simulated) => simulated,
+            Err(error) => {
+                eprintln!("error: {error:#}");
+                any_failed = true;
+                continue;
+            }
+        };
+        all_fit &= simulated.fits;
+        if options.json {
+            objects.push(simulated.json);
+            continue;
+        }
+        write!(out, "{}", simulated.text)?;
+        for file in simulated.files {
             writeln!(out, "wrote {}", file.display())?;
         }
         writeln!(out)?;
     }
-    Ok(ExitCode::SUCCESS)
+    if options.json {
+        writeln!(out, "{:#}", serde_json::Value::Array(objects))?;
+    }
+    Ok(match (any_failed, all_fit) {
+        (true, _) => ExitCode::FAILURE,
+        (false, false) => ExitCode::from(DOES_NOT_FIT),
+        (false, true) => ExitCode::SUCCESS,
+    })
 }
 
-/// Simulates with each setup, with a progress bar on a terminal.
-fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool) -> Result<Vec<Outcome>> {
-    let bar = ProgressBar::new((ride.inputs().len() * setups.len()) as u64);
-    bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %")?);
-    bar.set_message(ride.name.clone());
-    let ridden = setups.iter().map(|setup| Outcome::of(ride, setup, || bar.inc(1)));
-    let outcomes = if with_bounds { ridden.map(|outcome| outcome?.with_bounds()).collect() } else { ridden.collect() };
-    bar.finish_and_clear();
-    outcomes
+/// A recording's results, ready to be printed.
+struct Simulated {
+    /// No safety unit and no actuator's limit was active with the first parameters.
+    fits: bool,
+    text: String,
+    json: serde_json::Value,
+    files: Vec<PathBuf>,
 }
 
-/// The name of the table of a ride's outputs with one of the setups: the first's is the ride's, those beside it are told apart by
-/// their parameters.
+/// Simulates a recording with each of the setups, and writes its files.
+fn simulate(options: &Options, file: &Path, setups: &[Setup], conventions: &Conventions) -> Result<Simulated> {
+    let mut progress = Progress::new(&Ride::name_of(file), "reading")?;
+    let ride = Ride::read(file, conventions)?;
+    let outcomes = outcomes(&ride, setups, !options.no_bound, &mut progress).with_context(|| ride.name.clone())?;
+    progress.phase("writing the report", 0);
+    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    let files = write_files(&options.report, &ride, &outcomes)?;
+    progress.finish();
+    let mut json = json::recording(&ride, &outcomes);
+    json["files"] = files.iter().map(|file| file.display().to_string()).collect();
+    Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&ride, &outcomes), json, files })
+}
+
+/// True where neither a safety unit nor an actuator's limit was active.
+pub fn fits_the_rig(outcome: &Outcome) -> bool {
+    let effort = &outcome.measures.effort;
+    effort.safety_active == 0.0 && effort.actuator_limited == 0.0
+}
+
+fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
+    progress.phase("simulating", (ride.inputs().len() * setups.len()) as u64);
+    let outcomes: Result<Vec<Outcome>> =
+        setups.iter().map(|setup| Outcome::of(ride, setup, || progress.step())).collect();
+    if !with_bounds {
+        return outcomes;
+    }
+    progress.phase("computing the bound", 0);
+    outcomes?.into_iter().map(Outcome::with_bounds).collect()
+}
+
+/// File name of the outputs with one of the setups: the recording's for the first, with the parameters' name for others.
 fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
     match index {
         0 => format!("{ride}.outputs.csv"),
@@ -162,7 +222,7 @@ fn check_names(rides: &[PathBuf], setups: &[Setup]) -> Result<()> {
                     ride.display()
                 ),
                 Some(other) => bail!(
-                    "the outputs of {} and {} would both be written into {name}; rename one of them, or ride each with a --report \
+                    "the outputs of {} and {} would both be written into {name}; rename one of them, or simulate each with a --report \
                      of its own",
                     other.display(),
                     ride.display()
@@ -182,16 +242,16 @@ fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Ve
         output_table::write(&file, &outcome.recording)?;
         written.push(file);
     }
-    written.push(write_page(directory, ride, outcomes)?);
+    written.push(write_page(directory, &ride.name, ride, outcomes)?);
     Ok(written)
 }
 
-/// Writes the page of a ride; returns its name.
+/// Writes the page of a recording under a name; returns the file.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_page(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
-    let file = directory.join(format!("{}.html", ride.name));
+pub fn write_page(directory: &Path, name: &str, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
+    let file = directory.join(format!("{name}.html"));
     let html = moris_report::html(&page::report(ride, outcomes)).context("the report does not fit together")?;
     fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)

@@ -151,7 +151,7 @@ fn write_reports<'a>(
     for judge in judges {
         let outcomes: Result<Vec<Outcome>> =
             setups.iter().map(|setup| Outcome::of(judge.ride(), setup, || ())).collect();
-        written.push(write_page(&options.report, judge.ride(), &outcomes?)?);
+        written.push(write_page(&options.report, &format!("{}.tuned", judge.name()), judge.ride(), &outcomes?)?);
     }
     Ok(written)
 }

@@ -59,7 +59,7 @@ pub struct Options {
     pub output: PathBuf,
 
     /// Directory for the reports: tune.md and a page for each recording
-    #[arg(long, value_name = "DIRECTORY", default_value = "report")]
+    #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     pub report: PathBuf,
 
     #[command(flatten)]

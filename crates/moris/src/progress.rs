@@ -1,0 +1,73 @@
+//! Progress on standard error: a bar on a terminal, lines in a log.
+
+use std::io::{IsTerminal, stderr};
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Time between the lines of a log.
+const LOG_EVERY: Duration = Duration::from_secs(2);
+/// Time between two pictures of the bar, which shows that the command is alive.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Progress of one recording through its phases.
+pub struct Progress {
+    name: String,
+    bar: ProgressBar,
+    /// Lines where standard error is no terminal; none where it is one.
+    log: Option<Log>,
+}
+
+/// Counts samples, for lines in a log.
+struct Log {
+    phase: &'static str,
+    done: u64,
+    total: u64,
+    last: Instant,
+}
+
+impl Progress {
+    /// Begins with a phase of unknown length, which is shown at once.
+    ///
+    /// # Errors
+    /// There are none: the bar's template is fixed.
+    pub fn new(name: &str, phase: &'static str) -> Result<Self> {
+        let bar = ProgressBar::new_spinner();
+        bar.set_style(ProgressStyle::with_template("{spinner} {msg} {wide_bar} {percent:>3} %")?);
+        let log = (!stderr().is_terminal()).then(|| Log { phase, done: 0, total: 0, last: Instant::now() });
+        if log.is_none() {
+            bar.enable_steady_tick(TICK);
+        }
+        let mut progress = Progress { name: name.to_owned(), bar, log };
+        progress.phase(phase, 0);
+        Ok(progress)
+    }
+
+    /// Begins the next phase, of so many steps; 0 where their number is unknown.
+    pub fn phase(&mut self, phase: &'static str, steps: u64) {
+        self.bar.set_message(format!("{}: {phase}", self.name));
+        self.bar.set_length(steps.max(1));
+        self.bar.set_position(0);
+        if let Some(log) = &mut self.log {
+            *log = Log { phase, done: 0, total: steps, last: Instant::now() };
+            eprintln!("{}: {phase}", self.name);
+        }
+    }
+
+    /// Counts a step.
+    pub fn step(&mut self) {
+        let Some(log) = &mut self.log else { return self.bar.inc(1) };
+        log.done += 1;
+        // A look at the clock takes longer than a look at a counter.
+        if log.done.is_multiple_of(256) && log.total > 0 && log.last.elapsed() > LOG_EVERY {
+            log.last = Instant::now();
+            eprintln!("{}: {}, {} %", self.name, log.phase, 100 * log.done / log.total);
+        }
+    }
+
+    /// Removes the bar.
+    pub fn finish(self) {
+        self.bar.finish_and_clear();
+    }
+}
