@@ -286,7 +286,8 @@ fn standard_input_is_read() {
         child.wait_with_output().unwrap()
     };
     let output = run(&csv("time,ax,ay,az,wx,wy,wz", &car(2.0), SI));
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // 3 m/s2 of sway are more than the default rig has room for, which is not what is tested here.
+    assert!(matches!(output.status.code(), Some(0 | 3)), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(directory.path().join("stdin.html").exists());
     let output = run("time,ax\n");
     assert!(!output.status.success());
