@@ -8,7 +8,8 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::Error;
 
-/// Contents of an archive: the path of each file, with forward slashes and no leading one, and its bytes.
+/// Contents of an archive: the path of each file, with forward slashes and no leading one, and its
+/// bytes.
 pub type Contents = BTreeMap<String, Vec<u8>>;
 
 /// Packs files in the order of their paths, all with the same date and permissions.

@@ -96,8 +96,9 @@ pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Re
 }
 
 impl Plan {
-    /// The cargo command that builds for the platform. The target is always named, so that the flags below hold for the
-    /// library only and its build does not disturb the build of anything else.
+    /// The cargo command that builds for the platform. The target is always named, so that the
+    /// flags below hold for the library only and its build does not disturb the build of anything
+    /// else.
     fn cargo(&self) -> Command {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         command.args([if self.linker == Linker::Zig { "zigbuild" } else { "build" }, "--target", &self.target()]);
@@ -112,8 +113,8 @@ impl Plan {
         }
     }
 
-    /// rustc's flags for a library of this name, in the form of `CARGO_ENCODED_RUSTFLAGS`: no symbols but the exported
-    /// ones, no directory of this machine, no time of day.
+    /// rustc's flags for a library of this name, in the form of `CARGO_ENCODED_RUSTFLAGS`: no
+    /// symbols but the exported ones, no directory of this machine, no time of day.
     fn rust_flags(&self, library: &str) -> Result<OsString, Error> {
         let mut flags = vec![OsString::from("-Cstrip=symbols")];
         for (path, name) in workspace::private_paths()? {

@@ -13,7 +13,8 @@ pub const LICENCES: &str = concat!(
     include_str!("../../LICENSE-APACHE"),
 );
 
-/// The files of a model's FMU of a version of FMI with these libraries, which start with these values.
+/// The files of a model's FMU of a version of FMI with these libraries, which start with these
+/// values.
 pub fn contents(model: &Model, start: &Start, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
     let mut contents = Contents::new();
     contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());

@@ -14,12 +14,14 @@ pub struct Built {
     pub size: usize,
 }
 
-/// Builds a model's FMU into the directory `output`, which is created if missing, and reports progress line by line.
+/// Builds a model's FMU into the directory `output`, which is created if missing, and reports
+/// progress line by line.
 ///
 /// Without platforms the FMU is for this machine.
 ///
 /// # Errors
-/// A tool that is missing, a library that does not compile or is not fit to be shipped, a file that cannot be written.
+/// A tool that is missing, a library that does not compile or is not fit to be shipped, a file that
+/// cannot be written.
 pub fn build(
     model: &Model,
     fmi: FmiVersion,
@@ -56,7 +58,8 @@ pub fn fmu(model: &Model, fmi: FmiVersion, platforms: &[Platform], report: impl 
     fmu_with(model, &Start::own(model), fmi, platforms, report)
 }
 
-/// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as [`build`].
+/// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as
+/// [`build`].
 fn fmu_with(
     model: &Model,
     start: &Start,

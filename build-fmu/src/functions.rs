@@ -1,6 +1,7 @@
 //! The names that a library exports.
 
-/// Every function of FMI 2.0's header `fmi2Functions.h`, those for model exchange too: importers look for all of them.
+/// Every function of FMI 2.0's header `fmi2Functions.h`, those for model exchange too: importers
+/// look for all of them.
 pub const FMI2_FUNCTIONS: &[&str] = &[
     "fmi2CancelStep",
     "fmi2CompletedIntegratorStep",
@@ -48,7 +49,8 @@ pub const FMI2_FUNCTIONS: &[&str] = &[
     "fmi2Terminate",
 ];
 
-/// Every function of FMI 3.0's header `fmi3Functions.h`, those that co-simulation has no use for too.
+/// Every function of FMI 3.0's header `fmi3Functions.h`, those that co-simulation has no use for
+/// too.
 pub const FMI3_FUNCTIONS: &[&str] = &[
     "fmi3ActivateModelPartition",
     "fmi3CompletedIntegratorStep",

@@ -1,7 +1,8 @@
 //! Builds a model's shared library for each platform and packs it into an FMU.
 //!
-//! `cargo build-fmu` is the command; [`build`] is the same for a program. [`contents`] lists the files of an FMU, [`model`]
-//! the models, [`platform`] the platforms, [`fmi_version`] the versions of FMI. [`ssp`] packs several FMUs into a system.
+//! `cargo build-fmu` is the command; [`build`] is the same for a program. [`contents`] lists the
+//! files of an FMU, [`model`] the models, [`platform`] the platforms, [`fmi_version`] the versions
+//! of FMI. [`ssp`] packs several FMUs into a system.
 
 pub mod archive;
 pub mod compile;

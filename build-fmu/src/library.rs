@@ -1,4 +1,5 @@
-//! Looking at a shared library before it is shipped: what it exports, what it needs, and what it gives away.
+//! Looking at a shared library before it is shipped: what it exports, what it needs, and what it
+//! gives away.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -43,8 +44,8 @@ pub enum Flaw {
     PrivatePath(PathBuf),
 }
 
-/// Examines a library for Linux, Windows or macOS, which is to export these functions; `private_paths` are directories that
-/// it must not mention.
+/// Examines a library for Linux, Windows or macOS, which is to export these functions;
+/// `private_paths` are directories that it must not mention.
 ///
 /// # Errors
 /// The first flaw found.
@@ -90,7 +91,8 @@ fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), 
     Ok(())
 }
 
-/// Properties of Linux libraries: versions of glibc's functions, and a search path, which must be absent.
+/// Properties of Linux libraries: versions of glibc's functions, and a search path, which must be
+/// absent.
 fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), Flaw> {
     let (endian, data, sections) = (elf.endian(), elf.data(), elf.elf_section_table());
     if let Some((entries, link)) = sections.dynamic(endian, data)? {

@@ -1,5 +1,5 @@
-//! Linking for macOS on other systems, without Apple's development kit: what the linker needs of it is the list of names
-//! in the system's library, and zig carries that.
+//! Linking for macOS on other systems, without Apple's development kit: what the linker needs of it
+//! is the list of names in the system's library, and zig carries that.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use crate::{Error, Platform, tools, workspace};
 
-/// Makes a directory that stands in for the development kit: it says which names the system's library has.
+/// Makes a directory that stands in for the development kit: it says which names the system's
+/// library has.
 ///
 /// # Errors
 /// There is no zig, or its list cannot be read, or a file cannot be written.
@@ -23,10 +24,11 @@ pub fn development_kit(platform: Platform) -> Result<PathBuf, Error> {
     Ok(kit)
 }
 
-/// The names in all documents of a text-based stub file: whatever is listed under `symbols` of any kind.
+/// The names in all documents of a text-based stub file: whatever is listed under `symbols` of any
+/// kind.
 ///
-/// The system's library is an umbrella over many, each with a document of its own and its own processors, which to the one
-/// who links are all the same.
+/// The system's library is an umbrella over many, each with a document of its own and its own
+/// processors, which to the one who links are all the same.
 fn names(text: &str) -> BTreeSet<&str> {
     let lists = text.split("symbols:").skip(1).filter_map(|rest| rest.split_once('[')?.1.split_once(']'));
     lists.flat_map(|(list, _)| list.split(',')).map(str::trim).filter(|name| !name.is_empty()).collect()

@@ -9,10 +9,11 @@ use moris_build_fmu::model::WASHOUT;
 use moris_build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, workspace};
 use moris_setup::{NamedValues, load_rig, load_set};
 
-/// Builds FMUs: compiles each shared library and packs it with its model description and documentation.
+/// Builds FMUs: compiles each shared library and packs it with its model description and
+/// documentation.
 ///
-/// Without options every model's FMU is built for this machine and lands in target/fmu. A library for Linux runs on glibc
-/// 2.17 and newer.
+/// Without options every model's FMU is built for this machine and lands in target/fmu. A library
+/// for Linux runs on glibc 2.17 and newer.
 ///
 /// --rig and --parameters embed a rig and parameters as start values in place of the models' own.
 #[derive(Parser)]
@@ -38,8 +39,9 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     rig: Option<PathBuf>,
 
-    /// Parameter file, or preset (wake, preaction), to embed in the washout's FMU; in another model's if --model names that one
-    /// alone. May be given several times: later ones override earlier ones, and all of them the rig
+    /// Parameter file, or preset (wake, preaction), to embed in the washout's FMU; in another
+    /// model's if --model names that one alone. May be given several times: later ones override
+    /// earlier ones, and all of them the rig
     #[arg(long, value_name = "FILE|NAME")]
     parameters: Vec<String>,
 
@@ -103,8 +105,8 @@ fn takes_parameters(arguments: &Arguments, model: &Model) -> bool {
     arguments.model.len() == 1 || model.name == WASHOUT.name
 }
 
-/// Start values that replace a model's own: the rig where it has one, and over it the parameters where they
-/// are its own.
+/// Start values that replace a model's own: the rig where it has one, and over it the parameters
+/// where they are its own.
 fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Error> {
     let mut values = NamedValues::new();
     if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {

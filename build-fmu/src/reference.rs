@@ -1,8 +1,9 @@
-//! A reference ride inside the FMU: an input, and the output that belongs to it, so that whoever loads the FMU can see
-//! whether the tool at hand runs it right.
+//! A reference ride inside the FMU: an input, and the output that belongs to it, so that whoever
+//! loads the FMU can see whether the tool at hand runs it right.
 //!
-//! The files are those of the layered standard fmi-ls-ref: a manifest, a list of experiments, and for each of them a table of
-//! inputs and one of outputs. The outputs are computed by the model in Rust, without FMI.
+//! The files are those of the layered standard fmi-ls-ref: a manifest, a list of experiments, and
+//! for each of them a table of inputs and one of outputs. The outputs are computed by the model in
+//! Rust, without FMI.
 
 use std::fmt::Write;
 
@@ -20,7 +21,8 @@ const RATE: usize = 100;
 /// Communication steps from one row of the output to the next.
 const STEPS_PER_ROW: usize = 20;
 
-/// The files of a model's reference ride: `input` is a table of inputs, `output` what [`output`] makes of it.
+/// The files of a model's reference ride: `input` is a table of inputs, `output` what [`output`]
+/// makes of it.
 pub fn files(name: &str, input: &Stimuli, output: String) -> Contents {
     let fill = |text: &str| {
         text.replace("{{name}}", name)
@@ -44,7 +46,8 @@ pub struct Stimuli {
 }
 
 impl Stimuli {
-    /// Reads a table: comma-separated, a line of names, of which the first is `time`, then numbers, time ascending.
+    /// Reads a table: comma-separated, a line of names, of which the first is `time`, then numbers,
+    /// time ascending.
     ///
     /// # Panics
     /// It is something else. The tables belong to the sources.
@@ -70,7 +73,8 @@ impl Stimuli {
     }
 }
 
-/// The model's real outputs for these inputs and start values (one for each slot), as a comma-separated table of ten decimals.
+/// The model's real outputs for these inputs and start values (one for each slot), as a
+/// comma-separated table of ten decimals.
 ///
 /// # Panics
 /// An input is not one of the model's, or its start values are not usable.

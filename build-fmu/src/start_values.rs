@@ -21,7 +21,8 @@ impl Start {
         Start { others: Vec::new(), slots: (model.made.start)(&[]) }
     }
 
-    /// The model's own with these laid over them; what the model has no parameter of that name for is left out.
+    /// The model's own with these laid over them; what the model has no parameter of that name for
+    /// is left out.
     ///
     /// # Errors
     /// The model cannot start with them, or they contradict each other.

@@ -1,4 +1,5 @@
-//! Terminals: groups of variables that a tool connects at once, with those of another FMU's terminal of the same kind.
+//! Terminals: groups of variables that a tool connects at once, with those of another FMU's
+//! terminal of the same kind.
 //!
 //! The file is FMI 3.0's, which allows it in an FMU of FMI 2.0 as well.
 

@@ -1,4 +1,5 @@
-//! The tools that compiling for another platform needs: whether they are there, and how to get them.
+//! The tools that compiling for another platform needs: whether they are there, and how to get
+//! them.
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};

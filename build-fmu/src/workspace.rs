@@ -21,8 +21,8 @@ pub fn target_directory() -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |directory| root().join(directory))
 }
 
-/// Directories of this machine that must not show in a library, and what is written in their place: the workspace,
-/// where cargo keeps the dependencies' sources, and where rustc keeps its own.
+/// Directories of this machine that must not show in a library, and what is written in their place:
+/// the workspace, where cargo keeps the dependencies' sources, and where rustc keeps its own.
 ///
 /// # Errors
 /// rustc cannot be asked.

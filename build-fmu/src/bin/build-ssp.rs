@@ -7,14 +7,15 @@ use clap::Parser;
 use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
 use moris_build_fmu::{Platform, workspace};
 
-/// Builds MotorcycleSimulator.ssp: motorcycle, washout filter and platform as FMUs, connected, with their parameters.
+/// Builds MotorcycleSimulator.ssp: motorcycle, washout filter and platform as FMUs, connected, with
+/// their parameters.
 ///
 /// Without options the FMUs are for this machine, and the package is written to target/fmu.
 #[derive(Parser)]
 #[command(name = "cargo build-ssp", version)]
 struct Arguments {
-    /// Build MotorcycleSimulator.flat.ssp, without inputs of the system and with a parameter set for each component, for Ecos
-    /// and libcosim
+    /// Build MotorcycleSimulator.flat.ssp, without inputs of the system and with a parameter set
+    /// for each component, for Ecos and libcosim
     #[arg(long)]
     flat: bool,
 

@@ -24,7 +24,8 @@ impl Canvas {
         Canvas { picture, transform: Transform::identity() }
     }
 
-    /// From now on, everything is drawn this many times as large about the picture's origin, and then moved by this.
+    /// From now on, everything is drawn this many times as large about the picture's origin, and
+    /// then moved by this.
     pub fn scale_and_move(&mut self, scale: f32, (right, down): Point) {
         self.transform = Transform::from_row(scale, 0.0, 0.0, scale, right, down);
     }

@@ -84,7 +84,8 @@ fn draw_motorcycle(canvas: &mut Canvas) {
     );
 }
 
-/// A point of the rig in the picture; the view is from the right, with x to the right, and from above.
+/// A point of the rig in the picture; the view is from the right, with x to the right, and from
+/// above.
 fn project(point: Vector3<f64>) -> Point {
     const SCALE: f64 = 104.0;
     const SEEN_FROM_ABOVE: f64 = 0.34;

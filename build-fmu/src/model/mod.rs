@@ -35,12 +35,13 @@ pub struct Model {
     pub title: &'static str,
     /// Functions derived from the model's table of variables and its step.
     pub made: Made,
-    /// Start values of inputs that follow from those of parameters, by name, given all start values.
+    /// Start values of inputs that follow from those of parameters, by name, given all start
+    /// values.
     pub following: fn(start: &[f64]) -> NamedValues,
     /// The documentation's hand-written sections, in order; the variables follow them.
     pub sections: &'static [Section],
-    /// Texts of the sections that depend on the version. Further places are `fmi`, the version's name, and `discard`, its
-    /// status for a value that is not taken.
+    /// Texts of the sections that depend on the version. Further places are `fmi`, the version's
+    /// name, and `discard`, its status for a value that is not taken.
     pub wording: &'static [Wording],
     /// Groups of variables that a tool connects at once.
     pub terminals: &'static [Terminal],

@@ -101,7 +101,8 @@ fn bound_to(name: &str) -> schema::ParameterBindings {
     schema::ParameterBindings { bindings: vec![schema::ParameterBinding { source: parameters_path(name) }] }
 }
 
-/// The system's own connectors, inputs first, each of the type of the component's variable that it is.
+/// The system's own connectors, inputs first, each of the type of the component's variable that it
+/// is.
 fn own_connectors(system: &System) -> schema::Connectors {
     let own = |kind: schema::ConnectorKind| {
         move |port: &Port| {
@@ -115,7 +116,8 @@ fn own_connectors(system: &System) -> schema::Connectors {
     }
 }
 
-/// The annotation without which OMSimulator does not load a system: a master algorithm with a fixed step.
+/// The annotation without which OMSimulator does not load a system: a master algorithm with a fixed
+/// step.
 fn master(system: &System) -> schema::Annotations {
     let master = schema::FixedStepMaster {
         description: "oms-ma",

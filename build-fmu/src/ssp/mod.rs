@@ -1,7 +1,9 @@
-//! System structure packages (SSP 1.0): several FMUs, how they are connected, and the parameters they start with.
+//! System structure packages (SSP 1.0): several FMUs, how they are connected, and the parameters
+//! they start with.
 //!
-//! `cargo build-ssp` is the command; [`build`] is the same for a program. Which systems there are is in [`system`], what
-//! is written of one in [`describe`](mod@describe) and [`parameter_set`], in the terms of [`schema`].
+//! `cargo build-ssp` is the command; [`build`] is the same for a program. Which systems there are
+//! is in [`system`], what is written of one in [`describe`](mod@describe) and [`parameter_set`], in
+//! the terms of [`schema`].
 
 pub mod describe;
 pub mod parameter_set;
@@ -17,7 +19,8 @@ pub use system::{MOTORCYCLE_SIMULATOR, System};
 pub enum Form {
     /// The system has connectors of its own and one parameter set: for FMPy and OMSimulator.
     Whole,
-    /// The system has no connectors, and each component its own parameter set: for Ecos and libcosim.
+    /// The system has no connectors, and each component its own parameter set: for Ecos and
+    /// libcosim.
     Flat,
 }
 
@@ -29,13 +32,15 @@ use crate::{Built, Error, FmiVersion, Platform, fmu};
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";
 
-/// Builds a system's package of this form into the directory `output`, which is made where it does not exist, and says through
-/// `report` what it does, a line at a time.
+/// Builds a system's package of this form into the directory `output`, which is made where it does
+/// not exist, and says through `report` what it does, a line at a time.
 ///
-/// Without platforms the FMUs are for this machine. They are of FMI 2.0, which is what SSP 1.0 knows.
+/// Without platforms the FMUs are for this machine. They are of FMI 2.0, which is what SSP 1.0
+/// knows.
 ///
 /// # Errors
-/// An FMU cannot be built, the system's parameters name what there is not, or the package cannot be written.
+/// An FMU cannot be built, the system's parameters name what there is not, or the package cannot be
+/// written.
 pub fn build(
     system: &System,
     form: Form,

@@ -1,4 +1,5 @@
-//! The schemas of SSP 1.0, as far as a package of ours uses them: `SystemStructure.ssd` and parameter sets, `.ssv`.
+//! The schemas of SSP 1.0, as far as a package of ours uses them: `SystemStructure.ssd` and
+//! parameter sets, `.ssv`.
 //!
 //! The order of the fields is the order that the schemas prescribe.
 
@@ -57,7 +58,8 @@ pub struct System {
     pub annotations: Annotations,
 }
 
-/// `Annotations`, of which there is one: the master algorithm, which OMSimulator needs to load a system.
+/// `Annotations`, of which there is one: the master algorithm, which OMSimulator needs to load a
+/// system.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Annotations {
     #[serde(rename = "ssc:Annotation")]
@@ -204,7 +206,8 @@ pub struct Connections {
     pub connections: Vec<Connection>,
 }
 
-/// `Connection`: from one connector to another; without an element, a connector is the system's own.
+/// `Connection`: from one connector to another; without an element, a connector is the system's
+/// own.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Connection {
     #[serde(rename = "@startElement", skip_serializing_if = "Option::is_none")]
@@ -277,7 +280,8 @@ pub struct Parameters {
     pub parameters: Vec<Parameter>,
 }
 
-/// `Parameter`: a variable's name, with its component's before it where the set is the whole system's, and a value.
+/// `Parameter`: a variable's name, with its component's before it where the set is the whole
+/// system's, and a value.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
     #[serde(rename = "@name")]

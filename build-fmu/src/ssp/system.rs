@@ -39,8 +39,8 @@ pub struct Port {
 pub struct Component {
     pub name: &'static str,
     pub model: &'static Model,
-    /// Outputs to be seen from outside besides the connected ones: these variables, and those whose names begin so and go
-    /// on with a dot or an index.
+    /// Outputs to be seen from outside besides the connected ones: these variables, and those whose
+    /// names begin so and go on with a dot or an index.
     pub shown: &'static [&'static str],
 }
 
@@ -128,7 +128,8 @@ const fn port(name: &'static str, component: &'static str, variable: &'static st
     Port { name, component, variable }
 }
 
-/// The motorcycle to the washout, name by name; the washout's legs to the platform's; the rider's lean to both.
+/// The motorcycle to the washout, name by name; the washout's legs to the platform's; the rider's
+/// lean to both.
 fn simulator_connections() -> Vec<Connection> {
     let connect = |(from, output): (&'static str, String), (to, input): (&'static str, String)| Connection {
         from: (from, output),

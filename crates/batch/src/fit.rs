@@ -39,7 +39,8 @@ impl Observer for Fit {
 }
 
 impl Fit {
-    /// RMS error of the felt specific force, by axis of the head frame \[m/s2\]; zero before the first step.
+    /// RMS error of the felt specific force, by axis of the head frame \[m/s2\]; zero before the
+    /// first step.
     pub fn rms_error(&self) -> Vector3<f64> {
         (self.squared_error / self.steps.max(1) as f64).map(f64::sqrt)
     }

@@ -1,7 +1,8 @@
 //! One manoeuvre, many parameter sets, all cores.
 //!
-//! [`simulations`] maps a parallel iterator of parameter sets to one of results. A simulation keeps only its observer, and a
-//! batch only what the iterator's consumer keeps, so that the memory does not grow with the number of sets.
+//! [`simulations`] maps a parallel iterator of parameter sets to one of results. A simulation keeps
+//! only its observer, and a batch only what the iterator's consumer keeps, so that the memory does
+//! not grow with the number of sets.
 //!
 //! ```
 //! use moris_washout::{Input, Parameters};
@@ -62,7 +63,8 @@ pub fn simulate<O: Observer>(manoeuvre: &Manoeuvre, parameters: &Parameters, mut
     Ok(observer)
 }
 
-/// Simulates the manoeuvre with each parameter set on the cores of rayon's pool, each with a new observer.
+/// Simulates the manoeuvre with each parameter set on the cores of rayon's pool, each with a new
+/// observer.
 pub fn simulations<O, P>(
     manoeuvre: &Manoeuvre,
     sets: P,

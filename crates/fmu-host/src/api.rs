@@ -38,8 +38,8 @@ pub type Text = *const c_char;
 /// fmi2Type of co-simulation.
 pub const CO_SIMULATION: c_int = 1;
 
-/// The host's function for messages. The standard's has a variable number of arguments, which Rust cannot write; the
-/// only ones here are strings, of which one is enough.
+/// The host's function for messages. The standard's has a variable number of arguments, which Rust
+/// cannot write; the only ones here are strings, of which one is enough.
 pub type Logger = unsafe extern "C" fn(
     environment: *mut c_void,
     instance_name: Text,
@@ -60,7 +60,8 @@ pub struct Callbacks {
     pub environment: *mut c_void,
 }
 
-/// Declares the functions, and how they are found. The functions of another version are declared by it too.
+/// Declares the functions, and how they are found. The functions of another version are declared by
+/// it too.
 macro_rules! api {
     ($($field:ident $symbol:ident ($($argument:ty),*) $(-> $result:ty)?;)+) => {
         /// The C functions of an FMU. Calling one is as safe as the FMU and the arguments are.

@@ -3,7 +3,8 @@
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::PathBuf;
 
-/// The shared library that is the example of this name, which `cargo test` has put beside the test that asks.
+/// The shared library that is the example of this name, which `cargo test` has put beside the test
+/// that asks.
 ///
 /// # Panics
 /// If the library is missing: cargo builds examples unless one target is chosen.

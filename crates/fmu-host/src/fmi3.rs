@@ -1,5 +1,5 @@
-//! The C functions of an FMU of FMI 3.0, as the standard declares them: for tests that load its shared library and do
-//! right and wrong with it.
+//! The C functions of an FMU of FMI 3.0, as the standard declares them: for tests that load its
+//! shared library and do right and wrong with it.
 
 use std::ffi::{c_char, c_int, c_void};
 use std::path::Path;

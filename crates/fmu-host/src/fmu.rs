@@ -17,7 +17,8 @@ pub struct Fmu {
     pub(crate) loaded: Arc<Loaded>,
 }
 
-/// Data shared by the instances of an FMU, which live as long as any of them. Fields are dropped in this order.
+/// Data shared by the instances of an FMU, which live as long as any of them. Fields are dropped in
+/// this order.
 pub(crate) struct Loaded {
     pub api: Api,
     _library: Library,
@@ -42,7 +43,8 @@ impl Fmu {
         Self::load(&library, &description.guid, Some(resources), description.variables, Some(directory))
     }
 
-    /// Opens an FMU's shared library alone. It has no variables by name, see [`Fmu::with_variables`].
+    /// Opens an FMU's shared library alone. It has no variables by name, see
+    /// [`Fmu::with_variables`].
     ///
     /// # Errors
     /// It cannot be loaded, or lacks a function of FMI 2.0.

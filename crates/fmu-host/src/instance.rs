@@ -74,7 +74,8 @@ impl Instance {
         unsafe { (self.api().exit_initialization_mode)(self.component) }.into()
     }
 
-    /// Sets a variable by name. Of a Boolean, everything but 0 is true; integers and enumerations are rounded.
+    /// Sets a variable by name. Of a Boolean, everything but 0 is true; integers and enumerations
+    /// are rounded.
     ///
     /// # Errors
     /// The FMU rejects the value, or there is no such variable.

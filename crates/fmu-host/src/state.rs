@@ -3,7 +3,8 @@
 use crate::api::FmuState;
 use crate::{HostError, Instance, Status};
 
-/// A state of an instance, for any instance of the same FMU. The memory is the FMU's until [`Instance::free_state`].
+/// A state of an instance, for any instance of the same FMU. The memory is the FMU's until
+/// [`Instance::free_state`].
 #[derive(Debug)]
 pub struct State {
     pub(crate) pointer: FmuState,

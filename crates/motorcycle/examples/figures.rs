@@ -90,8 +90,8 @@ fn ride() -> Result<Vec<Panel>, Box<dyn Error>> {
     ])
 }
 
-/// The curve with so few of its points that none of the others is off the lines between them by more than a thousandth
-/// of the curve's height.
+/// The curve with so few of its points that none of the others is off the lines between them by
+/// more than a thousandth of the curve's height.
 fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     let (low, high) = points.iter().fold((0.0, 0.0), |(low, high): (f64, f64), p| (low.min(p.1), high.max(p.1)));
     let mut last = 0;

@@ -152,7 +152,8 @@ fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), Refusal> {
 const LEAST_LOAD: f64 = 0.02;
 /// Largest speed for which the rider is designed \[m/s\].
 pub const LARGEST_SPEED: f64 = 150.0;
-/// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step; with a margin.
+/// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step;
+/// with a margin.
 const LARGEST_POLE: f64 = 2.0;
 
 /// Largest pole of throttle, brakes and the rider's reference filters \[rad/s\].

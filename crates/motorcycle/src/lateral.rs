@@ -1,12 +1,15 @@
-//! Lean, steer, lateral velocity and yaw with tyres that slip: four degrees of freedom in the manner of Sharp (1971).
+//! Lean, steer, lateral velocity and yaw with tyres that slip: four degrees of freedom in the
+//! manner of Sharp (1971).
 //!
-//! The bodies are those of [`crate::whipple`], in its axes: x forward, y to the RIGHT, z DOWN from the rear contact; all
-//! angles positive to the right. The equations are derived from the same kinetic and potential energy, before the
-//! wheels are forbidden to slip sideways; with infinitely stiff tyres they are Whipple's. They are linear in the state
-//! and their coefficients linear in the speed, so that a model is two matrices.
+//! The bodies are those of [`crate::whipple`], in its axes: x forward, y to the RIGHT, z DOWN from
+//! the rear contact; all angles positive to the right. The equations are derived from the same
+//! kinetic and potential energy, before the wheels are forbidden to slip sideways; with infinitely
+//! stiff tyres they are Whipple's. They are linear in the state and their coefficients linear in
+//! the speed, so that a model is two matrices.
 //!
-//! The lean of these linear equations stands for the TANGENT of the roll angle: so a steady turn, where they say
-//! speed times yaw rate = gravity times lean, is balanced at any roll angle, and no state rolls beyond 90 degrees.
+//! The lean of these linear equations stands for the TANGENT of the roll angle: so a steady turn,
+//! where they say speed times yaw rate = gravity times lean, is balanced at any roll angle, and no
+//! state rolls beyond 90 degrees.
 
 use nalgebra::{Matrix2, Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
@@ -14,8 +17,9 @@ use serde::{Deserialize, Serialize};
 use crate::interface::{Machine, Parameters};
 use crate::whipple::{Bicycle, Body, Totals, Wheel};
 
-/// Places in the state: lateral velocity of the rear contact in axes of the heading \[m/s\], yaw rate, lean rate, steer
-/// rate \[rad/s\], lean (the roll's tangent), steer \[rad\], lateral force on the rear and on the front tyre \[N\].
+/// Places in the state: lateral velocity of the rear contact in axes of the heading \[m/s\], yaw
+/// rate, lean rate, steer rate \[rad/s\], lean (the roll's tangent), steer \[rad\], lateral force
+/// on the rear and on the front tyre \[N\].
 pub mod place {
     pub const VELOCITY: usize = 0;
     pub const YAW_RATE: usize = 1;
@@ -46,7 +50,8 @@ pub struct Tyre {
     pub relaxation: f64,
 }
 
-/// The rider's torso, which leans to the right about an axis along the motorcycle at the height of the seat.
+/// The rider's torso, which leans to the right about an axis along the motorcycle at the height of
+/// the seat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torso {
     pub mass: f64,
@@ -78,8 +83,8 @@ pub struct Design {
 pub struct Lateral {
     pub constant: StateMatrix,
     pub per_speed: StateMatrix,
-    /// Feet on the road and firm hands when they hold fully, and dampers on both contacts then, for a tyre that does not
-    /// roll is a spring without any damping.
+    /// Feet on the road and firm hands when they hold fully, and dampers on both contacts then, for
+    /// a tyre that does not roll is a spring without any damping.
     pub hold: StateMatrix,
     /// Of a torque between rider and bars \[N m\], positive to the right.
     pub torque: State,
@@ -103,10 +108,11 @@ pub struct Actions {
 impl Lateral {
     /// The equations, or `None` where the masses make no positive definite mass matrix.
     ///
-    /// With q = (lateral displacement of the rear contact, yaw, lean, steer): M q'' + v G q' + D q' + g K q = Q. M comes
-    /// from the kinetic energy of bodies displaced by y + x yaw - z lean (+ u steer in front), G from the wheels' angular
-    /// momentum, and K is Whipple's K0: the potential energy of a machine with both wheels on the road does not depend
-    /// on where it stands and which way it points.
+    /// With q = (lateral displacement of the rear contact, yaw, lean, steer): M q'' + v G q' + D q'
+    /// + g K q = Q. M comes from the kinetic energy of bodies displaced by y + x yaw - z lean (+ u
+    /// steer in front), G from the wheels' angular momentum, and K is Whipple's K0: the potential
+    /// energy of a machine with both wheels on the road does not depend on where it stands and
+    /// which way it points.
     pub fn new(design: &Design) -> Option<Lateral> {
         let t = design.bicycle.totals();
         let (sin, cos) = libm::sincos(design.bicycle.caster_angle);
@@ -147,7 +153,8 @@ impl Lateral {
         Some(lateral)
     }
 
-    /// A tyre's force F on the motorcycle, and how it follows the slip velocity s: sigma F' = -v F - C s + v C_camber camber.
+    /// A tyre's force F on the motorcycle, and how it follows the slip velocity s: sigma F' = -v F
+    /// - C s + v C_camber camber.
     fn add_tyre(&mut self, contact: &Contact, inverse: &Matrix4<f64>) {
         let Contact { force, arms, steer_slip, steer_camber, tyre } = contact;
         let force = *force;
@@ -160,8 +167,9 @@ impl Lateral {
         self.per_speed[(force, STEER)] = (tyre.cornering * steer_slip + tyre.camber * steer_camber) / tyre.relaxation;
     }
 
-    /// Feet and hands when they hold fully: a stiffness against roll, and as much damping as brings the motorcycle upright
-    /// without swinging; and the same for the bars, which fall to a side by their own weight.
+    /// Feet and hands when they hold fully: a stiffness against roll, and as much damping as brings
+    /// the motorcycle upright without swinging; and the same for the bars, which fall to a side by
+    /// their own weight.
     fn add_feet_and_hands(&mut self, t: &Totals, k0: &Matrix2<f64>, inverse: &Matrix4<f64>) {
         let feet = (2, LEAN, LEAN_RATE, FEET_STIFFNESS * k0[(0, 0)].abs(), t.t_xx);
         let hands = (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll);
@@ -193,9 +201,11 @@ impl Lateral {
 struct Contact {
     /// The place of its force in the state.
     force: usize,
-    /// Lateral displacement of the contact by each of q, which is the generalised force of a unit lateral force.
+    /// Lateral displacement of the contact by each of q, which is the generalised force of a unit
+    /// lateral force.
     arms: Vector4<f64>,
-    /// Fraction of the steer angle that turns the wheel in the road's plane, and fraction that cambers it.
+    /// Fraction of the steer angle that turns the wheel in the road's plane, and fraction that
+    /// cambers it.
     steer_slip: f64,
     steer_camber: f64,
     tyre: Tyre,

@@ -1,7 +1,8 @@
-//! A motorcycle and its rider: from throttle, brake, lean and wind to the specific force at the rider's head.
+//! A motorcycle and its rider: from throttle, brake, lean and wind to the specific force at the
+//! rider's head.
 //!
-//! [`Motorcycle`] is stepped beside a washout filter, whose inputs are its first outputs, by the same names and in the
-//! same frames.
+//! [`Motorcycle`] is stepped beside a washout filter, whose inputs are its first outputs, by the
+//! same names and in the same frames.
 //!
 //! | module | contents |
 //! |---|---|
@@ -13,9 +14,10 @@
 //! | [`pose`] | the pose in the world, and the specific force at the head |
 //! | [`state`] | the state vector and its integration |
 //!
-//! Frames: x forward, y left, z up; roll positive to the right, pitch positive nose down, yaw positive to the left; only
-//! [`lateral`] and [`whipple`] keep the axes of their literature, y to the right and z down. All quantities are in SI
-//! units. Sines, cosines and their like come from the crate `libm`, so that every platform computes the same bits.
+//! Frames: x forward, y left, z up; roll positive to the right, pitch positive nose down, yaw
+//! positive to the left; only [`lateral`] and [`whipple`] keep the axes of their literature, y to
+//! the right and z down. All quantities are in SI units. Sines, cosines and their like come from
+//! the crate `libm`, so that every platform computes the same bits.
 //!
 //! A step allocates nothing, does no I/O and does not panic, for any input.
 

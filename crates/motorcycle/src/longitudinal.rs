@@ -1,8 +1,8 @@
 //! Speed and pitch: drive, brakes, drag, rolling resistance, tyre friction, standstill.
 //!
-//! The whole machine pitches about the point of the road under its centre of mass, so that a mass at the height z moves
-//! with the velocity v + z p' (p the pitch, nose down). With the wheels' spin in the mass m' and the moment of inertia J
-//! about that point,
+//! The whole machine pitches about the point of the road under its centre of mass, so that a mass
+//! at the height z moves with the velocity v + z p' (p the pitch, nose down). With the wheels' spin
+//! in the mass m' and the moment of inertia J about that point,
 //!
 //! m' v' + m h p'' = X_f + X_r - D + W,   m h v' + J p'' = Q - (D - W) z_D,
 //!
@@ -106,7 +106,8 @@ impl Longitudinal {
         high
     }
 
-    /// The forces. At rest brakes, rolling resistance and feet hold whatever does not drive forward.
+    /// The forces. At rest brakes, rolling resistance and feet hold whatever does not drive
+    /// forward.
     pub fn forces(&self, now: &Situation) -> Forces {
         let p = &self.parameters;
         let resistance = self.drag(now.speed) - now.wind;
@@ -134,7 +135,8 @@ impl Longitudinal {
         }
     }
 
-    /// Speed and pitch under these forces and the suspension's moment Q about the road, nose down \[N m\].
+    /// Speed and pitch under these forces and the suspension's moment Q about the road, nose down
+    /// \[N m\].
     pub fn accelerations(&self, forces: &Forces, suspension: f64) -> Accelerations {
         let p = &self.parameters;
         let (m, mh, j) = (self.inertia, self.static_moment, self.pitch_inertia);
@@ -160,8 +162,9 @@ impl Longitudinal {
             + self.static_moment * speed * pitch_rate
     }
 
-    /// Drive or brakes reduced so that a fraction of the weight stays on either wheel: by the balance of moments in a
-    /// steady acceleration, and by the present load while the springs still move.
+    /// Drive or brakes reduced so that a fraction of the weight stays on either wheel: by the
+    /// balance of moments in a steady acceleration, and by the present load while the springs still
+    /// move.
     fn keep_wheels_down(&self, forces: Wheels, loads: &Wheels, resistance: f64) -> (Wheels, bool) {
         let p = &self.parameters;
         let reserve = p.lift_reserve * (self.static_loads.front + self.static_loads.rear);
@@ -190,11 +193,12 @@ fn light(load: f64, reserve: f64) -> f64 {
     if load < reserve { load / reserve } else { 1.0 }
 }
 
-/// The speed up to which the clutch slips when the throttle is closed, so that the engine's drag ends at standstill
-/// \[m/s\].
+/// The speed up to which the clutch slips when the throttle is closed, so that the engine's drag
+/// ends at standstill \[m/s\].
 const CLUTCH_SPEED: f64 = 3.0;
 
-/// Moment of inertia of all bodies about the point of the road under the centre of mass; the wheels' spin is not in it.
+/// Moment of inertia of all bodies about the point of the road under the centre of mass; the
+/// wheels' spin is not in it.
 fn pitch_inertia(bicycle: &Bicycle, frame_yy: f64) -> f64 {
     let x = bicycle.totals().x_t;
     let about = |x_body: f64, z_body: f64, mass: f64| mass * ((x_body - x) * (x_body - x) + z_body * z_body);

@@ -50,8 +50,8 @@ struct Dynamics {
 }
 
 impl Motorcycle {
-    /// The motorcycle at its initial speed, upright and straight ahead, with throttle closed and brakes off; in the wind of
-    /// the input.
+    /// The motorcycle at its initial speed, upright and straight ahead, with throttle closed and
+    /// brakes off; in the wind of the input.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
@@ -85,14 +85,15 @@ impl Motorcycle {
         Ok(motorcycle)
     }
 
-    /// Changes tunable parameters. Positions, angles, their rates and the rider's torque on the bars do not jump;
-    /// accelerations may.
+    /// Changes tunable parameters. Positions, angles, their rates and the rider's torque on the
+    /// bars do not jump; accelerations may.
     ///
-    /// The rider's gains are designed again if `rider.torqueWeight` changes or the top speed exceeds their range. This
-    /// takes some milliseconds.
+    /// The rider's gains are designed again if `rider.torqueWeight` changes or the top speed
+    /// exceeds their range. This takes some milliseconds.
     ///
     /// # Errors
-    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
+    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
+    /// changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
         check_change(&self.parameters, parameters)?;
         let longitudinal = Longitudinal::new(parameters);
@@ -147,14 +148,14 @@ impl Motorcycle {
 
     /// Advances by `step` seconds while the inputs stay.
     ///
-    /// Any step is safe: one shorter than [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_INTERNAL_STEPS`] internal
-    /// steps is cut off there.
+    /// Any step is safe: one shorter than [`SHORTEST_STEP`] does nothing, and one longer than
+    /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         self.step_between(input, input, step);
     }
 
-    /// Advances by `step` seconds while the inputs go linearly from `start` to `end`, in equal internal steps of
-    /// solver.maxStep at most.
+    /// Advances by `step` seconds while the inputs go linearly from `start` to `end`, in equal
+    /// internal steps of solver.maxStep at most.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
@@ -230,7 +231,8 @@ impl Motorcycle {
         Dynamics { derivative, forces, accelerations, loads, torque, feet }
     }
 
-    /// Addition of leaning and cornering to gravity along the vertical of the motorcycle's plane \[m/s2\].
+    /// Addition of leaning and cornering to gravity along the vertical of the motorcycle's plane
+    /// \[m/s2\].
     fn extra_weight(&self, state: &lateral::State, derivative: &lateral::State, speed: f64) -> f64 {
         let roll = roll(state, derivative);
         let (sin, cos) = libm::sincos(roll.position);

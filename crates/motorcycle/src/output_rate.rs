@@ -6,8 +6,8 @@ use crate::interface::Output;
 
 type Values = [f64; slot_count(Output::ROWS)];
 
-/// The mean rate of the outputs while they went from one to another in `step` seconds; false for those that are true or
-/// false.
+/// The mean rate of the outputs while they went from one to another in `step` seconds; false for
+/// those that are true or false.
 pub fn mean_rate(before: &Output, after: &Output, step: f64) -> Output {
     let (before, after) = (values(before), values(after));
     let rate: Values = std::array::from_fn(|k| (after[k] - before[k]) / step);

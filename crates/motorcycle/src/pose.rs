@@ -1,11 +1,13 @@
-//! Position of motorcycle and head in the world, and specific force at the head: exact for any angles.
+//! Position of motorcycle and head in the world, and specific force at the head: exact for any
+//! angles.
 //!
-//! Axes as everywhere outside [`crate::lateral`]: x forward, y left, z up; roll, pitch (nose down) and yaw of
-//! R = Rz(yaw) Ry(pitch) Rx(roll). The motorcycle's plane rolls about the line through the rear contact along the
-//! heading; in that plane the machine heaves; and it pitches about the point of the road under its centre of mass:
+//! Axes as everywhere outside [`crate::lateral`]: x forward, y left, z up; roll, pitch (nose down)
+//! and yaw of R = Rz(yaw) Ry(pitch) Rx(roll). The motorcycle's plane rolls about the line through
+//! the rear contact along the heading; in that plane the machine heaves; and it pitches about the
+//! point of the road under its centre of mass:
 //!
-//! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, heave) + R (head - (x_c, 0, 0)), and the head's own axes are
-//! R Rx(torso's lean).
+//! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, heave) + R (head - (x_c, 0, 0)), and the head's
+//! own axes are R Rx(torso's lean).
 
 use moris_washout::motion::Motions;
 use moris_washout::motion::braking_law::Motion;
@@ -101,7 +103,8 @@ impl Geometry {
         Head { point, specific_force, orientation: chassis.orientation, angular_velocity: chassis.velocity }
     }
 
-    /// The head relative to the pitch axis in the chassis: eq. (4) of the paper, the torso turning about the seat.
+    /// The head relative to the pitch axis in the chassis: eq. (4) of the paper, the torso turning
+    /// about the seat.
     fn head_from_axis(&self, torso: Motion) -> Point {
         let (sin, cos) = libm::sincos(torso.position);
         let along = Vector3::new(0.0, -sin, cos) * self.torso_length;

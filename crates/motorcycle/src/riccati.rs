@@ -2,12 +2,14 @@
 
 use nalgebra::{SMatrix, SVector};
 
-/// The gain row k of the control u = -k x that minimises the integral of x' Q x + u^2 / `ease` for x' = A x + b u.
+/// The gain row k of the control u = -k x that minimises the integral of x' Q x + u^2 / `ease` for
+/// x' = A x + b u.
 ///
-/// Chu, Fan, Lin, "A structure-preserving doubling algorithm for continuous-time algebraic Riccati equations", Linear
-/// Algebra Appl. 396 (2005): the equation is mapped to a discrete one by a Cayley transformation, whose solution is the
-/// limit of a doubling recursion that converges quadratically. `shift` \[1/s\] is the transformation's: any positive
-/// number, best of the size of the system's poles. `None` where there is no stabilising solution.
+/// Chu, Fan, Lin, "A structure-preserving doubling algorithm for continuous-time algebraic Riccati
+/// equations", Linear Algebra Appl. 396 (2005): the equation is mapped to a discrete one by a
+/// Cayley transformation, whose solution is the limit of a doubling recursion that converges
+/// quadratically. `shift` \[1/s\] is the transformation's: any positive number, best of the size of
+/// the system's poles. `None` where there is no stabilising solution.
 pub fn lqr_gain<const N: usize>(
     a: &SMatrix<f64, N, N>,
     b: &SVector<f64, N>,

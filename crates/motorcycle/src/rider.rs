@@ -1,9 +1,10 @@
 //! The rider: reference lean, steering torque and torso.
 //!
-//! The rider follows a lean by steering torque: the torque of the steady turn with that lean, less a gain on the deviation
-//! of the whole lateral state from that turn's, less a gain on the accumulated error of the lean. The gains
-//! minimise a quadratic cost (LQR). They are computed at the beginning for speeds from walking pace to the top speed, and
-//! interpolated. Below walking pace feet and hands replace them ([`crate::lateral::foot_support`]).
+//! The rider follows a lean by steering torque: the torque of the steady turn with that lean, less
+//! a gain on the deviation of the whole lateral state from that turn's, less a gain on the
+//! accumulated error of the lean. The gains minimise a quadratic cost (LQR). They are computed at
+//! the beginning for speeds from walking pace to the top speed, and interpolated. Below walking
+//! pace feet and hands replace them ([`crate::lateral::foot_support`]).
 
 use moris_interface::Refusal;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -114,8 +115,8 @@ impl Rider {
         self.fastest
     }
 
-    /// Accumulated error \[s\] with which the torque of this rider equals that of `other`, the rider up to now. The torque
-    /// does not jump then, and the difference fades as the error does.
+    /// Accumulated error \[s\] with which the torque of this rider equals that of `other`, the
+    /// rider up to now. The torque does not jump then, and the difference fades as the error does.
     pub fn error_for_torque_of(&self, other: &Rider, state: &State, lateral: &lateral::State, speed: f64) -> f64 {
         /// Largest change of the error \[s\]: about what accumulates in a rough simulation.
         const LARGEST: f64 = 0.2;
@@ -125,8 +126,8 @@ impl Rider {
         if change.is_finite() { state.error + within(change, LARGEST) } else { state.error }
     }
 
-    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed: each is faster than the one
-    /// before by the same factor.
+    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed: each
+    /// is faster than the one before by the same factor.
     pub fn knot(&self, k: usize) -> f64 {
         self.slowest * libm::pow(self.fastest / self.slowest, k as f64 / (SPEEDS - 1) as f64)
     }
@@ -147,8 +148,8 @@ impl Rider {
         (1.0 - feet) * (gains.turn_torque * lean - gains.gain.dot(&deviation) - gains.error_gain * state.error)
     }
 
-    /// The derivative of the rider's state for a commanded roll angle and a commanded torso lean, both \[rad\] to the
-    /// right. `feet` is the foot support from 0 to 1.
+    /// The derivative of the rider's state for a commanded roll angle and a commanded torso lean,
+    /// both \[rad\] to the right. `feet` is the foot support from 0 to 1.
     pub fn derivative(
         &self,
         state: &State,
@@ -194,7 +195,8 @@ fn within(value: f64, limit: f64) -> f64 {
 }
 
 /// Gains at a speed: the steady turn, and the gains that minimise the integral of the squares of
-/// lean / 0.1, lean rate / 0.5, steer / 0.2, steer rate / 2, accumulated error / 0.1 and torque / weight.
+/// lean / 0.1, lean rate / 0.5, steer / 0.2, steer rate / 2, accumulated error / 0.1 and torque /
+/// weight.
 fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<GainSet> {
     let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
     let (a, torque) = plant(lateral, speed, limits.feet_speed);
@@ -229,7 +231,8 @@ fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Opt
 /// See [`lqr_gain`] \[1/s\].
 const CAYLEY_SHIFT: f64 = 20.0;
 
-/// Lateral state and torque of a steady turn with the lean 1: all but lean and its rates solve six equations.
+/// Lateral state and torque of a steady turn with the lean 1: all but lean and its rates solve six
+/// equations.
 fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lateral::State, f64)> {
     use place::{FRONT_FORCE, LEAN, LEAN_RATE, REAR_FORCE, STEER, STEER_RATE, VELOCITY, YAW_RATE};
     let rows = [VELOCITY, YAW_RATE, LEAN_RATE, STEER_RATE, REAR_FORCE, FRONT_FORCE];
@@ -245,8 +248,8 @@ fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lat
     Some((turn, solution[5]))
 }
 
-/// Plant of the lean control at a speed: matrix of the lateral state and the accumulated error of the lean, and
-/// effect of a torque, both with the foot support at that speed.
+/// Plant of the lean control at a speed: matrix of the lateral state and the accumulated error of
+/// the lean, and effect of a torque, both with the foot support at that speed.
 fn plant(lateral: &Lateral, speed: f64, feet_speed: f64) -> (SMatrix<f64, SIZE, SIZE>, SVector<f64, SIZE>) {
     let feet = foot_support(speed, feet_speed);
     let mut a = SMatrix::<f64, SIZE, SIZE>::zeros();

@@ -49,7 +49,8 @@ impl State {
         }
     }
 
-    /// The state with values below the threshold set to zero, so that the motorcycle comes to rest in finite time.
+    /// The state with values below the threshold set to zero, so that the motorcycle comes to rest
+    /// in finite time.
     pub fn flush_small(mut self) -> State {
         let flush = |value: &mut f64| {
             if value.abs() < NEGLIGIBLE {

@@ -1,9 +1,10 @@
 //! Springs, dampers, heave and the tyres' loads, in the motorcycle's leaning plane.
 //!
-//! The sprung mass rests on two upright springs and dampers. With heave u upwards and pitch p nose down from rest, and F
-//! the upward force of springs and dampers beyond that at rest: m u'' = F_f + F_r + W_z - m n, where n is what leaning and
-//! cornering add to gravity along the plane; their moment about the centre of mass is l_r F_r - l_f F_f. The pitch
-//! itself goes with the speed: [`crate::longitudinal`].
+//! The sprung mass rests on two upright springs and dampers. With heave u upwards and pitch p nose
+//! down from rest, and F the upward force of springs and dampers beyond that at rest: m u'' = F_f +
+//! F_r + W_z - m n, where n is what leaning and cornering add to gravity along the plane; their
+//! moment about the centre of mass is l_r F_r - l_f F_f. The pitch itself goes with the speed:
+//! [`crate::longitudinal`].
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -58,7 +59,8 @@ impl Suspension {
         Wheels { front: self.arms.front * pitch - heave, rear: -self.arms.rear * pitch - heave }
     }
 
-    /// Loads of the tyres on the road \[N\]. A tyre does not pull: where its load would be negative it is zero.
+    /// Loads of the tyres on the road \[N\]. A tyre does not pull: where its load would be negative
+    /// it is zero.
     pub fn loads(&self, state: &State, extra_weight: f64) -> Wheels {
         let forces = self.forces(state, extra_weight);
         let load = |at_rest: f64, wheel: f64, force: f64| (at_rest + wheel * extra_weight + force).max(0.0);
@@ -68,7 +70,8 @@ impl Suspension {
         }
     }
 
-    /// Upward forces of springs and dampers beyond those at rest, limited where a tyre would have to pull.
+    /// Upward forces of springs and dampers beyond those at rest, limited where a tyre would have
+    /// to pull.
     fn forces(&self, state: &State, extra_weight: f64) -> Wheels {
         let p = &self.parameters;
         let (travel, rate) = (self.travel(&state.position), self.travel(&state.velocity));
@@ -81,8 +84,9 @@ impl Suspension {
         }
     }
 
-    /// Acceleration of heave, and the moment about the centre of mass, nose down \[N m\]. `extra_weight` is the addition of
-    /// leaning and cornering to gravity along the plane \[m/s2\], `wind` the wind's upward force \[N\].
+    /// Acceleration of heave, and the moment about the centre of mass, nose down \[N m\].
+    /// `extra_weight` is the addition of leaning and cornering to gravity along the plane \[m/s2\],
+    /// `wind` the wind's upward force \[N\].
     pub fn push(&self, state: &State, extra_weight: f64, wind: f64) -> (f64, f64) {
         let forces = self.forces(state, extra_weight);
         (

@@ -1,12 +1,15 @@
-//! The Whipple-Carvallo bicycle: Meijaard, Papadopoulos, Ruina, Schwab, "Linearized dynamics equations for the balance
-//! and steer of a bicycle: a benchmark and review", Proc. R. Soc. A 463 (2007), appendix A.
+//! The Whipple-Carvallo bicycle: Meijaard, Papadopoulos, Ruina, Schwab, "Linearized dynamics
+//! equations for the balance and steer of a bicycle: a benchmark and review", Proc. R. Soc. A 463
+//! (2007), appendix A.
 //!
-//! The paper's axes: x forward, y to the RIGHT, z DOWN, from the rear contact; lean and steer positive to the right.
-//! Names are the paper's, too. This model is the limit of [`crate::lateral`] for stiff tyres; the simulation does not use it.
+//! The paper's axes: x forward, y to the RIGHT, z DOWN, from the rear contact; lean and steer
+//! positive to the right. Names are the paper's, too. This model is the limit of [`crate::lateral`]
+//! for stiff tyres; the simulation does not use it.
 
 use nalgebra::Matrix2;
 
-/// A bicycle's 25 parameters but for speed and gravity. Knife-edge wheels, rigid bodies, rider rigid on the rear frame.
+/// A bicycle's 25 parameters but for speed and gravity. Knife-edge wheels, rigid bodies, rider
+/// rigid on the rear frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bicycle {
     /// Wheelbase \[m\].
@@ -25,7 +28,8 @@ pub struct Bicycle {
     pub f: Wheel,
 }
 
-/// A wheel: radius \[m\], mass \[kg\], moments of inertia about a diameter and about the axle \[kg m2\].
+/// A wheel: radius \[m\], mass \[kg\], moments of inertia about a diameter and about the axle \[kg
+/// m2\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wheel {
     pub r: f64,
@@ -34,7 +38,8 @@ pub struct Wheel {
     pub yy: f64,
 }
 
-/// A body: place of its centre of mass \[m\], mass \[kg\] and the inertia matrix' elements about it \[kg m2\].
+/// A body: place of its centre of mass \[m\], mass \[kg\] and the inertia matrix' elements about it
+/// \[kg m2\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     pub x: f64,
@@ -61,7 +66,8 @@ pub struct Totals {
     pub u_a: f64,
     /// Moment of inertia of the front assembly about the steer axis.
     pub a_ll: f64,
-    /// Products of inertia of the front assembly relative to the steer axis and the axes through the rear contact.
+    /// Products of inertia of the front assembly relative to the steer axis and the axes through
+    /// the rear contact.
     pub a_lx: f64,
     pub a_lz: f64,
     /// Ratio of the mechanical trail to the wheelbase.
@@ -123,8 +129,8 @@ impl Bicycle {
 }
 
 impl Totals {
-    /// K0: the second derivatives, divided by gravity, of the potential energy by lean and steer with both wheels on the
-    /// road. `sin` is the sine of the steer axis tilt.
+    /// K0: the second derivatives, divided by gravity, of the potential energy by lean and steer
+    /// with both wheels on the road. `sin` is the sine of the steer axis tilt.
     pub fn gravity_stiffness(&self, sin: f64) -> Matrix2<f64> {
         Matrix2::new(self.m_t * self.z_t, -self.s_a, -self.s_a, -self.s_a * sin)
     }
@@ -140,7 +146,8 @@ pub struct Equations {
 }
 
 impl Equations {
-    /// The matrix of the first-order form, of (lean, steer, lean rate, steer rate), at a speed \[m/s\].
+    /// The matrix of the first-order form, of (lean, steer, lean rate, steer rate), at a speed
+    /// \[m/s\].
     pub fn state_matrix(&self, gravity: f64, speed: f64) -> Option<nalgebra::Matrix4<f64>> {
         let inverse = self.m.try_inverse()?;
         let stiffness = -inverse * (self.k0 * gravity + self.k2 * (speed * speed));

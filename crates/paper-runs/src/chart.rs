@@ -1,7 +1,8 @@
 //! Draws curves over time into an SVG file.
 //!
-//! The canvas is large and so is the writing, because the coordinates of a drawing are whole pixels: shown at half its
-//! size, which is about the width of a page, a picture's curves are smooth.
+//! The canvas is large and so is the writing, because the coordinates of a drawing are whole
+//! pixels: shown at half its size, which is about the width of a page, a picture's curves are
+//! smooth.
 
 use std::path::Path;
 

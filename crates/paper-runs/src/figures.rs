@@ -1,4 +1,5 @@
-//! The paper's figures 5 to 9: felt against desired specific force and angular velocity, and the legs.
+//! The paper's figures 5 to 9: felt against desired specific force and angular velocity, and the
+//! legs.
 
 use std::path::{Path, PathBuf};
 
@@ -98,7 +99,8 @@ fn felt_against_desired(
     curves
 }
 
-/// The six legs. In a straight run legs 2, 6 and 5 do as 1, 3 and 4 do, and are dashed on top of them to show it.
+/// The six legs. In a straight run legs 2, 6 and 5 do as 1, 3 and 4 do, and are dashed on top of
+/// them to show it.
 fn legs(figure: &str, run: &Recording) -> Panel {
     let styles = [
         (BLUE, Stroke::Broad),

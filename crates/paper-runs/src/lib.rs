@@ -1,4 +1,5 @@
-//! The paper's runs on the FMU: what goes in, what comes out, how good it is, and its figures 5 to 9.
+//! The paper's runs on the FMU: what goes in, what comes out, how good it is, and its figures 5 to
+//! 9.
 //!
 //! The command is in `main.rs`; here are its parts, for tests and other programs to use.
 

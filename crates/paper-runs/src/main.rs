@@ -1,4 +1,5 @@
-//! `cargo paper-runs`: builds the FMU, simulates the paper's runs, prints the errors, draws the figures.
+//! `cargo paper-runs`: builds the FMU, simulates the paper's runs, prints the errors, draws the
+//! figures.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,8 @@ use moris_paper_runs::recording::Recording;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
 
-/// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and draws figures 5 to 9.
+/// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and
+/// draws figures 5 to 9.
 #[derive(Parser)]
 #[command(name = "cargo paper-runs", bin_name = "cargo paper-runs")]
 struct Options {
@@ -64,7 +66,8 @@ fn build_fmu() -> Result<PathBuf> {
     Ok(built.file)
 }
 
-/// The four runs with the FMU's own parameters, run b with those made for it, and run c with preaction.
+/// The four runs with the FMU's own parameters, run b with those made for it, and run c with
+/// preaction.
 fn make_runs(path: &Path, step: f64) -> Result<Vec<Recording>> {
     let fmu = Fmu::open(path).with_context(|| format!("cannot open {}", path.display()))?;
     let runs = [(A, DEFAULT), (A_BRISK, DEFAULT), (B, DEFAULT), (B, WAKE), (C, DEFAULT), (C, PREACTION)];

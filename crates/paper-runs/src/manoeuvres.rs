@@ -1,14 +1,15 @@
 //! The paper's three runs, and a brisk variant of the first, as the motion of the rider's head.
 //!
-//! The paper prints no amplitudes; those here are a choice in the spirit of its figures. Everything is in closed form, so
-//! that nothing recorded is needed and every value can be checked by hand.
+//! The paper prints no amplitudes; those here are a choice in the spirit of its figures. Everything
+//! is in closed form, so that nothing recorded is needed and every value can be checked by hand.
 
 use std::f64::consts::TAU;
 
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
-/// When run c comes to a stop \[s\]. The speed gained is 2.2 m/s2 for 11 s (from the middle of one ramp to that of the next);
-/// braking with 3.5 m/s2 takes as much away, counted from the middle of its own ramp.
+/// When run c comes to a stop \[s\]. The speed gained is 2.2 m/s2 for 11 s (from the middle of one
+/// ramp to that of the next); braking with 3.5 m/s2 takes as much away, counted from the middle of
+/// its own ramp.
 pub const STOP: f64 = 22.0 + 10.5 / 2.0 + 2.2 * 11.0 / 3.5;
 
 /// The motion of the rider's head at one time.
@@ -25,14 +26,16 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// Specific force at the head \[m/s2\]: acceleration and gravity's reaction, in axes that roll with the head.
+    /// Specific force at the head \[m/s2\]: acceleration and gravity's reaction, in axes that roll
+    /// with the head.
     pub fn specific_force(&self) -> [f64; 3] {
         let [x, y, z] = self.acceleration;
         let (sin, cos) = self.roll.sin_cos();
         [x, cos * y + sin * (z + GRAVITY), cos * (z + GRAVITY) - sin * y]
     }
 
-    /// Angular velocity \[rad/s\]. With roll alone it is the same in the axes of the body and of the world.
+    /// Angular velocity \[rad/s\]. With roll alone it is the same in the axes of the body and of
+    /// the world.
     pub fn angular_velocity(&self) -> [f64; 3] {
         [self.roll_rate, 0.0, 0.0]
     }
@@ -104,7 +107,8 @@ fn run_c(t: f64) -> Motion {
     if t < STOP { straight(t, &[(2.2, 1.0, 6.6), (-2.2, 12.0, 6.6), (-3.5, 22.0, 10.5)]) } else { Motion::default() }
 }
 
-/// A run in a straight line from rest, whose acceleration changes by so much \[m/s2\], from when, and in what time \[s\].
+/// A run in a straight line from rest, whose acceleration changes by so much \[m/s2\], from when,
+/// and in what time \[s\].
 fn straight(t: f64, changes: &[(f64, f64, f64)]) -> Motion {
     let sum = |term: fn(f64, f64, f64) -> f64| changes.iter().map(|&(change, a, b)| change * term(t, a, b)).sum();
     // At the end rounding leaves a speed of no number, or one below zero.

@@ -1,4 +1,5 @@
-//! Steps the FMU through a run as a host does: through its C functions, one value reference at a time.
+//! Steps the FMU through a run as a host does: through its C functions, one value reference at a
+//! time.
 
 use anyhow::{Context, Result, ensure};
 use moris_fmu_host::{Fmu, Instance, Status};
@@ -43,12 +44,13 @@ const FLAGS: [&str; 3] = ["status.tiltLimited", "status.safetyActive", "status.a
 
 /// Makes one run with one set of parameters, in communication steps of `step` seconds.
 ///
-/// Inputs are set at the beginning of a step and held, as a simple host does; felt and desired are compared at its end. So
-/// what is felt answers to inputs that are a step old, and the delays that are measured count this in.
+/// Inputs are set at the beginning of a step and held, as a simple host does; felt and desired are
+/// compared at its end. So what is felt answers to inputs that are a step old, and the delays that
+/// are measured count this in.
 ///
 /// # Errors
-/// The step is not between 0 and the run's duration, the FMU lacks a variable, or one of its functions
-/// fails: the error carries the FMU's message.
+/// The step is not between 0 and the run's duration, the FMU lacks a variable, or one of its
+/// functions fails: the error carries the FMU's message.
 pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64) -> Result<Recording> {
     ensure!(step > 0.0 && step <= run.duration, "the step must be between 0 and {} s, not {step} s", run.duration);
     let references = References::of(fmu)?;

@@ -11,7 +11,8 @@ const UNDEFINED: &str = "–";
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Rows of cells under a header; displayed with aligned columns, the first ones' text to the left and numbers to the right.
+/// Rows of cells under a header; displayed with aligned columns, the first ones' text to the left
+/// and numbers to the right.
 #[derive(Clone, Debug)]
 pub struct Table {
     title: &'static str,

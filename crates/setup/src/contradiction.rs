@@ -1,12 +1,13 @@
-//! Limits that contradict each other: each can be used, but one of them is not what its author thinks.
+//! Limits that contradict each other: each can be used, but one of them is not what its author
+//! thinks.
 
 use moris_interface::Refusal;
 use moris_washout::Parameters;
 
 use crate::ranges::{Axis, single_axis_range};
 
-/// Checks that the safety units' limits are within the rig's reach along each axis alone. Where they are not, a safety unit
-/// never acts: the legs come to the ends of their stroke before.
+/// Checks that the safety units' limits are within the rig's reach along each axis alone. Where
+/// they are not, a safety unit never acts: the legs come to the ends of their stroke before.
 ///
 /// # Errors
 /// The first limit beyond the rig's reach.

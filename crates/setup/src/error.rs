@@ -19,7 +19,8 @@ pub enum Error {
         suggestion(nearest, "shipped are default, wake, preaction, adaptive, optimal and predictive")
     )]
     NoSuchSet { name: String, nearest: Vec<String> },
-    /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows the place.
+    /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows
+    /// the place.
     #[error("{source_name}: {text}")]
     Toml { source_name: String, text: String },
     /// A name that is not one.

@@ -2,11 +2,12 @@
 
 use moris_interface::{Group, Identity, Reader, Row, Writer, slot_count};
 
-/// Names of variables with their values, as they lie in slots: enumerations counted from 1, booleans as 0 and 1. A later
-/// value of the same name stands over an earlier one.
+/// Names of variables with their values, as they lie in slots: enumerations counted from 1,
+/// booleans as 0 and 1. A later value of the same name stands over an earlier one.
 pub type NamedValues = Vec<(String, f64)>;
 
-/// A group of variables with these values laid over it. Names that are not the group's are left out.
+/// A group of variables with these values laid over it. Names that are not the group's are left
+/// out.
 pub fn overlaid<G: Group>(group: &G, values: &[(String, f64)]) -> G {
     let mut slots = vec![0.0; slot_count(G::ROWS)];
     group.write(&mut Writer::new(&mut slots));

@@ -7,7 +7,8 @@ const ALMOST_AS_ALIKE: f64 = 0.15;
 /// No more than this many are proposed.
 const MOST: usize = 3;
 
-/// The candidates that look most like `name`, the best first; none that does not look like it at all.
+/// The candidates that look most like `name`, the best first; none that does not look like it at
+/// all.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let name = name.to_lowercase();
     let mut scored: Vec<(f64, &str)> = candidates
@@ -21,7 +22,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     close.take(MOST).map(|(_, candidate)| candidate).collect()
 }
 
-/// The end of a message about a wrong name: ": did you mean a, b or c?", or what to do when nothing looks like it.
+/// The end of a message about a wrong name: ": did you mean a, b or c?", or what to do when nothing
+/// looks like it.
 pub(crate) fn suggestion(nearest: &[String], otherwise: &str) -> String {
     match nearest {
         [] => format!("; {otherwise}"),

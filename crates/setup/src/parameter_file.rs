@@ -7,8 +7,8 @@
 //! rateLimit = 0.05
 //! ```
 //!
-//! All values are in the units of the FMU's variables, which are SI. Every parameter of the model may be given, the rig's
-//! among them; what is not given stays as it is.
+//! All values are in the units of the FMU's variables, which are SI. Every parameter of the model
+//! may be given, the rig's among them; what is not given stays as it is.
 
 use std::fmt::Write;
 
@@ -19,10 +19,12 @@ use crate::named_values::variable_names;
 use crate::names::nearest;
 use crate::{Error, NamedValues};
 
-/// The values in the text of a parameter file for a model with these rows. `source_name` is what errors call the file.
+/// The values in the text of a parameter file for a model with these rows. `source_name` is what
+/// errors call the file.
 ///
 /// # Errors
-/// Text that is not TOML, a name that is no parameter of the model, a value that the parameter cannot have.
+/// Text that is not TOML, a name that is no parameter of the model, a value that the parameter
+/// cannot have.
 pub fn read(text: &str, source_name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
     let table: Table = text.parse().map_err(|error: toml::de::Error| Error::Toml {
         source_name: source_name.to_owned(),

@@ -58,15 +58,15 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
     }
 }
 
-/// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\]; negative where a
-/// leg would have to be longer or shorter than it can be.
+/// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\];
+/// negative where a leg would have to be longer or shorter than it can be.
 pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
     let lengths = leg_lengths(&Geometry::from(rig), pose);
     lengths.iter().map(|length| (length - rig.min_length).min(rig.max_length - length)).fold(f64::INFINITY, f64::min)
 }
 
-/// Reach of the platform along this axis alone, all other coordinates neutral, up to the pose at which the first leg is at
-/// an end of its stroke. Rotations end at a quarter turn.
+/// Reach of the platform along this axis alone, all other coordinates neutral, up to the pose at
+/// which the first leg is at an end of its stroke. Rotations end at a quarter turn.
 pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
     Range { min: -reach(rig, axis, -1.0), max: reach(rig, axis, 1.0) }
 }

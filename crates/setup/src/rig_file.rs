@@ -27,9 +27,10 @@
 //! accelerationLimit = [10.0, 10.0, 10.0] # m/s2
 //! ```
 //!
-//! Joints and legs are required in full, since a mixture with the default rig describes no machine. The head
-//! and the safety units' speeds and accelerations are the default's where they are not given. The safety units' positions
-//! then follow from the rig: 95 % of what it reaches along each axis alone.
+//! Joints and legs are required in full, since a mixture with the default rig describes no machine.
+//! The head and the safety units' speeds and accelerations are the default's where they are not
+//! given. The safety units' positions then follow from the rig: 95 % of what it reaches along each
+//! axis alone.
 
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
@@ -254,7 +255,8 @@ impl RigFile {
     /// Checks that a washout can be constructed on this rig.
     ///
     /// # Errors
-    /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a value out of its range.
+    /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a
+    /// value out of its range.
     pub fn check(&self) -> Result<(), Refusal> {
         check(&self.parameters())
     }

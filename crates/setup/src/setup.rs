@@ -26,11 +26,12 @@ pub struct Setup {
 const DEFAULT_RIG: &str = "default rig";
 
 impl Setup {
-    /// Puts together the default parameters, the rig of a file laid over them, and then parameter sets one over the other:
-    /// each the name of a shipped set or a parameter file.
+    /// Puts together the default parameters, the rig of a file laid over them, and then parameter
+    /// sets one over the other: each the name of a shipped set or a parameter file.
     ///
     /// # Errors
-    /// A file that cannot be read, a name or value in it that cannot be, or parameters of which no washout can be made.
+    /// A file that cannot be read, a name or value in it that cannot be, or parameters of which no
+    /// washout can be made.
     pub fn load(rig: Option<&Path>, sets: &[String]) -> Result<Self, Error> {
         let rig = rig.map(load_rig).transpose()?;
         let mut parameters = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
@@ -59,7 +60,8 @@ pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
     rig_file::read(&text(file)?, &file.display().to_string())
 }
 
-/// The values of a shipped set of this name, or of the parameter file of this name, for a model with these rows.
+/// The values of a shipped set of this name, or of the parameter file of this name, for a model
+/// with these rows.
 ///
 /// # Errors
 /// There is neither, or [`parameter_file::read`] rejects the file.

@@ -42,8 +42,8 @@ fn check_tunable(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), 
     check_force_limit(actuators.force_limit, at_rest)
 }
 
-/// A body's principal moments are positive, and none is larger than the other two together. A body that need not be
-/// there may also have none at all.
+/// A body's principal moments are positive, and none is larger than the other two together. A body
+/// that need not be there may also have none at all.
 fn check_inertia(name: &str, inertia: &Inertia, has_extent: bool) -> Result<(), Refusal> {
     let moments = inertia.matrix().symmetric_eigenvalues();
     let (least, largest) = (moments.min(), moments.max());

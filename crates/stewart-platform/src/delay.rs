@@ -16,8 +16,8 @@ const CAPACITY: usize = 32;
 
 /// A queue of ramps whose durations add up to the dead time.
 ///
-/// Two neighbours that together last less than about a fourteenth of the dead time are joined; longer ones leave the
-/// queue exactly as they entered it. There is no clock, so nothing drifts.
+/// Two neighbours that together last less than about a fourteenth of the dead time are joined;
+/// longer ones leave the queue exactly as they entered it. There is no clock, so nothing drifts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DelayLine {
     ramps: [Ramp; CAPACITY],
@@ -35,8 +35,9 @@ impl DelayLine {
         DelayLine { ramps: [constant; CAPACITY], first: 0, count: usize::from(dead_time > 0.0), finest }
     }
 
-    /// Changes the dead time \[s\]. A straight line to the newest command replaces the pending commands, so that the output
-    /// does not jump. With a dead time of 0 the newest command is the output at once.
+    /// Changes the dead time \[s\]. A straight line to the newest command replaces the pending
+    /// commands, so that the output does not jump. With a dead time of 0 the newest command is the
+    /// output at once.
     pub fn set_dead_time(&mut self, dead_time: f64) {
         let newest = self.ramps[(self.first + self.count + CAPACITY - 1) % CAPACITY].to;
         let next = if self.count > 0 { self.ramps[self.first % CAPACITY].from } else { newest };
@@ -87,7 +88,8 @@ impl DelayLine {
 mod tests {
     use super::*;
 
-    /// Puts in ramps of `u` at steps of `step`, and takes them out again at once, in parts of `part`.
+    /// Puts in ramps of `u` at steps of `step`, and takes them out again at once, in parts of
+    /// `part`.
     fn delayed(dead_time: f64, step: f64, part: f64, stop: f64, u: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
         let mut line = DelayLine::new(dead_time, &[u(0.0); 6]);
         let (mut arrived, mut time) = (Vec::new(), 0.0);

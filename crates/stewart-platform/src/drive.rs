@@ -1,4 +1,5 @@
-//! A leg's drive: a second-order response to the command, within limits of speed, acceleration and stroke.
+//! A leg's drive: a second-order response to the command, within limits of speed, acceleration and
+//! stroke.
 
 use moris_washout::motion::braking_law::{Limits, Motion, approach_velocity};
 
@@ -42,8 +43,8 @@ impl Drive {
         }
     }
 
-    /// Target for a leg of this length \[m\] and velocity \[m/s\], whose command goes linearly from one length to
-    /// another.
+    /// Target for a leg of this length \[m\] and velocity \[m/s\], whose command goes linearly from
+    /// one length to another.
     pub fn target(&self, length: f64, velocity: f64, from: f64, to: f64) -> DriveTarget {
         let slope = (to - from) / self.step;
         // Far behind a ramp, a second-order system follows it with this lag.
@@ -89,7 +90,8 @@ fn allowed(limits: &Limits, motion: &Motion) -> bool {
         && velocity.abs() <= approach_velocity(ahead, limits.acceleration, limits.longest_step)
 }
 
-/// The free motion of x'' + 2 z w x' + w^2 x = 0 over a step, exact: (x, x') after it from (x, x') before.
+/// The free motion of x'' + 2 z w x' + w^2 x = 0 over a step, exact: (x, x') after it from (x, x')
+/// before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
     position: [f64; 2],

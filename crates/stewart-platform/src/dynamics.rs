@@ -1,8 +1,10 @@
-//! From the legs' forces to the platform's acceleration, and back: Newton's and Euler's equations at one instant.
+//! From the legs' forces to the platform's acceleration, and back: Newton's and Euler's equations
+//! at one instant.
 //!
-//! The legs have no mass, so that each pushes along itself and nothing else. With x'' = (p'', alpha) the acceleration of
-//! the platform's origin and F the legs' forces, M x'' + c = J^T F: M is the body's matrix of inertia at the origin, c
-//! its weight and what turning adds, J the Jacobian of the legs. The legs accelerate by L'' = J x'' + d.
+//! The legs have no mass, so that each pushes along itself and nothing else. With x'' = (p'',
+//! alpha) the acceleration of the platform's origin and F the legs' forces, M x'' + c = J^T F: M is
+//! the body's matrix of inertia at the origin, c its weight and what turning adds, J the Jacobian
+//! of the legs. The legs accelerate by L'' = J x'' + d.
 
 use moris_washout::platform::{Geometry, PlatformMotion, jacobian, leg_accelerations};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
@@ -25,7 +27,8 @@ pub struct Dynamics {
 }
 
 impl Dynamics {
-    /// For a motion's pose and velocities; its accelerations do not count. `gravity` points down \[m/s2\].
+    /// For a motion's pose and velocities; its accelerations do not count. `gravity` points down
+    /// \[m/s2\].
     pub fn new(geometry: &Geometry, body: &Body, motion: &PlatformMotion, gravity: f64) -> Self {
         let rotation = motion.orientation.rotation;
         let arm = rotation * body.centre;
@@ -65,13 +68,15 @@ impl Dynamics {
         self.jacobian * self.acceleration(forces) + self.drift
     }
 
-    /// J M^-1 J^T: how much each leg accelerates for a force of each \[1/kg\]; symmetric and positive definite.
+    /// J M^-1 J^T: how much each leg accelerates for a force of each \[1/kg\]; symmetric and
+    /// positive definite.
     pub fn leg_mobility(&self) -> Matrix6<f64> {
         self.jacobian * self.mobility * self.jacobian.transpose()
     }
 }
 
-/// M: what force and moment at the platform's origin accelerating it takes, with the centre of mass at `arm` from it.
+/// M: what force and moment at the platform's origin accelerating it takes, with the centre of mass
+/// at `arm` from it.
 fn spatial_inertia(mass: f64, arm: Vector3<f64>, about_origin: Matrix3<f64>) -> Matrix6<f64> {
     let moment = mass * arm.cross_matrix();
     let mut matrix = Matrix6::zeros();

@@ -1,8 +1,9 @@
 //! A Stewart platform with dynamics: the real motion of a motion base for commanded leg lengths.
 //!
-//! The inputs are six commanded leg lengths. Each leg follows its command as a second-order system after a dead time,
-//! within limits of speed, acceleration, stroke and force. The outputs are the real leg lengths, the pose, the forces, and
-//! the specific force at the rider's head. The model serves to test a washout filter or a motion base's controller.
+//! The inputs are six commanded leg lengths. Each leg follows its command as a second-order system
+//! after a dead time, within limits of speed, acceleration, stroke and force. The outputs are the
+//! real leg lengths, the pose, the forces, and the specific force at the rider's head. The model
+//! serves to test a washout filter or a motion base's controller.
 //!
 //! | module | contents |
 //! |---|---|
@@ -13,8 +14,9 @@
 //! | [`dynamics`] | from the legs' forces to the body's acceleration, and back |
 //! | [`saturation`] | the motion under limited forces, or with a leg at an end of its stroke |
 //!
-//! Geometry and kinematics are those of [`moris_washout::platform`], frames and signs too: x forward, y left, z up. All
-//! quantities are in SI units. A step allocates nothing, does no I/O and does not panic, for any input.
+//! Geometry and kinematics are those of [`moris_washout::platform`], frames and signs too: x
+//! forward, y left, z up. All quantities are in SI units. A step allocates nothing, does no I/O and
+//! does not panic, for any input.
 
 #![forbid(unsafe_code)]
 

@@ -1,9 +1,10 @@
 //! Motion with limited drive forces, or with legs at the ends of their strokes.
 //!
-//! All legs carry one body, so that a force of one accelerates all: v = v0 + h A F, with A the legs' mobility. Each drive
-//! has the force that brings its leg to the demanded velocity, or its largest force. A stop at an end of a stroke has the
-//! force that keeps its leg inside. These conditions have exactly one solution, since A is positive definite. In the
-//! body's kinetic energy it is the motion nearest to the demand (Gauss's principle of least constraint).
+//! All legs carry one body, so that a force of one accelerates all: v = v0 + h A F, with A the
+//! legs' mobility. Each drive has the force that brings its leg to the demanded velocity, or its
+//! largest force. A stop at an end of a stroke has the force that keeps its leg inside. These
+//! conditions have exactly one solution, since A is positive definite. In the body's kinetic energy
+//! it is the motion nearest to the demand (Gauss's principle of least constraint).
 
 use nalgebra::{Matrix6, Vector6};
 
@@ -31,9 +32,11 @@ const MOST_SWEEPS: usize = 500;
 /// Convergence: largest change of a force as a fraction of the largest force.
 const TOLERANCE: f64 = 1e-12;
 
-/// Solves the conditions leg by leg, over and over (Gauss and Seidel's method, which converges for them).
+/// Solves the conditions leg by leg, over and over (Gauss and Seidel's method, which converges for
+/// them).
 ///
-/// `free` are the velocities at the step's end without any force, `gain` is h A, and no drive has more force than `limit`.
+/// `free` are the velocities at the step's end without any force, `gain` is h A, and no drive has
+/// more force than `limit`.
 pub fn solve(free: &Vector6<f64>, gain: &Matrix6<f64>, legs: &[Leg; 6], limit: f64) -> Outcome {
     let mut force = Vector6::zeros();
     for _ in 0..MOST_SWEEPS {

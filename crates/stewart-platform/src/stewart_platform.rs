@@ -106,10 +106,12 @@ impl StewartPlatform {
         self
     }
 
-    /// Changes tunable parameters. Lengths, pose and their rates do not jump; forces and accelerations may.
+    /// Changes tunable parameters. Lengths, pose and their rates do not jump; forces and
+    /// accelerations may.
     ///
     /// # Errors
-    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
+    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
+    /// changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
         check_change(&self.parameters, parameters, &Instant::at_rest(parameters).force)?;
         let dead_time = parameters.actuators.dead_time;
@@ -133,15 +135,16 @@ impl StewartPlatform {
 
     /// Advances by `step` seconds while the commands go on at the commanded rates.
     ///
-    /// Any input is safe: a length outside the stroke is rejected, and the previous command is kept. A step shorter
-    /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
+    /// Any input is safe: a length outside the stroke is rejected, and the previous command is
+    /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
+    /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i].clamp(VELOCITY.0, VELOCITY.1));
         self.step_between(input, &Input { length: end, ..*input }, step);
     }
 
-    /// Advances by `step` seconds while the lengths and the rider's lean go linearly from `start` to `end`; the commanded
-    /// rates do not count.
+    /// Advances by `step` seconds while the lengths and the rider's lean go linearly from `start`
+    /// to `end`; the commanded rates do not count.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
@@ -174,7 +177,8 @@ impl StewartPlatform {
         self.last_command
     }
 
-    /// One step with commands that are linear after the dead time; `lean` is the rider's at its end.
+    /// One step with commands that are linear after the dead time; `lean` is the rider's at its
+    /// end.
     fn internal_step(&mut self, command: &Ramp, lean: f64) {
         let step = command.duration;
         let Instant { motion, legs, .. } = self.now;
@@ -215,8 +219,8 @@ impl StewartPlatform {
         self.limited.stop |= next.at_stop;
     }
 
-    /// The step in which every leg reaches its target, if the drives have the force for it; their forces follow from the
-    /// motion.
+    /// The step in which every leg reaches its target, if the drives have the force for it; their
+    /// forces follow from the motion.
     fn free_step(&self, targets: &[DriveTarget; 6], step: f64) -> Option<Next> {
         let rig = &self.parameters.rig;
         if targets.iter().any(|target| !(rig.min_length..=rig.max_length).contains(&target.motion.position)) {
@@ -235,7 +239,8 @@ impl StewartPlatform {
         })
     }
 
-    /// The step with limited forces, or with legs at a stop: the legs' motion follows from the body's.
+    /// The step with limited forces, or with legs at a stop: the legs' motion follows from the
+    /// body's.
     fn constrained_step(&self, targets: &[DriveTarget; 6], step: f64) -> Next {
         let (rig, limit) = (&self.parameters.rig, self.parameters.actuators.force_limit);
         let Legs { length, velocity } = self.now.legs;
@@ -280,8 +285,8 @@ impl StewartPlatform {
         }
     }
 
-    /// The rates of the outputs \[their units per second\]: exact for what has its rate among the outputs, else the mean
-    /// over the last internal step.
+    /// The rates of the outputs \[their units per second\]: exact for what has its rate among the
+    /// outputs, else the mean over the last internal step.
     pub fn output_derivative(&self) -> Output {
         let (now, before) = (self.output_at(&self.now), self.output_at(&self.before));
         let per_second = if self.last_step > 0.0 { 1.0 / self.last_step } else { 0.0 };

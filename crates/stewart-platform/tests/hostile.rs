@@ -1,5 +1,5 @@
-//! Whatever is commanded, the legs stay inside their stroke, the drives inside their force, and all is finite; and a state
-//! continues as its copy does.
+//! Whatever is commanded, the legs stay inside their stroke, the drives inside their force, and all
+//! is finite; and a state continues as its copy does.
 
 use moris_interface::Model;
 use moris_stewart_platform::{Input, Output, Parameters, StewartPlatform};

@@ -1,5 +1,5 @@
-//! Specific force of a leaning rider on a platform at rest: gravity rotated by the lean, so that the force to the left is
-//! g sin(lean), and its rate g cos(lean) times the lean's.
+//! Specific force of a leaning rider on a platform at rest: gravity rotated by the lean, so that
+//! the force to the left is g sin(lean), and its rate g cos(lean) times the lean's.
 
 use moris_stewart_platform::{Input, Parameters, StewartPlatform};
 

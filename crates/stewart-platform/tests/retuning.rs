@@ -1,4 +1,5 @@
-//! Parameters that change in flight: what has inertia does not jump, and the new values hold from then on.
+//! Parameters that change in flight: what has inertia does not jump, and the new values hold from
+//! then on.
 
 use moris_stewart_platform::{Input, Output, Parameters, StewartPlatform};
 
@@ -24,7 +25,8 @@ fn in_motion() -> StewartPlatform {
     platform
 }
 
-/// The largest change of a length less what its rate covers, and of a rate over what its acceleration limit allows.
+/// The largest change of a length less what its rate covers, and of a rate over what its
+/// acceleration limit allows.
 fn jumps(before: &Output, after: &Output, acceleration: f64) -> (f64, f64) {
     let mut jumps = (0.0_f64, 0.0_f64);
     for i in 0..6 {

@@ -19,7 +19,8 @@ pub fn benchmark() -> Bicycle {
 /// Gravity of the benchmark \[m/s2\].
 pub const GRAVITY: f64 = 9.81;
 
-/// Asserts that two numbers differ by no more than `tolerance`, relative where they are larger than 1.
+/// Asserts that two numbers differ by no more than `tolerance`, relative where they are larger than
+/// 1.
 #[track_caller]
 pub fn assert_near(number: f64, expected: f64, tolerance: f64, what: &str) {
     let off = (number - expected).abs() / expected.abs().max(1.0);

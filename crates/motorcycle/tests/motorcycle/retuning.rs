@@ -88,7 +88,8 @@ fn what_has_inertia_does_not_jump() {
     }
 }
 
-/// The motorcycle rides on, upright, and after a while as one that has had the parameters all the time.
+/// The motorcycle rides on, upright, and after a while as one that has had the parameters all the
+/// time.
 #[test]
 fn the_new_values_hold() {
     for (name, change) in CHANGES {

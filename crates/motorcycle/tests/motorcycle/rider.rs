@@ -31,8 +31,8 @@ fn what_cannot_be_controlled_has_no_gain() {
     assert!(lqr_gain(&a, &Vector2::new(0.0, 1.0), &Matrix2::identity(), 1.0, 2.0).is_none());
 }
 
-/// Kalman's identity: the gain k minimises the cost of x' Q x + u^2 / e for x' = A x + b u exactly if, with
-/// g = (i w - A)^-1 b, |1 + k g|^2 = 1 + e g* Q g at every frequency w.
+/// Kalman's identity: the gain k minimises the cost of x' Q x + u^2 / e for x' = A x + b u exactly
+/// if, with g = (i w - A)^-1 b, |1 + k g|^2 = 1 + e g* Q g at every frequency w.
 #[test]
 fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
     let parameters = Parameters::default();

@@ -4,7 +4,8 @@ use moris_motorcycle::{Input, Motorcycle};
 
 use crate::common::{assert_near, at_speed, cruise, motorcycle};
 
-/// The default motorcycle after 12 s of a turn at a speed with a lean, the rider's torso upright in it.
+/// The default motorcycle after 12 s of a turn at a speed with a lean, the rider's torso upright in
+/// it.
 fn turning(speed: f64, lean: f64) -> Motorcycle {
     let mut parameters = at_speed(speed);
     parameters.rider.body_lean_share = 0.0;

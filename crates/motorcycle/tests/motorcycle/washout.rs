@@ -79,8 +79,8 @@ fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
     assert!(off.norm() < 0.02, "{off}");
 }
 
-/// Rides at 30 m/s and brakes to the stop. Returns when it stops, in milliseconds, and the error of the surge force felt
-/// \[m/s2\] every millisecond.
+/// Rides at 30 m/s and brakes to the stop. Returns when it stops, in milliseconds, and the error of
+/// the surge force felt \[m/s2\] every millisecond.
 fn errors_of_a_stop(brake: f64, set: &[(&str, f64)]) -> (usize, Vec<f64>) {
     let mut washout = Washout::new(&presets::parameters(set)).unwrap();
     let mut ridden = motorcycle(&at_speed(30.0));
