@@ -11,6 +11,7 @@ mod initialization;
 mod library;
 #[path = "../../examples/lags/model.rs"]
 mod model;
+mod random_calls;
 mod scalars;
 mod states;
 mod steps;
