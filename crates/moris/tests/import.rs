@@ -336,3 +336,20 @@ fn files_that_are_no_csv_are_recognised_and_never_printed() {
     }
     assert!(Ride::read(Path::new("no/such.csv"), &ConventionOptions::default().load().unwrap()).is_err());
 }
+
+/// In the manner of AiM, MoTeC and RaceChrono: facts about the session, the names, their units, and what they come from.
+#[test]
+fn a_preamble_and_a_line_of_units_are_passed_over() {
+    let header = "time,ax,ay,az,wx,wy,wz";
+    let numbers = csv("", &car(20.0), ms_g_degrees());
+    let numbers = numbers.trim_start();
+    let preamble = "\"Format\",\"CSV File\"\n\"Venue\",\"Nowhere, 3 km\"\nSession,1,2,3\n\n";
+    let text = format!("{preamble}{header}\nms,g,g,g,deg/s,deg/s,deg/s\nclock,imu,imu,imu,imu,imu,imu\n\n{numbers}");
+    assert_is_the_car(&read(&text).unwrap());
+    // Lines are counted from the file's beginning.
+    let message = read(&text.replacen("\n\n0,", "\n\nx,", 1)).unwrap_err();
+    assert!(message.starts_with("drive.csv, line 9, column time: is \"x\""), "{message}");
+    // Where names are missing, those of the header are listed, not the preamble's.
+    let message = read(&text.replacen("wz", "yaw rate", 1)).unwrap_err();
+    assert!(message.contains("there is no column wz; there are time, ax, ay, az, wx, wy, yaw rate"), "{message}");
+}

@@ -110,6 +110,12 @@ impl Header {
         true
     }
 
+    /// True where every column is there that a recording needs.
+    pub fn has_needed_columns(&self, conventions: &Conventions) -> bool {
+        let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| quantity.is_required());
+        needed.all(|&(quantity, _)| !matches!(self.place(conventions.column(quantity)), Ok(None)))
+    }
+
     /// The columns that are used.
     ///
     /// # Errors

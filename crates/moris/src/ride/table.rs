@@ -10,6 +10,9 @@ use super::conventions::{Conventions, Quantity};
 use super::header::{Column, Header, quoted};
 use super::source;
 
+/// Most lines before the header.
+const LONGEST_PREAMBLE: usize = 100;
+
 /// A recording's columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -45,8 +48,8 @@ impl Table {
     }
 }
 
-/// Reads a recording: a header of names, then lines of numbers, with commas, semicolons or tabulators between them. Lines
-/// that begin with # are comments. Between semicolons or tabulators, numbers may have a decimal comma.
+/// Reads a recording: a header of names, then lines of numbers, with commas, semicolons or tabulators between them. A line
+/// of units may follow the header, and a logger's preamble may precede it. Lines that begin with # are comments. Between semicolons or tabulators, numbers may have a decimal comma.
 ///
 /// # Errors
 /// The file cannot be read or holds no samples, columns are missing, a unit contradicts an option, a value is not a
@@ -56,6 +59,7 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
     let text = text.trim_start_matches('\u{feff}');
     let file = source::shown(file);
     let whole = |reason: &str| RideError::Whole { file: file.clone(), reason: reason.to_owned() };
+    let (preamble, text) = without_preamble(text, conventions);
     let delimiter = delimiter(text);
     let mut reader =
         ReaderBuilder::new().delimiter(delimiter).comment(Some(b'#')).flexible(true).from_reader(text.as_bytes());
@@ -75,12 +79,16 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
     let mut is_sample = advance(&mut record)?;
     if is_sample && header.take_units(record.iter()) {
         is_sample = advance(&mut record)?;
+        // Some loggers write the source of each column below its unit.
+        if is_sample && record.iter().all(|field| !field.trim().is_empty() && !is_number(field)) {
+            is_sample = advance(&mut record)?;
+        }
     }
     let layout = header.columns(&file, conventions)?;
     let mut table = Table { file: file.clone(), time: Vec::new(), columns: BTreeMap::new(), layout, lines: Vec::new() };
     let mut numbers = Numbers::default();
     while is_sample {
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = preamble + record.position().map_or(0, |position| line_of_record(position, text));
         let refused = |column, reason| RideError::Line { file: file.clone(), line, column, reason };
         if record.iter().skip(header.width()).any(|field| !field.trim().is_empty()) {
             return Err(refused(None, too_many_fields(record.len(), header.width())));
@@ -100,6 +108,47 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
         return Err(whole("has fewer than two samples below its header"));
     }
     Ok(table)
+}
+
+/// The number of lines before the header, and the text from the header on.
+///
+/// The header is the first line with all columns that a recording needs. Where there is none, it is the first of the lines
+/// with the most names, so that an error lists those.
+fn without_preamble<'a>(text: &'a str, conventions: &Conventions) -> (u64, &'a str) {
+    let mut start = 0;
+    let mut widest = (0, 0, text);
+    for (number, line) in (0..).zip(text.split_inclusive('\n').take(LONGEST_PREAMBLE)) {
+        let rest = &text[start..];
+        start += line.len();
+        if line.starts_with('#') || line.trim().is_empty() {
+            continue;
+        }
+        let mut reader =
+            ReaderBuilder::new().delimiter(delimiter(line)).has_headers(false).from_reader(line.as_bytes());
+        let mut record = StringRecord::new();
+        if !reader.read_record(&mut record).unwrap_or(false) {
+            continue;
+        }
+        let header = Header::new(record.iter());
+        if header.has_needed_columns(conventions) {
+            return (number, rest);
+        }
+        if record.len() > widest.0 && !record.iter().any(is_number) {
+            widest = (record.len(), number, rest);
+        }
+    }
+    (widest.1, widest.2)
+}
+
+/// Line of a record. Its position is where the reader began, before the blank lines and comments that it skipped.
+fn line_of_record(position: &csv::Position, text: &str) -> u64 {
+    let rest = text.get(position.byte() as usize..).unwrap_or_default();
+    let is_skipped = |line: &&str| line.trim_end_matches('\r').is_empty() || line.starts_with('#');
+    position.line() + rest.split('\n').take_while(is_skipped).count() as u64
+}
+
+fn is_number(field: &str) -> bool {
+    field.trim().replace(',', ".").parse::<f64>().is_ok()
 }
 
 fn too_many_fields(fields: usize, columns: usize) -> String {
