@@ -108,11 +108,12 @@ pub struct Actions {
 impl Lateral {
     /// The equations, or `None` where the masses make no positive definite mass matrix.
     ///
-    /// With q = (lateral displacement of the rear contact, yaw, lean, steer): M q'' + v G q' + D q'
-    /// + g K q = Q. M comes from the kinetic energy of bodies displaced by y + x yaw - z lean (+ u
-    /// steer in front), G from the wheels' angular momentum, and K is Whipple's K0: the potential
-    /// energy of a machine with both wheels on the road does not depend on where it stands and
-    /// which way it points.
+    /// With q = (lateral displacement of the rear contact, yaw, lean, steer):
+    /// M q'' + v G q' + D q' + g K q = Q.
+    ///
+    /// M comes from the kinetic energy of bodies displaced by y + x yaw - z lean (+ u steer in
+    /// front), G from the wheels' angular momentum. K is Whipple's K0: the potential energy of a
+    /// machine with both wheels on the road does not depend on position and heading.
     pub fn new(design: &Design) -> Option<Lateral> {
         let t = design.bicycle.totals();
         let (sin, cos) = libm::sincos(design.bicycle.caster_angle);
