@@ -151,8 +151,8 @@ impl Adaptation {
                 + tuning.tilt_rate_weight * tilt_rate * tilt_change
                 + tuning.pull[1] * (tilt_gain - tuning.nominal[1]),
         ];
-        for k in 0..2 {
-            self.gains[k] = (self.gains[k] - step * tuning.adaptation[k] * gradients[k])
+        for (k, gradient) in gradients.iter().enumerate() {
+            self.gains[k] = (self.gains[k] - step * tuning.adaptation[k] * gradient)
                 .clamp(LEAST_GAIN * tuning.nominal[k].min(1.0), 1.0);
         }
         self.to_travel_gain = integrated(self.to_travel_gain, travel_acceleration, step);

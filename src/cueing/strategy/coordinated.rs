@@ -44,6 +44,7 @@ pub struct Coordinated {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(clippy::large_enum_variant, reason = "a law is chosen once, and a box would allocate when a state is copied")]
 enum Law {
     Adaptive(Adaptive),
     Optimal(Optimal),

@@ -29,6 +29,10 @@ use crate::motion::braking_law::Motion;
 
 /// The strategy in use, with its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a strategy is chosen once, and a box would allocate when a state is copied"
+)]
 pub enum Strategy {
     Classical(Classical),
     Coordinated(Coordinated),

@@ -76,6 +76,12 @@ const FEASIBLE: f64 = 1e-10;
 /// A row whose normal lies in the active rows' span to this fraction depends on them.
 const DEPENDENT: f64 = 1e-11;
 
+impl<const N: usize, const M: usize> Default for DualActiveSet<N, M> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<const N: usize, const M: usize> DualActiveSet<N, M> {
     /// An empty solve, solved at zero.
     pub fn new() -> Self {

@@ -134,8 +134,8 @@ pub struct Tables {
     prior_products: SMatrix<f64, FEATURES, TARGETS>,
 }
 
-impl Tables {
-    pub fn new() -> Self {
+impl Default for Tables {
+    fn default() -> Self {
         let [slow, fast] = FADE_DECAY;
         let fade = [exponential(slow, true), exponential(fast, false)];
         let prior_squares = (prior_covariance() + RIDGE * Covariance::identity()) * (PRIOR_TIME / SAMPLE);
@@ -364,7 +364,7 @@ mod tests {
 
     /// The forecaster after so many seconds of a reference, sampled every 20 ms.
     fn followed(reference: impl Fn(f64) -> f64, time: f64, kind: ForecastKind) -> Forecaster {
-        let tables = Tables::new();
+        let tables = Tables::default();
         let mut forecaster = Forecaster::new(&tables);
         for k in 0..(time / SAMPLE).round() as usize {
             for j in 0..20 {

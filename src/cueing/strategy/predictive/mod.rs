@@ -94,7 +94,7 @@ impl From<&PredictiveParameters> for Tuning {
 impl Predictive {
     /// At rest. None if the weights cannot be used.
     pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
-        let tables = Box::new(Tables::new());
+        let tables = Box::new(Tables::default());
         let program = |axis: usize| AxisProgram::new(&models[axis], &tuning.weights).map(Box::new);
         let axes = [program(0)?, program(1)?];
         let plan = Plan {
