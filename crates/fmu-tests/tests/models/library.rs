@@ -71,6 +71,7 @@ pub struct Library {
     functions: Functions,
 }
 
+#[expect(clippy::large_enum_variant, reason = "a test has two of them")]
 enum Functions {
     Fmi2(Fmu),
     Fmi3(fmi3::Library),
@@ -90,7 +91,6 @@ impl Library {
     pub fn instantiate<'a>(&'a self, messages: &'a Messages) -> Option<Instance<'a>> {
         let environment: *mut c_void = std::ptr::from_ref(messages).cast_mut().cast();
         let (name, guid) = (c"instance".as_ptr(), self.guid.as_ptr());
-        // SAFETY: the strings and the callbacks live during the call, and the messages as long as the tests' instances.
         let pointer = match &self.functions {
             Functions::Fmi2(fmu) => {
                 let callbacks = api::Callbacks {
@@ -100,8 +100,10 @@ impl Library {
                     step_finished: None,
                     environment,
                 };
+                // SAFETY: the strings and the callbacks live during the call, and the messages as long as the instance.
                 unsafe { (fmu.api().instantiate)(name, api::CO_SIMULATION, guid, null(), &callbacks, 0, 1) }
             }
+            // SAFETY: the strings live during the call, and the messages as long as the instance.
             Functions::Fmi3(library) => unsafe {
                 let instantiate = library.api().instantiate_co_simulation;
                 instantiate(name, guid, null(), 0, 1, 0, 0, null(), 0, environment, Some(log_fmi3), None)
