@@ -193,11 +193,11 @@ interface! {
     /// Block (1): the high-pass of each axis of the base frame, and the low-pass beside it.
     pub struct SplitterParameters: Parameter, Tunable {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(2.5, 2.5, 2.5);
+        "splitter.@.omega1" omega1: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(3.0, 2.2, 5.0);
         /// Damping ratio of the high-pass filter's first pair of poles.
-        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
+        "splitter.@.zeta1" zeta1: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.3, 1.6, 1.0);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
-        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(2.5, 2.5, 2.5);
+        "splitter.@.omega2" omega2: Vector3<f64> [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = Vector3::new(2.0, 1.0, 0.3);
         /// Damping ratio of the high-pass filter's second pair of poles (order 4).
         "splitter.@.zeta2" zeta2: Vector3<f64> { 1e-3 ..= 100.0 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of the low-pass filter when splitter.lowPass is independent.
@@ -211,7 +211,7 @@ interface! {
     /// Block (6): the high-pass of each angle.
     pub struct AngularParameters: Parameter, Tunable {
         /// Break frequency of the high-pass filter's first pair of poles.
-        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(1.0, 1.0, 1.0);
+        "angular.@.omega1" omega1: RollPitchYaw [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = RollPitchYaw::new(0.9, 0.6, 1.0);
         /// Damping ratio of the high-pass filter's first pair of poles.
         "angular.@.zeta1" zeta1: RollPitchYaw { 1e-3 ..= 100.0 } = RollPitchYaw::new(1.0, 1.0, 1.0);
         /// Break frequency of the high-pass filter's second pair of poles (order 4), or of its single pole (order 3).
@@ -225,9 +225,9 @@ interface! {
     /// Conditioning of the vehicle's motion ahead of the filters.
     pub struct ConditioningParameters: Parameter, Tunable {
         /// Scale of the specific force after gravity removal.
-        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
+        "scale.specificForce.@" force_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 0.9, 0.9);
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
-        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(1.0, 1.0, 1.0);
+        "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
         "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(8.0, 8.0, 8.0);
         /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), limited like the specific force.
@@ -241,21 +241,21 @@ interface! {
         /// Axes of vehicle.angularVelocity.
         "angularVelocityFrame" angular_velocity_frame: AngularVelocityFrame = AngularVelocityFrame::World;
         /// Break frequency of a second-order low-pass on the angular rates alone; 0 is off.
-        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 0.0;
+        "input.rateCutoff" rate_cutoff: f64 [ANGULAR_FREQUENCY] { 0.0 ..= 1e4 } = 22.0;
         /// Reconstruction of inputs within a step without input derivatives.
-        "input.reconstruction" reconstruction: Reconstruction = Reconstruction::Hold;
+        "input.reconstruction" reconstruction: Reconstruction = Reconstruction::Ramp;
     }
 }
 
 interface! {
     /// Block (2): tilt coordination's limits, for roll and pitch each.
     pub struct TiltParameters: Parameter, Tunable {
-        /// Largest rate of tilt coordination (3 deg/s: below what riders perceive).
-        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_359_877_559_829_88;
+        /// Largest rate of tilt coordination (2.6 deg/s: riders hardly perceive it, even where it reverses).
+        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.045;
         /// Largest acceleration of tilt coordination.
-        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.2;
+        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.11;
         /// Largest angle of tilt coordination.
-        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.38;
+        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.24;
     }
 }
 
@@ -277,11 +277,11 @@ interface! {
         /// Magnitude of gravity.
         "gravity" gravity: f64 [M_PER_S2] { 0.1 ..= 100.0 } = STANDARD_GRAVITY;
         /// Order of the splitter's high-pass filters.
-        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 4;
+        "splitter.order" splitter_order: i32 { 2 ..= 4 } = 3;
         /// Source of the low-frequency force.
         "splitter.lowPass" low_pass: LowPassKind = LowPassKind::Complementary;
         /// Order of the angular channel's high-pass filters.
-        "angular.order" angular_order: i32 { 2 ..= 4 } = 4;
+        "angular.order" angular_order: i32 { 2 ..= 4 } = 2;
         /// Height of the rider's head above the platform (the paper's h).
         "head.height" head_height: f64 [M] { 0.0 ..= 10.0 } = 1.2;
         /// Length of the torso from the seat, its lean axis, to the head (the paper's b).

@@ -2,16 +2,63 @@
 
 use moris_interface::{Causality, Model};
 
-use crate::interface::{Parameters, Preaction, StrategyKind};
+use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, StrategyKind};
 use crate::model::parameters_in;
 use crate::washout::Washout;
 
-/// For a ride of small, quick motions, such as a truck's wake at constant speed (the paper's second run): low break
+/// The set of the paper's runs: filters of fourth order with one break frequency for all axes, rates cued in full, no
+/// low-pass on them, only accelerations compensated by block (4), and inputs held.
+///
+/// Made for smooth rides. Where rates vibrate, the platform turns with them and shakes the rider's head.
+pub const PAPER: &[(&str, f64)] = &joined::<{ OF_THE_PAPER.len() + QUICK_TILT.len() }>(OF_THE_PAPER, QUICK_TILT);
+
+/// For a ride of small, quick motions at constant speed, such as in a truck's wake (the paper's second run): low break
 /// frequencies, so that the platform's travel reproduces everything above 0.1 Hz, and roll rates scaled down, because a
-/// rolled platform adds gravity to the sway that is felt.
+/// rolled platform adds gravity to the sway that is felt. Otherwise as [`PAPER`].
 ///
 /// Not for longitudinal runs: accelerations that last would drive the platform into its safety units.
-pub const WAKE: &[(&str, f64)] = &[
+pub const SMALL_MOTIONS: &[(&str, f64)] =
+    &joined::<{ OF_THE_PAPER.len() + LONG_TRAVEL.len() }>(OF_THE_PAPER, LONG_TRAVEL);
+
+/// What the sets for the paper's runs have in common.
+const OF_THE_PAPER: &[(&str, f64)] = &[
+    ("splitter.order", 4.0),
+    ("angular.order", 4.0),
+    ("angular.roll.omega1", 1.0),
+    ("angular.pitch.omega1", 1.0),
+    ("angular.yaw.omega1", 1.0),
+    ("scale.specificForce.x", 1.0),
+    ("scale.specificForce.y", 1.0),
+    ("scale.specificForce.z", 1.0),
+    ("scale.angularVelocity.y", 1.0),
+    ("scale.angularVelocity.z", 1.0),
+    ("compensation", item(Compensation::Full as i32)),
+    ("input.rateCutoff", 0.0),
+    ("input.reconstruction", item(Reconstruction::Hold as i32)),
+    ("tilt.rateLimit", 0.052_359_877_559_829_88),
+    ("tilt.accelerationLimit", 0.2),
+    ("tilt.angleLimit", 0.38),
+];
+
+/// Break frequencies at which tilt reproduces nearly all of an acceleration.
+const QUICK_TILT: &[(&str, f64)] = &[
+    ("splitter.x.omega1", 2.5),
+    ("splitter.y.omega1", 2.5),
+    ("splitter.z.omega1", 2.5),
+    ("splitter.x.zeta1", 1.0),
+    ("splitter.y.zeta1", 1.0),
+    ("splitter.z.zeta1", 1.0),
+    ("splitter.x.omega2", 2.5),
+    ("splitter.y.omega2", 2.5),
+    ("splitter.z.omega2", 2.5),
+    ("splitter.x.zeta2", 1.0),
+    ("splitter.y.zeta2", 1.0),
+    ("splitter.z.zeta2", 1.0),
+    ("scale.angularVelocity.x", 1.0),
+];
+
+/// Break frequencies at which travel does.
+const LONG_TRAVEL: &[(&str, f64)] = &[
     ("splitter.x.omega1", 0.35),
     ("splitter.y.omega1", 0.35),
     ("splitter.z.omega1", 0.35),
@@ -27,15 +74,91 @@ pub const WAKE: &[(&str, f64)] = &[
     ("scale.angularVelocity.x", 0.3),
 ];
 
-/// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and surge act before it comes.
-pub const PREACTION: &[(&str, f64)] = &[("preaction", 1.0 + Preaction::On as i32 as f64)]; // Items count from 1.
+/// For motorcycles: the default with less surge, and tilt that goes less far and more slowly, so that a slalom's braking
+/// and accelerating at 7 m/s2 fits.
+pub const MOTORCYCLE: &[(&str, f64)] = &[
+    ("splitter.x.omega1", 5.5),
+    ("splitter.x.omega2", 1.3),
+    ("splitter.y.omega1", 1.6),
+    ("splitter.y.zeta1", 1.8),
+    ("splitter.y.omega2", 0.6),
+    ("splitter.z.omega1", 4.0),
+    ("angular.roll.omega1", 0.6),
+    ("angular.pitch.omega1", 0.35),
+    ("angular.yaw.omega1", 0.3),
+    ("scale.specificForce.x", 0.75),
+    ("scale.angularVelocity.x", 0.28),
+    ("scale.angularVelocity.y", 0.45),
+    ("scale.angularVelocity.z", 0.3),
+    ("input.rateCutoff", 16.0),
+    ("tilt.rateLimit", 0.026),
+    ("tilt.accelerationLimit", 0.14),
+    ("tilt.angleLimit", 0.15),
+];
 
-/// The default, by the strategies beside the classical one.
-pub const ADAPTIVE: &[(&str, f64)] = &[("strategy", 1.0 + StrategyKind::Adaptive as i32 as f64)];
-/// See [`ADAPTIVE`].
-pub const OPTIMAL: &[(&str, f64)] = &[("strategy", 1.0 + StrategyKind::Optimal as i32 as f64)];
-/// See [`ADAPTIVE`].
-pub const PREDICTIVE: &[(&str, f64)] = &[("strategy", 1.0 + StrategyKind::Predictive as i32 as f64)];
+/// For cars, which turn slowly and sway hard: the default with less sway, more of the roll and pitch rates, slower tilt, and
+/// heave down to a lower frequency.
+pub const CAR: &[(&str, f64)] = &[
+    ("splitter.x.omega2", 0.35),
+    ("splitter.y.omega1", 3.2),
+    ("splitter.y.zeta1", 1.8),
+    ("splitter.y.omega2", 1.4),
+    ("splitter.z.omega1", 1.5),
+    ("angular.roll.omega1", 0.35),
+    ("angular.pitch.omega1", 0.5),
+    ("angular.yaw.omega1", 0.12),
+    ("scale.specificForce.x", 0.9),
+    ("scale.specificForce.y", 0.6),
+    ("scale.angularVelocity.x", 0.5),
+    ("scale.angularVelocity.y", 0.4),
+    ("scale.angularVelocity.z", 0.4),
+    ("input.rateCutoff", 45.0),
+    ("tilt.rateLimit", 0.033),
+    ("tilt.accelerationLimit", 0.12),
+    ("tilt.angleLimit", 0.165),
+];
+
+/// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and surge act before it comes.
+pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
+
+/// The adaptive strategy, with the tilt limits that its gains were found for.
+pub const ADAPTIVE: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Adaptive);
+/// The optimal strategy, with the tilt limits that its weights were found for.
+pub const OPTIMAL: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Optimal);
+/// The predictive strategy, with the tilt limits that its weights were found for.
+pub const PREDICTIVE: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Predictive);
+
+/// A strategy under the paper's tilt limits, with the specific force unscaled.
+const fn with_tilt_of_the_paper(strategy: StrategyKind) -> [(&'static str, f64); 7] {
+    [
+        ("strategy", item(strategy as i32)),
+        ("scale.specificForce.x", 1.0),
+        ("scale.specificForce.y", 1.0),
+        ("scale.specificForce.z", 1.0),
+        ("tilt.rateLimit", 0.052_359_877_559_829_88),
+        ("tilt.accelerationLimit", 0.2),
+        ("tilt.angleLimit", 0.38),
+    ]
+}
+
+/// The value of an enumeration's item: they count from 1.
+const fn item(index: i32) -> f64 {
+    1.0 + index as f64
+}
+
+/// Two sets as one; N is the sum of their lengths.
+pub const fn joined<const N: usize>(
+    first: &[(&'static str, f64)],
+    second: &[(&'static str, f64)],
+) -> [(&'static str, f64); N] {
+    let mut all = [("", 0.0); N];
+    let mut k = 0;
+    while k < N {
+        all[k] = if k < first.len() { first[k] } else { second[k - first.len()] };
+        k += 1;
+    }
+    all
+}
 
 /// The default parameters with a set's values over them.
 ///

@@ -39,7 +39,7 @@ struct Arguments {
     #[arg(long, value_name = "FILE")]
     rig: Option<PathBuf>,
 
-    /// Parameter file, or preset (wake, preaction), to embed in the washout's FMU; in another
+    /// Parameter file, or preset (motorcycle, car, ...), to embed in the washout's FMU; in another
     /// model's if --model names that one alone. May be given several times: later ones override
     /// earlier ones, and all of them the rig
     #[arg(long, value_name = "FILE|NAME")]
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn values_that_one_of_the_models_takes_are_not() {
-        assert_eq!(refusal(&["--rig", "rig.toml", "--parameters", "wake"]), None);
+        assert_eq!(refusal(&["--rig", "rig.toml", "--parameters", "small-motions"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
     }

@@ -15,11 +15,11 @@ LEGS = [f"actuator[{i}].length" for i in range(1, 7)]
 
 @pytest.fixture(scope="module")
 def baked(tmp_path_factory):
-    """The washout's FMUs of FMI 2.0 and 3.0 on another rig, with the parameters of the set wake."""
+    """The washout's FMUs of FMI 2.0 and 3.0 on another rig, with the parameters of the set small-motions."""
     output = tmp_path_factory.mktemp("baked")
     for version in ("2", "3"):
         command = ["cargo", "build-fmu", "--model", "MorisWashout", "--fmi", version, "--output", output]
-        subprocess.run([*command, "--rig", RIG, "--parameters", "wake"], cwd=ROOT, check=True)
+        subprocess.run([*command, "--rig", RIG, "--parameters", "small-motions"], cwd=ROOT, check=True)
     return output / "MorisWashout.fmu", output / "MorisWashout.fmi3.fmu"
 
 

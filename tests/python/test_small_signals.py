@@ -7,6 +7,19 @@ from scipy import signal
 STEP = 1e-3
 GRAVITY = 9.80665
 COMPENSATION_NONE = 1
+RECONSTRUCTION_HOLD = 1
+# Filters of fourth order on cues as they are given, inputs held.
+PLAIN = {
+    "splitter.order": 4,
+    **{f"splitter.{axis}.{omega}": 2.5 for axis in "xyz" for omega in ("omega1", "omega2")},
+    **{f"splitter.{axis}.{zeta}": 1.0 for axis in "xyz" for zeta in ("zeta1", "zeta2")},
+    "angular.order": 4,
+    **{f"scale.specificForce.{axis}": 1.0 for axis in "xyz"},
+    **{f"scale.angularVelocity.{axis}": 1.0 for axis in "xyz"},
+    "input.rateCutoff": 0.0,
+    "input.reconstruction": RECONSTRUCTION_HOLD,
+    "compensation": COMPENSATION_NONE,
+}
 
 
 def denominator(omega1, zeta1, omega2, zeta2):
@@ -31,7 +44,7 @@ def test_position_is_s2_over_d(washout, axis):
     poles = (1.7, 0.8, 2.9, 1.1)
     names = ("omega1", "zeta1", "omega2", "zeta2")
     parameters = {f"splitter.{axis}.{name}": value for name, value in zip(names, poles)}
-    w = washout(parameters=parameters | {"compensation": COMPENSATION_NONE})
+    w = washout(parameters=PLAIN | parameters)
     _, u = smooth_input()
     rest = GRAVITY if axis == "z" else 0.0
     position = w.run(STEP, {f"vehicle.specificForce.{axis}": u + rest}, [f"platform.position.{axis}"])[:, 0]
@@ -46,7 +59,7 @@ def test_angle_is_s3_over_d(washout, angle, axis):
     poles = (0.7, 0.9, 1.3, 1.2)
     names = ("omega1", "zeta1", "omega2", "zeta2")
     parameters = {f"angular.{angle}.{name}": value for name, value in zip(names, poles)}
-    w = washout(parameters=parameters | {"compensation": COMPENSATION_NONE})
+    w = washout(parameters=PLAIN | parameters)
     _, u = smooth_input()
     angles = w.run(STEP, {f"vehicle.angularVelocity.{axis}": u}, [f"platform.orientation.{angle}"])[:, 0]
     expected = held_response([1, 0, 0, 0], denominator(*poles), u)
@@ -56,8 +69,8 @@ def test_angle_is_s3_over_d(washout, angle, axis):
 
 @pytest.mark.parametrize("axis, angle, sign", [("x", "pitch", -1.0), ("y", "roll", 1.0)])
 def test_tilt_follows_the_low_pass(washout, axis, angle, sign):
-    poles = (2.5, 1.0, 2.5, 1.0)  # the default set
-    w = washout(parameters={"compensation": COMPENSATION_NONE})
+    poles = (2.5, 1.0, 2.5, 1.0)  # those of PLAIN
+    w = washout(parameters=PLAIN)
     t, u = smooth_input()
     tilt = w.run(STEP, {f"vehicle.specificForce.{axis}": u}, [f"tilt.{angle}"])[:, 0]
     d = denominator(*poles)

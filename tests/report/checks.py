@@ -243,9 +243,9 @@ def another_run_can_be_chosen(browser):
         page.get_by_role("button", name="soft").click()
         assert_legs_are_drawn(page, data, data["runs"][1], 3800, "soft")
         assert page.locator("#runs button[aria-pressed=true]").all_text_contents() == ["soft"]
-        page.get_by_role("button", name="wake").click()
+        page.get_by_role("button", name="small-motions").click()
         assert page.locator(".events tr", has_text="safety unit").count() > 0
-        page.screenshot(path=PICTURES / "wake.png")
+        page.screenshot(path=PICTURES / "small-motions.png")
 
 
 @check

@@ -3,15 +3,15 @@
 use moris_washout::cueing::direct_linear::DirectLinearMotion;
 use moris_washout::cueing::safety::SafetyUnits;
 use moris_washout::filter::chain::Denominator;
-use moris_washout::interface::{SafetyParameters, SplitterParameters};
+use moris_washout::interface::SafetyParameters;
 use moris_washout::motion::Motions;
 use moris_washout::motion::braking_law::{Motion, approach_velocity};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-use crate::common::cases;
 use crate::common::chain::Chain;
 use crate::common::random::Random;
+use crate::common::{cases, parameters};
 
 /// A target that moves as nothing can, and now and then as something can.
 fn hostile_target(random: &mut Random, last: &Motion, step: f64) -> Motion {
@@ -107,7 +107,7 @@ proptest! {
 
     #[test]
     fn inside_its_limits_the_output_is_the_filters(seed: u64, step in 0.0005..0.005) {
-        let (splitter, safety) = (SplitterParameters::default(), SafetyParameters::default());
+        let (splitter, safety) = (parameters(&[]).splitter, SafetyParameters::default());
         let mut unit = DirectLinearMotion::new(&splitter, 4, step);
         let mut chain = Chain::new(Denominator::new(4, 2.5, 1.0, 2.5, 1.0));
         let mut random = Random::new(seed);
@@ -130,7 +130,7 @@ proptest! {
 #[test]
 fn the_limit_is_reached_and_left_without_a_jump() {
     let safety = SafetyParameters { position_limit: Vector3::repeat(0.1), ..SafetyParameters::default() };
-    let mut unit = DirectLinearMotion::new(&SplitterParameters::default(), 4, 0.001);
+    let mut unit = DirectLinearMotion::new(&parameters(&[]).splitter, 4, 0.001);
     let (mut acted, mut free_again, mut farthest) = (false, 0, 0.0_f64);
     let mut before = *unit.motion();
     for k in 0..20_000 {

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::rotation::{Vec3, to_base, to_platform, turn};
-use crate::common::{G, cases, rk4, washout};
+use crate::common::{G, cases, parameters, rk4, washout};
 
 /// Nothing scaled or limited.
 fn unlimited(gravity_removal: GravityRemoval, angular_velocity_frame: AngularVelocityFrame) -> ConditioningParameters {
@@ -16,7 +16,7 @@ fn unlimited(gravity_removal: GravityRemoval, angular_velocity_frame: AngularVel
         rate_limit: Vector3::repeat(1e6),
         gravity_removal,
         angular_velocity_frame,
-        ..ConditioningParameters::default()
+        ..parameters(&[]).conditioning
     }
 }
 
@@ -85,7 +85,7 @@ proptest! {
     #[test]
     fn the_input_filter_is_a_first_order_low_pass(cutoff in 0.5..50.0, step in 0.001..0.02, held: bool) {
         let mut filter = InputFilter::default();
-        let parameters = ConditioningParameters { cutoff, ..ConditioningParameters::default() };
+        let parameters = ConditioningParameters { cutoff, ..parameters(&[]).conditioning };
         let (mut x, mut last) = ([0.0], 0.0);
         for k in 0..100 {
             let end = (f64::from(k) * 0.3).sin();
@@ -111,7 +111,7 @@ proptest! {
         rate_cutoff in 0.5..50.0, step in 0.001..0.02, held: bool,
     ) {
         let mut filter = InputFilter::default();
-        let parameters = ConditioningParameters { rate_cutoff, ..ConditioningParameters::default() };
+        let parameters = ConditioningParameters { rate_cutoff, ..parameters(&[]).conditioning };
         let (mut x, mut last) = ([0.0, 0.0], 0.0);
         for k in 0..100 {
             let end = (f64::from(k) * 0.3).sin();
@@ -135,7 +135,7 @@ proptest! {
 #[test]
 fn what_the_rate_filter_forgets_is_rest_in_the_end() {
     let mut filter = InputFilter::default();
-    let parameters = ConditioningParameters { rate_cutoff: 20.0, ..ConditioningParameters::default() };
+    let parameters = ConditioningParameters { rate_cutoff: 20.0, ..parameters(&[]).conditioning };
     let cue = Cue { force: Vector3::zeros(), rates: Vector3::new(1.0, -2.0, 3.0) };
     filter.advance(cue, cue, &parameters, 0.1);
     for _ in 0..10_000 {

@@ -59,15 +59,16 @@ enum Steps {
 }
 
 /// Variations of the default set: long travel, strong cues, steps so long that limits act coarsely, a slow machine, tight
-/// safety limits, the wake's set.
-const SETS: [&[(&str, f64)]; 10] = [
+/// safety limits; and the paper's sets.
+const SETS: [&[(&str, f64)]; 11] = [
     &[],
     &[("splitter.x.omega1", 0.3), ("splitter.y.omega2", 0.3), ("splitter.z.omega1", 0.3)],
     &[("limit.specificForce.x", 1e6), ("limit.specificForce.y", 1e6), ("limit.angularVelocity.y", 100.0)],
     &[("solver.maxStep", 0.02)],
     &[("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 3.0)],
     &[("safety.x.velocityLimit", 0.2), ("safety.y.accelerationLimit", 2.0), ("safety.z.positionLimit", 0.1)],
-    presets::WAKE,
+    presets::PAPER,
+    presets::SMALL_MOTIONS,
     &[("strategy", 2.0), ("adaptive.gain1", 5.0), ("adaptive.gain2", 5.0)],
     &[("strategy", 3.0), ("limit.specificForce.x", 1e6)],
     &[("strategy", 4.0)],
@@ -75,7 +76,7 @@ const SETS: [&[(&str, f64)]; 10] = [
 
 /// Rides through `count` steps of hostile input, then rests until the platform is neutral, within limits all the time.
 fn survive(set: &[(&str, f64)], kind: Kind, steps: Steps, held: bool, seed: u64, count: usize) {
-    let parameters = parameters(set);
+    let parameters = presets::parameters(set);
     let mut washout = Washout::new(&parameters).unwrap();
     let mut watch = Watch::new(&parameters, &washout.output());
     let mut random = Random::new(seed);

@@ -9,6 +9,7 @@ mod common;
 mod communication_steps;
 mod compensation;
 mod conditioning;
+mod default_set;
 mod errata;
 mod evaluator;
 mod gravitational;

@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::random::Random;
-use crate::common::{G, cases};
+use crate::common::{G, cases, parameters};
 
 /// The force at the head for which the pitch target is this, with no sway.
 fn force_for_pitch(pitch: f64) -> Vector3<f64> {
@@ -77,7 +77,7 @@ proptest! {
 
 #[test]
 fn a_target_inside_the_limits_is_followed_within_20_ms() {
-    let limits = TiltParameters::default();
+    let limits = parameters(&[]).tilt;
     for (amplitude, omega) in [(0.03_f64, 1.2_f64), (0.1, 0.5), (0.01, 4.0)] {
         assert!(amplitude * omega < limits.rate_limit && amplitude * omega * omega < limits.acceleration_limit);
         for step in [0.001, 0.01] {

@@ -122,15 +122,16 @@ fn runs_with_other_parameters_stand_beside_the_first() {
     let directory = tempfile::tempdir().unwrap();
     write_ride(directory.path(), "ride.csv");
     let narrow = rigs().join("narrow.toml").display().to_string();
-    let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "wake"]);
+    let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "small-motions"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let said = text(&output.stdout);
     assert!(
-        said.contains("Narrow mock-up, 0.45 m stroke, parameters default:") && said.contains("parameters wake:"),
+        said.contains("Narrow mock-up, 0.45 m stroke, parameters default:")
+            && said.contains("parameters small-motions:"),
         "{said}"
     );
     assert!(text(&output.stderr).starts_with("ride: reading\nride: simulating\n"), "{}", text(&output.stderr));
-    for file in ["ride.outputs.csv", "ride.wake.outputs.csv", "ride.html"] {
+    for file in ["ride.outputs.csv", "ride.small-motions.outputs.csv", "ride.html"] {
         assert!(directory.path().join("moris-report").join(file).exists(), "{file}");
     }
 }
@@ -156,7 +157,7 @@ fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
     }
     for arguments in [
         &["simulate", "ride.csv", "other/ride.csv"][..],
-        &["simulate", "ride.csv", "--compare", "wake", "--compare", "wake"],
+        &["simulate", "ride.csv", "--compare", "small-motions", "--compare", "small-motions"],
         &["simulate", "ride.csv", "ride.outputs.csv"],
     ] {
         let output = moris(here, arguments);
@@ -176,7 +177,7 @@ fn errors_say_what_to_do_and_fail() {
         assert!(!output.status.success(), "{arguments:?}");
         text(&output.stderr)
     };
-    assert!(failure(&["simulate", "ride.csv", "--parameters", "wakee"]).contains("did you mean wake?"));
+    assert!(failure(&["simulate", "ride.csv", "--parameters", "small-motion"]).contains("did you mean small-motions?"));
     assert!(failure(&["simulate", "missing.csv"]).contains("cannot read missing.csv"));
     assert!(failure(&["simulate", "ride.csv", "--columns", "ax=acc"]).contains("--columns ax=NAME"));
     assert!(failure(&["simulate", "ride.csv", "--columns", "bx=acc"]).contains("there is no key bx"));
@@ -188,15 +189,15 @@ fn errors_say_what_to_do_and_fail() {
 #[test]
 fn parameters_print_a_file_that_reads_back() {
     let directory = tempfile::tempdir().unwrap();
-    let output = moris(directory.path(), &["parameters", "--parameters", "wake"]);
+    let output = moris(directory.path(), &["parameters", "--parameters", "small-motions"]);
     assert!(output.status.success());
     fs::write(directory.path().join("all.toml"), &output.stdout).unwrap();
     let changed = |set: &str| {
         let output = moris(directory.path(), &["parameters", "--changed", "--parameters", set]);
         text(&output.stdout).lines().filter(|line| !line.starts_with('#')).collect::<Vec<_>>().join("\n")
     };
-    assert!(changed("wake").contains("\"splitter.x.omega1\" = 0.35"));
-    assert_eq!(changed("all.toml"), changed("wake"));
+    assert!(changed("small-motions").contains("\"splitter.x.omega1\" = 0.35"));
+    assert_eq!(changed("all.toml"), changed("small-motions"));
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn assert_near(response: &Response, output: Channel, expected: Complex<f64>) {
 
 #[test]
 fn heave_and_the_rates_are_high_passes() {
-    let parameters = Parameters::default();
+    let parameters = presets::parameters(presets::PAPER);
     for frequency in frequencies() {
         let s = Complex::new(0.0, frequency);
         assert_near(&small_signal(&parameters, Heave, frequency), Heave, high_pass(s, 2.5, 1.0));
@@ -55,7 +55,7 @@ fn heave_and_the_rates_are_high_passes() {
 
 #[test]
 fn surge_and_sway_add_up_to_themselves_and_the_tilt_s_jolt() {
-    let parameters = Parameters::default();
+    let parameters = presets::parameters(presets::PAPER);
     for frequency in frequencies() {
         let s = Complex::new(0.0, frequency);
         let low = low_pass(s, 2.5, 1.0);
@@ -72,7 +72,7 @@ fn surge_and_sway_add_up_to_themselves_and_the_tilt_s_jolt() {
 
 #[test]
 fn a_rate_is_felt_as_a_force_through_gravity() {
-    let parameters = Parameters::default();
+    let parameters = presets::parameters(presets::PAPER);
     for frequency in frequencies() {
         let s = Complex::new(0.0, frequency);
         let angle = high_pass(s, 1.0, 1.0) / s;
@@ -84,7 +84,7 @@ fn a_rate_is_felt_as_a_force_through_gravity() {
 
 #[test]
 fn another_set_has_its_own_response() {
-    let parameters = presets::parameters(presets::WAKE);
+    let parameters = presets::parameters(presets::SMALL_MOTIONS);
     for frequency in [0.1, 0.398_107_170_553_497_3, 1.0, 10.0] {
         let s = Complex::new(0.0, frequency);
         let found = small_signal(&parameters, Heave, frequency);
@@ -96,7 +96,7 @@ fn another_set_has_its_own_response() {
 
 #[test]
 fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
-    let parameters = Parameters::default();
+    let parameters = presets::parameters(presets::PAPER);
     let heave = response(&parameters, Heave, 3.0, 1.0, false).unwrap();
     assert!(heave.distortion[Heave.index()] < 1e-3, "{}", heave.distortion[Heave.index()]);
     // 1 m/s2 at 3 rad/s would ask for more than 17 degrees a second of a tilt that may turn by 3.
@@ -109,7 +109,7 @@ fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
 /// cued, and only the rate is left.
 #[test]
 fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
-    let mut parameters = Parameters::default();
+    let mut parameters = presets::parameters(presets::PAPER);
     let at = |parameters: &Parameters, gravity_turns| response(parameters, Pitch, 0.251, 0.004, gravity_turns).unwrap();
     let alone = at(&parameters, false).ratios[Surge.index()];
     let turning = at(&parameters, true).ratios[Surge.index()];
@@ -123,7 +123,7 @@ fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
 
 /// All tests, coarsely stepped.
 fn measured(progress: impl Fn() + Sync) -> Measured {
-    let mut parameters = Parameters::default();
+    let mut parameters = presets::parameters(presets::PAPER);
     parameters.structure.max_step = 0.02;
     Measured::of(&parameters, Amplitudes::default(), false, progress).unwrap()
 }

@@ -233,7 +233,8 @@ fn a_rig_s_values_are_not_written_into_the_parameter_file() {
     let here = directory.path();
     write_ride(here, &brisk());
     let rig = concat!(env!("CARGO_MANIFEST_DIR"), "/rigs/long-stroke.toml");
-    let output = moris(here, &["tune", "brisk.csv", "--evaluations", "60", "--rig", rig, "--parameters", "wake"]);
+    let output =
+        moris(here, &["tune", "brisk.csv", "--evaluations", "60", "--rig", rig, "--parameters", "small-motions"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = fs::read_to_string(here.join("tuned.toml")).unwrap();
     assert!(!text.contains("rig.base") && !text.contains("actuator."), "{text}");

@@ -159,7 +159,7 @@ mod tests {
         let directory = std::env::temp_dir().join(format!("paper-runs-figures-{}", std::process::id()));
         std::fs::create_dir_all(&directory).unwrap();
         let recordings =
-            [recording(&A, "default"), recording(&B, "default"), recording(&B, "wake"), recording(&C, "default")];
+            [recording(&A, "paper"), recording(&B, "paper"), recording(&B, "small-motions"), recording(&C, "paper")];
         let paths = write_figures(&directory, &recordings).unwrap();
         let drawings: Vec<String> = paths.iter().map(|path| std::fs::read_to_string(path).unwrap()).collect();
         std::fs::remove_dir_all(&directory).unwrap();
@@ -173,7 +173,7 @@ mod tests {
             assert!(drawing.len() < 400_000, "{} is {} bytes", title, drawing.len());
         }
         assert!(drawings[1].contains("leg 6") && drawings[1].contains("limits"));
-        assert!(drawings[2].contains("felt, parameters “wake”"));
+        assert!(drawings[2].contains("felt, parameters “small-motions”"));
     }
 
     #[test]

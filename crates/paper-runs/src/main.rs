@@ -10,7 +10,7 @@ use moris_build_fmu::{FmiVersion, model, workspace};
 use moris_fmu_host::Fmu;
 use moris_paper_runs::figures::{write_figures, write_readme_picture};
 use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre};
-use moris_paper_runs::parameter_set::{DEFAULT, PREACTION, ParameterSet, WAKE};
+use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTIONS};
 use moris_paper_runs::recording::Recording;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
@@ -66,11 +66,10 @@ fn build_fmu() -> Result<PathBuf> {
     Ok(built.file)
 }
 
-/// The four runs with the FMU's own parameters, run b with those made for it, and run c with
-/// preaction.
+/// The four runs with the paper's set, run b with the one made for it, and run c with preaction.
 fn make_runs(path: &Path, step: f64) -> Result<Vec<Recording>> {
     let fmu = Fmu::open(path).with_context(|| format!("cannot open {}", path.display()))?;
-    let runs = [(A, DEFAULT), (A_BRISK, DEFAULT), (B, DEFAULT), (B, WAKE), (C, DEFAULT), (C, PREACTION)];
+    let runs = [(A, PAPER), (A_BRISK, PAPER), (B, PAPER), (B, SMALL_MOTIONS), (C, PAPER), (C, PREACTION)];
     let make = |(run, parameters): &(Manoeuvre, ParameterSet)| {
         simulate(&fmu, run, parameters, step)
             .with_context(|| format!("run {} with parameters {}", run.name, parameters.name))

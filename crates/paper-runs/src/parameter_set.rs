@@ -1,5 +1,7 @@
 //! Sets of FMU parameters that the runs are made with.
 
+use moris_washout::presets;
+
 /// A name and the parameters that differ from their start values.
 #[derive(Clone, Copy, Debug)]
 pub struct ParameterSet {
@@ -9,11 +11,14 @@ pub struct ParameterSet {
     pub values: &'static [(&'static str, f64)],
 }
 
-/// The FMU as it is delivered.
-pub const DEFAULT: ParameterSet = ParameterSet { name: "default", values: &[] };
+/// The set of the paper's runs.
+pub const PAPER: ParameterSet = ParameterSet { name: "paper", values: presets::PAPER };
 
 /// For small quick motion, as in run b.
-pub const WAKE: ParameterSet = ParameterSet { name: "wake", values: moris_washout::presets::WAKE };
+pub const SMALL_MOTIONS: ParameterSet = ParameterSet { name: "small-motions", values: presets::SMALL_MOTIONS };
 
-/// As delivered, and ahead of a stop.
-pub const PREACTION: ParameterSet = ParameterSet { name: "preaction", values: moris_washout::presets::PREACTION };
+/// The set of the paper's runs, and ahead of a stop.
+pub const PREACTION: ParameterSet = ParameterSet { name: "paper + preaction", values: &PAPER_WITH_PREACTION };
+
+const PAPER_WITH_PREACTION: [(&str, f64); presets::PAPER.len() + presets::PREACTION.len()] =
+    presets::joined(presets::PAPER, presets::PREACTION);

@@ -16,7 +16,10 @@ pub enum Error {
     /// Neither a file nor the name of a shipped set.
     #[error(
         "{name} is neither a file nor a parameter set that is shipped{}",
-        suggestion(nearest, "shipped are default, wake, preaction, adaptive, optimal and predictive")
+        suggestion(
+            nearest,
+            "shipped are default, motorcycle, car, paper, small-motions, preaction, adaptive, optimal and predictive"
+        )
     )]
     NoSuchSet { name: String, nearest: Vec<String> },
     /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows

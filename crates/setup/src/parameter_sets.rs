@@ -1,6 +1,6 @@
 //! The shipped parameter sets, by name.
 
-use moris_washout::presets::{ADAPTIVE, OPTIMAL, PREACTION, PREDICTIVE, WAKE};
+use moris_washout::presets::{ADAPTIVE, CAR, MOTORCYCLE, OPTIMAL, PAPER, PREACTION, PREDICTIVE, SMALL_MOTIONS};
 
 /// A parameter set: names and values of variables.
 pub type ParameterSet = &'static [(&'static str, f64)];
@@ -8,7 +8,10 @@ pub type ParameterSet = &'static [(&'static str, f64)];
 /// The parameter sets that are shipped, by the names that users write.
 pub const SETS: &[(&str, ParameterSet)] = &[
     ("default", &[]),
-    ("wake", WAKE),
+    ("motorcycle", MOTORCYCLE),
+    ("car", CAR),
+    ("paper", PAPER),
+    ("small-motions", SMALL_MOTIONS),
     ("preaction", PREACTION),
     ("adaptive", ADAPTIVE),
     ("optimal", OPTIMAL),

@@ -56,7 +56,7 @@ fn two_runs() -> Report {
     let mut soft = shipped;
     soft.conditioning.force_scale.fill(0.7);
     soft.conditioning.rate_scale.fill(0.3);
-    let wake = presets::parameters(presets::WAKE);
+    let small_motions = presets::parameters(presets::SMALL_MOTIONS);
     Report {
         title: "Out of town and a brusque stop".into(),
         subtitle: "A computed ride of 60 s on the default rig, with the shipped parameters and two others".into(),
@@ -65,7 +65,7 @@ fn two_runs() -> Report {
             finding(Weight::Note, "Scaled to 0.7, the brusque stop is felt for four seconds less."),
             finding(
                 Weight::Warning,
-                "With the set wake the safety units hold the platform back: it is not for such a ride.",
+                "With the set small-motions the safety units hold the platform back: it is not for such a ride.",
             ),
         ],
         provenance: vec![("ride".into(), "computed".into()), ("step".into(), "0.001 s, every tenth shown".into())],
@@ -73,7 +73,7 @@ fn two_runs() -> Report {
         runs: vec![
             ridden("default", &shipped, 60.0, 10),
             ridden("soft", &soft, 60.0, 10),
-            ridden("wake", &wake, 60.0, 10),
+            ridden("small-motions", &small_motions, 60.0, 10),
         ],
         selected: 0,
     }

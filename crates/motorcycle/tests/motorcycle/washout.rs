@@ -32,7 +32,7 @@ fn ride(time: f64) -> Input {
 
 #[test]
 fn without_gravity_the_washout_is_left_with_the_heads_acceleration_and_the_angles_rates() {
-    let mut tuning = Tuning::default().conditioning;
+    let mut tuning = presets::parameters(presets::PAPER).conditioning;
     tuning.gravity_removal = GravityRemoval::Full;
     tuning.force_limit = Vector3::repeat(1e6);
     tuning.rate_limit = Vector3::repeat(1e6);
@@ -74,15 +74,15 @@ fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
             assert_eq!(ridden.output().speed, 0.0);
         }
     }
-    // More than ten seconds after the stop the platform is back.
+    // More than ten seconds after the stop surge and heave are back; sway follows the rider, who goes on balancing.
     let off = washout.output().position - Vector3::new(0.0, 0.0, Tuning::default().rig.neutral_height);
-    assert!(off.norm() < 0.02, "{off}");
+    assert!(off.xz().norm() < 0.005 && off.y.abs() < 0.1, "{off}");
 }
 
 /// Rides at 30 m/s and brakes to the stop. Returns when it stops, in milliseconds, and the error of
 /// the surge force felt \[m/s2\] every millisecond.
 fn errors_of_a_stop(brake: f64, set: &[(&str, f64)]) -> (usize, Vec<f64>) {
-    let mut washout = Washout::new(&presets::parameters(set)).unwrap();
+    let mut washout = Washout::new(&presets::parameters(&[presets::PAPER, set].concat())).unwrap();
     let mut ridden = motorcycle(&at_speed(30.0));
     let mut stop = None;
     let errors = (0..40_000).map(|k| {

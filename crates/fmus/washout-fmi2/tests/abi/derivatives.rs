@@ -1,6 +1,7 @@
 //! Derivatives of inputs and outputs, against motion that is known in closed form.
 
 use moris_fmu_host::{Instance, Status};
+use moris_washout::presets;
 
 use crate::fixture::*;
 
@@ -11,7 +12,7 @@ const SLOPE: f64 = 0.3;
 /// Communication step \[s\]; the washout divides it.
 const STEP: f64 = 0.02;
 
-/// A washout without tilt and without compensation, so that its channels are plain filters s^4/(s + A)^4.
+/// The paper's set without tilt and without compensation, so that its channels are plain filters s^4/(s + A)^4.
 fn plain_filters() -> Instance {
     let mut instance = open().instantiate("washout").unwrap();
     let parameters = [
@@ -23,7 +24,7 @@ fn plain_filters() -> Instance {
         ("compensation", 1.0),
         ("washoutLocation", 2.0),
     ];
-    instance.initialize(&parameters, None).unwrap();
+    instance.initialize(&[presets::PAPER, &parameters].concat(), None).unwrap();
     instance
 }
 
