@@ -206,7 +206,7 @@ fn library(arguments: &Arguments) -> Result<PathBuf> {
     let library = std::env::current_exe()?.with_file_name(name);
     anyhow::ensure!(
         library.is_file(),
-        "{} is missing: build it with `cargo build --release --package moris-washout-fmu`, or give --library",
+        "{} is missing: build it with `cargo build --release --package moris-washout-fmi2`, or give --library",
         library.display()
     );
     Ok(library)

@@ -76,6 +76,9 @@ pub struct Summary {
 /// Episodes on a machine of the default geometry, and on others, which take longer to make.
 const EPISODES: [usize; 2] = [4, 24];
 
+/// Refused machines, without one that is made, after which the search gives up.
+const MOST_REFUSED: u64 = 50;
+
 /// What the threads share.
 struct Shared<'a> {
     plan: &'a Plan,
@@ -171,9 +174,15 @@ impl Shared<'_> {
     ) -> Result<()> {
         let mut random = Random::numbered(self.plan.seed, number);
         let parameters = machines.draw(&mut random);
-        if self.runner.make(&parameters, target).is_err() {
-            self.refused.fetch_add(1, Ordering::Relaxed);
-            return Ok(());
+        if let Err(reason) = self.runner.make(&parameters, target) {
+            let refused = 1 + self.refused.fetch_add(1, Ordering::Relaxed);
+            // Random machines are refused now and then; a target that refuses all of them is no target.
+            let all_are = refused >= MOST_REFUSED && self.episodes.load(Ordering::Relaxed) == 0;
+            return if all_are {
+                Err(reason.context(format!("{refused} machines are refused, the last")))
+            } else {
+                Ok(())
+            };
         }
         let default_geometry = !parameters.keys().any(|name| is_geometry(name));
         for index in 0..EPISODES[usize::from(!default_geometry)] {

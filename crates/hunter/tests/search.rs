@@ -95,6 +95,43 @@ fn the_same_seed_finds_the_same() {
     assert_eq!(hunt().found, hunt().found);
 }
 
+/// A washout that nobody can make.
+struct Refusing;
+
+impl Target for Refusing {
+    fn make(&mut self, _: &[f64]) -> Result<()> {
+        anyhow::bail!("of no use")
+    }
+
+    fn rewind(&mut self) {}
+
+    fn set(&mut self, _: &[f64], _: &[usize]) -> bool {
+        false
+    }
+
+    fn step(&mut self, _: &Inputs, _: Option<&Inputs>, _: f64) -> Result<()> {
+        Ok(())
+    }
+
+    fn sample(&mut self, _: f64) -> Sample {
+        Sample::default()
+    }
+
+    fn save(&mut self, _: Scope) -> Result<()> {
+        Ok(())
+    }
+
+    fn restore(&mut self, _: Scope) -> Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_target_that_refuses_every_machine_ends_the_search_with_its_reason() {
+    let error = search(&Plan { machines: u64::MAX, ..plan() }, || Ok(Refusing), |_| {}).unwrap_err();
+    assert!(format!("{error:#}").contains("of no use"), "{error:#}");
+}
+
 /// Every episode that once broke a limit.
 fn known_episodes() -> Vec<(String, Episode)> {
     let directory = Path::new(env!("CARGO_MANIFEST_DIR")).join("episodes");

@@ -16,9 +16,9 @@ fn target() -> FmuTarget {
 }
 
 #[test]
-fn two_hundred_thousand_steps_break_no_limit() {
+fn half_a_million_steps_break_no_limit() {
     let plan =
-        Plan { seed: 2, first_machine: 0, steps: 200_000, machines: u64::MAX, breaches: 1, threads: 2, shrink: true };
+        Plan { seed: 2, first_machine: 0, steps: 500_000, machines: u64::MAX, breaches: 1, threads: 2, shrink: true };
     let summary = search(&plan, || Ok(target()), |_| {}).unwrap();
     assert!(
         summary.found.is_empty(),
