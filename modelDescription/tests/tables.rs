@@ -33,16 +33,16 @@ fn a_row_shows_name_type_unit_start_range_and_meaning() {
         inputs[0],
         ["entry.{x,\u{a0}y,\u{a0}z}", "Real", "m", "0.3,\u{a0}0,\u{a0}1e−9", "", "A direction & a \"size\" < 1."]
     );
-    assert_eq!(inputs[1], ["counts", "Boolean", "", "true", "", "Whether it counts."]);
+    assert_eq!(inputs[1], ["counts", "Boolean", "", "true", "", "True if it counts."]);
     let tunable = cells(&html, "tunable-parameters");
     assert_eq!(tunable[0], ["ratio", "Real", "1", "0.333333", "0…1", "A ratio."]);
     let fixed = cells(&html, "fixed-parameters");
-    assert_eq!(fixed[0], ["many", "Integer", "", "3", "1…9", "How many."]);
+    assert_eq!(fixed[0], ["many", "Integer", "", "3", "1…9", "Number."]);
 }
 
 #[test]
 fn an_output_has_no_start_value() {
-    assert_eq!(cells(&small_tables(), "outputs")[0], ["exit[1…6].rate", "Real", "rad/s", "", "", "How fast it turns."]);
+    assert_eq!(cells(&small_tables(), "outputs")[0], ["exit[1…6].rate", "Real", "rad/s", "", "", "Angular velocity."]);
 }
 
 #[test]

@@ -44,6 +44,7 @@ OUTPUTS = {
     "tilt.rollRate": ["tilt.rollRate"],
     "tilt.pitchRate": ["tilt.pitchRate"],
     "status.strokeMargin": ["status.strokeMargin"],
+    "predictive.planAge": ["predictive.planAge"],
 }
 # Parameters other than the start values, one of every type and shape.
 PARAMETERS = {

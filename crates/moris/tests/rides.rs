@@ -161,6 +161,8 @@ fn without_orientation_what_is_cued_is_what_differs_from_rest() {
     for removal in [GravityRemoval::HeadVertical, GravityRemoval::Full] {
         let mut parameters = ride.parameters(&Parameters::default());
         parameters.conditioning.gravity_removal = removal;
+        parameters.conditioning.force_scale = Vector3::repeat(1.0);
+        parameters.conditioning.rate_scale = Vector3::repeat(1.0);
         for input in ride.inputs() {
             let cue = cue(input, &parameters.conditioning, GRAVITY, 0.0);
             assert!((cue.force - (input.specific_force - Vector3::new(0.0, 0.0, GRAVITY))).amax() < 1e-12);

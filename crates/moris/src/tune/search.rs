@@ -78,9 +78,12 @@ pub fn search(
         .tol_fun(TOLERANCE)
         .build(cost)
         .map_err(|error| anyhow!("the search cannot begin: {error:?}"))?;
+    // The best set is that of the least cost, whose error may be a little above an earlier one's.
+    let mut least: Option<f64> = None;
     loop {
         let ended = search.next_parallel().is_some();
-        let least = best.lock().expect("no evaluation panics").0.first().map(|found| found.error);
+        let error = best.lock().expect("no evaluation panics").0.first().map(|found| found.error);
+        least = error.map(|error| least.map_or(error, |least| least.min(error))).or(least);
         let go_on = progress(search.function_evals(), least);
         if ended || !go_on {
             break;
