@@ -196,7 +196,12 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     write_ride(here, &brisk());
     let output = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--report", "out"]);
     let said = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    // Two rides that have little in common: what is tuned on one may be worse on the other, and then it is said first.
+    let first = said.lines().next().unwrap();
+    assert!(first.starts_with("WORSE than before") || first.starts_with("Not worse than before on any of 2"), "{said}");
+    let status = if first.starts_with("WORSE") { 2 } else { 0 };
+    assert_eq!(output.status.code(), Some(status), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(fs::read_to_string(here.join("tuned.toml")).unwrap().starts_with(&format!("# {first}")));
     assert!(said.contains("On rides that it was not tuned on, the mean error goes from"), "{said}");
     assert!(!said.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{said}");
     let tuned = Setup::load(None, &[here.join("tuned.toml").display().to_string()]).unwrap();
@@ -205,7 +210,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
         assert!(here.join(file).exists(), "{file}");
     }
     let again = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--output", "again.toml"]);
-    assert!(again.status.success());
+    assert_eq!(again.status.code(), Some(status));
     assert_eq!(fs::read(here.join("tuned.toml")).unwrap(), fs::read(here.join("again.toml")).unwrap());
 }
 
@@ -224,7 +229,11 @@ fn rides_that_are_held_out_are_not_tuned_on() {
     );
     let said = String::from_utf8(tried.stdout).unwrap();
     assert!(said.contains("On rides that it was not tuned on"), "{said}");
-    assert_eq!(fs::read(here.join("alone.toml")).unwrap(), fs::read(here.join("tried.toml")).unwrap());
+    let values = |file: &str| {
+        let text = fs::read_to_string(here.join(file)).unwrap();
+        text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(values("alone.toml"), values("tried.toml"));
 }
 
 #[test]

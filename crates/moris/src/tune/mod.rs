@@ -59,13 +59,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     };
     let everything: Vec<&Judge> = tuned_on.iter().collect();
     let tuned = tuner.tune(&everything, "all rides")?;
-    save(options, &before, &tuned)?;
-
     let mut results = results(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &tuned)?;
     for fold in &folds {
         tuner.leave_out(&everything, fold, &mut results)?;
     }
     tuner.bar.finish_and_clear();
+    save(options, &before, &tuned, &summary::first_line(&results))?;
 
     let text = summary::text(&before, &tuned, &results, tuner.was_interrupted());
     write!(out, "{text}")?;
@@ -73,8 +72,11 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[tuned, before])? {
         writeln!(out, "wrote {}", file.display())?;
     }
-    Ok(ExitCode::SUCCESS)
+    Ok(if summary::is_worse(&results) { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
+
+/// Exit status where the tuned parameters are written and are worse than before on some ride; see [`summary::is_worse`].
+const WORSE: u8 = 2;
 
 /// One for each ride unless another number is wanted, and none where there are rides that are held out anyway.
 fn number_of_folds(options: &Options) -> usize {
@@ -123,9 +125,9 @@ fn results(tuner: &Tuner, judges: &[&Judge], held_out: &[&Judge], tuned: &Setup)
 }
 
 /// Writes the parameter file: whatever makes, laid over the rig alone, the tuned parameters.
-fn save(options: &Options, before: &Setup, tuned: &Setup) -> Result<()> {
+fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> Result<()> {
     let heading = format!(
-        "Tuned by moris on {} for {}, from {}, seed {}",
+        "{first_line}\nTuned by moris on {} for {}, from {}, seed {}",
         options.rides.iter().map(|ride| ride.display().to_string()).collect::<Vec<_>>().join(", "),
         before.rig_name,
         before.parameters_name,

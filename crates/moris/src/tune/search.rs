@@ -41,10 +41,17 @@ const KEPT: usize = 10;
 pub struct Found {
     /// The parameters.
     pub parameters: Parameters,
-    /// Mean error over the rides, in the search's long steps.
+    /// The objective, in the search's long steps.
     pub error: f64,
     cost: f64,
     point: Vec<f64>,
+}
+
+impl Found {
+    /// The parameters a part of the way from the start of the search to this set, by the logarithms.
+    pub fn part_of_the_way(&self, space: &Space, fraction: f64) -> Parameters {
+        space.parameters(&(fraction * nalgebra::DVector::from_column_slice(&self.point)))
+    }
 }
 
 /// Result of a search.
@@ -56,7 +63,7 @@ pub struct Searched {
     pub nearest: Parameters,
 }
 
-/// Searches for parameters with the smallest mean error over these rides that keep all constraints.
+/// Searches for parameters with the smallest objective over these rides that keep all constraints.
 ///
 /// `progress` is told after each generation how many sets have been tried and what the least error is so far, and says whether
 /// to go on.
@@ -70,8 +77,9 @@ pub fn search(
     mut progress: impl FnMut(usize, Option<f64>) -> bool,
 ) -> Result<Searched> {
     let best = Mutex::new(Best::default());
-    let cost = |point: &DVector<f64>| price(judges, space, point.as_slice(), &best);
-    let start = first_point(judges, space, |point| cost(&DVector::from(point.as_slice().to_vec())));
+    let rides = &Rides::new(judges, space)?;
+    let cost = |point: &DVector<f64>| price(rides, space, point.as_slice(), &best);
+    let start = first_point(rides, space, |point| cost(&DVector::from(point.as_slice().to_vec())));
     let mut search = CMAESOptions::new(start, FIRST_STEP)
         .seed(budget.seed)
         .max_function_evals(budget.evaluations)
@@ -93,7 +101,7 @@ pub fn search(
     drop(search);
     let mut best = best.into_inner().expect("no evaluation panics").0;
     if let Some(first) = best.first() {
-        let tidied = tidied(judges, space, first);
+        let tidied = tidied(rides, space, first);
         best.insert(0, tidied);
     }
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
@@ -105,8 +113,8 @@ const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
 const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
 /// Where the search begins: the best of a coarse scan from the start, channel by channel.
-fn first_point(judges: &[&Judge], space: &Space, cost: impl Fn(&nalgebra::DVector<f64>) -> f64 + Sync) -> Vec<f64> {
-    let mut best = nalgebra::DVector::from(start_within_limits(judges, space));
+fn first_point(rides: &Rides, space: &Space, cost: impl Fn(&nalgebra::DVector<f64>) -> f64 + Sync) -> Vec<f64> {
+    let mut best = nalgebra::DVector::from(start_within_limits(rides, space));
     let mut least = cost(&best);
     for channel in 0..6 {
         let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
@@ -126,10 +134,10 @@ const SMALLER: f64 = 0.8;
 const TRIES: i32 = 21;
 
 /// The start itself, or, where that lets limits act, with all scales made smaller until it does not.
-fn start_within_limits(judges: &[&Judge], space: &Space) -> Vec<f64> {
+fn start_within_limits(rides: &Rides, space: &Space) -> Vec<f64> {
     let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
     let keeps = |point: &nalgebra::DVector<f64>| {
-        means(judges, &space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
+        rides.objective(&space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
     };
     let start = tries.into_iter().find(keeps).unwrap_or_else(|| space.scaled_start(1.0));
     start.as_slice().to_vec()
@@ -145,13 +153,13 @@ fn at(space: &Space, point: &[f64]) -> Parameters {
 const WORTH_TIDYING: f64 = 2e-4;
 
 /// The set with every parameter put back to where the search started that hardly matters to these rides.
-fn tidied(judges: &[&Judge], space: &Space, found: &Found) -> Found {
+fn tidied(rides: &Rides, space: &Space, found: &Found) -> Found {
     let mut tidied = found.clone();
     for k in 0..found.point.len() {
         let mut point = tidied.point.clone();
         point[k] = 0.0;
         let parameters = space.parameters(&nalgebra::DVector::from_column_slice(&point));
-        let Some((error, violated)) = means(judges, &parameters) else { continue };
+        let Some((error, violated)) = rides.objective(&parameters) else { continue };
         if violated == 0.0 && error < tidied.error + WORTH_TIDYING {
             tidied = Found { parameters, error, point, ..tidied };
         }
@@ -159,22 +167,48 @@ fn tidied(judges: &[&Judge], space: &Space, found: &Found) -> Found {
     tidied
 }
 
-/// Mean error and mean share of time in violation over the rides; none where the parameters cannot be used.
-fn means(judges: &[&Judge], parameters: &Parameters) -> Option<(f64, f64)> {
-    let costs: Result<Vec<_>, _> = judges.par_iter().map(|judge| judge.coarse_cost(parameters)).collect();
-    let costs = costs.ok()?;
-    let count = costs.len() as f64;
-    let error = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
-    let violated = costs.iter().map(|cost| cost.violated).sum::<f64>() / count;
-    Some((error, violated))
+/// Weight of the worst ride's error beside the mean's.
+const WEIGHT_OF_THE_WORST: f64 = 0.5;
+/// Price of a ride's error above that with the parameters that the search starts from.
+const PRICE_OF_WORSENING: f64 = 4.0;
+
+/// The rides, with their errors at the start of the search.
+struct Rides<'a> {
+    judges: &'a [&'a Judge],
+    starts: Vec<f64>,
+}
+
+impl<'a> Rides<'a> {
+    fn new(judges: &'a [&'a Judge], space: &Space) -> Result<Self> {
+        let start = at(space, &vec![0.0; space.dimension()]);
+        let starts: Result<Vec<f64>, _> =
+            judges.par_iter().map(|judge| judge.coarse_cost(&start).map(|cost| cost.error)).collect();
+        Ok(Rides { judges, starts: starts? })
+    }
+
+    /// The objective and the mean fraction of the time in violation; none where the parameters cannot be used.
+    ///
+    /// The objective is the mean error over the rides, with the worst ride's error and every worsening priced beside it:
+    /// what serves one ride at another's expense hardly serves a ride that is not known.
+    fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
+        let costs: Result<Vec<_>, _> = self.judges.par_iter().map(|judge| judge.coarse_cost(parameters)).collect();
+        let costs = costs.ok()?;
+        let count = costs.len() as f64;
+        let mean = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
+        let worst = costs.iter().map(|cost| cost.error).fold(0.0, f64::max);
+        let worse =
+            costs.iter().zip(&self.starts).map(|(cost, start)| (cost.error - start).max(0.0)).sum::<f64>() / count;
+        let violated = costs.iter().map(|cost| cost.violated).sum::<f64>() / count;
+        Some((mean + WEIGHT_OF_THE_WORST * worst + PRICE_OF_WORSENING * worse, violated))
+    }
 }
 
 /// Cost of a point; feasible points are kept if among the best.
-fn price(judges: &[&Judge], space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
+fn price(rides: &Rides, space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
     let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
     let parameters = space.parameters(&inside);
     // The box holds nothing that cannot be used; should it, it is worse than anything.
-    let Some((error, violated)) = means(judges, &parameters) else { return f64::MAX };
+    let Some((error, violated)) = rides.objective(&parameters) else { return f64::MAX };
     let distance = inside.norm_squared() / inside.len() as f64;
     let cost = error + PRICE_OF_DISTANCE * distance;
     if violated == 0.0 {

@@ -13,8 +13,10 @@ pub enum Group {
     Angular,
     /// The scales of specific force and angular velocity, six in all
     Scale,
-    /// The low-pass on the input, for recordings that are full of vibration
+    /// The low-passes on the input and on its rates, for recordings that are full of vibration
     Cutoff,
+    /// Tilt's limits of rate (to 3 deg/s), acceleration and angle
+    Tilt,
 }
 
 /// Range of a parameter that makes sense for a washout.
@@ -23,6 +25,11 @@ const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
 const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
 /// Nobody wants more than the vehicle does.
 const SCALES: Range = Range { min: 0.01, max: 1.0 };
+
+/// Tilt that riders hardly perceive, and not so slow that it is none.
+const TILT_RATES: Range = Range { min: 0.02, max: 0.053 };
+const TILT_ACCELERATIONS: Range = Range { min: 0.05, max: 0.5 };
+const TILT_ANGLES: Range = Range { min: 0.1, max: 0.38 };
 
 #[derive(Clone, Copy, PartialEq)]
 struct Range {
@@ -118,7 +125,7 @@ impl Space {
 /// Visits every parameter that is tuned, always in the same order, with its range and its channel: 0 to 2 for what acts on the specific
 /// force along x, y and z, 3 to 5 for what acts on roll, pitch and yaw, none for what acts on all.
 fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range, Option<usize>)) {
-    let Parameters { splitter, angular, conditioning, .. } = parameters;
+    let Parameters { splitter, angular, conditioning, tilt, .. } = parameters;
     let mut vector = |values: &mut Vector3<f64>, range, first: usize| {
         values.iter_mut().enumerate().for_each(|(axis, value)| act(value, range, Some(first + axis)));
     };
@@ -145,6 +152,12 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
     }
     if groups.contains(&Group::Cutoff) {
         act(&mut conditioning.cutoff, CUTOFFS, None);
+        act(&mut conditioning.rate_cutoff, CUTOFFS, None);
+    }
+    if groups.contains(&Group::Tilt) {
+        act(&mut tilt.rate_limit, TILT_RATES, None);
+        act(&mut tilt.acceleration_limit, TILT_ACCELERATIONS, None);
+        act(&mut tilt.angle_limit, TILT_ANGLES, None);
     }
 }
 
@@ -225,8 +238,8 @@ mod tests {
         let mut start = Parameters::default();
         start.conditioning.rate_scale.x = 0.0;
         let space = Space::new(&start, &[Group::Scale, Group::Cutoff]);
-        assert_eq!(space.dimension(), 7);
-        let conditioning = space.parameters(&DVector::zeros(7)).conditioning;
+        assert_eq!(space.dimension(), 8);
+        let conditioning = space.parameters(&DVector::zeros(8)).conditioning;
         assert_eq!((conditioning.rate_scale.x, conditioning.cutoff), (0.01, 200.0));
     }
 }

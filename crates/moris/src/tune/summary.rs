@@ -5,6 +5,7 @@ use std::fmt::Write;
 use moris_setup::{Setup, all};
 
 use super::cost::{Channels, Cost};
+use super::tuner::WORST_RATIO;
 
 /// A ride before and after.
 #[derive(Clone, Debug)]
@@ -26,9 +27,46 @@ pub struct RideResult {
 /// The channels' names.
 const CHANNELS: [&str; 6] = ["force x", "force y", "force z", "rate x", "rate y", "rate z"];
 
+/// Rides that were not tuned on and are worse than before: by more than 5 % each, or in the mean.
+pub fn worsened(results: &[RideResult]) -> Vec<&RideResult> {
+    let unseen =
+        |result: &&RideResult| result.unseen.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
+    results.iter().filter(unseen).collect()
+}
+
+/// True where the tuned parameters are worse on rides that they were not tuned on: in the mean, or on one of them by more than
+/// 5 %; or by more than 5 % on a ride that they were tuned on.
+pub fn is_worse(results: &[RideResult]) -> bool {
+    let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
+    let tuned = |result: &RideResult| result.tuned.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
+    unseen.is_some_and(|unseen| unseen.after > unseen.before)
+        || !worsened(results).is_empty()
+        || results.iter().any(tuned)
+}
+
+/// What matters most, in a sentence.
+pub fn first_line(results: &[RideResult]) -> String {
+    let names = |rides: Vec<&RideResult>| rides.iter().map(|ride| ride.name.as_str()).collect::<Vec<_>>().join(", ");
+    if is_worse(results) {
+        let worse = worsened(results);
+        return if worse.is_empty() {
+            "WORSE than before: in the mean over rides that it was not tuned on, or on one that it was tuned on."
+                .to_owned()
+        } else {
+            format!("WORSE than before on rides that it was not tuned on: {}.", names(worse))
+        };
+    }
+    match results.iter().filter(|result| result.unseen.is_some()).count() {
+        0 => "No ride was held out: nothing is known of other rides.".to_owned(),
+        count => format!("Not worse than before on any of {count} rides that it was not tuned on."),
+    }
+}
+
 /// The whole summary.
 pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], interrupted: bool) -> String {
-    let mut text = format!("# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name);
+    let mut text = first_line(results);
+    write!(text, "\n\n# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name)
+        .expect("a string takes whatever is written");
     if interrupted {
         text.push_str("The search was broken off: this is the best that it had found.\n\n");
     }
@@ -208,6 +246,26 @@ mod tests {
     fn result(before: Cost, unseen: Option<Cost>) -> RideResult {
         let tuned = Some(cost(0.5, 0.0));
         RideResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen, nothing_found_without: false }
+    }
+
+    #[test]
+    fn what_is_worse_on_rides_not_tuned_on_is_said_first() {
+        let of = |pairs: &[(f64, f64)]| -> Vec<RideResult> {
+            pairs.iter().map(|&(before, unseen)| result(cost(before, 0.0), Some(cost(unseen, 0.0)))).collect()
+        };
+        let better = of(&[(0.8, 0.6), (0.9, 0.92)]);
+        assert!(!is_worse(&better) && first_line(&better).starts_with("Not worse than before on any of 2"));
+        let one_worse = of(&[(0.8, 0.3), (0.9, 0.96)]);
+        assert!(
+            is_worse(&one_worse)
+                && first_line(&one_worse) == "WORSE than before on rides that it was not tuned on: ride."
+        );
+        let worse_in_the_mean = of(&[(0.8, 0.83), (0.9, 0.92)]);
+        assert!(is_worse(&worse_in_the_mean) && first_line(&worse_in_the_mean).contains("in the mean"));
+        let unknown = vec![result(cost(0.8, 0.0), None)];
+        assert!(!is_worse(&unknown) && first_line(&unknown).starts_with("No ride was held out"));
+        let tuned_worse = RideResult { tuned: Some(cost(0.9, 0.0)), ..unknown[0].clone() };
+        assert!(is_worse(&[tuned_worse]));
     }
 
     const BEATS: &str = "**It beats the parameters that it started from.**";

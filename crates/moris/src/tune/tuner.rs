@@ -62,11 +62,24 @@ impl Tuner<'_> {
             !self.was_interrupted()
         })?;
         self.bar.set_position(begin + self.budget.evaluations as u64);
+        let before = full_costs(judges, self.setup)?;
+        let mut least_worse = None;
         for parameters in self.candidates(&searched) {
             let tuned = Setup { parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
-            if keeps_all_constraints(judges, &tuned)? {
+            let costs = full_costs(judges, &tuned)?;
+            if !costs.iter().all(Cost::is_feasible) {
+                continue;
+            }
+            let worsening = worst_ratio(&before, &costs);
+            if worsening <= WORST_RATIO {
                 return Ok(tuned);
             }
+            if least_worse.as_ref().is_none_or(|(least, _)| worsening < *least) {
+                least_worse = Some((worsening, tuned));
+            }
+        }
+        if let Some((_, tuned)) = least_worse {
+            return Ok(tuned);
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         let text = format!(
@@ -89,7 +102,13 @@ impl Tuner<'_> {
             parameters.conditioning.rate_scale *= SMALLER.powi(k);
             parameters
         });
-        searched.best.iter().map(|found| found.parameters).collect::<Vec<_>>().into_iter().chain(smaller)
+        let nearer = searched
+            .best
+            .first()
+            .into_iter()
+            .flat_map(|found| PARTS_OF_THE_WAY.map(|fraction| found.part_of_the_way(&self.space, fraction)));
+        let found = searched.best.iter().map(|found| found.parameters);
+        found.chain(nearer).collect::<Vec<_>>().into_iter().chain(smaller)
     }
 
     /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
@@ -137,13 +156,23 @@ impl Tuner<'_> {
     }
 }
 
+/// Where, between the start and the best set found, others are tried that make no ride much worse.
+const PARTS_OF_THE_WAY: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
+
 /// Factor on the scales at a time, and largest number of times: down to a fifth.
 const SMALLER: f64 = 0.95;
 const TRIES: i32 = 32;
 
-fn keeps_all_constraints(judges: &[&Judge], setup: &Setup) -> Result<bool> {
-    let costs: Result<Vec<Cost>> = judges.par_iter().map(|judge| full_cost(judge, setup)).collect();
-    Ok(costs?.iter().all(Cost::is_feasible))
+/// Factor by which a ride's error may grow, at most, without a word.
+pub const WORST_RATIO: f64 = 1.05;
+
+fn full_costs(judges: &[&Judge], setup: &Setup) -> Result<Vec<Cost>> {
+    judges.par_iter().map(|judge| full_cost(judge, setup)).collect()
+}
+
+/// The largest ratio of a ride's error to that before.
+fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
+    before.iter().zip(after).map(|(before, after)| after.error / before.error).fold(0.0, f64::max)
 }
 
 /// Cost of a recording with these parameters, in their internal steps.
