@@ -1,5 +1,5 @@
 //! A function that has to be there and cannot be used. Those that are never allowed are
-//! [`abi::lifecycle::never`](crate::abi::lifecycle::never).
+//! [`abi::lifecycle::unsupported`](crate::abi::lifecycle::unsupported).
 
 use moris_interface::Model;
 
