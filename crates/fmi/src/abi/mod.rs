@@ -19,3 +19,11 @@ pub(crate) use arithmetic::with_default as with_default_arithmetic;
 pub use component::{Component, Host, call};
 pub use function::Function;
 pub(crate) use function::calling_sequence;
+
+/// Nothing: other systems need none of glibc's functions.
+#[cfg(not(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64"))))]
+#[doc(hidden)]
+#[macro_export]
+macro_rules! own_functions_of_newer_glibc {
+    () => {};
+}
