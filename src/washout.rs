@@ -142,10 +142,10 @@ impl Washout {
     pub fn step(&mut self, input: &Input, step: f64) {
         let input = input.sanitized();
         match self.parameters.conditioning.reconstruction {
-            Reconstruction::Hold => self.divided(step, |washout, _, step| {
-                let held = Sample::new(&input, &washout.parameters);
-                washout.internal_step(&held, &held, step);
-            }),
+            Reconstruction::Hold => {
+                let held = Sample::new(&input, &self.parameters);
+                self.divided(step, |washout, _, step| washout.internal_step(&held, &held, step));
+            }
             Reconstruction::Ramp => {
                 let last = self.last.input.ramp_start(&input);
                 let same = last.orientation == self.last.input.orientation;
@@ -207,12 +207,13 @@ impl Washout {
         let mut angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * self.engagement;
-        let circumstances = Circumstances {
+        let beside_tilt = angles;
+        let circumstances = || Circumstances {
             parameters: &self.parameters,
             guard: &self.guard,
             head: &head_at_end,
             force: cue_end.force,
-            angles: &angles.clone(),
+            angles: &beside_tilt,
             lean,
             engagement: self.engagement,
             time_to_stop: self.preaction.time_left(),
@@ -222,7 +223,7 @@ impl Washout {
                 let forces = [force_start, force_end];
                 classical.advance_tilt(forces, &rotation_at_end, &head_at_end, lean, &self.parameters, step);
             }
-            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances, step),
+            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances(), step),
         }
         self.strategy.add_tilt_to(&mut angles);
         let turning = Turning::new(&angles);
@@ -234,16 +235,16 @@ impl Washout {
             Strategy::Classical(_) => demand.add_to_axis(0, self.preaction.surge()),
             Strategy::Coordinated(coordinated) => {
                 let heave = coordinated.heave(&demand.axis(2));
-                let [surge, sway] = coordinated.travel(&circumstances, &turning, &heave, step);
+                let [surge, sway] = coordinated.travel(&circumstances(), &turning, &heave, step);
                 demand = Motions::from_axes(|k| [surge, sway, heave][k]);
             }
         }
         let linear = self.direct_linear.advance_within_limits(&demand, safety, step);
 
-        let wanted = Coordinates { linear: *linear, angles };
+        let demand = Coordinates { linear: *linear, angles };
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance(&wanted, &motion, safety, step);
+        self.guard.advance(&demand, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
         self.last = *end;
         self.limited.tilt |= self.strategy.tilt_limited();

@@ -1,13 +1,12 @@
 //! The classical strategy: the paper's splitter and gravitational strategy, whose high-pass moves the platform.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::cueing::gravitational::GravitationalStrategy;
 use crate::cueing::splitter::LowPass;
 use crate::interface::Parameters;
 use crate::platform::head::Head;
-use nalgebra::Matrix3;
 
 /// The strategy with its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

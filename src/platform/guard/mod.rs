@@ -93,13 +93,12 @@ impl ActuatorGuard {
             return;
         }
         let before = self.legs;
-        let (coordinates, motion, plan) = self.nearest(demand, safety, step);
-        let legs = inverse_kinematics(&self.machine.geometry, &motion);
-        self.accept(Candidate { coordinates: &coordinates, motion: &motion, legs: &legs }, plan);
+        let (next, plan) = self.nearest(demand, safety, step);
+        self.accept(next.candidate(), plan);
         self.limited = Some(Limited {
             demand: *demand.coordinates,
-            coordinates,
-            leg_accelerations: std::array::from_fn(|i| (legs.velocity[i] - before.velocity[i]) / step),
+            coordinates: next.coordinates,
+            leg_accelerations: std::array::from_fn(|i| (self.legs.velocity[i] - before.velocity[i]) / step),
         });
     }
 

@@ -14,36 +14,36 @@ use crate::platform::{Coordinates, Legs, PlatformMotion, inverse_kinematics, jac
 const BISECTIONS: usize = 6;
 
 /// A candidate of its own.
-struct Trial {
-    coordinates: Coordinates,
+pub(super) struct Trial {
+    pub(super) coordinates: Coordinates,
     motion: PlatformMotion,
     legs: Legs,
 }
 
+impl Trial {
+    pub(super) fn candidate(&self) -> Candidate<'_> {
+        Candidate { coordinates: &self.coordinates, motion: &self.motion, legs: &self.legs }
+    }
+}
+
 impl ActuatorGuard {
     /// The state nearest to a pursuit of the demand that is certified, with its plan; else the next state on the plan held.
-    pub(super) fn nearest(
-        &self,
-        demand: Candidate,
-        safety: &SafetyParameters,
-        step: f64,
-    ) -> (Coordinates, PlatformMotion, StopPlan) {
+    pub(super) fn nearest(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> (Trial, StopPlan) {
         let now = self.coordinates();
         let followed = self.plan.advanced(step);
         let on_plan = followed.now();
         let pursued = self.pursued(now, demand.legs, safety, step);
         let certified = |fraction: f64| {
             let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
-            let candidate = Candidate { coordinates: &trial.coordinates, motion: &trial.motion, legs: &trial.legs };
-            let plan = self.machine.certify(self.state(), candidate, safety, step)?;
-            Some((trial.coordinates, trial.motion, plan))
+            let plan = self.machine.certify(self.state(), trial.candidate(), safety, step)?;
+            Some((trial, plan))
         };
         farthest(certified).unwrap_or_else(|| {
             let mut coordinates = on_plan;
             for (after, before) in [(&mut coordinates.linear, &now.linear), (&mut coordinates.angles, &now.angles)] {
                 after.acceleration = (after.velocity - before.velocity) / step;
             }
-            (coordinates, coordinates.motion(self.machine.neutral_height), followed)
+            (self.trial(coordinates), followed)
         })
     }
 
