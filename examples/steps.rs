@@ -1,5 +1,5 @@
-//! Steps the washout a given number of times, for profilers and instruction counters: on a smooth ride on all axes, or in
-//! jumps on slow actuators, so that the actuator guard limits the motion.
+//! Steps the washout a given number of times, for profilers and instruction counters: on a smooth
+//! ride on all axes, or in jumps on slow actuators, so that the actuator guard limits the motion.
 //!
 //!     cargo run --release --example steps 1000000
 //!     cargo run --release --example steps 1000000 jumps

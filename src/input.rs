@@ -13,9 +13,10 @@ impl Input {
         self.map2(end, |from, to| from + share * (to - from))
     }
 
-    /// The input from which one goes linearly to `end`, if this one came before it: as it is, its angles by whole turns
-    /// nearest to the end's. An angle that changes by more than a quarter turn even so has not been turned through (at a
-    /// pitch of 90 degrees roll and yaw jump), and the orientation is that of the end.
+    /// The input from which one goes linearly to `end`, if this one came before it: as it is, its
+    /// angles by whole turns nearest to the end's. An angle that changes by more than a quarter
+    /// turn even so has not been turned through (at a pitch of 90 degrees roll and yaw jump), and
+    /// the orientation is that of the end.
     pub fn ramp_start(&self, end: &Input) -> Input {
         let (before, after) = (self.orientation.to_vector(), end.orientation.to_vector());
         let change = after - before;

@@ -1,7 +1,7 @@
 //! The one table of variables: what goes in, what comes out, what can be set.
 //!
-//! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed: users and their
-//! scripts rely on them. A new variable goes at the end of its group.
+//! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed:
+//! users and their scripts rely on them. A new variable goes at the end of its group.
 
 use moris_interface::units::{ANGULAR_FREQUENCY, M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
 use moris_interface::{enumeration, interface, interface_tree};
@@ -178,7 +178,8 @@ enumeration! {
 }
 
 enumeration! {
-    /// The point of the platform at which the vehicle's motion is given, compensated for and evaluated.
+    /// The point of the platform at which the vehicle's motion is given,
+    /// compensated for and evaluated.
     pub enum WashoutLocation {
         /// The rider's head, which moves with the rider's lean.
         "head" Head,
@@ -260,7 +261,8 @@ interface! {
 }
 
 interface! {
-    /// Block (3): the safety units, one for each axis of the base frame, about the neutral position.
+    /// Block (3): the safety units, one for each axis of the base frame, about
+    /// the neutral position.
     pub struct SafetyParameters: Parameter, Tunable {
         /// Largest displacement of the platform from neutral.
         "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.45, 0.45, 0.33);

@@ -1,16 +1,19 @@
 //! The washout filter of the MORIS motorcycle simulator, with its Stewart platform's kinematics.
 //!
-//! A vehicle model says what a rider would feel; [`Washout`] says where a platform and its six actuators must go so that
-//! a real rider feels it. The source is Barbagli, Ferrazzin, Avizzano, Bergamasco: *Washout Filter Design for a
-//! Motorcycle Simulator*; equations are cited by its numbers.
+//! A vehicle model says what a rider would feel; [`Washout`] says where a platform and its six
+//! actuators must go so that a real rider feels it. The source is Barbagli, Ferrazzin,
+//! Avizzano, Bergamasco: *Washout Filter Design for a Motorcycle Simulator*; equations are
+//! cited by its numbers.
 //!
-//! Data flows one way, through the blocks of the paper's Fig. 4, which are the modules of [`cueing`], and through the
-//! [`platform`]'s kinematics and actuator guard. They rest on [`filter`] and [`motion`].
+//! Data flows one way, through the blocks of the paper's Fig. 4, which are the modules of
+//! [`cueing`], and through the [`platform`]'s kinematics and actuator guard. They rest on
+//! [`filter`] and [`motion`].
 //!
-//! Frames: the base frame and the platform frame have x forward, y left, z up; roll, pitch and yaw turn about x, y and
-//! z, so that positive pitch is nose down. All quantities are in SI units.
+//! Frames: the base frame and the platform frame have x forward, y left, z up; roll, pitch and yaw
+//! turn about x, y and z, so that positive pitch is nose down. All quantities are in SI units.
 //!
-//! Sines, cosines and their like come from the crate `libm`, so that every platform computes the same bits.
+//! Sines, cosines and their like come from the crate `libm`, so that every platform
+//! computes the same bits.
 //!
 //! A step allocates nothing, does no I/O and does not panic, whatever it is fed.
 

@@ -6,17 +6,21 @@ use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, Stra
 use crate::model::parameters_in;
 use crate::washout::Washout;
 
-/// The set of the paper's runs: filters of fourth order with one break frequency for all axes, rates cued in full, no
-/// low-pass on them, only accelerations compensated by block (4), and inputs held.
+/// The set of the paper's runs: filters of fourth order with one break frequency for all
+/// axes, rates cued in full, no low-pass on them, only accelerations compensated by block
+/// (4), and inputs held.
 ///
-/// Made for smooth rides. Where rates vibrate, the platform turns with them and shakes the rider's head.
+/// Made for smooth rides. Where rates vibrate, the platform turns with them and
+/// shakes the rider's head.
 pub const PAPER: &[(&str, f64)] = &joined::<{ OF_THE_PAPER.len() + QUICK_TILT.len() }>(OF_THE_PAPER, QUICK_TILT);
 
-/// For a ride of small, quick motions at constant speed, such as in a truck's wake (the paper's second run): low break
-/// frequencies, so that the platform's travel reproduces everything above 0.1 Hz, and roll rates scaled down, because a
-/// rolled platform adds gravity to the sway that is felt. Otherwise as [`PAPER`].
+/// For a ride of small, quick motions at constant speed, such as in a truck's wake (the paper's
+/// second run): low break frequencies, so that the platform's travel reproduces everything above
+/// 0.1 Hz, and roll rates scaled down, because a rolled platform adds gravity to the sway that is
+/// felt. Otherwise as [`PAPER`].
 ///
-/// Not for longitudinal runs: accelerations that last would drive the platform into its safety units.
+/// Not for longitudinal runs: accelerations that last would drive the platform
+/// into its safety units.
 pub const SMALL_MOTIONS: &[(&str, f64)] =
     &joined::<{ OF_THE_PAPER.len() + LONG_TRAVEL.len() }>(OF_THE_PAPER, LONG_TRAVEL);
 
@@ -74,8 +78,8 @@ const LONG_TRAVEL: &[(&str, f64)] = &[
     ("scale.angularVelocity.x", 0.3),
 ];
 
-/// For motorcycles: the default with less surge, and tilt that goes less far and more slowly, so that a slalom's braking
-/// and accelerating at 7 m/s2 fits.
+/// For motorcycles: the default with less surge, and tilt that goes less far and more slowly, so
+/// that a slalom's braking and accelerating at 7 m/s2 fits.
 pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("splitter.x.omega1", 5.5),
     ("splitter.x.omega2", 1.3),
@@ -96,8 +100,8 @@ pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.15),
 ];
 
-/// For cars, which turn slowly and sway hard: the default with less sway, more of the roll and pitch rates, slower tilt, and
-/// heave down to a lower frequency.
+/// For cars, which turn slowly and sway hard: the default with less sway, more of the roll and
+/// pitch rates, slower tilt, and heave down to a lower frequency.
 pub const CAR: &[(&str, f64)] = &[
     ("splitter.x.omega2", 0.35),
     ("splitter.y.omega1", 3.2),
@@ -118,7 +122,8 @@ pub const CAR: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.165),
 ];
 
-/// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and surge act before it comes.
+/// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and
+/// surge act before it comes.
 pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
 
 /// The adaptive strategy, with the tilt limits that its gains were found for.

@@ -15,7 +15,8 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
     check_rig(&parameters.rig, parameters.structure.max_step)
 }
 
-/// Checks parameters that are to follow others, of which the tunable ones may change. No survey: the rig is the same.
+/// Checks parameters that are to follow others, of which the tunable ones may change. No
+/// survey: the rig is the same.
 ///
 /// # Errors
 /// The first parameter that cannot be used or must not change, and why.
@@ -77,7 +78,8 @@ fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
     }
 }
 
-/// Rest at neutral is certified only if no leg can leave its stroke from there between two ends of a step.
+/// Rest at neutral is certified only if no leg can leave its stroke from there
+/// between two ends of a step.
 fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), Refusal> {
     let reserve = stroke_reserve(rig, longest_step);
     let least = neutral.iter().map(|length| (length - rig.min_length).min(rig.max_length - length));

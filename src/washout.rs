@@ -90,7 +90,8 @@ struct Before {
 /// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
 pub const ENGAGE_TIME: f64 = 1.0;
 
-/// Shorter steps than this do nothing: a change of the input in so short a time is beyond what numbers can say \[s\].
+/// Shorter steps than this do nothing: a change of the input in so short a time is beyond what
+/// numbers can say \[s\].
 pub const SHORTEST_STEP: f64 = 1e-12;
 
 /// No more internal steps than this in one call; longer steps are the caller's mistake.
@@ -124,8 +125,8 @@ impl Washout {
         })
     }
 
-    /// The washout at rest at neutral before its first step, with this input: disengaged if that says so, and the head
-    /// where the rider's lean puts it.
+    /// The washout at rest at neutral before its first step, with this input: disengaged if that
+    /// says so, and the head where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
         self.last = Sample::new(&input.sanitized(), &self.parameters);
         self.engagement = f64::from(input.engaged);
@@ -134,11 +135,13 @@ impl Washout {
         self
     }
 
-    /// Advances by `step` seconds with this input, of which no slopes are known: it is held (zero-order hold), or reached at
-    /// the step's end from the last step's, as the parameter `input.reconstruction` says.
+    /// Advances by `step` seconds with this input, of which no slopes are known: it is held
+    /// (zero-order hold), or reached at the step's end from the last step's, as the parameter
+    /// `input.reconstruction` says.
     ///
-    /// Any input is safe: components that are not a number count as at rest. A step shorter than [`SHORTEST_STEP`] does
-    /// nothing; one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
+    /// Any input is safe: components that are not a number count as at rest. A step shorter
+    /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal
+    /// steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         let input = input.sanitized();
         match self.parameters.conditioning.reconstruction {
@@ -156,8 +159,8 @@ impl Washout {
         }
     }
 
-    /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order hold); whether it is
-    /// engaged is taken from `start`.
+    /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order
+    /// hold); whether it is engaged is taken from `start`.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         let start = Sample::new(&start.sanitized(), &self.parameters);
         self.step_from(start, &end.sanitized(), step);
@@ -173,7 +176,8 @@ impl Washout {
         });
     }
 
-    /// Divides a step into internal ones. `advance` does one of them, which ends at this share of the whole and is so long.
+    /// Divides a step into internal ones. `advance` does one of them, which ends at this share of
+    /// the whole and is so long.
     fn divided(&mut self, step: f64, mut advance: impl FnMut(&mut Self, f64, f64)) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
@@ -186,7 +190,8 @@ impl Washout {
         }
     }
 
-    /// Number of internal steps in a step. A step a rounding error longer than the longest is not divided.
+    /// Number of internal steps in a step. A step a rounding error longer than the
+    /// longest is not divided.
     fn internal_steps(&self, step: f64) -> f64 {
         const ROUNDING: f64 = 1e-9;
         let longest = self.parameters.structure.max_step;
@@ -260,8 +265,8 @@ impl Washout {
         }
     }
 
-    /// The cue at the step's start and end as the channels get it: faded while the washout is being engaged or
-    /// disengaged, and filtered.
+    /// The cue at the step's start and end as the channels get it: faded while the washout is being
+    /// engaged or disengaged, and filtered.
     fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
         let faded_before = self.engagement;
         self.engagement = faded(faded_before, engaged, step);
@@ -284,11 +289,13 @@ impl Washout {
         }
     }
 
-    /// Takes over other tunable parameters. Position, velocity, angles and rates of the platform stay what they are;
-    /// what the new parameters would make jump fades over within a second or two.
+    /// Takes over other tunable parameters. Position, velocity, angles and rates of the
+    /// platform stay what they are; what the new parameters would make jump fades over
+    /// within a second or two.
     ///
     /// # Errors
-    /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has changed then.
+    /// The first parameter that cannot be used, and why; fixed ones cannot be changed.
+    /// Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
         check_change(&self.parameters, parameters)?;
         if !self.strategy.retune(parameters) {
@@ -305,8 +312,8 @@ impl Washout {
         Ok(())
     }
 
-    /// Input of the linear channel (a force in the base frame, less what is compensated) and the angular channel
-    /// (rates) now, if the conditioned cue is this one.
+    /// Input of the linear channel (a force in the base frame, less what is compensated) and the
+    /// angular channel (rates) now, if the conditioned cue is this one.
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let head = &self.last.head;
@@ -359,8 +366,9 @@ impl Washout {
 
     /// The time derivative of the output now; the flags in it mean nothing.
     ///
-    /// Exact where the output holds the derivative of another part of it; those of angular velocities, of the platform's
-    /// acceleration and of what the rider feels are means over the last internal step, and zero before the first.
+    /// Exact where the output holds the derivative of another part of it; those of angular
+    /// velocities, of the platform's acceleration and of what the rider feels are means over the
+    /// last internal step, and zero before the first.
     pub fn output_derivative(&self) -> Output {
         let motion = self.guard.motion();
         let legs = self.guard.legs();

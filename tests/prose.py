@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
 """Measures the prose of the repository against its rules, and lists what breaks them.
 
-    python3 tests/prose.py [--list] [--check] [FILE ...]
+    python3 tests/prose.py [--list] [--check] [--wrap] [FILE ...]
 
 - Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
   counts once. At most 2 % of them.
-- Sentences: their length in words, in README.md, ARCHITECTURE.md and docs/*.md, without code, tables and headings. A list's item
-  ends a sentence; a link counts as its text, a piece of code as one word. A mean of at most 16 words, none above 30.
-- Lines: at most 100 columns of prose, in those files and in doc comments. Tables, code, links
-  and descriptions of variables may be wider.
+- Sentences: their length in words, in the pages (README.md, ARCHITECTURE.md, CHANGELOG.md, docs/), without code, tables and
+  headings. A list's item ends a sentence; a link counts as its text, a piece of code as one word. A mean of at most 16 words
+  a page, none above 30.
+- Lines: at most 100 columns of prose, in the pages and in doc comments. Tables, code, pictures,
+  addresses and descriptions of variables may be wider.
 
---list prints each finding with its file and line. --check exits with 1 if a bound is not met.
+--list prints each finding with its file and line. --check exits with 1 if a bound is not met. --wrap breaks the lines of
+each paragraph that is too wide, and changes no word.
 """
 
 import argparse
@@ -25,6 +27,7 @@ OPENINGS = 0.02
 MEAN = 16.0
 LONGEST = 30
 COLUMNS = 100
+UNBREAKABLE = 60  # columns of one piece, an address or code, beyond which its line may be wider
 
 DOC_COMMENT = re.compile(r"^\s*//[/!] ?(?P<text>.*)$")
 # A row of a table of variables: the comment above it is the variable's description, one line.
@@ -101,9 +104,92 @@ def words(sentence):
     return sum(1 for word in sentence.split() if re.search(r"\w", word))
 
 
+def is_wide(line):
+    """A line beyond the bound that could be broken: no row of a table, no picture, nothing in one long piece."""
+    breakable = not re.match(r"\s*(//[/!])?\s*(\||!\[)", line) and max(map(len, pieces(line)), default=0) <= UNBREAKABLE
+    return len(line) > COLUMNS and breakable
+
+
 def too_wide(file, number, line):
-    prose = not re.match(r"\s*(//[/!])?\s*\|", line) and not LINK.search(line) and "http" not in line
-    return [Finding(file, number, f"{len(line)} columns")] if prose and len(line) > COLUMNS else []
+    return [Finding(file, number, f"{len(line)} columns")] if is_wide(line) else []
+
+
+def pieces(text):
+    """The words of a text, with what must not be divided in one piece: code, and a mark that would begin a list."""
+    joined = re.sub(r"(``?)[^`]+\1", lambda code: code[0].replace(" ", "\0"), text)
+    joined = re.sub(r"(?<=\S)[ ]+(?=([-+*#>=|]+|\d+[.)])(\s|$))", "\0", joined)
+    return [piece.replace("\0", " ") for piece in joined.split()]
+
+
+def filled(words, first, later, columns):
+    """The words in lines of at most so many columns; `first` and `later` stand before them."""
+    lines, line, empty = [], first, True
+    for word in words:
+        if not empty and len(line) + 1 + len(word) > columns:
+            lines.append(line)
+            line, empty = later, True
+        line, empty = line + ("" if empty else " ") + word, False
+    return [*lines, line]
+
+
+def wrapped(block, prefix):
+    """A paragraph or an item of a list, its lines after `prefix` filled, without a short last line where that can be."""
+    item = re.match(r"\s*(?:[-*+]\s+|\d+\.\s+)?", block[0])[0]
+    words = pieces(" ".join([block[0][len(item):], *block[1:]]))
+    later = prefix + " " * len(item)
+    widest = filled(words, prefix + item, later, COLUMNS)
+    for columns in range(COLUMNS, COLUMNS - 20, -1):
+        lines = filled(words, prefix + item, later, columns)
+        if len(lines) == len(widest) and len(lines[-1]) - len(later) > 20:
+            return lines
+    return widest
+
+
+def wrapped_lines(lines, prefix):
+    """Markdown with the paragraphs filled that are too wide. `prefix` stands before each line."""
+    result, block, in_code = [], [], False
+
+    def end():
+        wide_block = block and any(is_wide(prefix + line) for line in block)
+        result.extend(wrapped(block, prefix) if wide_block else [(prefix + line).rstrip() for line in block])
+        block.clear()
+
+    for line in lines:
+        fence = line.lstrip().startswith("```")
+        literal = fence or in_code or not line.strip() or re.match(r"\s*\||#|!\[|\s*\[\w+\]:", line)
+        literal = literal or not block and line.startswith("    ") and not re.match(r"\s*[-*] ", line)
+        in_code ^= fence
+        if literal or re.match(r"\s*(?:[-*+]|\d+\.)\s+", line):
+            end()
+        if literal:
+            result.append((prefix + line).rstrip())
+        else:
+            block.append(line)
+    end()
+    return result
+
+
+def wrap(file):
+    """Breaks the lines of the file's paragraphs that are too wide."""
+    before = file.read_text().splitlines()
+    if file.suffix == ".md":
+        after = wrapped_lines(before, "")
+    else:
+        after, at = [], 0
+        while at < len(before):
+            mark = re.match(r"\s*//[/!](?!/)", before[at])
+            end = at + 1
+            while mark and end < len(before) and re.match(re.escape(mark[0]) + r"(?!/)", before[end]):
+                end += 1
+            following = before[end] if end < len(before) else ""
+            if mark and not VARIABLE.match(following):
+                texts = [re.sub("^ ", "", line[len(mark[0]):]) for line in before[at:end]]
+                after += wrapped_lines(texts, mark[0] + " ")
+            else:
+                after += before[at:end]
+            at = end
+    if after != before:
+        file.write_text("\n".join(after) + "\n")
 
 
 def openings(files):
@@ -140,9 +226,11 @@ def wide(sources, pages):
             if not in_code and not line.startswith("    "):
                 found += too_wide(file, number, line)
     for file in sources:
-        lines = file.read_text().splitlines()
+        lines, in_code = file.read_text().splitlines(), False
         for number, (line, following) in enumerate(zip(lines, [*lines[1:], ""]), 1):
-            if DOC_COMMENT.match(line) and not VARIABLE.match(following):
+            match = DOC_COMMENT.match(line)
+            in_code = bool(match) and in_code ^ match["text"].lstrip().startswith("```")
+            if match and not in_code and not match["text"].startswith("    ") and not VARIABLE.match(following):
                 found += too_wide(file, number, line)
     return found
 
@@ -151,12 +239,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--list", action="store_true", help="print each finding")
     parser.add_argument("--check", action="store_true", help="exit with 1 if a bound is not met")
+    parser.add_argument("--wrap", action="store_true", help="break the lines that are too wide")
     parser.add_argument("files", nargs="*", help="files or directories to look at [default: all]")
     arguments = parser.parse_args()
     within = arguments.files or ["."]
     chosen = tracked(*within)
     sources = [file for file in chosen if file.suffix == ".rs"]
-    pages = [file for file in chosen if file.suffix == ".md" and file.name != "CHANGELOG.md"]
+    pages = [file for file in chosen if file.suffix == ".md"]
+    for file in [*sources, *pages] if arguments.wrap else []:
+        wrap(file)
     (opening, comments), (long, counts), columns = openings(sources), lengths(pages), wide(sources, pages)
     mean = sum(counts) / len(counts) if counts else 0.0
     fraction = len(opening) / comments if comments else 0.0

@@ -1,5 +1,6 @@
-//! Requirements of FMI 3.0 on a model description, checked on the text of the file with an XML reader that knows nothing of
-//! how it was written, and against the description for FMI 2.0, which has its own rules.
+//! Requirements of FMI 3.0 on a model description, checked on the text of the file with an XML
+//! reader that knows nothing of how it was written, and against the description for FMI 2.0,
+//! which has its own rules.
 
 mod small_model;
 
@@ -16,7 +17,8 @@ use moris_washout::Washout;
 use roxmltree::{Document, Node};
 use small_model::Small;
 
-/// Every check, on both descriptions of each model that there is and of one with a variable of every kind.
+/// Every check, on both descriptions of each model that there is and of one with a
+/// variable of every kind.
 macro_rules! on_every_model {
     ($($check:ident)+) => {
         mod washout { $( #[test] fn $check() { super::both(super::$check::<super::Washout>); } )+ }
@@ -146,8 +148,8 @@ fn size(variable: Node) -> usize {
         .product()
 }
 
-/// The variables' elements, in their order, are the scalar variables that FMI 2.0 has under the same value references,
-/// with the same start values, units, ranges, causality and variability.
+/// The variables' elements, in their order, are the scalar variables that FMI 2.0 has under the
+/// same value references, with the same start values, units, ranges, causality and variability.
 fn variables_have_the_values_of_fmi_2<M: Model>(layout: Layout) {
     let (xml2, xml3) = (to_xml(&describe::<M>()), xml::<M>(layout));
     let (document2, document3) = (Document::parse(&xml2).unwrap(), Document::parse(&xml3).unwrap());
@@ -303,7 +305,8 @@ fn the_washout_s_vectors_are_arrays() {
     assert!(xml.contains("Components: roll, pitch, yaw."));
 }
 
-/// An importer that joins FMUs of both versions finds the same names, under the same value references.
+/// An importer that joins FMUs of both versions finds the same names, under the
+/// same value references.
 #[test]
 fn scalars_have_the_names_and_value_references_of_fmi_2() {
     fn names<M: Model>() -> [Vec<(String, String)>; 2] {

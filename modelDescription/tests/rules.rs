@@ -1,5 +1,5 @@
-//! Requirements of FMI 2.0 on a model description, and errors that no validator reports, checked on the text of the file with an
-//! XML reader that knows nothing of how it was written.
+//! Requirements of FMI 2.0 on a model description, and errors that no validator reports, checked on
+//! the text of the file with an XML reader that knows nothing of how it was written.
 
 mod small_model;
 
@@ -110,8 +110,8 @@ fn variables_are_the_models<M: Model>() {
     }
 }
 
-/// Inputs and outputs before parameters, of which the ten rows that matter most come first and a rig's joints last. The
-/// elements of an array are consecutive.
+/// Inputs and outputs before parameters, of which the ten rows that matter most come first and a
+/// rig's joints last. The elements of an array are consecutive.
 fn what_matters_comes_first<M: Model>() {
     let xml = to_xml(&describe::<M>());
     let document = Document::parse(&xml).unwrap();

@@ -1,4 +1,5 @@
-//! Blocks (5) and (6), the angular channel: high-pass the rates of roll, pitch and yaw, and integrate once.
+//! Blocks (5) and (6), the angular channel: high-pass the rates of roll, pitch and
+//! yaw, and integrate once.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -24,19 +25,20 @@ impl AngularChannel {
         AngularChannel { chains, bump: Bump::default(), rates: Vector3::zeros() }
     }
 
-    /// Takes other filter parameters at an instant at which the input changes from `before` to `after` because of other
-    /// new parameters: angles and rates stay what they are, and the difference fades away.
+    /// Takes other filter parameters at an instant at which the input changes from `before` to
+    /// `after` because of other new parameters: angles and rates stay what they are, and the
+    /// difference fades away.
     pub fn retune(&mut self, parameters: &AngularParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
         let rates = self.chains.high_pass(before);
         self.chains.retune(denominators(parameters, order), 1);
         self.bump.add(rates - self.chains.high_pass(after));
     }
 
-    /// Advances by `step` seconds while the rates go linearly from `start` to `end`. Returns angle, rate and
-    /// acceleration of roll, pitch and yaw.
+    /// Advances by `step` seconds while the rates go linearly from `start` to `end`. Returns angle,
+    /// rate and acceleration of roll, pitch and yaw.
     ///
-    /// The acceleration is the mean over the step, from one step's rate to the next one's: the accelerations add up to the
-    /// rates, also where the input jumps between two steps.
+    /// The acceleration is the mean over the step, from one step's rate to the next one's: the
+    /// accelerations add up to the rates, also where the input jumps between two steps.
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Motions {
         let (bump_start, bump_end) = self.bump.advance(step);
         let end = end + bump_end;

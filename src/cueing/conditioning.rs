@@ -1,4 +1,5 @@
-//! Block (1), first half: gravity removal, scaling, limiting and low-pass of what the vehicle model delivers.
+//! Block (1), first half: gravity removal, scaling, limiting and low-pass of what the
+//! vehicle model delivers.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -25,7 +26,8 @@ impl Cue {
 
 /// Gravity removed, scaled and limited: the cue in the vehicle's motion at one instant.
 ///
-/// `lean` is the lean of the head's frame relative to the vehicle's \[rad\], `gravity` the magnitude of gravity \[m/s2\].
+/// `lean` is the lean of the head's frame relative to the vehicle's \[rad\], `gravity` the
+/// magnitude of gravity \[m/s2\].
 pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
     let pitch = libm::sincos(input.orientation.pitch);
     let force = input.specific_force
@@ -44,7 +46,8 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
     }
 }
 
-/// The vehicle's acceleration along the head's x \[m/s2\]: its specific force without gravity, which a pitch brings into it.
+/// The vehicle's acceleration along the head's x \[m/s2\]: its specific force without gravity,
+/// which a pitch brings into it.
 pub fn forward_acceleration(input: &Input, parameters: &ConditioningParameters, gravity: f64) -> f64 {
     let pitched = match parameters.gravity_removal {
         GravityRemoval::None => 0.0,
@@ -65,7 +68,8 @@ fn removed_gravity(removal: GravityRemoval, roll: f64, (sin_pitch, cos_pitch): (
     }
 }
 
-/// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R omega_body, inverted.
+/// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R
+/// omega_body, inverted.
 fn rates_from_body(omega: Vector3<f64>, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
     let (sin_roll, cos_roll) = libm::sincos(roll);
     let yaw = (sin_roll * omega.y + cos_roll * omega.z) / away_from_zero(cos_pitch);
@@ -75,7 +79,8 @@ fn rates_from_body(omega: Vector3<f64>, roll: f64, (sin_pitch, cos_pitch): (f64,
 /// The share of a limit up to which [`soft_limit`] changes nothing.
 const KNEE: f64 = 0.8;
 
-/// A smooth limit: the value itself up to 80 % of the limit, then bent towards the limit without a corner.
+/// A smooth limit: the value itself up to 80 % of the limit, then bent towards the
+/// limit without a corner.
 pub fn soft_limit(value: f64, limit: f64) -> f64 {
     let knee = KNEE * limit;
     let room = limit - knee;
@@ -104,8 +109,8 @@ impl InputFilter {
         if parameters.rate_cutoff == 0.0 { cue } else { Cue { rates: self.rates.value(), ..cue } }
     }
 
-    /// Advances by `step` seconds while the cue goes linearly from `start` to `end`. Returns the filtered cue at the
-    /// step's start and end. A cutoff of 0 passes the cue on unchanged.
+    /// Advances by `step` seconds while the cue goes linearly from `start` to `end`. Returns the
+    /// filtered cue at the step's start and end. A cutoff of 0 passes the cue on unchanged.
     pub fn advance(&mut self, start: Cue, end: Cue, parameters: &ConditioningParameters, step: f64) -> (Cue, Cue) {
         let (start, end) = self.low_passed(start, end, parameters.cutoff, step);
         if parameters.rate_cutoff == 0.0 {

@@ -1,5 +1,5 @@
-//! Block (3), direct linear motion: the high-frequency specific force, integrated twice, moves the platform, and the
-//! safety units keep it inside its limits.
+//! Block (3), direct linear motion: the high-frequency specific force, integrated twice, moves the
+//! platform, and the safety units keep it inside its limits.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -26,16 +26,18 @@ impl DirectLinearMotion {
         DirectLinearMotion { chains, bump: Bump::default(), safety: SafetyUnits::new(longest_step) }
     }
 
-    /// Takes other filter parameters at an instant at which the input changes from `before` to `after` because of other
-    /// new parameters: position, velocity and acceleration stay what they are, and the difference fades away.
+    /// Takes other filter parameters at an instant at which the input changes from `before` to
+    /// `after` because of other new parameters: position, velocity and acceleration stay what they
+    /// are, and the difference fades away.
     pub fn retune(&mut self, parameters: &SplitterParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
         let acceleration = self.chains.high_pass(before);
         self.chains.retune(high_pass_denominators(parameters, order), 2);
         self.bump.add(acceleration - self.chains.high_pass(after));
     }
 
-    /// Advances the filters by `step` seconds while the input, a force in the base frame, goes linearly from `start` to
-    /// `end`. Returns the surge, sway and heave from neutral that they demand.
+    /// Advances the filters by `step` seconds while the input, a force in the base frame,
+    /// goes linearly from `start` to `end`. Returns the surge, sway and heave from
+    /// neutral that they demand.
     pub fn advance_filters(&mut self, [start, end]: [Vector3<f64>; 2], step: f64) -> Motions {
         let (bump_start, bump_end) = self.bump.advance(step);
         let end = end + bump_end;
@@ -47,7 +49,8 @@ impl DirectLinearMotion {
         }
     }
 
-    /// Surge, sway and heave `step` seconds later that keep the safety limits and come nearest to the demand.
+    /// Surge, sway and heave `step` seconds later that keep the safety limits and come
+    /// nearest to the demand.
     pub fn advance_within_limits(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) -> &Motions {
         self.safety.advance(demand, limits, step);
         self.motion()
@@ -63,7 +66,8 @@ impl DirectLinearMotion {
         self.safety.motion()
     }
 
-    /// Continues from the platform's real motion if the safety units' own is beyond limits that have become tighter.
+    /// Continues from the platform's real motion if the safety units' own is beyond limits
+    /// that have become tighter.
     pub fn stay_within(&mut self, limits: &SafetyParameters, real: &Motions) {
         if self.safety.beyond_limits(limits) {
             self.safety.continue_from(real);

@@ -7,7 +7,8 @@ use crate::cueing::compensation::{centripetal, tangential};
 use crate::platform::PlatformMotion;
 use crate::platform::head::Head;
 
-/// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in the axes of the frame there.
+/// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in the
+/// axes of the frame there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Felt {
     pub specific_force: Vector3<f64>,
@@ -16,7 +17,8 @@ pub struct Felt {
 
 /// f^H = R_B^H (p_head'' - g), eq. (5) with g = (0, 0, -gravity) and every term of p_head''.
 ///
-/// The rider's own leaning is not the platform's doing: his head is taken as at rest relative to the platform.
+/// The rider's own leaning is not the platform's doing: his head is taken as at rest
+/// relative to the platform.
 #[inline(always)]
 pub fn felt(platform: &PlatformMotion, head: &Head, gravity: f64) -> Felt {
     let rotation = platform.orientation.rotation;

@@ -1,4 +1,5 @@
-//! Block (2), the gravitational strategy: tilt, so that gravity is felt as the low-frequency specific force.
+//! Block (2), the gravitational strategy: tilt, so that gravity is felt as the
+//! low-frequency specific force.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -23,10 +24,12 @@ pub struct Tilt {
     pub pitch: f64,
 }
 
-/// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in head axes) along x and y.
+/// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in
+/// head axes) along x and y.
 ///
-/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside the angle limit, and so is
-/// the roll after the lean is taken off. Also returns whether they had to be.
+/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept
+/// inside the angle limit, and so is the roll after the lean is taken off. Also returns
+/// whether they had to be.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
     let pitch = -libm::asin(force.x / gravity);
     // g cos(pitch), as a root that need not wait for the arcsine.
@@ -49,8 +52,8 @@ fn limited_tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit
 }
 
 impl GravitationalStrategy {
-    /// Advances by `step` seconds towards the tilt for this low-frequency force in head axes, under the rate and the
-    /// acceleration limit. No step is ever longer than `longest_step`.
+    /// Advances by `step` seconds towards the tilt for this low-frequency force in head axes, under
+    /// the rate and the acceleration limit. No step is ever longer than `longest_step`.
     pub fn advance(
         &mut self,
         force: Vector3<f64>,
@@ -77,8 +80,9 @@ impl GravitationalStrategy {
 /// Deviation of the tilt from its target above which it counts as limited \[rad\]: 0.001 degrees.
 const LAGGING: f64 = 2e-5;
 
-/// One step of one angle behind its target, whose rate is known from its last two values: a target inside the limits is
-/// tracked without lag, any other in nearly the shortest time and without overshoot.
+/// One step of one angle behind its target, whose rate is known from its last two values: a
+/// target inside the limits is tracked without lag, any other in nearly the shortest time
+/// and without overshoot.
 #[inline(always)]
 fn track(motion: &Motion, previous: f64, target: f64, limits: &Limits, step: f64) -> (Motion, bool) {
     let rate = ((target - previous) / step).clamp(-limits.velocity, limits.velocity);

@@ -1,9 +1,10 @@
 //! Preaction for a brusque stop (the paper's section 6).
 //!
-//! A vehicle that brakes to a standstill takes the whole of its deceleration away at once, but the tilt that stands for it
-//! may only go at its rate limit. So begin before: from speed and deceleration it is known when the stop comes. The tilt
-//! goes at its rate ahead of the stop and after it, and what it lacks before and has too much after is held, as far as
-//! the stroke reaches, by surge: backwards ever faster until the stop, and slower again from there. For that the
+//! A vehicle that brakes to a standstill takes the whole of its deceleration away at once, but the
+//! tilt that stands for it may only go at its rate limit. So begin before: from speed and
+//! deceleration it is known when the stop comes. The tilt goes at its rate ahead of the stop and
+//! after it, and what it lacks before and has too much after is held, as far as the stroke reaches,
+//! by surge: backwards ever faster until the stop, and slower again from there. For that the
 //! platform is moved forward in good time, too gently to be felt.
 
 use serde::{Deserialize, Serialize};
@@ -22,7 +23,8 @@ pub struct StopPreaction {
     time_left: f64,
     /// Largest rate of the force represented by the tilt \[m/s3\].
     slew: f64,
-    /// The force that the tilt was to stand for at the end of the last step, and whether that was less than asked for.
+    /// The force that the tilt was to stand for at the end of the last step, and whether that
+    /// was less than asked for.
     tilted_for: f64,
     reduced: bool,
     /// Tilt left after the stop, as a force \[m/s2\]; never positive.
@@ -46,7 +48,8 @@ enum Phase {
 const SMOOTHING: f64 = 0.2;
 /// Less than this is not braking \[m/s2\].
 const LEAST_DECELERATION: f64 = 0.5;
-/// The share of the force for which the platform is still tilted at the stop: so much error before it as after it.
+/// The share of the force for which the platform is still tilted at the stop: so much error
+/// before it as after it.
 const SHARE_AT_STOP: f64 = 0.45;
 /// The surge is launched so long before the stop, and recovers in the same time \[s\].
 const LAUNCH_TIME: f64 = 1.5;
@@ -79,8 +82,8 @@ impl StopPreaction {
         }
     }
 
-    /// Lets `step` seconds pass, at whose end the force to be felt along x is `force` \[m/s2\], and the vehicle's acceleration
-    /// and speed are these \[m/s2, m/s\].
+    /// Lets `step` seconds pass, at whose end the force to be felt along x is `force` \[m/s2\], and
+    /// the vehicle's acceleration and speed are these \[m/s2, m/s\].
     pub fn advance(
         &mut self,
         [force, acceleration, speed]: [f64; 3],

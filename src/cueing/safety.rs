@@ -1,5 +1,5 @@
-//! The safety units: surge, sway and heave equal their demand as long as it keeps the limits, and follow it within them
-//! otherwise.
+//! The safety units: surge, sway and heave equal their demand as long as it keeps the limits, and
+//! follow it within them otherwise.
 
 use serde::{Deserialize, Serialize};
 
@@ -50,7 +50,8 @@ impl SafetyUnits {
         self.following = [true; 3];
     }
 
-    /// True if the motion is beyond its limits, or could not stop within them: they have become tighter.
+    /// True if the motion is beyond its limits, or could not stop within them:
+    /// they have become tighter.
     pub fn beyond_limits(&self, limits: &SafetyParameters) -> bool {
         let Motions { position, velocity, .. } = &self.motion;
         (0..3).any(|k| {
@@ -70,7 +71,8 @@ impl SafetyUnits {
         };
     }
 
-    /// Axis by axis: the demanded motion where it keeps the limits, and what comes nearest to it where it does not.
+    /// Axis by axis: the demanded motion where it keeps the limits, and what comes nearest to
+    /// it where it does not.
     fn followed(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) -> Motions {
         for k in 0..3 {
             let joins = self.may_join(k, demand, limits, step);
@@ -106,10 +108,11 @@ impl SafetyUnits {
         keeps && (demand.position[k] - expected).abs() <= near
     }
 
-    /// True if the demand keeps the limits at the step's end, can stop before them, and is reached within them.
+    /// True if the demand keeps the limits at the step's end, can stop before them, and
+    /// is reached within them.
     ///
-    /// The gap between the positions' difference and the mean velocity times the step h counts as an acceleration of
-    /// 2 gap/h², for who sees positions only.
+    /// The gap between the positions' difference and the mean velocity times the step h counts as
+    /// an acceleration of 2 gap/h², for who sees positions only.
     fn keeps_limits(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
         let (farthest, fastest) = (limits.position_limit[k], limits.velocity_limit[k]);
         let most = limits.acceleration_limit[k];

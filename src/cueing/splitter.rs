@@ -1,8 +1,10 @@
-//! Block (1), second half: the low-frequency part of the specific force, which tilt coordination reproduces.
+//! Block (1), second half: the low-frequency part of the specific force, which tilt
+//! coordination reproduces.
 //!
-//! The high-frequency part is in [`crate::cueing::direct_linear`], where it is also integrated. With the complementary
-//! low-pass both are the same chain, D(s) xi = u, and add up to the input exactly, eq. (6); they are kept apart because
-//! the compensation of spurious accelerations enters only the high-pass.
+//! The high-frequency part is in [`crate::cueing::direct_linear`], where it is also integrated.
+//! With the complementary low-pass both are the same chain, D(s) xi = u, and add up to the input
+//! exactly, eq. (6); they are kept apart because the compensation of spurious accelerations
+//! enters only the high-pass.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -30,7 +32,8 @@ impl LowPass {
         self.chains.retune(denominators(parameters, order, self.complementary), 0);
     }
 
-    /// Advances by `step` seconds while the force goes linearly from `start` to `end`; returns its low-frequency part.
+    /// Advances by `step` seconds while the force goes linearly from `start` to `end`; returns
+    /// its low-frequency part.
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Vector3<f64> {
         self.chains.advance(start, end, step);
         if self.complementary { self.chains.low_pass() } else { self.chains.all_pole_low_pass() }

@@ -1,4 +1,5 @@
-//! Bumpless transfer: a jump that a new parameter would cause is held as a correction, and fades away.
+//! Bumpless transfer: a jump that a new parameter would cause is held as a
+//! correction, and fades away.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};

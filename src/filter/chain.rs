@@ -1,9 +1,9 @@
 //! The filter chain: high-pass, low-pass, velocity and position from one state.
 //!
-//! With D(s) = s^n + c1 s^(n-1) + ... + cn, the chain is D(s) xi = u. Its highest derivative is the high-pass,
-//! s^n/D u = u - (c1 xi^(n-1) + ... + cn xi), and what is subtracted there is the low-pass 1 - s^n/D, so that the two
-//! add up to the input exactly, eq. (6). The first integral of the high-pass is xi^(n-1) and the second xi^(n-2): no
-//! integrator runs free, nothing drifts.
+//! With D(s) = s^n + c1 s^(n-1) + ... + cn, the chain is D(s) xi = u. Its highest derivative is the
+//! high-pass, s^n/D u = u - (c1 xi^(n-1) + ... + cn xi), and what is subtracted there is the
+//! low-pass 1 - s^n/D, so that the two add up to the input exactly, eq. (6). The first integral of
+//! the high-pass is xi^(n-1) and the second xi^(n-2): no integrator runs free, nothing drifts.
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
@@ -17,7 +17,8 @@ pub struct Denominator {
 }
 
 impl Denominator {
-    /// (s^2 + 2 z1 w1 s + w1^2) times (s^2 + 2 z2 w2 s + w2^2) for order 4, times (s + w2) for order 3, alone for 2.
+    /// (s^2 + 2 z1 w1 s + w1^2) times (s^2 + 2 z2 w2 s + w2^2) for order 4, times (s + w2) for
+    /// order 3, alone for 2.
     ///
     /// Frequencies in rad/s. Any other order counts as 4.
     pub fn new(order: i32, omega1: f64, zeta1: f64, omega2: f64, zeta2: f64) -> Self {
@@ -34,9 +35,11 @@ impl Denominator {
     }
 }
 
-/// The exact solution of the chain over one step for an input that is linear in time (first-order hold).
+/// The exact solution of the chain over one step for an input that is linear in
+/// time (first-order hold).
 ///
-/// Contributions of each of the four states, and of the input at the step's start and end, to the four states.
+/// Contributions of each of the four states, and of the input at the step's start and
+/// end, to the four states.
 type Transition = [f64x4; 6];
 
 /// By the matrix exponential of the chain with its input and the input's slope as two more states.
@@ -71,7 +74,8 @@ pub struct Chains {
     states: [f64x4; 3],
 }
 
-/// State below this is rest: what decays for long would otherwise end in denormal numbers, which are slow.
+/// State below this is rest: what decays for long would otherwise end in denormal
+/// numbers, which are slow.
 const REST: f64x4 = f64x4::new([1e-30; 4]);
 
 impl Chains {
@@ -125,7 +129,8 @@ impl Chains {
         self.state(1)
     }
 
-    /// Only the last term of the low-pass, cn/D of the input: a low-pass without zeros, for an order of 2.
+    /// Only the last term of the low-pass, cn/D of the input: a low-pass without
+    /// zeros, for an order of 2.
     pub fn all_pole_low_pass(&self) -> Vector3<f64> {
         Vector3::from_fn(|k, _| {
             let Denominator { coefficients, order } = self.denominators[k];
@@ -138,10 +143,11 @@ impl Chains {
         Vector3::from_fn(|k, _| self.states[k].as_array()[i])
     }
 
-    /// Takes other coefficients, keeping the first `kept` states and every later term of the low-pass as they are.
+    /// Takes other coefficients, keeping the first `kept` states and every later term of the
+    /// low-pass as they are.
     ///
-    /// The states that make up the platform's motion are kept; the later ones only remember, and are rescaled so that
-    /// what the filter has already washed out stays so.
+    /// The states that make up the platform's motion are kept; the later ones only remember, and
+    /// are rescaled so that what the filter has already washed out stays so.
     pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
         for ((old, new), state) in self.denominators.iter().zip(&denominators).zip(&mut self.states) {
             for i in kept..new.order {

@@ -1,4 +1,5 @@
-//! A second-order low-pass with a double pole, omega^2/(s + omega)^2: no overshoot, and the least delay of those without.
+//! A second-order low-pass with a double pole, omega^2/(s + omega)^2: no overshoot, and the least
+//! delay of those without.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -15,7 +16,8 @@ pub struct CriticallyDamped {
     decay: f64,
 }
 
-/// State below this is rest: what decays for long would otherwise end in denormal numbers, which are slow.
+/// State below this is rest: what decays for long would otherwise end in denormal
+/// numbers, which are slow.
 const REST: f64x4 = f64x4::new([1e-30; 4]);
 
 impl CriticallyDamped {
@@ -31,10 +33,11 @@ impl CriticallyDamped {
         self.slope = f64x4::ZERO;
     }
 
-    /// Advances by `step` seconds while the input goes linearly from `start` to `end`; `omega` \[rad/s\] is above 0.
+    /// Advances by `step` seconds while the input goes linearly from `start` to `end`; `omega`
+    /// \[rad/s\] is above 0.
     ///
-    /// Exact: the response to a ramp of slope s is the ramp, late by 2/omega, and what the outputs and their slopes
-    /// differ from that decays as ((1 + omega t) e + t e') exp(-omega t).
+    /// Exact: the response to a ramp of slope s is the ramp, late by 2/omega, and what the outputs
+    /// and their slopes differ from that decays as ((1 + omega t) e + t e') exp(-omega t).
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, omega: f64, step: f64) {
         let angle = omega * step;
         if angle != self.angle {

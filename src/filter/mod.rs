@@ -1,5 +1,5 @@
-//! Linear filters: the chain in controllable canonical form, a second-order low-pass, and bumpless transfer between
-//! coefficients.
+//! Linear filters: the chain in controllable canonical form, a second-order low-pass, and bumpless
+//! transfer between coefficients.
 
 pub(crate) mod bumpless;
 pub mod chain;

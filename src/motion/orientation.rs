@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::motion::Motions;
 
-/// Roll about x, pitch about y (nose down is positive), yaw about z, or three quantities that belong to them.
+/// Roll about x, pitch about y (nose down is positive), yaw about z, or three
+/// quantities that belong to them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct RollPitchYaw {
     pub roll: f64,
@@ -68,8 +69,9 @@ impl Orientation {
         Orientation { angles, rotation, sin_pitch: sp, cos_pitch: cp, sin_yaw: sy, cos_yaw: cy }
     }
 
-    /// Angular velocity in the reference frame from the angles' rates, eq. (10): omega = E (roll, pitch, yaw)', where E's
-    /// columns are the axes about which the three angles turn. In axes that turn with the heading.
+    /// Angular velocity in the reference frame from the angles' rates, eq. (10): omega = E (roll,
+    /// pitch, yaw)', where E's columns are the axes about which the three angles turn. In axes that
+    /// turn with the heading.
     pub fn angular_velocity(&self, rates: RollPitchYaw) -> Vector3<f64> {
         self.out_of_heading(Vector3::new(
             self.cos_pitch * rates.roll,
@@ -80,7 +82,8 @@ impl Orientation {
 
     /// Angular acceleration in the reference frame: the time derivative of eq. (10).
     ///
-    /// In axes that turn with the heading, of what [`Orientation::angular_velocity`] has there, and of the heading.
+    /// In axes that turn with the heading, of what [`Orientation::angular_velocity`] has
+    /// there, and of the heading.
     pub fn angular_acceleration(&self, rates: RollPitchYaw, accelerations: RollPitchYaw) -> Vector3<f64> {
         let (sin, cos) = (self.sin_pitch, self.cos_pitch);
         self.out_of_heading(Vector3::new(
@@ -97,14 +100,15 @@ impl Orientation {
 
     /// The angles' rates from an angular velocity in the reference frame: the inverse of eq. (10).
     ///
-    /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is kept [`away_from_zero`].
+    /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is
+    /// kept [`away_from_zero`].
     pub fn rates(&self, angular_velocity: Vector3<f64>) -> RollPitchYaw {
         let pitch = (self.sin_pitch, away_from_zero(self.cos_pitch));
         rates_from_reference(angular_velocity, (self.sin_yaw, self.cos_yaw), pitch)
     }
 
-    /// The angles' changes by a small rotation in the reference frame: the inverse of eq. (10) as it is, without a bound near
-    /// a pitch of 90 degrees.
+    /// The angles' changes by a small rotation in the reference frame: the inverse of eq. (10) as
+    /// it is, without a bound near a pitch of 90 degrees.
     pub fn changes(&self, rotation: Vector3<f64>) -> RollPitchYaw {
         rates_from_reference(rotation, (self.sin_yaw, self.cos_yaw), (self.sin_pitch, self.cos_pitch))
     }
@@ -137,8 +141,8 @@ impl Turning {
     }
 }
 
-/// The inverse of eq. (10), from sine and cosine of yaw and of pitch; the latter's cosine is divided by: see
-/// [`away_from_zero`].
+/// The inverse of eq. (10), from sine and cosine of yaw and of pitch; the latter's cosine is
+/// divided by: see [`away_from_zero`].
 pub fn rates_from_reference(
     omega: Vector3<f64>,
     (sin_yaw, cos_yaw): (f64, f64),
@@ -148,8 +152,8 @@ pub fn rates_from_reference(
     RollPitchYaw::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
 }
 
-/// The cosine of a pitch to divide by in inverting eq. (10), which is singular at 90 degrees: of magnitude 0.1 at least,
-/// so that the rates stay finite beyond a pitch of 84 degrees.
+/// The cosine of a pitch to divide by in inverting eq. (10), which is singular at 90 degrees: of
+/// magnitude 0.1 at least, so that the rates stay finite beyond a pitch of 84 degrees.
 pub fn away_from_zero(cos_pitch: f64) -> f64 {
     const SMALLEST: f64 = 0.1;
     cos_pitch.abs().max(SMALLEST).copysign(cos_pitch)

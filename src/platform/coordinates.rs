@@ -19,7 +19,8 @@ impl Coordinates {
         PlatformMotion::new(&self.linear, &Turning::new(&self.angles), neutral_height)
     }
 
-    /// The coordinates at this fraction of the line from these to others, both reached from `before` in `step` seconds.
+    /// The coordinates at this fraction of the line from these to others, both reached from
+    /// `before` in `step` seconds.
     pub fn towards(&self, others: &Coordinates, fraction: f64, before: &Coordinates, step: f64) -> Self {
         let between = |from: &Motions, to: &Motions, before: &Motions| {
             let velocity = from.velocity.lerp(&to.velocity, fraction);

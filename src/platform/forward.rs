@@ -5,7 +5,8 @@ use nalgebra::{Vector3, Vector6};
 use super::{Geometry, Legs, PlatformMotion, Pose, jacobian, leg_accelerations, leg_lengths};
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 
-/// Newton's method is given up after this many iterations. From a pose one step away it takes two or three.
+/// Newton's method is given up after this many iterations. From a pose one step away
+/// it takes two or three.
 pub const MAX_ITERATIONS: usize = 20;
 
 /// Legs that fit their lengths to this are found \[m\].
@@ -13,8 +14,8 @@ const TOLERANCE: f64 = 1e-13;
 /// Accepted residual where rounding keeps Newton's method from [`TOLERANCE`] \[m\].
 const ACCEPTABLE: f64 = 1e-10;
 
-/// Newton's method did not find a pose with these leg lengths; they belong to none, or the platform is near a
-/// singularity.
+/// Newton's method did not find a pose with these leg lengths; they belong to none, or the platform
+/// is near a singularity.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("no pose found for these leg lengths: off by {residual} m after {MAX_ITERATIONS} iterations")]
 pub struct NotConverged {
@@ -44,11 +45,12 @@ pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose)
     Err(NotConverged { residual })
 }
 
-/// The largest change of an angle in one iteration \[rad\] and of the position \[m\]: keeps a bad guess from jumping
-/// to another branch.
+/// The largest change of an angle in one iteration \[rad\] and of the position \[m\]: keeps a bad
+/// guess from jumping to another branch.
 const LARGEST_CHANGE: f64 = 0.3;
 
-/// The pose moved by a small translation and a small rotation, which eq. (10) turns into changes of the angles.
+/// The pose moved by a small translation and a small rotation, which eq. (10) turns into
+/// changes of the angles.
 fn moved(pose: &Pose, twist: &Vector6<f64>) -> Pose {
     let angles = pose.orientation.changes(twist.fixed_rows::<3>(3).into()).to_vector();
     let position: Vector3<f64> = twist.fixed_rows::<3>(0).into();

@@ -1,4 +1,5 @@
-//! Where the washout location is on the platform: the rider's head with his lean, eq. (4), or another point.
+//! Where the washout location is on the platform: the rider's head with his lean, eq.
+//! (4), or another point.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -10,7 +11,8 @@ use crate::interface::{StructureParameters, WashoutLocation};
 pub struct Head {
     /// The location in the platform frame \[m\].
     pub point: Vector3<f64>,
-    /// Roll of the frame at the location relative to the platform: the rider's lean, or 0 where no rider leans \[rad\].
+    /// Roll of the frame at the location relative to the platform: the rider's lean, or 0 where
+    /// no rider leans \[rad\].
     pub lean: f64,
     sin_lean: f64,
     cos_lean: f64,
@@ -19,8 +21,9 @@ pub struct Head {
 impl Head {
     /// The washout location with the rider leaning by `lean` \[rad\].
     ///
-    /// Eq. (4) as corrected: p_h^P = (0, -b sin(lean), (h - b) + b cos(lean)), so that an upright rider's head is above
-    /// the platform's origin. The lean moves only the head: the other locations are points of the platform.
+    /// Eq. (4) as corrected: p_h^P = (0, -b sin(lean), (h - b) + b cos(lean)), so that an upright
+    /// rider's head is above the platform's origin. The lean moves only the head: the other
+    /// locations are points of the platform.
     pub fn new(structure: &StructureParameters, lean: f64) -> Self {
         match structure.washout_location {
             WashoutLocation::Head => Head::leaning(structure.head_height, structure.torso_length, lean),
@@ -39,7 +42,8 @@ impl Head {
         Head { point, lean: 0.0, sin_lean: 0.0, cos_lean: 1.0 }
     }
 
-    /// A vector in the axes of the frame at the location, R_H^P v with R_H^P = Rx(lean), in the platform's axes.
+    /// A vector in the axes of the frame at the location, R_H^P v with R_H^P = Rx(lean),
+    /// in the platform's axes.
     pub fn to_platform_axes(&self, v: Vector3<f64>) -> Vector3<f64> {
         Vector3::new(v.x, self.cos_lean * v.y - self.sin_lean * v.z, self.sin_lean * v.y + self.cos_lean * v.z)
     }

@@ -4,7 +4,8 @@ use nalgebra::{Matrix6, Vector6};
 
 use super::{Geometry, Joints, Pose};
 
-/// A row for each leg; columns: velocity x, y, z \[m/s\], angular velocity x, y, z \[rad/s\], in the base frame.
+/// A row for each leg; columns: velocity x, y, z \[m/s\], angular velocity x, y, z
+/// \[rad/s\], in the base frame.
 pub type Jacobian = Matrix6<f64>;
 
 /// The Jacobian in a pose: row i is (n_i, R a_i x n_i), with n_i the direction of leg i.

@@ -3,7 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// The x, the y and the z of six joints \[m\]: so laid out, and aligned, the processor does two legs at a time.
+/// The x, the y and the z of six joints \[m\]: so laid out, and aligned, the processor
+/// does two legs at a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[repr(align(16))]
 pub struct Joints {

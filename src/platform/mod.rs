@@ -25,7 +25,8 @@ use crate::interface::Rig;
 use crate::motion::Motions;
 use crate::motion::orientation::{Orientation, RollPitchYaw, Turning};
 
-/// Where the joints are: on the base in the base frame, on the platform in the platform frame \[m\].
+/// Where the joints are: on the base in the base frame, on the platform in the
+/// platform frame \[m\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Geometry {
     pub base: Joints,
@@ -77,7 +78,8 @@ impl PlatformMotion {
         }
     }
 
-    /// As `motion` is oriented, with the velocities and accelerations of these coordinates, which have its angles.
+    /// As `motion` is oriented, with the velocities and accelerations of these coordinates,
+    /// which have its angles.
     pub(crate) fn turning(motion: &PlatformMotion, coordinates: &Coordinates) -> Self {
         let turning = Turning::with_orientation(motion.orientation, &coordinates.angles);
         PlatformMotion {
@@ -102,7 +104,8 @@ impl PlatformMotion {
         }
     }
 
-    /// The rotation `step` seconds later, if the platform goes on turning as it does: to second order.
+    /// The rotation `step` seconds later, if the platform goes on turning as it
+    /// does: to second order.
     pub fn rotation_after(&self, step: f64) -> Matrix3<f64> {
         let turn = step * (self.angular_velocity + 0.5 * step * self.angular_acceleration);
         let cross = turn.cross_matrix();

@@ -10,8 +10,9 @@ use crate::motion::extremes::max;
 
 /// A trajectory of the platform from a moving state to rest, and the time already spent on it.
 ///
-/// Coordinate k decelerates steadily from its velocity u to zero in its duration T: its position is q + u (t - t²/(2 T)),
-/// and from t = T on it rests. Any part of the trajectory that is left is a stop plan again.
+/// Coordinate k decelerates steadily from its velocity u to zero in its duration T: its position
+/// is q + u (t - t²/(2 T)), and from t = T on it rests. Any part of the trajectory that is left
+/// is a stop plan again.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StopPlan {
     start: Coordinates,
@@ -19,7 +20,8 @@ pub struct StopPlan {
     elapsed: f64,
 }
 
-/// Durations of the stops of surge, sway and heave, and the common one of roll, pitch and yaw \[s\].
+/// Durations of the stops of surge, sway and heave, and the common one of roll, pitch and yaw
+/// \[s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StopDurations {
     pub linear: Vector3<f64>,

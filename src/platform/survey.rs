@@ -14,8 +14,8 @@ const PARTS: usize = 2;
 
 /// Result of a survey over a grid of leg lengths, 4 levels for each leg.
 ///
-/// Both figures are of the Jacobian with angular velocity counted as the speed of a point at the platform joints' mean
-/// radius, so that they have no unit and do not depend on the rig's size.
+/// Both figures are of the Jacobian with angular velocity counted as the speed of a point at the
+/// platform joints' mean radius, so that they have no unit and do not depend on the rig's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Survey {
     /// Smallest singular value.
@@ -32,9 +32,10 @@ pub struct SurveyFailed {
 
 /// Surveys a rig over the whole box of its leg lengths.
 ///
-/// From neutral the platform is followed by forward kinematics from grid point to grid point, each one leg's move away
-/// from the last. At each the Jacobian must be well conditioned and its determinant of the sign it has at neutral: a
-/// change of sign tells of a singularity between the points.
+/// From neutral the platform is followed by forward kinematics from grid point to grid
+/// point, each one leg's move away from the last. At each the Jacobian must be well
+/// conditioned and its determinant of the sign it has at neutral: a change of sign tells of
+/// a singularity between the points.
 ///
 /// # Errors
 /// The first leg lengths found at which the platform is singular.
@@ -65,8 +66,8 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
     if failed { Err(SurveyFailed { lengths }) } else { Ok(found) }
 }
 
-/// Visits every point of the grid, going back and forth so that each differs from the last by one level of one leg.
-/// Stops when `visit` returns false.
+/// Visits every point of the grid, going back and forth so that each differs from the last by one
+/// level of one leg. Stops when `visit` returns false.
 fn walk(visit: &mut impl FnMut(&[usize; 6]) -> bool) {
     let mut levels = [0; 6];
     let mut upward = [true; 6];

@@ -1,4 +1,5 @@
-//! The braking law: inviolable, invisible while it has nothing to do, and without a jump in between.
+//! The braking law: inviolable, invisible while it has nothing to do, and
+//! without a jump in between.
 
 use moris_washout::cueing::direct_linear::DirectLinearMotion;
 use moris_washout::cueing::safety::SafetyUnits;

@@ -25,8 +25,8 @@ fn polynomial(order: i32, omega1: f64, zeta1: f64, omega2: f64, zeta2: f64) -> V
     product
 }
 
-/// Position, velocity and acceleration of s^n/D, from x'' = s^n/D u written as an equation of its own and integrated by
-/// Runge-Kutta: with D y = u, y in phase variables.
+/// Position, velocity and acceleration of s^n/D, from x'' = s^n/D u written as an equation of its
+/// own and integrated by Runge-Kutta: with D y = u, y in phase variables.
 struct Integrated {
     coefficients: Vec<f64>,
     state: [f64; 4],

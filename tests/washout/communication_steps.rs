@@ -37,7 +37,8 @@ fn quantities(output: &Output) -> Vec<f64> {
     all
 }
 
-/// Rides 20 s; `parts` gives the shares of each 50 ms that the steps in it take. Returns the output at every 50 ms.
+/// Rides 20 s; `parts` gives the shares of each 50 ms that the steps in it take. Returns the
+/// output at every 50 ms.
 fn ridden(mut parts: impl FnMut() -> Vec<f64>) -> Vec<Vec<f64>> {
     let mut washout = washout(&[]);
     let mut seen = Vec::new();

@@ -1,4 +1,5 @@
-//! The default set's figures: on the paper's runs, and on rides full of vibration that are made up here.
+//! The default set's figures: on the paper's runs, and on rides full of vibration
+//! that are made up here.
 //!
 //! `moris measure` takes the same figures of recordings.
 
@@ -61,7 +62,8 @@ fn town(t: f64) -> Input {
     faded(t, Input { specific_force, angular_velocity: turning + rates, ..Input::default() })
 }
 
-/// A motorcycle in bends, leaning 20 degrees each way: in balance no lateral force but what vibrates.
+/// A motorcycle in bends, leaning 20 degrees each way: in balance no lateral
+/// force but what vibrates.
 fn bends(t: f64) -> Input {
     let (force, rates) = vibration(t);
     let (lean, omega) = (20f64.to_radians(), TAU * 0.15);
@@ -76,7 +78,8 @@ fn bends(t: f64) -> Input {
 /// A host: its step \[s\], and whether it gives slopes.
 const HOSTS: [(f64, bool); 3] = [(0.001, false), (0.01, true), (0.01, false)];
 
-/// RMS errors of the felt specific force, those of a platform at rest, and the fraction of the steps in which limits act.
+/// RMS errors of the felt specific force, those of a platform at rest, and the fraction of the
+/// steps in which limits act.
 struct Figures {
     error: Vector3<f64>,
     at_rest: Vector3<f64>,

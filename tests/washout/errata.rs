@@ -1,4 +1,5 @@
-//! Where the paper is silent, contradicts itself or errs, and what the washout does: one test for each erratum.
+//! Where the paper is silent, contradicts itself or errs, and what the washout does: one
+//! test for each erratum.
 
 use moris_washout::cueing::compensation::{added_gravity, centripetal, tangential};
 use moris_washout::cueing::gravitational::Tilt;
@@ -48,8 +49,8 @@ fn an_upright_head_is_above_the_platforms_origin() {
     }
 }
 
-/// The largest disturbance of the felt surge by pitching alone, with this item of `compensation`: the platform pitches
-/// because the vehicle does, and gravity's part of what is felt is taken off.
+/// The largest disturbance of the felt surge by pitching alone, with this item of `compensation`:
+/// the platform pitches because the vehicle does, and gravity's part of what is felt is taken off.
 fn disturbance_by_pitching(compensation: f64) -> f64 {
     let mut washout =
         washout(&[("compensation", compensation), ("splitter.x.omega1", 0.2), ("splitter.x.omega2", 0.2)]);
@@ -65,7 +66,8 @@ fn disturbance_by_pitching(compensation: f64) -> f64 {
     largest
 }
 
-/// The largest error of the felt surge and sway on a vehicle that pitches and rolls and is not accelerated.
+/// The largest error of the felt surge and sway on a vehicle that pitches and rolls
+/// and is not accelerated.
 fn error_of_turning(compensation: f64) -> f64 {
     let slow = [
         ("splitter.x.omega1", 0.03),

@@ -41,7 +41,8 @@ fn location(parameters: &Parameters, name: &str, lean: f64) -> (Vec3, f64) {
     }
 }
 
-/// Rides, and compares what is felt in the middle of every three outputs with the differences of the three.
+/// Rides, and compares what is felt in the middle of every three outputs with the
+/// differences of the three.
 fn compare(item: f64, name: &str, lean: f64) {
     let changed =
         [("washoutLocation", item), ("washoutPoint.x", 0.1), ("washoutPoint.y", -0.2), ("washoutPoint.z", 0.9)];

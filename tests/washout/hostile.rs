@@ -1,4 +1,5 @@
-//! Whatever the washout is fed, the platform and the legs stay within their limits and come back to neutral.
+//! Whatever the washout is fed, the platform and the legs stay within their limits and
+//! come back to neutral.
 
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Washout, presets};
@@ -58,8 +59,8 @@ enum Steps {
     Irregular(f64),
 }
 
-/// Variations of the default set: long travel, strong cues, steps so long that limits act coarsely, a slow machine, tight
-/// safety limits; and the paper's sets.
+/// Variations of the default set: long travel, strong cues, steps so long that limits act coarsely,
+/// a slow machine, tight safety limits; and the paper's sets.
 const SETS: [&[(&str, f64)]; 11] = [
     &[],
     &[("splitter.x.omega1", 0.3), ("splitter.y.omega2", 0.3), ("splitter.z.omega1", 0.3)],
@@ -74,7 +75,8 @@ const SETS: [&[(&str, f64)]; 11] = [
     &[("strategy", 4.0)],
 ];
 
-/// Rides through `count` steps of hostile input, then rests until the platform is neutral, within limits all the time.
+/// Rides through `count` steps of hostile input, then rests until the platform is neutral,
+/// within limits all the time.
 fn survive(set: &[(&str, f64)], kind: Kind, steps: Steps, held: bool, seed: u64, count: usize) {
     let parameters = presets::parameters(set);
     let mut washout = Washout::new(&parameters).unwrap();

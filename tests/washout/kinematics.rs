@@ -1,4 +1,5 @@
-//! Inverse and forward kinematics against each other and against the same formulas written out axis by axis.
+//! Inverse and forward kinematics against each other and against the same formulas
+//! written out axis by axis.
 
 use moris_washout::Rig;
 use moris_washout::interface::RollPitchYaw;
@@ -47,7 +48,8 @@ fn path(t: f64) -> (Vec3, Vec3) {
     )
 }
 
-/// The platform's motion on the path, with derivatives by central differences of positions and of this test's rotations.
+/// The platform's motion on the path, with derivatives by central differences of positions and of
+/// this test's rotations.
 fn motion_on_path(t: f64) -> PlatformMotion {
     const H: f64 = 1e-4;
     let at = |t: f64| Vector3::from(path(t).0);
@@ -129,7 +131,8 @@ proptest! {
     }
 }
 
-/// Forward kinematics from neutral must find legs of these lengths, and the same pose from anywhere near.
+/// Forward kinematics from neutral must find legs of these lengths, and the same
+/// pose from anywhere near.
 fn inverts(target: [f64; 6], random: &mut Random) {
     let geometry = geometry();
     let neutral = Pose::neutral(&Rig::default());

@@ -1,5 +1,5 @@
-//! The mathematics of the washout against closed forms, integrations, differences and identities that are computed here,
-//! with code of its own.
+//! The mathematics of the washout against closed forms, integrations, differences and identities
+//! that are computed here, with code of its own.
 //!
 //! One binary for all topics: they share helpers, and are linked once.
 

@@ -7,7 +7,8 @@ use crate::common::{correlation, from_neutral, parameters, rms_difference, washo
 
 const STEP: f64 = 0.001;
 
-/// Rides a run with the default parameters, and checks what holds in all of them. Returns the outputs.
+/// Rides a run with the default parameters, and checks what holds in all of
+/// them. Returns the outputs.
 fn ridden(duration: f64, input: impl Fn(f64) -> Input) -> Vec<Output> {
     let mut washout = washout(&[]);
     let tilt = parameters(&[]).tilt;

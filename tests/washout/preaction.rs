@@ -1,4 +1,5 @@
-//! Preaction: a brusque stop is felt far better, and a braking that is released is felt as without it.
+//! Preaction: a brusque stop is felt far better, and a braking that is released
+//! is felt as without it.
 
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::{Input, Output, Parameters, Washout, presets};
@@ -31,7 +32,8 @@ fn ridden(on: bool, duration: f64, motion: Motion) -> (Vec<f64>, Vec<Output>) {
     steps.unzip()
 }
 
-/// x^2 (3 - 2x) of the time since `start` in parts of `duration`, and the integral of that over time.
+/// x^2 (3 - 2x) of the time since `start` in parts of `duration`, and the
+/// integral of that over time.
 fn smooth(t: f64, start: f64, duration: f64) -> (f64, f64) {
     let x = ((t - start) / duration).clamp(0.0, 1.0);
     (x * x * (3.0 - 2.0 * x), duration * (x * x * x - 0.5 * x * x * x * x) + (t - start - duration).max(0.0))
@@ -51,7 +53,8 @@ fn run_c(t: f64) -> (f64, f64) {
     (2.2 * (up - down) - 3.5 * brake, 2.2 * (gained - held) - 3.5 * lost)
 }
 
-/// From 28 m/s, braked with 3 m/s2 from 2 s on; until `RELEASE` tenths of a second later, when the brake is let go in another.
+/// From 28 m/s, braked with 3 m/s2 from 2 s on; until `RELEASE` tenths of a second later, when the
+/// brake is let go in another.
 fn braked<const RELEASE: u32>(t: f64) -> (f64, f64) {
     let (brake, lost) = smooth(t, 2.0, 1.0);
     let (release, kept) = smooth(t, 2.0 + 0.1 * f64::from(RELEASE), 0.1);

@@ -57,7 +57,8 @@ fn changes() -> Vec<(usize, Vec<f64>)> {
         .collect()
 }
 
-/// Largest difference of two outputs one step apart, or of two washouts: the effect of accelerations in a step.
+/// Largest difference of two outputs one step apart, or of two washouts: the effect of
+/// accelerations in a step.
 fn assert_no_jump(a: &Output, b: &Output, what: &str) {
     const LINEAR: f64 = 10.0;
     const ANGULAR: f64 = 10.0;

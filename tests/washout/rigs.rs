@@ -23,7 +23,8 @@ fn reaches(rig: &Rig, offset: Vec3, angles: Vec3) -> bool {
     })
 }
 
-/// Reach of the default platform along one of x, y, z, roll, pitch, yaw alone, in the direction of `sign`.
+/// Reach of the default platform along one of x, y, z, roll, pitch, yaw alone, in
+/// the direction of `sign`.
 fn range(axis: usize, sign: f64) -> f64 {
     let rig = Rig::default();
     let (mut inside, mut outside) = (0.0, 1.5);

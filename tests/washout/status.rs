@@ -43,7 +43,8 @@ fn flags(output: &Output) -> [bool; 3] {
     [output.tilt_limited, output.safety_active, output.actuator_limited]
 }
 
-/// How often each flag's cause ended before the last internal step of a communication step, whose flags tell of all.
+/// How often each flag's cause ended before the last internal step of a communication step,
+/// whose flags tell of all.
 fn ended_within_a_step(set: &[(&str, f64)], force: f64, rate: f64) -> [usize; 3] {
     const INTERNAL: usize = 8;
     const STEP: f64 = 0.001;

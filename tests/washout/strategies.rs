@@ -1,4 +1,5 @@
-//! The strategies beside the classical one: what they promise on the paper's runs, and what holds for each.
+//! The strategies beside the classical one: what they promise on the paper's runs,
+//! and what holds for each.
 
 use moris_washout::cueing::strategy::regulator::{AxisModel, Regulator, Weights, dynamics};
 use moris_washout::interface::RollPitchYaw;
@@ -57,8 +58,8 @@ fn the_predictive_strategy_tracks_the_papers_runs_better_than_the_classical_one(
     }
 }
 
-/// Dropped force over reference at the frequency omega: C (s I - A + B K)^-1 B_f + D, with the reference split by a
-/// low-pass of time constant tau.
+/// Dropped force over reference at the frequency omega: C (s I - A + B K)^-1 B_f + D, with the
+/// reference split by a low-pass of time constant tau.
 fn closed_loop(model: &AxisModel, weights: &Weights, tau: f64, omega: f64) -> Complex<f64> {
     let gains = Regulator::new(model, weights).unwrap().gains;
     let (a, b) = dynamics(model, weights);
@@ -79,7 +80,8 @@ fn closed_loop(model: &AxisModel, weights: &Weights, tau: f64, omega: f64) -> Co
     -dropped[0] - feedthrough[0]
 }
 
-/// Felt over desired force at the frequency omega, measured on small sines with internal steps of `step` seconds.
+/// Felt over desired force at the frequency omega, measured on small sines with internal
+/// steps of `step` seconds.
 fn measured(axis: usize, omega: f64, step: f64) -> Complex<f64> {
     const AMPLITUDE: f64 = 1e-4;
     let mut washout = washout(&[("strategy", OPTIMAL), ("solver.maxStep", step)]);

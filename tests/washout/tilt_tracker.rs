@@ -1,4 +1,5 @@
-//! The tilt tracker: limits never exceeded, no overshoot, hardly slower than possible, and no lag inside the limits.
+//! The tilt tracker: limits never exceeded, no overshoot, hardly slower than possible, and no
+//! lag inside the limits.
 
 use moris_washout::cueing::gravitational::{GravitationalStrategy, tilt_target};
 use moris_washout::interface::TiltParameters;

@@ -1,4 +1,5 @@
-//! Getting and setting variables. All variables and values of a call are checked before any is written.
+//! Getting and setting variables. All variables and values of a call are checked
+//! before any is written.
 
 use std::mem::MaybeUninit;
 
@@ -32,12 +33,12 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Writes `values`, of which there are as many as the variables have. Tunable parameters that change between steps take
-    /// effect at once, all of the call together.
+    /// Writes `values`, of which there are as many as the variables have. Tunable parameters that
+    /// change between steps take effect at once, all of the call together.
     ///
     /// # Errors
-    /// A slot of no variable, of one of another type, or of one that cannot be set now; a value outside the variable's
-    /// range, or that the model refuses. Then nothing has changed.
+    /// A slot of no variable, of one of another type, or of one that cannot be set now; a value
+    /// outside the variable's range, or that the model refuses. Then nothing has changed.
     #[inline]
     pub fn set<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
         // Inputs can be set in every mode in which anything can, and the calling sequences let nothing be set in others.
@@ -57,8 +58,8 @@ impl<M: Model> Instance<M> {
     /// Gives inputs a time derivative that holds for the next step.
     ///
     /// # Errors
-    /// A reference to anything but a continuous real input, an order other than 1, a value that is not finite. Then
-    /// nothing has changed.
+    /// A reference to anything but a continuous real input, an order other than 1, a value that is
+    /// not finite. Then nothing has changed.
     pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
@@ -81,7 +82,8 @@ impl<M: Model> Instance<M> {
     /// Reads the outputs' time derivatives into `values`, which has as many as `requests`.
     ///
     /// # Errors
-    /// A slot of anything but a continuous real output, or an order other than 1; then nothing is written.
+    /// A slot of anything but a continuous real output, or an order other than 1;
+    /// then nothing is written.
     pub fn get_output_derivatives(
         &mut self,
         requests: impl OrderedSlots,
@@ -153,7 +155,8 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    /// Sets variables that are not all inputs, or refuses to. Out of the way of the calls that set inputs at every step.
+    /// Sets variables that are not all inputs, or refuses to. Out of the way of the calls that set
+    /// inputs at every step.
     #[inline(never)]
     fn set_others<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
         let mode = self.state.mode;
@@ -171,7 +174,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Writes values of which some are tunable parameters, and tells the model if any of these has changed.
+    /// Writes values of which some are tunable parameters, and tells the model if any
+    /// of these has changed.
     fn set_and_retune<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
         self.old_values.copy_from_slice(&self.state.values);
         self.write(variables, values);

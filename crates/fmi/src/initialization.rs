@@ -45,7 +45,8 @@ impl<M: Model> Instance<M> {
     /// Ends the initialization: builds the model from the values as they are.
     ///
     /// # Errors
-    /// The model refuses a value. Then the instance stays in initialization, so that another can be set.
+    /// The model refuses a value. Then the instance stays in initialization, so
+    /// that another can be set.
     pub fn exit_initialization(&mut self) -> Result<(), CallError> {
         if self.state.dirty || self.state.model.is_none() {
             let model = M::new(&self.state.values).map_err(|refusal| {
@@ -59,8 +60,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Makes the outputs those of the values set so far. If the model refuses these, the outputs stay as they are, and
-    /// the end of the initialization will say why.
+    /// Makes the outputs those of the values set so far. If the model refuses these, the outputs
+    /// stay as they are, and the end of the initialization will say why.
     pub(crate) fn evaluate_start(&mut self) {
         self.state.model = M::new(&self.state.values).ok();
         self.state.dirty = false;

@@ -1,4 +1,5 @@
-//! An instance of a model, for any version of FMI. The version's own layer checks in which mode a call is allowed.
+//! An instance of a model, for any version of FMI. The version's own layer checks in which
+//! mode a call is allowed.
 
 use moris_interface::Model;
 
@@ -6,8 +7,8 @@ use crate::{InstanceState, Mode, Tables};
 
 /// An instance of a model.
 ///
-/// Its methods are in the modules named for what they do: `access` (get and set), `initialization`, `step` and
-/// `serialisation`.
+/// Its methods are in the modules named for what they do: `access` (get and set), `initialization`,
+/// `step` and `serialisation`.
 pub struct Instance<M> {
     pub(crate) tables: Tables,
     pub(crate) state: InstanceState<M>,
@@ -55,7 +56,8 @@ impl<M: Model> Instance<M> {
         self.state.mode = Mode::Terminated;
     }
 
-    /// Marks the instance as unusable until it is reset or a state restored: the model broke off in the middle.
+    /// Marks the instance as unusable until it is reset or a state restored: the model
+    /// broke off in the middle.
     pub fn fail(&mut self) {
         self.state.mode = Mode::Error;
         self.state.dirty = false;
@@ -66,7 +68,8 @@ impl<M: Model> Instance<M> {
         &self.state
     }
 
-    /// Makes the instance as it was when `state` was taken from it or from another instance of the model.
+    /// Makes the instance as it was when `state` was taken from it or from another
+    /// instance of the model.
     pub fn restore(&mut self, state: &InstanceState<M>) {
         self.state.clone_from(state);
     }

@@ -21,11 +21,13 @@ pub struct InstanceState<M> {
     pub(crate) time: f64,
     /// The value of each slot.
     pub(crate) values: Box<[f64]>,
-    /// The time derivative of each slot; zero for all that are not inputs, and unless the host gives one.
+    /// The time derivative of each slot; zero for all that are not inputs, and
+    /// unless the host gives one.
     pub(crate) derivatives: Box<[f64]>,
     /// True if any of `derivatives` may differ from zero.
     pub(crate) derivatives_given: bool,
-    /// The model: there from the end of initialization on, and before that whenever `values` has been tried.
+    /// The model: there from the end of initialization on, and before that whenever
+    /// `values` has been tried.
     pub(crate) model: Option<M>,
     /// During initialization: something has been set since `values` was last tried.
     pub(crate) dirty: bool,

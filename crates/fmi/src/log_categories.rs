@@ -17,7 +17,8 @@ pub enum LogCategory {
     All,
 }
 
-/// Name and description of every category, in the order of [`LogCategory`]: the model description's `LogCategories`.
+/// Name and description of every category, in the order of [`LogCategory`]: the model
+/// description's `LogCategories`.
 pub const LOG_CATEGORIES: &[(&str, &str)] = &[
     ("logEvents", "Stages of the instance's life: instantiated, initialized, terminated, reset"),
     ("logStatusWarning", "Warnings; sent even with debug logging off"),

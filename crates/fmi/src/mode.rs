@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The states of the calling sequences (FMI 2.0: 4.2.4; FMI 3.0: 2.3 and 4.2) that an instance can be in.
+/// The states of the calling sequences (FMI 2.0: 4.2.4; FMI 3.0: 2.3 and 4.2) that
+/// an instance can be in.
 ///
-/// It computes within the call and never asks for a shorter step, so it is never in the states "step failed",
-/// "step in progress" or "step canceled".
+/// It computes within the call and never asks for a shorter step, so it is never in the states
+/// "step failed", "step in progress" or "step canceled".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     Instantiated,

@@ -1,4 +1,5 @@
-//! Keeps panics inside the library: none unwinds into the host, and none writes to its standard error.
+//! Keeps panics inside the library: none unwinds into the host, and none writes
+//! to its standard error.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook};
@@ -8,14 +9,15 @@ use crate::CallError;
 
 /// Makes panics silent, which by default are printed; their text goes to the host's logger instead.
 ///
-/// A panic hook belongs to a copy of the standard library. A `cdylib` has one of its own, so that the hook of a host
-/// that is itself written in Rust stays as it is.
+/// A panic hook belongs to a copy of the standard library. A `cdylib` has one of its own, so that
+/// the hook of a host that is itself written in Rust stays as it is.
 pub fn silence() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| set_hook(Box::new(|_| ())));
 }
 
-/// Runs `body`; a panic becomes the text that it carries. What `body` was changing may then be half changed.
+/// Runs `body`; a panic becomes the text that it carries. What `body` was changing may
+/// then be half changed.
 #[inline]
 pub fn contain<R>(body: impl FnOnce() -> R) -> Result<R, CallError> {
     catch_unwind(AssertUnwindSafe(body)).map_err(|payload| error(payload.as_ref()))

@@ -1,4 +1,5 @@
-//! A run as bytes that another process can restore: no pointers in them, and nothing in them taken on trust.
+//! A run as bytes that another process can restore: no pointers in them, and nothing
+//! in them taken on trust.
 
 use moris_interface::Model;
 
@@ -10,7 +11,8 @@ const MARK: [u8; 8] = *b"FMI-RUN\n";
 const FORMAT: u32 = 3;
 
 impl<M: Model> InstanceState<M> {
-    /// The run as bytes: mark, format, the model's GUID, length and checksum of the rest, and the rest.
+    /// The run as bytes: mark, format, the model's GUID, length and checksum of
+    /// the rest, and the rest.
     ///
     /// # Errors
     /// The model cannot be written as bytes.
@@ -71,7 +73,8 @@ fn take<const N: usize>(bytes: &mut &[u8]) -> Option<[u8; N]> {
     Some(*first)
 }
 
-/// FNV-1a in 64 bits. Each byte's step is one-to-one, so that no change of a single byte goes unnoticed.
+/// FNV-1a in 64 bits. Each byte's step is one-to-one, so that no change of a
+/// single byte goes unnoticed.
 fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }

@@ -8,13 +8,13 @@ use crate::{CallError, Instance};
 const LIMIT_TOLERANCE: f64 = 1e-9;
 /// Tolerance of a host's time, relative to the step ...
 const STEP_TOLERANCE: f64 = 1e-6;
-/// ... and to the time itself: a few units in the last place. More would let a step be made twice late in a long run, or
-/// where time is that of a calendar.
+/// ... and to the time itself: a few units in the last place. More would let a step be made twice
+/// late in a long run, or where time is that of a calendar.
 const TIME_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 impl<M: Model> Instance<M> {
-    /// Advances from `time` by `step` \[s\]. The present time is then `time + step` as the host reckons it, so that
-    /// nothing accumulates. The inputs' derivatives hold for this step only.
+    /// Advances from `time` by `step` \[s\]. The present time is then `time + step` as the host
+    /// reckons it, so that nothing accumulates. The inputs' derivatives hold for this step only.
     ///
     /// # Errors
     /// A step that cannot be made; then nothing has changed.

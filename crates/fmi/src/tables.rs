@@ -1,4 +1,5 @@
-//! Tables shared by all instances of a model, in static memory, so that unloading the library leaks nothing.
+//! Tables shared by all instances of a model, in static memory, so that unloading the
+//! library leaks nothing.
 
 use std::sync::OnceLock;
 
@@ -19,8 +20,8 @@ pub struct SharedTables<const N: usize> {
 }
 
 impl<const N: usize> SharedTables<N> {
-    /// The tables of the model `M`, which has `N` slots. `embedded` are start values in place of the model's own, as
-    /// [`write_start_values`](moris_interface::write_start_values) gives them.
+    /// The tables of the model `M`, which has `N` slots. `embedded` are start values in place of
+    /// the model's own, as [`write_start_values`](moris_interface::write_start_values) gives them.
     pub const fn new<M: Model>(embedded: Option<&'static str>) -> Self {
         assert!(M::IDENTITY.slots.len() == N);
         let infos = variable_infos(&M::IDENTITY);

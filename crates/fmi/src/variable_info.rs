@@ -44,11 +44,13 @@ pub enum Role {
 pub struct VariableInfo {
     pub value_type: ValueType,
     pub role: Role,
-    /// Number of slots of the row that begins here; 0 for its other slots. FMI 3.0 has a variable a row.
+    /// Number of slots of the row that begins here; 0 for its other slots. FMI 3.0
+    /// has a variable a row.
     pub row_slots: u32,
     /// The modes in which it can be set.
     pub settable: Modes,
-    /// The smallest and the largest value that can be set; NaN and the infinities are never between them.
+    /// The smallest and the largest value that can be set; NaN and the infinities
+    /// are never between them.
     lower: f64,
     upper: f64,
 }
@@ -88,7 +90,8 @@ const fn role(row: &Row) -> Role {
     }
 }
 
-/// The modes in which the row's variables can be set. Inputs can be set before initialization too, as tools do.
+/// The modes in which the row's variables can be set. Inputs can be set before
+/// initialization too, as tools do.
 const fn settable(row: &Row) -> Modes {
     match (row.causality, row.variability) {
         (Causality::Input, _) | (Causality::Parameter, Variability::Tunable) => {

@@ -3,8 +3,9 @@
 use std::mem::MaybeUninit;
 use std::slice::{from_mut, from_ref};
 
-/// The variables that a call is about. Each is known by its first slot and has a part of the call's values: one value in
-/// FMI 2.0, where a variable is a slot, and in FMI 3.0, where it is a row, as many as the row has slots.
+/// The variables that a call is about. Each is known by its first slot and has a part of the call's
+/// values: one value in FMI 2.0, where a variable is a slot, and in FMI 3.0, where it is a row, as
+/// many as the row has slots.
 pub trait Variables: Copy {
     /// The variables' first slots.
     fn slots(self) -> impl Iterator<Item = u32>;

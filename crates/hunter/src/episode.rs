@@ -15,7 +15,8 @@ pub type Values = BTreeMap<String, f64>;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Episode {
-    /// The seed of the search, the number of the machine in it, and the number of the episode on this machine.
+    /// The seed of the search, the number of the machine in it, and the number of the
+    /// episode on this machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<[i64; 3]>,
     /// How many communication steps.
@@ -28,8 +29,8 @@ pub struct Episode {
     /// The parameters that differ from the default.
     #[serde(default)]
     pub parameters: Values,
-    /// The inputs that are not at rest, by the names of the variables. `engaged` is true where its signal is not negative.
-    /// That of `vehicle.specificForce.z` adds to its start value.
+    /// The inputs that are not at rest, by the names of the variables. `engaged` is true where its
+    /// signal is not negative. That of `vehicle.specificForce.z` adds to its start value.
     #[serde(default)]
     pub inputs: BTreeMap<String, Signal>,
     /// What happens between two steps, in the order of time.

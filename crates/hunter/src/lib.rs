@@ -1,8 +1,9 @@
 //! A search for anything that makes the washout break a limit.
 //!
-//! The search draws [machines](machine), [episodes](scenario) on them and drives a [target]: the washout through the crate
-//! or through the C functions of its shared library. The [oracle] judges the outputs; it knows nothing of how they are made.
-//! An episode that breaks a limit is [shrunk](shrink) to a short one, which a file holds and `--replay` repeats.
+//! The search draws [machines](machine), [episodes](scenario) on them and drives a [target]: the
+//! washout through the crate or through the C functions of its shared library. The [oracle] judges
+//! the outputs; it knows nothing of how they are made. An episode that breaks a limit is
+//! [shrunk](shrink) to a short one, which a file holds and `--replay` repeats.
 //!
 //! | module | content |
 //! |---|---|

@@ -1,10 +1,11 @@
 //! The judgement of a run by its outputs alone.
 //!
 //! # Promise
-//! No actuator is commanded beyond its stroke, speed or acceleration, and surge, sway and heave keep the safety limits on
-//! position, velocity and acceleration, at every instant. The oracle knows the outputs at the communication points, the
-//! lengths h of the steps between them and the parameters set. With q a leg's length or a coordinate, v the velocity
-//! reported with it, m = (q - q') / h the mean velocity over a step (a prime marks the value before) and A the limit of the
+//! No actuator is commanded beyond its stroke, speed or acceleration, and surge, sway and heave
+//! keep the safety limits on position, velocity and acceleration, at every instant. The oracle
+//! knows the outputs at the communication points, the lengths h of the steps between them and the
+//! parameters set. With q a leg's length or a coordinate, v the velocity reported with it, m = (q -
+//! q') / h the mean velocity over a step (a prime marks the value before) and A the limit of the
 //! acceleration, a motion that keeps its limits at every instant has
 //!
 //! | quantity | bound | because |
@@ -16,28 +17,31 @@
 //! | 2 (m - m') / (h + h') | A | the same, with a trapezoid as weight, whatever h and h' |
 //! | the reported acceleration | A | |
 //!
-//! A communication step may span several internal steps: the left sides are means then, and the bounds hold all the same.
-//! Before the first step the platform rests, so that v' = 0 there.
+//! A communication step may span several internal steps: the left sides are means then, and the
+//! bounds hold all the same. Before the first step the platform rests, so that v' = 0 there.
 //!
 //! # Tolerances
-//! Positions: [`POSITION_TOLERANCE`]. Velocities and accelerations: [`RELATIVE_TOLERANCE`] of the limit, and the rounding
-//! of the difference. A leg's length comes from p + R a - b with a few roundings each of numbers no larger than
+//! Positions: [`POSITION_TOLERANCE`]. Velocities and accelerations: [`RELATIVE_TOLERANCE`] of the
+//! limit, and the rounding of the difference. A leg's length comes from p + R a - b with a few
+//! roundings each of numbers no larger than
 //! |p|, |a| and |b|: it is known to [`ROUNDINGS`] units of |p| + |a| + |b|. So is a coordinate, which follows from lengths
-//! where legs limit the motion. A velocity is known to as many units of the speed that it belongs to. A difference over h
-//! is known to twice that over h.
+//! where legs limit the motion. A velocity is known to as many units of the speed that it belongs
+//! to. A difference over h is known to twice that over h.
 //!
 //! # Limits changed in flight
-//! The legs' limits never change. A safety limit that is tightened cannot always be kept at once. From outputs alone, what
-//! remains of the promise is, for each axis, until it has settled:
+//! The legs' limits never change. A safety limit that is tightened cannot always be kept at once.
+//! From outputs alone, what remains of the promise is, for each axis, until it has settled:
 //!
 //! - velocity and acceleration keep the larger of the old limits and the new ones;
 //! - a speed above the new limit never grows;
-//! - a position beyond the new limit keeps the old one, and once the axis has come to rest it only comes nearer.
+//! - a position beyond the new limit keeps the old one, and once the axis has come to rest
+//!   it only comes nearer.
 //!
-//! An axis has settled after the longest time that a stop within the old limits takes, [`Oracle::settling_time`]. From
-//! then on velocity and acceleration keep the new limits. A position beyond its limit may stay there, but only comes nearer:
-//! nothing obliges a platform at rest to move. Of changes in quick succession the largest limits count until the last has
-//! settled.
+//! An axis has settled after the longest time that a stop within the old limits takes,
+//! [`Oracle::settling_time`]. From then on velocity and acceleration keep the new limits. A
+//! position beyond its limit may stay there, but only comes nearer: nothing obliges a
+//! platform at rest to move. Of changes in quick succession the largest limits count until
+//! the last has settled.
 
 use serde::{Deserialize, Serialize};
 
@@ -45,14 +49,16 @@ use serde::{Deserialize, Serialize};
 pub const POSITION_TOLERANCE: f64 = 1e-9;
 /// What a velocity or an acceleration may be beyond its limit, relative to the limit.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
-/// Roundings that a length, a coordinate or a velocity may have gone through, in units in the last place of its parts.
+/// Roundings that a length, a coordinate or a velocity may have gone through, in units in the
+/// last place of its parts.
 pub const ROUNDINGS: f64 = 8.0;
 /// Stopping times that an axis is given to settle.
 const STOPPING_TIMES: f64 = 4.0;
 /// Longest steps that an axis is given to settle beside them.
 const SETTLING_STEPS: f64 = 8.0;
 
-/// The outputs that the oracle knows. Positions in m from neutral; lengths in m; the rest in their SI units.
+/// The outputs that the oracle knows. Positions in m from neutral; lengths in m; the
+/// rest in their SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     pub position: [f64; 3],
@@ -167,7 +173,8 @@ impl std::fmt::Display for Breach {
     }
 }
 
-/// The largest ratio of each quantity to its limit so far; of positions, the excess in units of the tolerance.
+/// The largest ratio of each quantity to its limit so far; of positions, the excess in
+/// units of the tolerance.
 pub type Worst = [f64; QUANTITIES.len()];
 
 /// One axis with the limits that it is held to.
@@ -196,11 +203,13 @@ struct Axis {
 pub struct Oracle {
     machine: Machine,
     axes: [Axis; 3],
-    /// Whether some axis is held to limits other than those set last, and the time that is left for it \[s\].
+    /// Whether some axis is held to limits other than those set last, and the time that
+    /// is left for it \[s\].
     settling: bool,
     remaining: f64,
     before: Sample,
-    /// Mean velocities over the last step, legs first, and how long that was; zero before the first.
+    /// Mean velocities over the last step, legs first, and how long that was;
+    /// zero before the first.
     mean: [f64; 9],
     last_step: f64,
 }
@@ -239,9 +248,10 @@ impl Oracle {
         }
     }
 
-    /// The longest time that coming to rest from here may take within the limits in force since the axes settled last: the
-    /// time to stop surge, sway and heave with their accelerations and the joints with the legs', several times over, because
-    /// the legs' acceleration is needed for their turning, too.
+    /// The longest time that coming to rest from here may take within the limits in force since
+    /// the axes settled last: the time to stop surge, sway and heave with their accelerations and
+    /// the joints with the legs', several times over, because the legs' acceleration is needed
+    /// for their turning, too.
     pub fn settling_time(&self) -> f64 {
         let Sample { velocity, angular_velocity, .. } = &self.before;
         let joints = norm(velocity) + norm(angular_velocity) * self.machine.radius;
@@ -278,8 +288,8 @@ impl Oracle {
         Ok(())
     }
 
-    /// Every quantity of this step with its leg or axis, its value less rounding, and its limit. A position's value is the
-    /// excess over its limit, and its limit the tolerance of it.
+    /// Every quantity of this step with its leg or axis, its value less rounding, and its limit. A
+    /// position's value is the excess over its limit, and its limit the tolerance of it.
     #[inline(always)]
     fn measure(&self, now: &Sample, step: f64, mut each: impl FnMut(Quantity, usize, f64, f64)) {
         let Machine { stroke, velocity: fastest, acceleration: most, radius, size, .. } = self.machine;

@@ -36,7 +36,8 @@ impl Random {
         low * (high / low).powf(self.fraction())
     }
 
-    /// Log-uniform with tails: from `low` to `high` mostly, from `lowest` to `highest` in one of six cases.
+    /// Log-uniform with tails: from `low` to `high` mostly, from `lowest` to
+    /// `highest` in one of six cases.
     pub fn log_with_tails(&mut self, [lowest, low, high, highest]: [f64; 4]) -> f64 {
         if self.chance(1.0 / 6.0) { self.log_between(lowest, highest) } else { self.log_between(low, high) }
     }

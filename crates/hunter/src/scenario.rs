@@ -8,7 +8,8 @@ use crate::random::Random;
 use crate::signal::{Signal, VELOCITIES};
 use crate::variables::Variables;
 
-/// An episode has at most so many steps, of which each has at most so many internal ones on average.
+/// An episode has at most so many steps, of which each has at most so many
+/// internal ones on average.
 const MOST_STEPS: usize = 4000;
 const MOST_INTERNAL_STEPS: f64 = 12.0;
 /// The shortest and the longest communication step \[s\].
@@ -148,7 +149,8 @@ impl<'a> Scenarios<'a> {
         events
     }
 
-    /// Some safety limits smaller by up to four orders of magnitude, and as they were a while later.
+    /// Some safety limits smaller by up to four orders of magnitude, and as they were a while
+    /// later.
     fn tighten_and_loosen(
         &self,
         random: &mut Random,

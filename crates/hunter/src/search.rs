@@ -68,7 +68,8 @@ pub struct Summary {
     pub episodes: u64,
     pub steps: u64,
     pub seconds: f64,
-    /// The largest ratio of each quantity to its limit; of positions, the largest excess in units of the tolerance.
+    /// The largest ratio of each quantity to its limit; of positions, the largest excess in
+    /// units of the tolerance.
     pub worst: Vec<(String, f64)>,
     pub found: Vec<Found>,
 }
@@ -93,7 +94,8 @@ struct Shared<'a> {
     stop: AtomicBool,
 }
 
-/// Searches with one target a thread. `progress` hears of the search once a second, and at once of what is found.
+/// Searches with one target a thread. `progress` hears of the search once a second, and at
+/// once of what is found.
 ///
 /// # Errors
 /// A target cannot be made, or the washout's interface is another.

@@ -11,8 +11,8 @@ use crate::target::Target;
 /// Runs that shrinking may take.
 const MOST_RUNS: usize = 4000;
 
-/// The shortest and simplest episode found, with its breach. Every change is kept that still leads to a breach, of
-/// whatever quantity, and in no more steps.
+/// The shortest and simplest episode found, with its breach. Every change is kept that still leads
+/// to a breach, of whatever quantity, and in no more steps.
 ///
 /// # Errors
 /// As [`Runner::run`].
@@ -116,7 +116,8 @@ impl<T: Target> Shrinker<'_, T> {
         Ok(())
     }
 
-    /// Drops the geometry as a whole, and the other parameters in groups, each half as large as those before.
+    /// Drops the geometry as a whole, and the other parameters in groups, each half as
+    /// large as those before.
     fn drop_parameters(&mut self) -> Result<()> {
         let mut candidate = self.best.clone();
         candidate.parameters.retain(|name, _| !is_geometry(name));

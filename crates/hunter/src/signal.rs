@@ -8,8 +8,8 @@ use crate::random::{bits_at, fraction_at};
 
 /// The course of one input over time.
 ///
-/// A value follows from the step's number, the time and the last output alone, so that an episode can be cut anywhere.
-/// Amplitudes are in the input's unit, frequencies in rad/s, phases in rad.
+/// A value follows from the step's number, the time and the last output alone, so that an episode
+/// can be cut anywhere. Amplitudes are in the input's unit, frequencies in rad/s, phases in rad.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "form", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Signal {
@@ -29,20 +29,24 @@ pub enum Signal {
     Flips { amplitude: f64, held: usize, seed: u32 },
     /// A value that changes by this much a second.
     Ramp { rate: f64 },
-    /// NaN, infinities, numbers near the ends of the range, and ordinary ones; a new choice every `held` steps.
+    /// NaN, infinities, numbers near the ends of the range, and ordinary ones; a new
+    /// choice every `held` steps.
     Unusable { held: usize, seed: u32 },
-    /// `amplitude` with the sign of a velocity of the last output: it always pushes along, or against with a negative one.
+    /// `amplitude` with the sign of a velocity of the last output: it always pushes along, or
+    /// against with a negative one.
     Pushing { amplitude: f64, velocity: usize },
 }
 
-/// The velocities that [`Signal::Pushing`] may follow: three of the platform, three angular, six of the legs.
+/// The velocities that [`Signal::Pushing`] may follow: three of the platform, three
+/// angular, six of the legs.
 pub const VELOCITIES: usize = 12;
 
 impl Signal {
     /// No signal.
     pub const ZERO: Signal = Signal::Held { value: 0.0 };
 
-    /// The value at step number `step`, which begins at `time` \[s\], after an output with these velocities.
+    /// The value at step number `step`, which begins at `time` \[s\], after an output
+    /// with these velocities.
     #[inline]
     pub fn value(&self, step: usize, time: f64, velocities: &[f64; VELOCITIES]) -> f64 {
         match *self {

@@ -34,7 +34,8 @@ fn at_rest() -> Sample {
     sample(Mover::Surge, 0.0, 0.0, 0.0)
 }
 
-/// A motion of pieces of constant acceleration, sampled irregularly: (time, position, velocity, acceleration).
+/// A motion of pieces of constant acceleration, sampled irregularly: (time, position,
+/// velocity, acceleration).
 fn pieces(pieces: &[(f64, f64)]) -> Vec<(f64, f64, f64, f64)> {
     let mut samples = vec![(0.0, 0.0, 0.0, 0.0)];
     let (mut begin, mut from, mut speed) = (0.0, 0.0, 0.0);

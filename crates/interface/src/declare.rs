@@ -2,10 +2,11 @@
 
 /// Declares a struct of variables.
 ///
-/// Each field: the FMI name (a template, see [`Row`](crate::Row)), the Rust name and type, the unit in brackets where it
-/// is a real with one, the range in braces, and the start value. Both ends of a range are inside it, and all checks take
-/// it from here. The start value is a constant expression: the compiler evaluates it, so that no machine's arithmetic
-/// changes it. A variability before the name replaces that of the struct. The doc comment is the variable's description
+/// Each field: the FMI name (a template, see [`Row`](crate::Row)), the Rust name and type, the unit
+/// in brackets where it is a real with one, the range in braces, and the start value. Both ends of
+/// a range are inside it, and all checks take it from here. The start value is a constant
+/// expression: the compiler evaluates it, so that no machine's arithmetic changes it. A variability
+/// before the name replaces that of the struct. The doc comment is the variable's description
 /// everywhere: write one sentence, without markup.
 ///
 /// ```

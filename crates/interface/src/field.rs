@@ -23,7 +23,8 @@ pub trait Field: Copy {
         slots.iter().fold(true, |all, &value| all & (min..=max).contains(&value))
     }
 
-    /// Every scalar moved to the nearest end of `range` if it is outside, or to `rest` if it is not a number.
+    /// Every scalar moved to the nearest end of `range` if it is outside, or to `rest`
+    /// if it is not a number.
     fn sanitized(self, rest: Self, (min, max): (f64, f64)) -> Self {
         let mut room = [[0.0; LARGEST_FIELD]; 2];
         let [slots, rests] = room.each_mut().map(|room| &mut room[..Self::COUNT * Self::COMPONENTS.len()]);

@@ -7,12 +7,12 @@ pub fn guid<M: Model>() -> String {
     guid_of::<M>(&start_values::<M>(&[]))
 }
 
-/// The GUID of a model with these start values, one for each slot: a hash of its name, version, variables and the start
-/// values that a host can set, so that a model description is refused by every binary whose interface differs from it in
-/// anything.
+/// The GUID of a model with these start values, one for each slot: a hash of its name, version,
+/// variables and the start values that a host can set, so that a model description is refused by
+/// every binary whose interface differs from it in anything.
 ///
-/// The outputs' start values are computed, and come out differently where a host has set the processor to round or to
-/// flush small numbers otherwise; they are left out.
+/// The outputs' start values are computed, and come out differently where a host has set the
+/// processor to round or to flush small numbers otherwise; they are left out.
 pub fn guid_of<M: Model>(start: &[f64]) -> String {
     let identity = M::IDENTITY;
     let mut hash = Fnv::new();

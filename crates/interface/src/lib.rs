@@ -1,11 +1,13 @@
 //! Declaration of a model's variables: once, in Rust.
 //!
-//! [`interface!`] declares a plain struct and, from the same lines, one [`Row`] a field: the FMI name, the unit, the
-//! range and the sentence that describes it. Everything else is derived from those rows: value references, the XML, the
-//! documentation's tables and the start values. A model is added by declaring its structs and implementing [`Model`].
+//! [`interface!`] declares a plain struct and, from the same lines, one [`Row`] a field: the FMI
+//! name, the unit, the range and the sentence that describes it. Everything else is derived from
+//! those rows: value references, the XML, the documentation's tables and the start values. A model
+//! is added by declaring its structs and implementing [`Model`].
 //!
-//! A model's values live in one flat array of `f64`, a *slot* for each scalar variable, in the order of the rows. A
-//! value reference is a slot's index. Booleans are 0 and 1, enumerations and integers whole numbers.
+//! A model's values live in one flat array of `f64`, a *slot* for each scalar variable, in the
+//! order of the rows. A value reference is a slot's index. Booleans are 0 and 1, enumerations and
+//! integers whole numbers.
 
 mod declare;
 mod field;
@@ -27,7 +29,8 @@ pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
 pub use start::{read_start_values, start_values, write_start_values};
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
 
-/// Checks that only tunable variables differ. `rows` are the group's, and `N` is the number of their slots.
+/// Checks that only tunable variables differ. `rows` are the group's, and `N` is the
+/// number of their slots.
 ///
 /// # Errors
 /// The first fixed variable that differs.
@@ -51,7 +54,8 @@ pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G
     Ok(())
 }
 
-/// A struct whose fields are variables of the interface: made by [`interface!`] and [`interface_tree!`].
+/// A struct whose fields are variables of the interface: made by [`interface!`]
+/// and [`interface_tree!`].
 pub trait Group: Default + 'static {
     /// The rows of the struct's fields, in the order of the fields.
     const ROWS: &'static [Row];
@@ -68,8 +72,8 @@ pub trait Group: Default + 'static {
     /// The first variable that is not a finite number or outside its range.
     fn check_ranges(&self) -> Result<(), Refusal>;
 
-    /// The values forced into their ranges: a number outside counts as the nearest end, and what is not a number as the
-    /// start value.
+    /// The values forced into their ranges: a number outside counts as the nearest end, and what is
+    /// not a number as the start value.
     fn sanitized(&self) -> Self;
     #[doc(hidden)] // the part of `sanitized` that is rarely needed
     fn forced_into_ranges(&self) -> Self;

@@ -32,8 +32,9 @@ impl Identity {
         self.row(slot).variable_name(usize::from(self.slots[slot].element))
     }
 
-    /// The slots in the order in which descriptions list them: everything but parameters, the main parameters, the other
-    /// parameters; otherwise in their own order. The slots of a row stay together.
+    /// The slots in the order in which descriptions list them: everything but parameters,
+    /// the main parameters, the other parameters; otherwise in their own order. The slots
+    /// of a row stay together.
     pub fn listed_slots(&self) -> Vec<usize> {
         let rank = |&slot: &usize| {
             let row = self.row(slot);
@@ -69,12 +70,13 @@ pub fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Resu
 
 /// A model that a host steps.
 ///
-/// The host keeps the values, one `f64` a slot. It gives the model the slots when parameters matter ([`Model::new`],
-/// [`Model::retune`]) and at every step, and the model writes its outputs back.
+/// The host keeps the values, one `f64` a slot. It gives the model the slots when parameters matter
+/// ([`Model::new`], [`Model::retune`]) and at every step, and the model writes its outputs back.
 pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     const IDENTITY: Identity;
 
-    /// Writes the start value of every slot, outputs included: they are those of [`Model::new`] from these very slots.
+    /// Writes the start value of every slot, outputs included: they are those of [`Model::new`]
+    /// from these very slots.
     fn start(slots: &mut [f64]);
 
     /// The model at rest, with the parameters in `slots`.
@@ -94,9 +96,9 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
         f64::INFINITY
     }
 
-    /// Advances by `step` seconds. Inputs are read from `slots` as they are at the beginning of the step, and hold until its
-    /// end unless the host gives `derivatives`: a slot for each of `slots`, the inputs' time derivatives, zero where it gives
-    /// none.
+    /// Advances by `step` seconds. Inputs are read from `slots` as they are at the beginning of the
+    /// step, and hold until its end unless the host gives `derivatives`: a slot for each of
+    /// `slots`, the inputs' time derivatives, zero where it gives none.
     fn step(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64);
 
     /// Writes the outputs into their slots.

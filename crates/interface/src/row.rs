@@ -56,8 +56,9 @@ pub struct Item {
 
 /// One line of the interface.
 ///
-/// In `name`, `#` stands for the 1-based index of an array and `@` for the component: `rig.base[#].@` with `count` 6
-/// and components x, y, z is eighteen variables, `rig.base[1].x` to `rig.base[6].z`.
+/// In `name`, `#` stands for the 1-based index of an array and `@` for the component:
+/// `rig.base[#].@` with `count` 6 and components x, y, z is eighteen variables,
+/// `rig.base[1].x` to `rig.base[6].z`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
     pub name: &'static str,
@@ -68,8 +69,8 @@ pub struct Row {
     pub count: usize,
     /// Components of an element: `["x", "y", "z"]`, say, or `[""]`.
     pub components: &'static [&'static str],
-    /// The smallest and the largest value allowed, both inclusive. An input beyond them counts as the nearer one, any
-    /// other variable takes no such value.
+    /// The smallest and the largest value allowed, both inclusive. An input beyond them counts as
+    /// the nearer one, any other variable takes no such value.
     pub range: Option<(f64, f64)>,
     text: &'static str,
 }
@@ -95,7 +96,8 @@ impl Row {
         Row { name, causality, variability, kind, count, components, range, text }
     }
 
-    /// The smallest and the largest value, whatever the row says of them; NaN and the infinities are never between them.
+    /// The smallest and the largest value, whatever the row says of them; NaN and the infinities
+    /// are never between them.
     pub const fn bounds(&self) -> (f64, f64) {
         match (self.range, self.kind) {
             (Some(range), _) => range,
@@ -112,7 +114,8 @@ impl Row {
         (min..=max).contains(&value)
     }
 
-    /// The reason why the row's scalar variable cannot have this value, in words that go on its name.
+    /// The reason why the row's scalar variable cannot have this value, in words that go on its
+    /// name.
     pub fn reason(&self, value: f64) -> String {
         let wanted = match (self.kind, self.range) {
             (Kind::Enumeration(enumeration), _) => {
@@ -154,7 +157,8 @@ impl Row {
         self.name.replace('#', &index.to_string()).replace('@', component)
     }
 
-    /// The name of the row as one array variable: the template without its places for index and component.
+    /// The name of the row as one array variable: the template without its places
+    /// for index and component.
     pub fn array_name(&self) -> String {
         self.name.replace("[#]", "").replace(".@", "")
     }
@@ -175,8 +179,8 @@ pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
     panic!("no row has this name")
 }
 
-/// The rows, of which those of these names are tunable: for a model that has another's struct, and can change in flight
-/// what the other cannot.
+/// The rows, of which those of these names are tunable: for a model that has another's struct, and
+/// can change in flight what the other cannot.
 ///
 /// # Panics
 /// If a name is no row's; in a constant, the compiler says so.

@@ -1,4 +1,5 @@
-//! The flat array of a model's values: which slot belongs to which row, and reading and writing structs in it.
+//! The flat array of a model's values: which slot belongs to which row, and reading and
+//! writing structs in it.
 
 use crate::{Field, Row};
 
@@ -49,8 +50,8 @@ impl<'a> Reader<'a> {
         Reader { slots }
     }
 
-    /// A reader of the next `count` slots. A struct that reads its fields from a reader of its own has the number of slots
-    /// checked once and not for each field.
+    /// A reader of the next `count` slots. A struct that reads its fields from a reader of its own
+    /// has the number of slots checked once and not for each field.
     #[inline]
     pub fn part(&mut self, count: usize) -> Self {
         let (mine, rest) = self.slots.split_at(count);

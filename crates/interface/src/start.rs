@@ -4,8 +4,9 @@ use std::fmt::Write;
 
 use crate::Model;
 
-/// The start value of every slot of a model, with these laid over the model's own, each a slot and its value. The outputs
-/// are those that follow from them. Slots that the model does not have are left out.
+/// The start value of every slot of a model, with these laid over the model's own, each a
+/// slot and its value. The outputs are those that follow from them. Slots that the model does
+/// not have are left out.
 pub fn start_values<M: Model>(others: &[(usize, f64)]) -> Vec<f64> {
     let mut slots = vec![0.0; M::IDENTITY.slots.len()];
     M::start(&mut slots);
@@ -22,8 +23,8 @@ pub fn start_values<M: Model>(others: &[(usize, f64)]) -> Vec<f64> {
     slots
 }
 
-/// Slots and values as a text, the values by their bits: `17=3fd6666666666666,42=3ff0000000000000`. Bits, because what decimals
-/// are read as depends on how the processor has been set to round.
+/// Slots and values as a text, the values by their bits: `17=3fd6666666666666,42=3ff0000000000000`.
+/// Bits, because what decimals are read as depends on how the processor has been set to round.
 pub fn write_start_values(values: &[(usize, f64)]) -> String {
     let mut text = String::new();
     for (slot, value) in values {
@@ -33,7 +34,8 @@ pub fn write_start_values(values: &[(usize, f64)]) -> String {
     text
 }
 
-/// The slots and values that a text of [`write_start_values`] holds. What is not of its form is left out.
+/// The slots and values that a text of [`write_start_values`] holds. What is not of
+/// its form is left out.
 pub fn read_start_values(text: &str) -> Vec<(usize, f64)> {
     let pair = |pair: &str| {
         let (slot, value) = pair.split_once('=')?;

@@ -11,8 +11,8 @@ pub struct BaseUnit {
 
 /// A unit by the name that the interface shows, and the quantity that is given in it.
 ///
-/// Two units may have one name where the quantities differ: angular velocities and break frequencies are both in rad/s,
-/// but only angular velocities are shown in degrees.
+/// Two units may have one name where the quantities differ: angular velocities and break
+/// frequencies are both in rad/s, but only angular velocities are shown in degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     pub name: &'static str,
@@ -24,14 +24,16 @@ pub struct Unit {
     pub display: Option<DisplayUnit>,
 }
 
-/// The unit in which users like to see a quantity: a value in it is `factor` times the value in the unit.
+/// The unit in which users like to see a quantity: a value in it is `factor` times
+/// the value in the unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DisplayUnit {
     pub name: &'static str,
     pub factor: f64,
 }
 
-/// The units that the interfaces use. A dimensionless real has none: [`units::ONE`] stands for that.
+/// The units that the interfaces use. A dimensionless real has none:
+/// [`units::ONE`] stands for that.
 pub mod units {
     use super::{BaseUnit, DisplayUnit, Unit};
 

@@ -1,4 +1,5 @@
-//! The bound for a desired specific force that is read from standard input, a number a line, on the default rig's surge:
+//! The bound for a desired specific force that is read from standard input, a number a line, on
+//! the default rig's surge:
 //!
 //!     cargo run --release --package moris-measures --example bound -- <seconds between samples> <seconds an interval>
 

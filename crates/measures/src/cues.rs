@@ -1,8 +1,8 @@
-//! Time above the perception thresholds: cues that the rider senses on the platform and should not, and cues that he
-//! should and does not.
+//! Time above the perception thresholds: cues that the rider senses on the platform and should not,
+//! and cues that he should and does not.
 //!
-//! The thresholds apply to what the vestibular model senses, as in Reid and Nahon (1985): 0.17 m/s2 in surge and sway,
-//! 0.28 m/s2 in heave, 3.0 deg/s in roll, 3.6 deg/s in pitch, 2.6 deg/s in yaw.
+//! The thresholds apply to what the vestibular model senses, as in Reid and Nahon (1985): 0.17 m/s2
+//! in surge and sway, 0.28 m/s2 in heave, 3.0 deg/s in roll, 3.6 deg/s in pitch, 2.6 deg/s in yaw.
 
 /// Least sensed specific force that is perceived, by axis x, y, z \[m/s2\].
 pub const FORCE_THRESHOLDS: [f64; 3] = [0.17, 0.17, 0.28];

@@ -1,7 +1,8 @@
 //! Delay of one signal behind another, by cross-correlation.
 //!
-//! Correlations at all shifts come from one Fourier transform: the cost is n log n in the number of samples, not n times
-//! the number of shifts. Shifts that are as good as the best within its accuracy are then computed by the definition.
+//! Correlations at all shifts come from one Fourier transform: the cost is n log n in the number of
+//! samples, not n times the number of shifts. Shifts that are as good as the best within its
+//! accuracy are then computed by the definition.
 
 use realfft::RealFftPlanner;
 
@@ -16,12 +17,13 @@ const ACCURACY: f64 = 1e-9;
 /// Fraction of both signals' energy that must be in an overlap for that accuracy.
 const LEAST_ENERGY: f64 = 1e-6;
 
-/// Time by which `felt` is later than `desired` \[s\]: the shift at which they correlate best, found between the samples by a
-/// parabola through the best shift and its neighbours. The correlation at a shift is Pearson's over the samples that
-/// overlap.
+/// Time by which `felt` is later than `desired` \[s\]: the shift at which they correlate best,
+/// found between the samples by a parabola through the best shift and its neighbours. The
+/// correlation at a shift is Pearson's over the samples that overlap.
 ///
-/// None where a signal is constant, where the best correlation is below 0.9, and where the best shift is not within two
-/// seconds or half the signals' length: such signals have no delay in common.
+/// None where a signal is constant, where the best correlation is below 0.9, and where
+/// the best shift is not within two seconds or half the signals' length: such signals
+/// have no delay in common.
 pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     let longest = ((LONGEST_DELAY / step).round() as usize).min(desired.len() / 2);
     let approximate = correlations(desired, felt, longest)?;
@@ -41,7 +43,8 @@ pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     Some((best as f64 - longest as f64 + vertex) * step)
 }
 
-/// The correlations at all shifts from `-longest` to `longest` samples; none where an overlap is constant.
+/// The correlations at all shifts from `-longest` to `longest` samples; none where
+/// an overlap is constant.
 fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64>> {
     // Without their means the signals' products are small, and so are the errors of the sums.
     let centred = |values: &[f64]| {
@@ -126,8 +129,8 @@ impl Sum {
     }
 }
 
-/// Sums over the parts of a signal that overlap at each shift: the signal without its last, or first, samples. Each is
-/// added up from the end that stays, so that no large sums cancel.
+/// Sums over the parts of a signal that overlap at each shift: the signal without its last, or
+/// first, samples. Each is added up from the end that stays, so that no large sums cancel.
 struct Sums {
     first: Vec<Sum>,
     last: Vec<Sum>,
@@ -166,7 +169,8 @@ fn correlation_at(desired: &[f64], felt: &[f64], shift: i64) -> Option<f64> {
     }
 }
 
-/// Abscissa, between -1 and 1, of the vertex of the parabola through the values at -1, 0 and 1; the middle is the largest.
+/// Abscissa, between -1 and 1, of the vertex of the parabola through the values at -1, 0 and 1; the
+/// middle is the largest.
 fn parabola_vertex(before: f64, middle: f64, after: f64) -> f64 {
     let curvature = before - 2.0 * middle + after;
     if curvature == 0.0 { 0.0 } else { 0.5 * (before - after) / curvature }
@@ -258,7 +262,8 @@ mod tests {
         assert!(found_some > 20, "{found_some}");
     }
 
-    /// All of a signal's energy in the part that the overlap leaves out: the transform's rounding must not show.
+    /// All of a signal's energy in the part that the overlap leaves out: the transform's
+    /// rounding must not show.
     #[test]
     fn a_jolt_outside_the_overlap_does_not_hide_the_rest() {
         let quiet = |shift: f64| sampled(move |t| 1e-6 * (TAU * 0.3 * (t - shift)).sin());

@@ -9,7 +9,8 @@ pub struct Effort {
     pub shortest_leg: f64,
     /// Longest length of any actuator \[m\].
     pub longest_leg: f64,
-    /// Span from the shortest to the longest length of any actuator, as a share of the stroke: 1 when both ends are reached.
+    /// Span from the shortest to the longest length of any actuator, as a share of the stroke: 1
+    /// when both ends are reached.
     pub stroke_used: f64,
     /// Smallest distance of any actuator from either end of its stroke \[m\].
     pub smallest_margin: f64,
@@ -44,7 +45,8 @@ pub fn effort(platform: &Platform) -> Effort {
     }
 }
 
-/// Share of the steps in which a limit was at work, 0 to 1. The first sample is none: no step led to it.
+/// Share of the steps in which a limit was at work, 0 to 1. The first sample is
+/// none: no step led to it.
 pub fn share(limited: &[Limited], at_work: impl Fn(&Limited) -> bool) -> f64 {
     match limited {
         [] | [_] => 0.0,

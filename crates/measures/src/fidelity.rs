@@ -2,7 +2,8 @@
 
 use crate::delay::delay;
 
-/// A signal whose values differ by less than this is constant: far below what anybody feels \[m/s2 or rad/s\].
+/// A signal whose values differ by less than this is constant: far below what anybody
+/// feels \[m/s2 or rad/s\].
 pub(crate) const CONSTANT: f64 = 1e-9;
 
 /// Fidelity of a felt signal to the desired one.
@@ -18,8 +19,8 @@ pub struct Fidelity {
     pub delay: Option<f64>,
 }
 
-/// Compares two signals that are sampled every `step` seconds. None where both are constant and equal: there is nothing
-/// to feel and nothing is felt.
+/// Compares two signals that are sampled every `step` seconds. None where both are constant and
+/// equal: there is nothing to feel and nothing is felt.
 pub fn fidelity(desired: &[f64], felt: &[f64], step: f64) -> Option<Fidelity> {
     let peak_error = peak_error(desired, felt);
     if is_constant(desired) && peak_error < CONSTANT {

@@ -1,8 +1,8 @@
 //! Measures of motion cue quality, and the best quality that a rig permits.
 //!
-//! Plain series go in ([`Run`]): what the vehicle's rider would feel, what the rider on the platform feels, and what the
-//! platform did. [`Measures`] come out, and [`Measures::rows`] lists them for people, each with its unit, definition and
-//! source.
+//! Plain series go in ([`Run`]): what the vehicle's rider would feel, what the rider on the
+//! platform feels, and what the platform did. [`Measures`] come out, and [`Measures::rows`] lists
+//! them for people, each with its unit, definition and source.
 //!
 //! | module | what it measures |
 //! |---|---|
@@ -13,7 +13,8 @@
 //! | [`effort`](mod@effort) | stroke used, time limited |
 //! | [`bound`](mod@bound) | the least RMS error that any controller could reach |
 //!
-//! Frames and signs are those of the washout: x forward, y left, z up; all quantities are in SI units.
+//! Frames and signs are those of the washout: x forward, y left, z up; all
+//! quantities are in SI units.
 
 #![forbid(unsafe_code)]
 

@@ -36,8 +36,8 @@ const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
 
 impl Measures {
-    /// The measures as rows, in the order in which one reads them. Axes on which nothing is desired and nothing felt are left
-    /// out.
+    /// The measures as rows, in the order in which one reads them. Axes on which nothing is desired
+    /// and nothing felt are left out.
     pub fn rows(&self) -> Vec<Row> {
         let mut rows = Vec::new();
         for (k, axis) in AXES.iter().enumerate() {
@@ -154,7 +154,8 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
 
 /// The bound of one axis, `x`, `y` or `z`, beside what was felt there.
 ///
-/// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the RMS error that was felt.
+/// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the
+/// RMS error that was felt.
 pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4] {
     let row = |name, value, unit, decimals, definition| Row {
         subject: format!("specific force {axis}"),

@@ -15,7 +15,8 @@ pub type Axes<T> = [T; 3];
 /// All measures of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measures {
-    /// Specific force, felt against desired; none on an axis on which nothing is desired and nothing felt.
+    /// Specific force, felt against desired; none on an axis on which nothing is
+    /// desired and nothing felt.
     pub force: Axes<Option<Fidelity>>,
     /// Angular velocity, felt against desired.
     pub rate: Axes<Option<Fidelity>>,

@@ -1,14 +1,16 @@
 //! Input of the measures.
 
-/// One ride with one set of parameters: series of equal length, sampled every `step` seconds. The first sample is the one
-/// before the first step.
+/// One ride with one set of parameters: series of equal length, sampled every `step` seconds. The
+/// first sample is the one before the first step.
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a> {
     /// Time from one sample to the next \[s\].
     pub step: f64,
-    /// Specific force that the vehicle's rider would feel, in head axes, gravity's reaction included \[m/s2\].
+    /// Specific force that the vehicle's rider would feel, in head axes, gravity's
+    /// reaction included \[m/s2\].
     pub desired_force: &'a [[f64; 3]],
-    /// Specific force that the rider on the platform feels, in head axes, gravity's reaction included \[m/s2\].
+    /// Specific force that the rider on the platform feels, in head axes, gravity's
+    /// reaction included \[m/s2\].
     pub felt_force: &'a [[f64; 3]],
     /// Angular velocity that the vehicle's rider would feel, in head axes \[rad/s\].
     pub desired_rate: &'a [[f64; 3]],

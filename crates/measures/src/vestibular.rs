@@ -1,15 +1,18 @@
-//! The vestibular model: what the semicircular canals and the otoliths make of angular velocity and specific force.
+//! The vestibular model: what the semicircular canals and the otoliths make of angular
+//! velocity and specific force.
 //!
 //! Both are linear and of second order, with the parameters of Telban and Cardullo (2005):
 //!
-//! - otoliths, from specific force to sensed specific force: 0.4 (1 + 10 s) / ((1 + 5 s)(1 + 0.016 s));
-//! - semicircular canals, from angular velocity to sensed angular velocity: 5.73 * 80 s^2 / ((1 + 80 s)(1 + 5.73 s)).
+//! - otoliths, from specific force to sensed specific force: 0.4 (1 + 10 s) /
+//!   ((1 + 5 s)(1 + 0.016 s));
+//! - semicircular canals, from angular velocity to sensed angular velocity: 5.73 * 80 s^2 /
+//!   ((1 + 80 s)(1 + 5.73 s)).
 //!
-//! The otoliths sense a force that lasts at 0.4 of its size and a quick one at 0.8; the canals sense quick turning at its
-//! size and forget a rate that lasts within some ten seconds.
+//! The otoliths sense a force that lasts at 0.4 of its size and a quick one at 0.8; the canals
+//! sense quick turning at its size and forget a rate that lasts within some ten seconds.
 //!
-//! Each is discretised exactly for a signal that goes linearly from sample to sample (first-order hold), by the matrix
-//! exponential.
+//! Each is discretised exactly for a signal that goes linearly from sample to sample (first-order
+//! hold), by the matrix exponential.
 
 use nalgebra::SMatrix;
 
@@ -35,8 +38,9 @@ pub const OTOLITHS: Organ = Organ::new([0.4, 0.4 * 10.0, 0.0], 5.0, 0.016);
 /// The semicircular canals: angular velocity to sensed angular velocity.
 pub const CANALS: Organ = Organ::new([0.0, 0.0, 5.73 * 80.0], 80.0, 5.73);
 
-/// Response of an organ to a signal that is sampled every `step` seconds, having been at `rest` for ever before its first
-/// sample. The organ's answer to `rest` itself is left out: what is sensed is the change from it.
+/// Response of an organ to a signal that is sampled every `step` seconds, having been at `rest`
+/// for ever before its first sample. The organ's answer to `rest` itself is left out: what is
+/// sensed is the change from it.
 pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
     let [b0, b1, b2] = organ.numerator;
     let [a1, a2] = organ.denominator;
@@ -60,8 +64,8 @@ pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
         .collect()
 }
 
-/// The exact step of the answer and its rate for an input that is linear in time: what each of answer, rate, the input and
-/// its slope adds.
+/// The exact step of the answer and its rate for an input that is linear in time: what each of
+/// answer, rate, the input and its slope adds.
 fn transition(organ: &Organ, step: f64) -> [[f64; 4]; 2] {
     let [a1, a2] = organ.denominator;
     #[rustfmt::skip]

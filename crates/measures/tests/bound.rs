@@ -1,4 +1,5 @@
-//! The bound against closed forms, against motions that keep the limits, and against its own refinement.
+//! The bound against closed forms, against motions that keep the limits, and
+//! against its own refinement.
 
 use moris_measures::bound::{AxisLimits, Bound, NoBound, TiltLimits, Trajectory, bound};
 
@@ -132,7 +133,8 @@ fn the_motion_that_attains_it_keeps_every_limit() {
     }
 }
 
-/// Steps through a trajectory and compares what comes with its own knots and, at all times, with the limits.
+/// Steps through a trajectory and compares what comes with its own knots and, at all
+/// times, with the limits.
 fn assert_keeps(trajectory: &Trajectory, limits: &AxisLimits) {
     const ROUNDING: f64 = 1e-5;
     let t = trajectory.interval;
@@ -194,7 +196,8 @@ fn no_motion_within_the_limits_does_better() {
     }
 }
 
-/// Felt signal in 20 s of a random smooth motion on [`SURGE`], which is asserted to keep the limits.
+/// Felt signal in 20 s of a random smooth motion on [`SURGE`], which is asserted to keep the
+/// limits.
 fn felt_on_random_motion(random: &mut impl FnMut() -> f64) -> Vec<f64> {
     let tilt = SURGE.tilt.unwrap();
     let waves: Vec<[f64; 3]> = (0..4).map(|_| [random(), 0.2 + random().abs(), 3.0 * random()]).collect();

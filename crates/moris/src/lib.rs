@@ -1,10 +1,11 @@
 //! The workbench: from a recording and a rig to a tuned washout and a report.
 //!
-//! One module a command: [`rig`] checks a platform, [`run`] simulates a recording on it, [`measure`] prints a table of
-//! the measures of many, [`tune`] searches for better parameters, [`respond`] measures a frequency response,
-//! [`parameters`] lists all parameters.
+//! One module a command: [`rig`] checks a platform, [`run`] simulates a recording on it,
+//! [`measure`] prints a table of the measures of many, [`tune`] searches for better parameters,
+//! [`respond`] measures a frequency response, [`parameters`] lists all parameters.
 //!
-//! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by the crate `moris-setup`.
+//! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by
+//! the crate `moris-setup`.
 
 #![forbid(unsafe_code)]
 

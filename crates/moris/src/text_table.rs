@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// Rows of cells under a header, in aligned columns: the first to the left, the others to the right.
+/// Rows of cells under a header, in aligned columns: the first to the left, the others to the
+/// right.
 #[derive(Clone, Debug)]
 pub struct TextTable {
     rows: Vec<Vec<String>>,

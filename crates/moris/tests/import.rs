@@ -1,4 +1,5 @@
-//! Recordings as loggers write them: units in headers, decimal commas, compressed, and files that are no CSV.
+//! Recordings as loggers write them: units in headers, decimal commas, compressed, and
+//! files that are no CSV.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -14,7 +15,8 @@ use moris::ride::{ConventionOptions, Ride};
 
 const GRAVITY: f64 = 9.80665;
 
-/// A car at 20 m/s in gentle bends, at 50 Hz: time, specific force \[m/s2\], angular velocity \[rad/s\].
+/// A car at 20 m/s in gentle bends, at 50 Hz: time, specific force \[m/s2\],
+/// angular velocity \[rad/s\].
 fn car(duration: f64) -> Vec<[f64; 7]> {
     let sample = |k: usize| {
         let t = 0.02 * k as f64;
@@ -178,7 +180,8 @@ fn rates_that_are_plausible_only_in_degrees_are_rejected() {
     }
 }
 
-/// Two-wheelers lean by 50 degrees and have no lateral force in turns; a walk's turns are tight. Neither is a mistake.
+/// Two-wheelers lean by 50 degrees and have no lateral force in turns; a walk's turns are tight.
+/// Neither is a mistake.
 #[test]
 fn a_motorcycle_and_a_parking_car_are_plausible_in_radians() {
     let motorcycle: Vec<[f64; 7]> = (0..3000)
@@ -337,7 +340,8 @@ fn files_that_are_no_csv_are_recognised_and_never_printed() {
     assert!(Ride::read(Path::new("no/such.csv"), &ConventionOptions::default().load().unwrap()).is_err());
 }
 
-/// In the manner of AiM, MoTeC and RaceChrono: facts about the session, the names, their units, and what they come from.
+/// In the manner of AiM, MoTeC and RaceChrono: facts about the session, the names, their units,
+/// and what they come from.
 #[test]
 fn a_preamble_and_a_line_of_units_are_passed_over() {
     let header = "time,ax,ay,az,wx,wy,wz";

@@ -48,7 +48,8 @@ fn cells<'a>(text: &'a str, channel: &str) -> Vec<&'a str> {
     line[line.find(channel).unwrap() + channel.len()..].split_whitespace().collect()
 }
 
-/// RMS errors of surge and sway of a host that advances the washout itself: at each sample, those of the outputs there.
+/// RMS errors of surge and sway of a host that advances the washout itself: at each sample, those
+/// of the outputs there.
 fn errors(advance: impl Fn(&mut Washout, &Input, &Input)) -> [f64; 2] {
     let mut parameters = Parameters::default();
     parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;

@@ -1,4 +1,5 @@
-//! Recordings: the same ride in other units, axes and forms is the same ride, and what is wrong is told with its place.
+//! Recordings: the same ride in other units, axes and forms is the same ride, and what is wrong
+//! is told with its place.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -18,7 +19,8 @@ use tempfile::TempDir;
 
 const GRAVITY: f64 = 9.80665;
 
-/// A sample of a made-up ride: time, specific force, body rates, roll, pitch, yaw, all in SI units, z up.
+/// A sample of a made-up ride: time, specific force, body rates, roll, pitch, yaw,
+/// all in SI units, z up.
 type Sample = [f64; 10];
 
 /// Three seconds at 100 Hz of everything at once, smooth and slow enough for a vehicle.
@@ -154,7 +156,8 @@ fn removed_gravity_is_put_back_by_the_orientation() {
     assert_same(&read(&without, &options), &expected);
 }
 
-/// Without orientation, gravity removal of either kind takes (0, 0, g) away: what is cued is what differs from rest.
+/// Without orientation, gravity removal of either kind takes (0, 0, g) away: what is cued is
+/// what differs from rest.
 #[test]
 fn without_orientation_what_is_cued_is_what_differs_from_rest() {
     let ride = read(&plain(), &ConventionOptions::default());
@@ -351,7 +354,8 @@ fn field() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Whatever a file holds, it is a ride of finite numbers at equal steps, or an error that names the file.
+    /// Whatever a file holds, it is a ride of finite numbers at equal steps, or an
+    /// error that names the file.
     #[test]
     fn no_file_is_a_panic(
         steps in prop::collection::vec(prop_oneof![6 => Just(0.01), 1 => -1.0..1.0f64, 1 => any::<f64>()], 0..30),

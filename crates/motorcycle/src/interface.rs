@@ -1,7 +1,8 @@
 //! The table of variables: inputs, outputs, parameters.
 //!
-//! The structs here are the Rust API, and their rows are the FMU's variables. The inputs of the washout stand
-//! first among the outputs, under the washout's names, so that the two connect one to one.
+//! The structs here are the Rust API, and their rows are the FMU's variables. The inputs
+//! of the washout stand first among the outputs, under the washout's names, so that the
+//! two connect one to one.
 
 use moris_interface::units::{
     ANGULAR_FREQUENCY, KG, KG_M2, KG_PER_M3, M, M_PER_S, M_PER_S2, M2, N, N_M, N_M_S_PER_RAD, N_PER_M, N_S_PER_M,
@@ -99,8 +100,9 @@ interface! {
 }
 
 interface! {
-    /// Masses and geometry: the parameters of a bicycle in Meijaard et al. (2007), and a steering damper. Lengths are
-    /// measured from the rear tyre's contact, x forward; heights above the road.
+    /// Masses and geometry: the parameters of a bicycle in Meijaard et al. (2007), and a
+    /// steering damper. Lengths are measured from the rear tyre's contact, x forward;
+    /// heights above the road.
     pub struct Machine: Parameter, Fixed {
         /// Distance between the two tyre contacts.
         "geometry.wheelbase" wheelbase: f64 [M] { 0.1 ..= 10.0 } = 1.448;

@@ -1,7 +1,7 @@
 //! The table of variables: inputs, outputs, parameters.
 //!
-//! The structs here are the Rust API, and their rows are the FMU's variables. A name of the washout means the same
-//! here, so that its outputs connect and both accept the same rig.
+//! The structs here are the Rust API, and their rows are the FMU's variables. A name of the washout
+//! means the same here, so that its outputs connect and both accept the same rig.
 
 use moris_interface::units::{ANGULAR_FREQUENCY, KG, KG_M2, M, M_PER_S, M_PER_S2, N, RAD, RAD_PER_S, RAD_PER_S2, S, W};
 use moris_interface::{Field, Kind, interface, interface_tree, units};
@@ -11,7 +11,8 @@ use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// The matrix of inertia of a body about its centre of mass, as its six different elements \[kg m2\].
+/// The matrix of inertia of a body about its centre of mass, as its six
+/// different elements \[kg m2\].
 ///
 /// They are the elements of the matrix: off the diagonal xy is minus the integral of x y dm.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -128,7 +129,8 @@ interface! {
 }
 
 interface! {
-    /// Moving masses: platform with mock-up, rider and payload, as one rigid body. The actuators are massless.
+    /// Moving masses: platform with mock-up, rider and payload, as one rigid body. The
+    /// actuators are massless.
     pub struct Masses: Parameter, Tunable {
         /// Mass of the platform with the motorcycle's mock-up.
         "platform.mass" platform_mass: f64 [KG] { 1e-3 ..= 1e6 } = 250.0;
@@ -173,8 +175,9 @@ interface_tree! {
     }
 }
 
-/// Lengths of the default rig's legs at neutral \[m\]: [`neutral_lengths`] as round-to-nearest gives them. They are written
-/// out, because a start value must not depend on how a host has set the processor to round.
+/// Lengths of the default rig's legs at neutral \[m\]: [`neutral_lengths`] as round-to-nearest
+/// gives them. They are written out, because a start value must not depend on how a host has set
+/// the processor to round.
 const DEFAULT_NEUTRAL_LENGTHS: [f64; 6] = [
     1.299_962_822_323_889_7,
     1.299_962_822_323_889_7,

@@ -16,7 +16,8 @@ macro_rules! api {
     };
 }
 
-/// The functions as a host has them. From here on a panic, the host's or the library's, ends the process with its text.
+/// The functions as a host has them. From here on a panic, the host's or the library's, ends the
+/// process with its text.
 pub fn open() -> Api {
     let api = api! {
         get_types_platform fmi2GetTypesPlatform;

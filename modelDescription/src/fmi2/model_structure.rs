@@ -25,14 +25,15 @@ pub struct Unknowns {
 pub struct Unknown {
     #[serde(rename = "@index")]
     pub index: u32,
-    /// The indices of the variables that it is calculated from, ascending. Empty: from none of them. None: possibly from
-    /// all inputs and parameters.
+    /// The indices of the variables that it is calculated from, ascending. Empty: from none of
+    /// them. None: possibly from all inputs and parameters.
     #[serde(rename = "@dependencies", default, skip_serializing_if = "Option::is_none")]
     pub dependencies: Option<Vec<u32>>,
 }
 
 impl Unknowns {
-    /// The list in which every one of `indices` has these dependencies; none where there is nothing to list.
+    /// The list in which every one of `indices` has these dependencies; none where
+    /// there is nothing to list.
     pub fn all_with(indices: &[u32], dependencies: Option<&[u32]>) -> Option<Self> {
         let unknown = |&index: &u32| Unknown { index, dependencies: dependencies.map(<[u32]>::to_vec) };
         (!indices.is_empty()).then(|| Unknowns { unknowns: indices.iter().map(unknown).collect() })

@@ -15,7 +15,8 @@ pub struct ScalarVariable {
     pub causality: Causality,
     #[serde(rename = "@variability")]
     pub variability: Variability,
-    /// Left out where the standard's default is meant: `exact` for inputs and parameters, nothing for the time.
+    /// Left out where the standard's default is meant: `exact` for inputs and parameters,
+    /// nothing for the time.
     #[serde(rename = "@initial", default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<Initial>,
     /// `Real`, `Integer`, `Boolean` or `Enumeration`.

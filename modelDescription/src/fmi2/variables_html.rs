@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use moris_interface::{Causality, Identity, Kind, Model, Row, Variability};
 
-/// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters that can be changed
-/// while the simulation runs, and those that cannot, with a row for each row of the interface. Names and types are those
-/// of FMI 2.0.
+/// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters
+/// that can be changed while the simulation runs, and those that cannot, with a row for each row of
+/// the interface. Names and types are those of FMI 2.0.
 ///
 /// `start` has the start value of each slot.
 pub fn variables_html<M: Model>(start: &[f64]) -> String {
@@ -113,7 +113,8 @@ fn unit_html(kind: Kind) -> String {
     }
 }
 
-/// One value where all of the row's variables start alike, else the values, an array element a line.
+/// One value where all of the row's variables start alike, else the values, an
+/// array element a line.
 fn start_html(row: &Row, start: &[f64]) -> String {
     if start.iter().all(|value| value == &start[0]) {
         return value_html(row.kind, start[0]);
@@ -132,7 +133,8 @@ fn value_html(kind: Kind, value: f64) -> String {
     }
 }
 
-/// A number for reading, with a true minus sign: six decimals at most. The exact value is in modelDescription.xml.
+/// A number for reading, with a true minus sign: six decimals at most. The exact value is in
+/// modelDescription.xml.
 fn rounded(value: f64) -> String {
     let digits = if value == 0.0 {
         "0".to_owned()

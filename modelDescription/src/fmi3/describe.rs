@@ -15,9 +15,11 @@ pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
     describe_with::<M>(&start_values::<M>(&[]), layout)
 }
 
-/// The model description of a model that is exported for co-simulation with these start values, one for each slot.
+/// The model description of a model that is exported for co-simulation with these start
+/// values, one for each slot.
 ///
-/// Variables are listed in the order of the slots, and a value reference is the number of a variable's first slot.
+/// Variables are listed in the order of the slots, and a value reference is the number of a
+/// variable's first slot.
 pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> ModelDescription {
     let identity = M::IDENTITY;
     // Who made the FMU and the units are as in FMI 2.0.
@@ -160,7 +162,8 @@ fn variable<T>(place: Place, start: &[f64], convert: fn(f64) -> T) -> Variable<T
     }
 }
 
-/// The row's sentence and, for an array whose elements have components, their names: the array's name does not say them.
+/// The row's sentence and, for an array whose elements have components, their names: the array's
+/// name does not say them.
 fn description(row: &Row, is_array: bool) -> String {
     match row.components {
         components if is_array && components.len() > 1 => {
@@ -176,7 +179,8 @@ pub(super) fn dimensions(row: &Row) -> Vec<Dimension> {
     sizes.into_iter().filter(|&size| size > 1).map(|size| Dimension { start: size as u64 }).collect()
 }
 
-/// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation possibly on everything.
+/// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation
+/// possibly on everything.
 fn model_structure(identity: &Identity, layout: Layout) -> ModelStructure {
     let outputs = |dependencies: Option<Vec<u32>>| {
         places(identity, layout)

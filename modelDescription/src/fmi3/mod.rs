@@ -1,7 +1,8 @@
-//! The schema of FMI 3.0, as far as a co-simulation FMU of ours uses it, and its description of a model.
+//! The schema of FMI 3.0, as far as a co-simulation FMU of ours uses it, and its
+//! description of a model.
 //!
-//! A row of the interface with several values is as many scalars or one array: see [`Layout`]. What is as in FMI 2.0 is
-//! taken from there.
+//! A row of the interface with several values is as many scalars or one array: see [`Layout`]. What
+//! is as in FMI 2.0 is taken from there.
 
 mod describe;
 pub mod model_description;

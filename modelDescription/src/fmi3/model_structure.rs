@@ -18,8 +18,8 @@ pub struct ModelStructure {
 pub struct Unknown {
     #[serde(rename = "@valueReference")]
     pub value_reference: u32,
-    /// The value references of the variables that it is calculated from. Empty: from none of them. None: possibly from
-    /// all inputs and parameters.
+    /// The value references of the variables that it is calculated from. Empty: from none of them.
+    /// None: possibly from all inputs and parameters.
     #[serde(rename = "@dependencies", default, skip_serializing_if = "Option::is_none")]
     pub dependencies: Option<Vec<u32>>,
 }

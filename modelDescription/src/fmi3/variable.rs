@@ -27,7 +27,8 @@ pub struct Variable<T> {
     pub causality: Causality,
     #[serde(rename = "@variability")]
     pub variability: Variability,
-    /// Left out where the standard's default is meant: `exact` for inputs and parameters, nothing for the time.
+    /// Left out where the standard's default is meant: `exact` for inputs and parameters,
+    /// nothing for the time.
     #[serde(rename = "@initial", default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<Initial>,
     /// The name of the type that lists an enumeration's items.

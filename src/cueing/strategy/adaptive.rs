@@ -1,7 +1,9 @@
-//! The adaptive strategy: a coordinated filter of each axis whose two gains follow the gradient of a cost.
+//! The adaptive strategy: a coordinated filter of each axis whose two gains follow
+//! the gradient of a cost.
 //!
-//! After Parrish, Dieudonne, Bowles and Martin (*Coordinated Adaptive Washout for Motion Simulators*, 1975) and Nahon, Reid
-//! and Kirdeikis (1992). With u = f - g sin q what the tilt leaves of the reference f,
+//! After Parrish, Dieudonne, Bowles and Martin (*Coordinated Adaptive Washout for Motion
+//! Simulators*, 1975) and Nahon, Reid and Kirdeikis (1992). With u = f - g sin q what the tilt
+//! leaves of the reference f,
 //!
 //! ```text
 //!     a = P1 (u + H alpha) - d v - e x,    q' = P2 u within the tilt's limits
@@ -9,8 +11,8 @@
 //!     P1' = -K1 dJ/dP1,    P2' = -K2 dJ/dP2
 //! ```
 //!
-//! The sensitivities dx/dP1, dx/dP2 and dq/dP2 are integrated beside the motion. Towards the ends of the actuators' strokes
-//! travel becomes dearer.
+//! The sensitivities dx/dP1, dx/dP2 and dq/dP2 are integrated beside the motion. Towards the ends
+//! of the actuators' strokes travel becomes dearer.
 
 use serde::{Deserialize, Serialize};
 
@@ -58,7 +60,8 @@ struct Adaptation {
 
 /// Sensitivities stay within this: what they are good for ends long before.
 const LARGEST_SENSITIVITY: f64 = 1e3;
-/// The fraction of its nominal value below which no gain falls: without a gain, the tilt would never come back.
+/// The fraction of its nominal value below which no gain falls: without a gain, the tilt
+/// would never come back.
 const LEAST_GAIN: f64 = 0.1;
 /// While a limit holds the tilt, its sensitivity decays at this rate \[1/s\].
 const SENSITIVITY_DECAY: f64 = 0.2;
@@ -94,8 +97,8 @@ impl Adaptive {
         (self.models, self.tuning) = (*models, *tuning);
     }
 
-    /// What to do in a step of `step` seconds that begins in these states, with these references at its end, when the
-    /// actuators have so much left of their strokes \[m\].
+    /// What to do in a step of `step` seconds that begins in these states, with these references at
+    /// its end, when the actuators have so much left of their strokes \[m\].
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],

@@ -1,4 +1,5 @@
-//! The classical strategy: the paper's splitter and gravitational strategy, whose high-pass moves the platform.
+//! The classical strategy: the paper's splitter and gravitational strategy, whose
+//! high-pass moves the platform.
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -35,8 +36,9 @@ impl Classical {
         &self.gravitational
     }
 
-    /// Advances the tilt by `step` seconds, in which the force in the base frame goes linearly from `start` to `end`.
-    /// `rotation` and `head` are those at the step's end, and `lean` is what the platform makes up for.
+    /// Advances the tilt by `step` seconds, in which the force in the base frame goes linearly from
+    /// `start` to `end`. `rotation` and `head` are those at the step's end, and `lean` is what the
+    /// platform makes up for.
     pub fn advance_tilt(
         &mut self,
         [start, end]: [Vector3<f64>; 2],

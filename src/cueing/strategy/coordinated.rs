@@ -1,16 +1,20 @@
-//! Travel and tilt that add up: what the adaptive, the optimal and the predictive strategy have in common.
+//! Travel and tilt that add up: what the adaptive, the optimal and the predictive
+//! strategy have in common.
 //!
-//! On either axis, with a tilt q whose gravity acts along it (surge: nose up; sway: roll), the rider feels
+//! On either axis, with a tilt q whose gravity acts along it (surge: nose up; sway:
+//! roll), the rider feels
 //!
 //! ```text
 //!     felt = cos(q + b) a - H (alpha + b'') + (g + z'') sin(q + b)
 //! ```
 //!
-//! where b is what else turns the platform about that axis, z heave and H the height of the head. A strategy decides on the
-//! tilt's acceleration alpha and on a *dropped force* e; the travel's acceleration a follows from felt = r + e, with r the
-//! cue at the step's end. However seldom a strategy decides, what it does not drop is felt at once.
+//! where b is what else turns the platform about that axis, z heave and H the height of the head. A
+//! strategy decides on the tilt's acceleration alpha and on a *dropped force* e; the travel's
+//! acceleration a follows from felt = r + e, with r the cue at the step's end. However seldom a
+//! strategy decides, what it does not drop is felt at once.
 //!
-//! Strategies follow the *effective reference* f = r - g sin(b) + H b'', so that b is no concern of theirs.
+//! Strategies follow the *effective reference* f = r - g sin(b) + H b'', so that b is
+//! no concern of theirs.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -73,13 +77,16 @@ pub struct Circumstances<'a> {
 const RETURN_FREQUENCY: f64 = 1.0;
 /// A tilt within this fraction of its angle's or rate's limit counts as limited.
 const NEARLY: f64 = 0.999;
-/// The determinant of the head's axes below which the platform is turned over; nothing more is divided by it.
+/// The determinant of the head's axes below which the platform is turned over; nothing
+/// more is divided by it.
 const LEAST_DETERMINANT: f64 = 0.1;
-/// Heave under the predictive strategy stays below this, and is nearly what it was far below it \[m\].
+/// Heave under the predictive strategy stays below this, and is nearly what it
+/// was far below it \[m\].
 const SOFT_HEAVE: f64 = 0.1;
 
 impl Coordinated {
-    /// At rest at neutral, by the strategy that the parameters choose. None if its parameters cannot be used.
+    /// At rest at neutral, by the strategy that the parameters choose. None if its
+    /// parameters cannot be used.
     pub fn new(parameters: &Parameters) -> Option<Self> {
         let models = models(parameters);
         let law = match parameters.structure.strategy {
@@ -173,8 +180,8 @@ impl Coordinated {
         self.share = share;
     }
 
-    /// Surge and sway at the end of a step, so that the rider feels the cue less the dropped force; `turning` is how the
-    /// platform turns there, and `heave` how it heaves.
+    /// Surge and sway at the end of a step, so that the rider feels the cue less the dropped force;
+    /// `turning` is how the platform turns there, and `heave` how it heaves.
     pub fn travel(&self, circumstances: &Circumstances, turning: &Turning, heave: &Motion, step: f64) -> [Motion; 2] {
         let Circumstances { parameters, guard, head, force, .. } = *circumstances;
         let rotation = &turning.orientation.rotation;

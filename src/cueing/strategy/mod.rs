@@ -7,7 +7,8 @@
 //! | [`optimal`] | a linear-quadratic regulator |
 //! | [`predictive`] | a plan of the next seconds within all limits, made anew 50 times a second |
 //!
-//! Heave and the angular channel are the same for all. The last three have [`coordinated`] in common.
+//! Heave and the angular channel are the same for all. The last three have
+//! [`coordinated`] in common.
 
 pub mod adaptive;
 pub mod classical;
@@ -57,7 +58,8 @@ pub struct Decision {
 }
 
 impl Strategy {
-    /// The strategy that the parameters choose, at rest at neutral. None if its parameters cannot be used.
+    /// The strategy that the parameters choose, at rest at neutral. None if its
+    /// parameters cannot be used.
     pub fn new(parameters: &Parameters) -> Option<Self> {
         Some(match parameters.structure.strategy {
             StrategyKind::Classical => Strategy::Classical(Classical::new(parameters)),
@@ -116,7 +118,8 @@ impl Strategy {
     }
 }
 
-/// Below this a quantity is zero: what decays for long would otherwise end in denormal numbers, which are slow.
+/// Below this a quantity is zero: what decays for long would otherwise end in denormal
+/// numbers, which are slow.
 const REST: f64 = 1e-30;
 
 fn at_rest_if_tiny(value: f64) -> f64 {

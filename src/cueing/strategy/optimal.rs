@@ -1,8 +1,8 @@
 //! The optimal strategy: a linear-quadratic regulator for each axis.
 //!
-//! After Sivan, Ish-Shalom and Huang (1982), Reid and Nahon (1985), and Telban and Cardullo (NASA/CR-2005-213747), with
-//! the dropped force in place of the vestibular error. As feedback of the motion that the limits leave, it needs no
-//! measure against wind-up.
+//! After Sivan, Ish-Shalom and Huang (1982), Reid and Nahon (1985), and Telban and Cardullo
+//! (NASA/CR-2005-213747), with the dropped force in place of the vestibular error. As feedback of
+//! the motion that the limits leave, it needs no measure against wind-up.
 
 use serde::{Deserialize, Serialize};
 
@@ -62,7 +62,8 @@ impl Optimal {
         true
     }
 
-    /// What to do in a step of `step` seconds that begins in these states, with these references at its end.
+    /// What to do in a step of `step` seconds that begins in these states, with these
+    /// references at its end.
     pub fn decide(&mut self, states: &[AxisState; 2], references: [f64; 2], step: f64) -> [Decision; 2] {
         let share = 1.0 - libm::exp(-step / self.tuning.split_time);
         [0, 1].map(|k: usize| {

@@ -1,13 +1,13 @@
-//! The linear-quadratic regulator of one axis: the price of dropped force, stroke and tilting, and the gains that make it
-//! least.
+//! The linear-quadratic regulator of one axis: the price of dropped force, stroke and tilting, and
+//! the gains that make it least.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use super::riccati;
 
-/// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast part of the reference
-/// \[m/s2\].
+/// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast
+/// part of the reference \[m/s2\].
 pub type State = SVector<f64, 6>;
 /// Gains from the state to dropped force \[m/s2\] and tilt acceleration \[rad/s2\].
 pub type Gains = SMatrix<f64, 2, 6>;
@@ -28,7 +28,8 @@ pub struct AxisModel {
     pub acceleration_limit: f64,
 }
 
-/// The price of what a controller does, relative to 1 for a dropped force of 1 m/s2; each of the rest at its limit.
+/// The price of what a controller does, relative to 1 for a dropped force of 1 m/s2; each of
+/// the rest at its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weights {
     pub position: f64,
@@ -40,20 +41,23 @@ pub struct Weights {
     pub fast_pole: f64,
 }
 
-/// A regulator: (dropped force, tilt acceleration) = -gains * state, at a cost to come of state' cost state.
+/// A regulator: (dropped force, tilt acceleration) = -gains * state, at a cost to come
+/// of state' cost state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Regulator {
     pub gains: Gains,
     pub cost: SMatrix<f64, 6, 6>,
 }
 
-/// Without a price on the tilt itself the equation would have no solution; this one changes nothing that can be seen.
+/// Without a price on the tilt itself the equation would have no solution; this one changes
+/// nothing that can be seen.
 const PRICE_OF_TILT: f64 = 1e-9;
 /// The same for every scaled state.
 const PRICE_OF_STATE: f64 = 1e-10;
 
 impl Regulator {
-    /// The regulator that is least in the mean for these prices. None if the Riccati equation has no solution in numbers.
+    /// The regulator that is least in the mean for these prices. None if the Riccati equation has
+    /// no solution in numbers.
     pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
         let (a, b) = dynamics(model, weights);
         let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = *model;

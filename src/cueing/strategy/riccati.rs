@@ -10,11 +10,12 @@ type Hamiltonian = SMatrix<f64, { 2 * N }, { 2 * N }>;
 /// The matrix sign iteration converges quadratically; a solvable equation needs 10 to 20.
 const MAX_ITERATIONS: usize = 60;
 
-/// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None if there is no such P.
+/// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None
+/// if there is no such P.
 ///
-/// By the matrix sign function (Roberts, *International Journal of Control* 32 (1980) 677-687): the sign W of the
-/// Hamiltonian [A -S; -Q -A'] satisfies (W + I) [I; P] = 0. Newton's iteration W <- (c W + (c W)^-1) / 2 is scaled by
-/// norms. The states and inputs should be scaled to about 1.
+/// By the matrix sign function (Roberts, *International Journal of Control* 32 (1980) 677-687): the
+/// sign W of the Hamiltonian [A -S; -Q -A'] satisfies (W + I) [I; P] = 0. Newton's iteration W <-
+/// (c W + (c W)^-1) / 2 is scaled by norms. The states and inputs should be scaled to about 1.
 pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
     let mut w = Hamiltonian::zeros();
     w.fixed_view_mut::<N, N>(0, 0).copy_from(a);

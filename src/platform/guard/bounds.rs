@@ -1,23 +1,25 @@
 //! Bounds on the derivatives of a leg's length, from bounds on the platform's coordinates.
 //!
-//! With g = p + R a - b the vector from joint to joint, L = |g|, and on a piece on which all coordinates have a steady
-//! acceleration v and s the largest linear speed and acceleration, W and e the largest sums of the magnitudes of the
-//! angles' rates and accelerations, r = |a|:
+//! With g = p + R a - b the vector from joint to joint, L = |g|, and on a piece on which all
+//! coordinates have a steady acceleration v and s the largest linear speed and acceleration, W and
+//! e the largest sums of the magnitudes of the angles' rates and accelerations, r = |a|:
 //!
 //! |g'| <= G1 = v + W r, |g''| <= G2 = s + (W² + e) r, |g'''| <= G3 = (W³ + 3 W e) r.
 //!
-//! Each angle's rotation has derivatives of norm at most 1, and R is the product of three such rotations: the products'
-//! terms add up to the powers of W. L L' = g·g' then gives, with n = g/L and g'⊥ the part of g' across n,
+//! Each angle's rotation has derivatives of norm at most 1, and R is the product of three such
+//! rotations: the products' terms add up to the powers of W. L L' = g·g' then gives, with n = g/L
+//! and g'⊥ the part of g' across n,
 //!
 //! L'' = n·g'' + |g'⊥|²/L, L''' = 3 (g'⊥·g''⊥ - L' |g'⊥|²/L)/L + n·g''',
 //!
-//! and so |L'| <= G1, |L''| <= G2 + G1²/L and |L'''| <= 3 G1 (G2 + k G1²/L)/L + G3, where k = 2/(3 √3) is the largest
-//! value of x (1 - x²) for x from 0 to 1.
+//! and so |L'| <= G1, |L''| <= G2 + G1²/L and |L'''| <= 3 G1 (G2 + k G1²/L)/L + G3, where k = 2/(3
+//! √3) is the largest value of x (1 - x²) for x from 0 to 1.
 
 /// Largest value of x (1 - x²).
 const LARGEST_PRODUCT: f64 = 0.384_900_179_459_750_5;
 
-/// Bounds on the first three derivatives of the vector from a base joint to its platform joint, over one piece.
+/// Bounds on the first three derivatives of the vector from a base joint to its platform
+/// joint, over one piece.
 #[derive(Clone, Copy, Debug)]
 pub struct JointBounds {
     /// G1 \[m/s\].
@@ -29,8 +31,9 @@ pub struct JointBounds {
 }
 
 impl JointBounds {
-    /// From the largest speeds (v \[m/s\], W \[rad/s\]) and accelerations (s \[m/s2\], e \[rad/s2\]) of the piece; no joint is
-    /// farther than `radius` \[m\] from the platform's origin.
+    /// From the largest speeds (v \[m/s\], W \[rad/s\]) and accelerations (s
+    /// \[m/s2\], e \[rad/s2\]) of the piece; no joint is farther than `radius` \[m\]
+    /// from the platform's origin.
     pub fn new([v, w]: [f64; 2], [s, e]: [f64; 2], radius: f64) -> Self {
         JointBounds {
             velocity: v + w * radius,

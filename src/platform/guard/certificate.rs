@@ -1,8 +1,10 @@
-//! The certificate: proof that a transition, and a stop plan after it, keep every limit at every instant.
+//! The certificate: proof that a transition, and a stop plan after it, keep every
+//! limit at every instant.
 //!
-//! A transition from (q0, u0) to (q1, u1) over a step h stands for a trajectory with the steady acceleration
-//! c = (u1 - u0)/h, and a gap d = q1 - q0 - (u0 + u1) h/2 at its end. The gap counts as an acceleration of 2 |d|/h²: limits
-//! that hold on the trajectory with it are exceeded by no difference of the positions or velocities at the steps' ends.
+//! A transition from (q0, u0) to (q1, u1) over a step h stands for a trajectory with the steady
+//! acceleration c = (u1 - u0)/h, and a gap d = q1 - q0 - (u0 + u1) h/2 at its end. The gap counts
+//! as an acceleration of 2 |d|/h²: limits that hold on the trajectory with it are exceeded by no
+//! difference of the positions or velocities at the steps' ends.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -16,9 +18,11 @@ use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Coordinates, Geometry, Legs, PlatformMotion};
 
-/// The fraction of the legs' acceleration that stopping takes; the rest is for what the legs do because they turn.
+/// The fraction of the legs' acceleration that stopping takes; the rest is for what the legs
+/// do because they turn.
 const STOP_FRACTION: f64 = 0.6;
-/// Stop plans are divided so finely that the bound between two points is about this fraction of the acceleration limit.
+/// Stop plans are divided so finely that the bound between two points is about this fraction of
+/// the acceleration limit.
 const MARGIN: f64 = 0.05;
 /// The largest number of cells into which the longest piece of a stop plan is divided.
 const MOST_CELLS: f64 = 12.0;
@@ -30,14 +34,15 @@ pub struct Machine {
     pub neutral_height: f64,
     /// The farthest joint from the platform's origin \[m\].
     radius: f64,
-    /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke by what a leg can move
-    /// beyond both ends of a transition, A h²/8 for the longest step h.
+    /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke
+    /// by what a leg can move beyond both ends of a transition, A h²/8 for the longest step h.
     pub limits: Limits,
     /// Duration of a stop for each m/s of a leg \[s2/m\].
     stop_time_per_speed: f64,
 }
 
-/// A state that the platform may have next: its coordinates, the same as a motion in the base frame, and its legs.
+/// A state that the platform may have next: its coordinates, the same as a motion in the
+/// base frame, and its legs.
 #[derive(Clone, Copy)]
 pub struct Candidate<'a> {
     pub coordinates: &'a Coordinates,
@@ -97,16 +102,16 @@ impl Machine {
         }
     }
 
-    /// The limits within which each leg pursues a demand: a little inside the certified stroke, so that a leg at the end of
-    /// it is drawn back and does not keep the others from moving.
+    /// The limits within which each leg pursues a demand: a little inside the certified stroke, so
+    /// that a leg at the end of it is drawn back and does not keep the others from moving.
     pub fn pursuit_limits(&self) -> Limits {
         const INSET: f64 = 1e-5;
         let inset = INSET * (self.limits.max - self.limits.min);
         Limits { min: self.limits.min + inset, max: self.limits.max - inset, ..self.limits }
     }
 
-    /// Durations of a certified stop from the candidate, if bounds on the whole way there and to rest are enough to
-    /// certify it, without a look at any point of the way.
+    /// Durations of a certified stop from the candidate, if bounds on the whole way there and to
+    /// rest are enough to certify it, without a look at any point of the way.
     ///
     /// The whole way lies within (stop duration/2 + step) times the largest speed of the candidate.
     #[inline(always)]
@@ -169,8 +174,8 @@ impl Machine {
         keeps.then_some(plan)
     }
 
-    /// The stop from the candidate within the safety limits: all coordinates in one duration that suits the fastest leg
-    /// and the safety limits of acceleration, an axis with less room sooner.
+    /// The stop from the candidate within the safety limits: all coordinates in one duration that
+    /// suits the fastest leg and the safety limits of acceleration, an axis with less room sooner.
     fn stop_plan(&self, from: &Coordinates, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motions { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
@@ -193,8 +198,8 @@ impl Machine {
         Some(StopPlan::new(to.coordinates, durations))
     }
 
-    /// True if the legs keep speed and acceleration at every instant of the transition. Their lengths need no check: both
-    /// ends are inside the stroke by the reserve.
+    /// True if the legs keep speed and acceleration at every instant of the transition. Their
+    /// lengths need no check: both ends are inside the stroke by the reserve.
     fn transition_keeps_legs(&self, from: State, to: Candidate, step: f64) -> bool {
         let (now, next) = (from.coordinates, to.coordinates);
         let (linear, angles) =
@@ -271,11 +276,13 @@ impl Machine {
         true
     }
 
-    /// True if the legs keep their limits in an interval of steady coordinates' accelerations, judged by their motion at both
-    /// ends; `gaps` are accelerations that each leg needs besides \[m/s2\].
+    /// True if the legs keep their limits in an interval of steady coordinates'
+    /// accelerations, judged by their motion at both ends; `gaps` are accelerations that each
+    /// leg needs besides \[m/s2\].
     ///
-    /// No instant is farther than half the interval d from the nearer end, from where the leg's jerk J is bounded. So the
-    /// acceleration differs from that end's by at most J d/2; speed and length follow by integration from that end.
+    /// No instant is farther than half the interval d from the nearer end, from where the leg's
+    /// jerk J is bounded. So the acceleration differs from that end's by at most J d/2; speed and
+    /// length follow by integration from that end.
     pub(super) fn interval_keeps_legs(
         &self,
         left: &LegMotion,
@@ -351,7 +358,8 @@ pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyPar
     keeps
 }
 
-/// The positions that an axis may have from now on. Beyond the parameter it may come nearer, not go farther.
+/// The positions that an axis may have from now on. Beyond the parameter it may come
+/// nearer, not go farther.
 fn reachable(from: &Coordinates, safety: &SafetyParameters, k: usize) -> (f64, f64) {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let (position, limit) = (from.linear.position[k], safety.position_limit[k]);
@@ -359,12 +367,14 @@ fn reachable(from: &Coordinates, safety: &SafetyParameters, k: usize) -> (f64, f
     (min(position, -limit) - rounding, max(position, limit) + rounding)
 }
 
-/// The position at which a steady acceleration turns the velocity round between these two, or the first one.
+/// The position at which a steady acceleration turns the velocity round between these
+/// two, or the first one.
 fn turning_point(position: f64, before: f64, after: f64, acceleration: f64) -> f64 {
     if before * after < 0.0 { position - 0.5 * before * before / acceleration } else { position }
 }
 
-/// Change of velocity over a step, and what the positions' difference has beyond the mean velocity times the step.
+/// Change of velocity over a step, and what the positions' difference has beyond the mean
+/// velocity times the step.
 #[inline(always)]
 fn change_and_gap(now: &Motions, next: &Motions, step: f64) -> (Vector3<f64>, Vector3<f64>) {
     let gap = next.position - now.position - (now.velocity + next.velocity) * (0.5 * step);

@@ -1,13 +1,16 @@
-//! The actuator guard: stroke, speed and acceleration of each leg, and the safety limits of surge, sway and heave, whatever
-//! is demanded.
+//! The actuator guard: stroke, speed and acceleration of each leg, and the safety limits of surge,
+//! sway and heave, whatever is demanded.
 //!
-//! The guard is a reference governor with a backup stop plan. Its invariant: **the state lies on a certified stop plan**, a
-//! trajectory to rest on which every limit holds at every instant. A step does one of two things:
+//! The guard is a reference governor with a backup stop plan. Its invariant: **the state lies on a
+//! certified stop plan**, a trajectory to rest on which every limit holds at every instant. A step
+//! does one of two things:
 //!
-//! 1. It accepts a candidate state. Both the transition to it and a stop plan from it are certified; that plan is stored.
+//! 1. It accepts a candidate state. Both the transition to it and a stop plan from it are
+//!    certified; that plan is stored.
 //! 2. It follows the stored plan, which needs no check.
 //!
-//! The first candidate is the demand itself; others lie between the plan's next state and a pursuit of the demand.
+//! The first candidate is the demand itself; others lie between the plan's next state and a
+//! pursuit of the demand.
 
 mod bounds;
 mod certificate;
@@ -67,8 +70,8 @@ impl ActuatorGuard {
         }
     }
 
-    /// Advances by `step` seconds, at whose end the platform is to move as `demand` says; `motion` is the same, in the base
-    /// frame. `safety` are the limits of surge, sway and heave in force.
+    /// Advances by `step` seconds, at whose end the platform is to move as `demand` says; `motion`
+    /// is the same, in the base frame. `safety` are the limits of surge, sway and heave in force.
     #[inline(always)]
     pub fn advance(&mut self, demand: &Coordinates, motion: &PlatformMotion, safety: &SafetyParameters, step: f64) {
         let legs = inverse_kinematics(&self.machine.geometry, motion);
@@ -102,8 +105,9 @@ impl ActuatorGuard {
         });
     }
 
-    /// True if the platform may go over to the demand from where it is: the positions differ from what the velocities
-    /// account for by no more than a hundredth of what an acceleration at its limit does in a step.
+    /// True if the platform may go over to the demand from where it is: the positions differ from
+    /// what the velocities account for by no more than a hundredth of what an acceleration at its
+    /// limit does in a step.
     fn has_caught_up(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * step * step;
         let (legs, next) = (&self.legs, demand.legs);
@@ -154,7 +158,8 @@ impl ActuatorGuard {
         &self.legs
     }
 
-    /// The accelerations of the commanded legs' lengths \[m/s2\]: over the last step while the guard limits the motion.
+    /// The accelerations of the commanded legs' lengths \[m/s2\]: over the last step while the
+    /// guard limits the motion.
     pub fn leg_accelerations(&self) -> [f64; 6] {
         match &self.limited {
             Some(limited) => limited.leg_accelerations,

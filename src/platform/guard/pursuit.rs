@@ -1,4 +1,5 @@
-//! The candidates of a step whose demand is not certified: between following the stop plan and pursuing the demand.
+//! The candidates of a step whose demand is not certified: between following the stop plan
+//! and pursuing the demand.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -27,7 +28,8 @@ impl Trial {
 }
 
 impl ActuatorGuard {
-    /// The state nearest to a pursuit of the demand that is certified, with its plan; else the next state on the plan held.
+    /// The state nearest to a pursuit of the demand that is certified, with its plan; else the next
+    /// state on the plan held.
     pub(super) fn nearest(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> (Trial, StopPlan) {
         let now = self.coordinates();
         let followed = self.plan.advanced(step);
@@ -47,8 +49,8 @@ impl ActuatorGuard {
         })
     }
 
-    /// The state that the platform gets to if each leg pursues its target under its own limits, and surge, sway and heave
-    /// keep theirs. Nothing depends on its being certified.
+    /// The state that the platform gets to if each leg pursues its target under its own limits, and
+    /// surge, sway and heave keep theirs. Nothing depends on its being certified.
     fn pursued(&self, now: &Coordinates, target: &Legs, safety: &SafetyParameters, step: f64) -> Coordinates {
         let rates = Vector6::from(self.each_leg_pursued(target, step));
         // The Jacobian where the platform will be, not where it is: the legs have to arrive without a jump.
@@ -87,7 +89,8 @@ impl ActuatorGuard {
     }
 }
 
-/// The result for the largest fraction of the way from the plan (0) to the pursuit (1) for which there is one.
+/// The result for the largest fraction of the way from the plan (0) to the pursuit (1)
+/// for which there is one.
 fn farthest<T>(certified: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut found = certified(1.0);
     let (mut low, mut high) = (0.0, 1.0);

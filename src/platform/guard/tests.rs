@@ -1,4 +1,5 @@
-//! Attempts to refute the certificate: derivatives beyond their bounds, and limits broken between the points looked at.
+//! Attempts to refute the certificate: derivatives beyond their bounds, and limits broken between
+//! the points looked at.
 
 use std::cell::Cell;
 
@@ -48,7 +49,8 @@ fn sum(v: &Vector3<f64>) -> f64 {
     v.abs().sum()
 }
 
-/// The first three derivatives of a leg's length at `time`, by central differences of fourth and second order.
+/// The first three derivatives of a leg's length at `time`, by central differences of
+/// fourth and second order.
 fn derivatives(length: impl Fn(f64) -> f64, time: f64, h: f64) -> [f64; 3] {
     let [a, b, c, d, e, f, g] = [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0].map(|k| length(time + k * h));
     [

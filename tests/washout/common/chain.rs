@@ -3,7 +3,8 @@
 use moris_washout::filter::chain::{Chains, Denominator};
 use nalgebra::Vector3;
 
-/// The middle one of three chains, whose neighbours are of another kind and are fed something else: they must not matter.
+/// The middle one of three chains, whose neighbours are of another kind and are fed something else:
+/// they must not matter.
 #[derive(Clone, Copy)]
 pub struct Chain(Chains);
 

@@ -26,7 +26,8 @@ impl Watch {
         self.look_at_machine(output, step);
     }
 
-    /// Looks at the numbers and the legs alone, where the platform may be outside of its own limits for a while.
+    /// Looks at the numbers and the legs alone, where the platform may be outside of its
+    /// own limits for a while.
     pub fn look_at_machine(&mut self, output: &Output, step: f64) {
         self.look_for_numbers(output);
         self.look_at_legs(output, step);

@@ -1,4 +1,5 @@
-//! The paper's three runs, as accelerations at the head; their amplitudes and times are a choice, the paper prints none.
+//! The paper's three runs, as accelerations at the head; their amplitudes and times are a choice,
+//! the paper prints none.
 
 use moris_washout::Input;
 use nalgebra::Vector3;
@@ -39,7 +40,8 @@ pub const STOP: f64 = 34.164_285_714;
 /// Run 3's duration \[s\].
 pub const BRUSQUE_STOP_TIME: f64 = 50.0;
 
-/// Run 2: in a truck's wake. The specific force is that at the head, in its axes; the vehicle rolls.
+/// Run 2: in a truck's wake. The specific force is that at the head, in its
+/// axes; the vehicle rolls.
 pub fn wake(t: f64) -> Input {
     let window = smooth_step(t, 0.5, 1.5) - smooth_step(t, 8.0, 1.5);
     let wave =
@@ -52,7 +54,8 @@ pub fn wake(t: f64) -> Input {
     Input { specific_force: force, ..Input::default() }
 }
 
-/// Run 2 with the vehicle's roll rate. The force at the head already holds the lean, so no orientation is given.
+/// Run 2 with the vehicle's roll rate. The force at the head already holds the lean, so no
+/// orientation is given.
 pub fn wake_with_roll(t: f64) -> Input {
     let roll = |t: f64| {
         let window = smooth_step(t, 0.5, 1.5) - smooth_step(t, 8.0, 1.5);

@@ -1,4 +1,5 @@
-//! Helpers of the tests: inputs, manoeuvres, an integrator, rotations in plain arrays, and random numbers.
+//! Helpers of the tests: inputs, manoeuvres, an integrator, rotations in plain
+//! arrays, and random numbers.
 
 pub mod chain;
 pub mod limits;
@@ -28,7 +29,8 @@ pub fn accelerating(x: f64, y: f64, z: f64) -> Input {
     Input { specific_force: Vector3::new(x, y, z + G), ..Input::default() }
 }
 
-/// Steps through `duration` seconds with the input of each step's beginning held, and looks at every output.
+/// Steps through `duration` seconds with the input of each step's beginning held, and
+/// looks at every output.
 pub fn ride(
     washout: &mut Washout,
     duration: f64,

@@ -17,7 +17,8 @@ pub fn rotate_z(angle: f64, [x, y, z]: Vec3) -> Vec3 {
     [c * x - s * y, s * x + c * y, z]
 }
 
-/// From the platform's axes to the base's: roll first, then pitch, then yaw, each about a fixed axis.
+/// From the platform's axes to the base's: roll first, then pitch, then yaw,
+/// each about a fixed axis.
 pub fn to_base([roll, pitch, yaw]: Vec3, v: Vec3) -> Vec3 {
     rotate_z(yaw, rotate_y(pitch, rotate_x(roll, v)))
 }
@@ -27,8 +28,8 @@ pub fn to_platform([roll, pitch, yaw]: Vec3, v: Vec3) -> Vec3 {
     rotate_x(-roll, rotate_y(-pitch, rotate_z(-yaw, v)))
 }
 
-/// The angular velocity in the base's axes about which a frame turns from angles `before` to angles `after`, for a small
-/// turn over `duration`: the vector of the skew part of R(after) R(before)^T.
+/// The angular velocity in the base's axes about which a frame turns from angles `before` to angles
+/// `after`, for a small turn over `duration`: the vector of the skew part of R(after) R(before)^T.
 pub fn turn(before: Vec3, after: Vec3, duration: f64) -> Vec3 {
     let turned = |axis: Vec3| to_base(after, to_platform(before, axis));
     let (x, y, z) = (turned([1.0, 0.0, 0.0]), turned([0.0, 1.0, 0.0]), turned([0.0, 0.0, 1.0]));

@@ -1,4 +1,5 @@
-//! A small model as a shared library: the least that an FMU's library needs, and what the tests load.
+//! A small model as a shared library: the least that an FMU's library needs, and what the tests
+//! load.
 
 pub mod model;
 

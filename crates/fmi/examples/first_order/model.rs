@@ -1,4 +1,5 @@
-//! A first-order lag, with at least one variable of every kind, with values that it refuses, and with traps.
+//! A first-order lag, with at least one variable of every kind, with values that it
+//! refuses, and with traps.
 
 use moris_interface::{
     Group, Identity, Model, Reader, Refusal, Row, Slot, Writer, enumeration, interface, interface_tree, slot_count,

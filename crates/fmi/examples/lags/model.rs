@@ -1,5 +1,5 @@
-//! Three first-order lags, with arrays of every shape, at least one variable of every kind, values that are refused, and
-//! a trap.
+//! Three first-order lags, with arrays of every shape, at least one variable of every kind, values
+//! that are refused, and a trap.
 
 use moris_interface::{
     Group, Identity, Model, Reader, Refusal, Row, Slot, Writer, enumeration, interface, interface_tree, slot_count,

@@ -1,14 +1,16 @@
 //! The processor's floating-point arithmetic during a call.
 //!
-//! A host may round otherwise than to nearest, flush subnormal numbers to zero, or trap on inexact results: its own
-//! code needs it so, or a library in its process has left it so. A model's results must not depend on that, and Rust
-//! itself assumes the default. So a call computes with the default, and the host finds its own setting again.
+//! A host may round otherwise than to nearest, flush subnormal numbers to zero, or trap on inexact
+//! results: its own code needs it so, or a library in its process has left it so. A model's results
+//! must not depend on that, and Rust itself assumes the default. So a call computes with the
+//! default, and the host finds its own setting again.
 
 use std::hint::black_box;
 
 use control_word::{ControlWord, DEFAULT, FLAGS, read, write};
 
-/// Runs `body` with the default arithmetic: round to nearest, subnormal numbers as they are, no traps.
+/// Runs `body` with the default arithmetic: round to nearest, subnormal numbers
+/// as they are, no traps.
 ///
 /// The usual host has set nothing else; then the cost is that of reading the setting.
 #[inline]

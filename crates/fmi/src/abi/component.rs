@@ -7,7 +7,8 @@ use moris_interface::{Identity, Model};
 use super::{Function, with_default_arithmetic};
 use crate::{CallError, Instance, Mode, Severity, panics};
 
-/// The host of an instance, as one version of FMI has it: takes messages, and is told how calls end.
+/// The host of an instance, as one version of FMI has it: takes messages, and is told how calls
+/// end.
 pub trait Host {
     /// Status of a call.
     type Status;
@@ -17,7 +18,8 @@ pub trait Host {
     const ERROR: Self::Status;
     /// The version's name of a mode.
     fn mode_name(mode: Mode) -> &'static str;
-    /// Replaces the names of scalar variables in a message by those of the model description that the host has read.
+    /// Replaces the names of scalar variables in a message by those of the model description
+    /// that the host has read.
     fn rename(&self, _identity: &Identity, text: String) -> String {
         text
     }
@@ -45,12 +47,12 @@ impl<M, H> Component<M, H> {
         Box::into_raw(Box::new(Component { mark: MARK, instance, logger })).cast()
     }
 
-    /// The component that `pointer` leads to. `None` if it is null or leads to something else, a freed component for one,
-    /// as far as that can be told.
+    /// The component that `pointer` leads to. `None` if it is null or leads to something else, a
+    /// freed component for one, as far as that can be told.
     ///
     /// # Safety
-    /// `pointer` is null or leads to memory that can be read; if it is a component, it is one of the model `M` and the
-    /// host `H`, and nothing else uses it during `'a`.
+    /// `pointer` is null or leads to memory that can be read; if it is a component, it is one of
+    /// the model `M` and the host `H`, and nothing else uses it during `'a`.
     #[inline]
     pub unsafe fn at<'a>(pointer: *mut c_void) -> Option<&'a mut Self> {
         let pointer = pointer.cast::<Self>();
@@ -72,12 +74,12 @@ impl<M, H> Component<M, H> {
     }
 }
 
-/// Runs a function of the interface on the component: checks that the function is allowed now, computes with the default
-/// arithmetic, tells the host what went wrong, and lets no panic out.
+/// Runs a function of the interface on the component: checks that the function is allowed now,
+/// computes with the default arithmetic, tells the host what went wrong, and lets no panic out.
 ///
 /// # Safety
-/// `component` is null, or a component of the model `M` and the host `H` that is not freed yet and that nothing else is
-/// using.
+/// `component` is null, or a component of the model `M` and the host `H` that is not freed yet and
+/// that nothing else is using.
 #[inline]
 pub unsafe fn call<M: Model, H: Host>(
     component: *mut c_void,

@@ -1,4 +1,5 @@
-//! Saving and restoring states. The functions are named as in FMI 3.0; those of FMI 2.0 do the same.
+//! Saving and restoring states. The functions are named as in FMI 3.0; those of FMI 2.0 do the
+//! same.
 
 use std::ffi::c_void;
 use std::ptr::null_mut;

@@ -8,7 +8,8 @@ pub struct Function {
     pub allowed: Modes,
 }
 
-/// Declares a constant [`Function`] a line: the constant's name, the function's, and the modes in which it is allowed.
+/// Declares a constant [`Function`] a line: the constant's name, the function's, and the modes
+/// in which it is allowed.
 macro_rules! calling_sequence {
     ($($constant:ident $name:ident [$($mode:ident)*];)+) => {
         $(

@@ -1,9 +1,10 @@
 //! Parts common to the C functions of all versions of FMI: access to an instance, pointers, states.
 //!
 //! # Safety
-//! All functions of the versions' modules take a host's pointers. Null pointers are refused; others have to be what the
-//! standard says: an instance or a state made by this library and not yet freed, arrays of the length given, strings
-//! ended by a zero. An instance is not used by two threads at once.
+//! All functions of the versions' modules take a host's pointers. Null pointers are refused;
+//! others have to be what the standard says: an instance or a state made by this library and
+//! not yet freed, arrays of the length given, strings ended by a zero. An instance is not used
+//! by two threads at once.
 
 #![allow(clippy::missing_safety_doc)] // said above, once for all
 

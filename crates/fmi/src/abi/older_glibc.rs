@@ -1,8 +1,9 @@
-//! Own versions of glibc functions newer than glibc 2.17, which Rust's standard library and some dependencies call. With
-//! them a library loads with any glibc since 2012, whatever glibc the machine has that links it.
+//! Own versions of glibc functions newer than glibc 2.17, which Rust's standard library and some
+//! dependencies call. With them a library loads with any glibc since 2012, whatever glibc the
+//! machine has that links it.
 //!
-//! [`export_fmi2!`](crate::export_fmi2) and [`export_fmi3!`](crate::export_fmi3) put them into the library by the names of
-//! C, hidden from its host.
+//! [`export_fmi2!`](crate::export_fmi2) and [`export_fmi3!`](crate::export_fmi3) put them into the
+//! library by the names of C, hidden from its host.
 
 #![cfg(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64")))]
 
@@ -87,8 +88,8 @@ macro_rules! jump_instruction {
     };
 }
 
-/// Puts the functions of this module into the library. In Rust a function with a name of C is exported; in assembly it
-/// need not be.
+/// Puts the functions of this module into the library. In Rust a function with a name of C is
+/// exported; in assembly it need not be.
 #[doc(hidden)] // for the macros that export a model
 #[macro_export]
 macro_rules! own_functions_of_newer_glibc {

@@ -1,15 +1,15 @@
 //! The macro that makes the library's functions.
 
-/// Exports a [`Model`](moris_interface::Model) by all functions of fmi2Functions.h, those of model exchange included,
-/// which fail. Use it once, in a `cdylib`:
+/// Exports a [`Model`](moris_interface::Model) by all functions of fmi2Functions.h, those of model
+/// exchange included, which fail. Use it once, in a `cdylib`:
 ///
 /// ```ignore
 /// moris_fmi::export_fmi2!(my_crate::MyModel);
 /// ```
 ///
-/// Where the variable `FMU_START_VALUES` is set when the library is compiled, it holds start values in place of the model's
-/// own: see [`SharedTables::new`](crate::SharedTables::new). Whoever sets it has to make sure that the model can start with
-/// them.
+/// Where the variable `FMU_START_VALUES` is set when the library is compiled, it holds start values
+/// in place of the model's own: see [`SharedTables::new`](crate::SharedTables::new). Whoever sets
+/// it has to make sure that the model can start with them.
 #[macro_export]
 macro_rules! export_fmi2 {
     ($model:ty) => {

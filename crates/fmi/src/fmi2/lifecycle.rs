@@ -1,4 +1,5 @@
-//! From fmi2Instantiate to fmi2EnterInitializationMode; what follows is [`abi::lifecycle`](crate::abi::lifecycle).
+//! From fmi2Instantiate to fmi2EnterInitializationMode; what follows is
+//! [`abi::lifecycle`](crate::abi::lifecycle).
 
 use std::ffi::{CStr, CString, c_int};
 use std::ptr::null_mut;

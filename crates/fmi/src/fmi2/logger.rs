@@ -7,7 +7,8 @@ use crate::abi::Host;
 use crate::abi::pointers::c_string;
 use crate::{LogCategory, Mode, Severity};
 
-/// Where an instance's messages go. Warnings and errors always do, events only with debug logging on.
+/// Where an instance's messages go. Warnings and errors always do, events only
+/// with debug logging on.
 pub struct Logger {
     instance_name: CString,
     callback: Option<fmi2CallbackLogger>,
@@ -16,7 +17,8 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// The logger of the instance of this name. Of the host's callbacks nothing but their contents is kept.
+    /// The logger of the instance of this name. Of the host's callbacks nothing but
+    /// their contents is kept.
     pub fn new(instance_name: CString, callbacks: &fmi2CallbackFunctions, events: bool) -> Self {
         Logger { instance_name, callback: callbacks.logger, environment: callbacks.environment, events }
     }

@@ -1,4 +1,5 @@
-//! The C functions of FMI 2.0. [`export_fmi2!`](crate::export_fmi2) makes them, each a line that calls into here.
+//! The C functions of FMI 2.0. [`export_fmi2!`](crate::export_fmi2) makes them, each a line
+//! that calls into here.
 //!
 //! # Safety
 //! As said in [`abi`](crate::abi).

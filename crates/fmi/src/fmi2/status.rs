@@ -1,4 +1,5 @@
-//! The functions with which a host asks how a step went. A step is over when fmi2DoStep returns, so there is little to say.
+//! The functions with which a host asks how a step went. A step is over when fmi2DoStep returns, so
+//! there is little to say.
 
 use std::ffi::c_int;
 

@@ -1,4 +1,5 @@
-//! The types of fmi2TypesPlatform.h and fmi2FunctionTypes.h, under the names that the standard gives them.
+//! The types of fmi2TypesPlatform.h and fmi2FunctionTypes.h, under the names that
+//! the standard gives them.
 
 use std::ffi::{c_char, c_int, c_void};
 

@@ -1,7 +1,7 @@
 //! The macro that makes the library's functions.
 
-/// Exports a [`Model`](moris_interface::Model) by all functions of fmi3Functions.h. Those of model exchange, of scheduled
-/// execution, of event mode and of clocks fail. Use it once, in a `cdylib`:
+/// Exports a [`Model`](moris_interface::Model) by all functions of fmi3Functions.h. Those of model
+/// exchange, of scheduled execution, of event mode and of clocks fail. Use it once, in a `cdylib`:
 ///
 /// ```ignore
 /// moris_fmi::export_fmi3!(my_crate::MyModel);
@@ -361,7 +361,8 @@ macro_rules! export_fmi3_none_of_this_type {
     };
 }
 
-/// Functions that the FMU does not offer: the attribute that says so, and the types of the arguments after the instance.
+/// Functions that the FMU does not offer: the attribute that says so, and the types of the
+/// arguments after the instance.
 #[doc(hidden)] // for `export_fmi3!`
 #[macro_export]
 macro_rules! export_fmi3_not_provided {

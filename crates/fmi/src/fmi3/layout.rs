@@ -4,8 +4,8 @@ use moris_interface::Identity;
 
 use crate::Guid;
 
-/// Presentation of a row of several values in a model description. One library serves both: the instantiation token says
-/// which description the host has read.
+/// Presentation of a row of several values in a model description. One library serves both: the
+/// instantiation token says which description the host has read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// A scalar variable for each slot, named as in FMI 2.0.
@@ -26,7 +26,8 @@ impl Layout {
         }
     }
 
-    /// Layout of the description with this token; `None` if the description is not of the model with this GUID.
+    /// Layout of the description with this token; `None` if the description is not of the
+    /// model with this GUID.
     pub(super) fn of_token(token: &[u8], guid: &Guid) -> Option<Self> {
         match token.strip_prefix(&guid[..])? {
             b"" => Some(Layout::Scalars),
@@ -43,7 +44,8 @@ impl Layout {
         }
     }
 
-    /// Replaces names of scalars by names of the description's variables: `rig.base[2].x` becomes `rig.base[2,1]`.
+    /// Replaces names of scalars by names of the description's variables: `rig.base[2].x`
+    /// becomes `rig.base[2,1]`.
     pub(super) fn rename(self, identity: &Identity, text: String) -> String {
         match self {
             Layout::Scalars => text,
@@ -65,7 +67,8 @@ fn with_names_of_elements(identity: &Identity, text: &str) -> String {
     text.split_inclusive(|c| !in_name(c)).map(renamed).collect()
 }
 
-/// Name of the array element that is the scalar of this name; `None` where that is no element of an array.
+/// Name of the array element that is the scalar of this name; `None` where that is
+/// no element of an array.
 fn element_name(identity: &Identity, scalar: &str) -> Option<String> {
     let slot = identity.slot(scalar)?;
     let (row, element) = (identity.row(slot), usize::from(identity.slots[slot].element));

@@ -21,7 +21,8 @@ pub struct Request {
     pub intermediate_variable_count: usize,
 }
 
-/// `fmi3InstantiateCoSimulation`; the resources' path and visibility make no difference, and a step never ends early.
+/// `fmi3InstantiateCoSimulation`; the resources' path and visibility make no difference, and a
+/// step never ends early.
 pub unsafe fn instantiate<M: Model, const N: usize>(
     tables: &'static SharedTables<N>,
     request: &Request,
@@ -82,7 +83,8 @@ pub fn refuse_to_instantiate(function: &str, logger: &Logger) -> fmi3Instance {
     null_mut()
 }
 
-/// `fmi3SetDebugLogging`: switches the categories named, or all. Errors are switched off by name only.
+/// `fmi3SetDebugLogging`: switches the categories named, or all. Errors are
+/// switched off by name only.
 pub unsafe fn set_debug_logging<M: Model>(
     instance: fmi3Instance,
     logging_on: fmi3Boolean,

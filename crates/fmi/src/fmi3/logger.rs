@@ -9,7 +9,8 @@ use crate::abi::Host;
 use crate::abi::pointers::c_string;
 use crate::{LogCategory, Mode, Severity};
 
-/// Destination of an instance's messages: errors unless the host switches them off by name, the others when it wants them.
+/// Destination of an instance's messages: errors unless the host switches them off by name, the
+/// others when it wants them.
 pub struct Logger {
     callback: Option<fmi3LogMessageCallback>,
     environment: fmi3InstanceEnvironment,
@@ -21,7 +22,8 @@ pub struct Logger {
 }
 
 impl Logger {
-    /// A logger of all categories or of errors alone, for a description with scalars until it is told otherwise.
+    /// A logger of all categories or of errors alone, for a description with scalars until
+    /// it is told otherwise.
     pub fn new(
         callback: Option<fmi3LogMessageCallback>,
         environment: fmi3InstanceEnvironment,

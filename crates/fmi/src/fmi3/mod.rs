@@ -1,8 +1,8 @@
-//! The C functions of FMI 3.0 for co-simulation. [`export_fmi3!`](crate::export_fmi3) makes them, each a line that calls
-//! into here.
+//! The C functions of FMI 3.0 for co-simulation. [`export_fmi3!`](crate::export_fmi3) makes them,
+//! each a line that calls into here.
 //!
-//! A row of the interface with several values is as many scalar variables, or one array variable, row-major, with the
-//! row's first slot as its value reference: see [`Layout`].
+//! A row of the interface with several values is as many scalar variables, or one array variable,
+//! row-major, with the row's first slot as its value reference: see [`Layout`].
 //!
 //! # Safety
 //! As said in [`abi`](crate::abi).

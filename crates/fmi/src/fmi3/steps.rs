@@ -15,7 +15,8 @@ pub struct StepAnswers {
     pub last_successful_time: *mut f64,
 }
 
-/// `fmi3DoStep`: a step is done as a whole, and neither needs event handling nor ends the simulation.
+/// `fmi3DoStep`: a step is done as a whole, and neither needs event handling nor ends the
+/// simulation.
 #[inline]
 pub unsafe fn do_step<M: Model>(instance: fmi3Instance, time: f64, step: f64, answers: &StepAnswers) -> fmi3Status {
     let body = |component: &mut Component<M>| {

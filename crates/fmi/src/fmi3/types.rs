@@ -1,6 +1,8 @@
-//! The types of fmi3PlatformTypes.h and fmi3FunctionTypes.h, under the names that the standard gives them.
+//! The types of fmi3PlatformTypes.h and fmi3FunctionTypes.h, under the names that
+//! the standard gives them.
 //!
-//! The types that variables have are types of their own here, so that no other version's get and set take them.
+//! The types that variables have are types of their own here, so that no other version's
+//! get and set take them.
 
 use std::ffi::{c_char, c_void};
 

@@ -8,7 +8,8 @@ use super::types::*;
 use crate::CallError;
 use crate::abi::{Function, call};
 
-/// A function for what the FMU does not offer, as the attribute `capability` of its model description says.
+/// A function for what the FMU does not offer, as the attribute `capability` of its
+/// model description says.
 pub unsafe fn not_provided<M: Model>(instance: fmi3Instance, function: &Function, capability: &str) -> fmi3Status {
     let body = |_: &mut Component<M>| {
         Err(CallError::error(format!("not provided, as {capability} in modelDescription.xml says")))

@@ -96,7 +96,8 @@ pub unsafe fn get_output_derivatives<M: Model>(
     unsafe { call(instance, &function::GET_OUTPUT_DERIVATIVES, body) }
 }
 
-/// Checks that the host has as many values as the variables; with arrays, that the references are variables', too.
+/// Checks that the host has as many values as the variables; with arrays, that the
+/// references are variables', too.
 #[inline]
 fn check_length<M: Model>(
     layout: Layout,

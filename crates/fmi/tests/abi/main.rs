@@ -1,5 +1,5 @@
-//! The C functions, tested as a host sees them: the shared library of a small model whose behaviour is known in closed
-//! form is loaded and called.
+//! The C functions, tested as a host sees them: the shared library of a small model whose behaviour
+//! is known in closed form is loaded and called.
 
 mod calling_sequence;
 mod creation;

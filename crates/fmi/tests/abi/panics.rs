@@ -69,7 +69,8 @@ fn a_panic_prints_nothing() {
     assert_eq!(String::from_utf8(child.stderr).unwrap(), "");
 }
 
-/// The library has a panic hook of its own: that of a host written in Rust, like this one, is as it was.
+/// The library has a panic hook of its own: that of a host written in Rust, like
+/// this one, is as it was.
 #[test]
 fn the_host_s_panics_are_still_its_own() {
     failed();

@@ -1,8 +1,8 @@
 //! The calling sequence as the standard has it, for tests to hold the functions against.
 
-/// FMI 2.0.5, 4.2.4: each function with the states in which it is allowed. I instantiated, N initialization mode, C step
-/// complete, F step failed, X step canceled, P step in progress, T terminated, E error. Inputs may be set in I, as tools
-/// do. Model exchange's functions: in none.
+/// FMI 2.0.5, 4.2.4: each function with the states in which it is allowed. I instantiated, N
+/// initialization mode, C step complete, F step failed, X step canceled, P step in progress, T
+/// terminated, E error. Inputs may be set in I, as tools do. Model exchange's functions: in none.
 pub const CALLING_SEQUENCE: &[(&str, &str)] = &[
     ("fmi2GetTypesPlatform", "INCFXPTE"),
     ("fmi2GetVersion", "INCFXPTE"),

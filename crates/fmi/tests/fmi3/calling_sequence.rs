@@ -7,9 +7,10 @@ use moris_fmu_host::fmi3::Api;
 
 use crate::fixture::*;
 
-/// FMI 3.0, 2.3 and 4.2: I instantiated, N initialization mode, S step mode, T terminated, to which the standard counts
-/// an instance after an error (E), but for looking at it. Without structural parameters, event mode, clocks, model
-/// exchange and scheduled execution their functions are allowed in no state.
+/// FMI 3.0, 2.3 and 4.2: I instantiated, N initialization mode, S step mode, T terminated, to
+/// which the standard counts an instance after an error (E), but for looking at it. Without
+/// structural parameters, event mode, clocks, model exchange and scheduled execution their
+/// functions are allowed in no state.
 const TABLE: &str = "
     fmi3GetVersion                      I N S T E
     fmi3SetDebugLogging                 I N S T E

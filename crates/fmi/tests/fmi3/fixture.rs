@@ -100,7 +100,8 @@ impl Instance {
         self.messages().pop().expect("nothing was said")
     }
 
-    /// Asserts that the call failed with this status, and that the last message has all of these parts.
+    /// Asserts that the call failed with this status, and that the last message
+    /// has all of these parts.
     #[track_caller]
     pub fn assert_call_error(&self, status: c_int, expected: c_int, parts: &[&str]) {
         let (said_status, category, text) = self.last_message();

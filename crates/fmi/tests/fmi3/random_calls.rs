@@ -1,4 +1,5 @@
-//! Random calls in any order, with right and wrong arguments: none crashes, and one that fails changes nothing.
+//! Random calls in any order, with right and wrong arguments: none crashes, and one that
+//! fails changes nothing.
 
 use std::collections::BTreeMap;
 use std::ffi::{CStr, c_int};
@@ -32,7 +33,8 @@ impl Random {
         }
     }
 
-    /// Value references, of which few lead to no variable; without the trap that makes the model panic.
+    /// Value references, of which few lead to no variable; without the trap that
+    /// makes the model panic.
     fn references(&mut self) -> Vec<u32> {
         let trap = reference("trap");
         let count = self.below(4);

@@ -1,4 +1,5 @@
-//! A description with scalar variables: the same library, with every element under a value reference of its own.
+//! A description with scalar variables: the same library, with every element under a value
+//! reference of its own.
 
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};

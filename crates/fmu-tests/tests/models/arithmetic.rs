@@ -31,8 +31,8 @@ fn arithmetic() -> u32 {
 const STEP: f64 = 0.003;
 const STEPS: usize = 400;
 
-/// A ride, computed beforehand: the inputs' slots, their values step by step, the times of the steps, and the outputs'
-/// slots.
+/// A ride, computed beforehand: the inputs' slots, their values step by step, the times of the
+/// steps, and the outputs' slots.
 struct Ride {
     inputs: Vec<usize>,
     values: Vec<Vec<f64>>,
@@ -64,7 +64,8 @@ impl Ride {
         }
     }
 
-    /// All real variables after each step with this arithmetic, which is set before the library is loaded; to the bit.
+    /// All real variables after each step with this arithmetic, which is set before the library
+    /// is loaded; to the bit.
     fn results(&self, model: TestedModel, version: Version, setting: u32) -> Vec<u64> {
         // A copy is another library for the loader: nothing in it has been computed yet.
         let directory = tempfile::tempdir().unwrap();

@@ -1,4 +1,5 @@
-//! The shared library with an allocator that counts, for the test that says that stepping allocates nothing.
+//! The shared library with an allocator that counts, for the test that says that
+//! stepping allocates nothing.
 
 #[path = "../src/lib.rs"]
 mod library;

@@ -1,4 +1,5 @@
-//! The shared library once more: Cargo builds a package's examples for its tests, but not its `cdylib`.
+//! The shared library once more: Cargo builds a package's examples for its tests,
+//! but not its `cdylib`.
 
 #[path = "../src/lib.rs"]
 mod library;

@@ -32,11 +32,12 @@ pub trait Target {
     /// Goes back to where [`Target::make`] left the machine, and forgets the saved states.
     fn rewind(&mut self);
 
-    /// Sets the tunable parameters among these values of all variables; `changed` are the slots that differ. False where
-    /// they are refused, and then nothing has changed.
+    /// Sets the tunable parameters among these values of all variables; `changed` are the slots
+    /// that differ. False where they are refused, and then nothing has changed.
     fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool;
 
-    /// Advances by `step` \[s\] while the inputs stay as they are at `start` or go linearly to those at `end`.
+    /// Advances by `step` \[s\] while the inputs stay as they are at `start` or go
+    /// linearly to those at `end`.
     ///
     /// # Errors
     /// A step that is refused.

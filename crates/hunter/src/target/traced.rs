@@ -8,7 +8,8 @@ use super::{Inputs, Target};
 use crate::episode::Scope;
 use crate::oracle::Sample;
 
-/// A target with a table of its outputs, as CSV: a line for the outputs before the first step and one after each.
+/// A target with a table of its outputs, as CSV: a line for the outputs before the first
+/// step and one after each.
 pub struct Traced<T, W> {
     inner: T,
     out: W,

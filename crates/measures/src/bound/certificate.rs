@@ -4,12 +4,14 @@ use clarabel::solver::SupportedConeT::ZeroConeT;
 
 use super::programme::Programme;
 
-/// The dual value of these multipliers: no point within the programme's constraints has a smaller objective.
+/// The dual value of these multipliers: no point within the programme's constraints
+/// has a smaller objective.
 ///
-/// For any multipliers z, those of inequalities not negative, the objective x'Px/2 is at least the minimum over x of
-/// x'Px/2 + z'(Ax - b). That separates by variable: with c = A'z, an error e adds c e + e^2/2, which is never less than -c^2/2,
-/// and any other variable adds c x, which is never less than -|c| times the largest |x|. Multipliers that are a little off, as a
-/// solver's are, make the bound a little lower, not wrong.
+/// For any multipliers z, those of inequalities not negative, the objective x'Px/2 is at least the
+/// minimum over x of x'Px/2 + z'(Ax - b). That separates by variable: with c = A'z, an error e adds
+/// c e + e^2/2, which is never less than -c^2/2, and any other variable adds c x, which is never
+/// less than -|c| times the largest |x|. Multipliers that are a little off, as a solver's are, make
+/// the bound a little lower, not wrong.
 pub fn dual_value(programme: &Programme, multipliers: &[f64]) -> f64 {
     let equalities = match programme.cones[0] {
         ZeroConeT(count) => count,

@@ -1,16 +1,18 @@
-//! The bound: the smallest RMS error of the felt specific force that any controller, even one that knows the whole ride
-//! beforehand, could reach on one axis under the same limits.
+//! The bound: the smallest RMS error of the felt specific force that any controller, even one that
+//! knows the whole ride beforehand, could reach on one axis under the same limits.
 //!
-//! The axis is linearised: felt = p'' - (h/g) tilt_force'' + tilt_force, where p is the platform's position,
-//! tilt_force = g sin(tilt) is what tilting adds to the force, and h the head's height above the platform, whose tangential
-//! acceleration the tilt causes. Surge goes with pitch, sway with roll, heave goes alone. Position, velocity and acceleration,
-//! tilt, its rate and its acceleration keep their limits; the axis starts at rest at neutral and may end anyhow.
+//! The axis is linearised: felt = p'' - (h/g) tilt_force'' + tilt_force, where p is the platform's
+//! position, tilt_force = g sin(tilt) is what tilting adds to the force, and h the head's height
+//! above the platform, whose tangential acceleration the tilt causes. Surge goes with pitch, sway
+//! with roll, heave goes alone. Position, velocity and acceleration, tilt, its rate and its
+//! acceleration keep their limits; the axis starts at rest at neutral and may end anyhow.
 //!
-//! The best motion is found by a convex quadratic programme over intervals of time. [`Bound::rms_error`] is a lower bound for
-//! every motion in continuous time, not only for those that the intervals can describe: the programme keeps of a motion only
-//! what holds for all of them. It is not the solver's word for it either, but the value of a dual solution, computed here
-//! from the multipliers that the solver found. [`Bound::attained`] is the RMS error of a motion that keeps all limits, so
-//! that the true optimum lies between the two.
+//! The best motion is found by a convex quadratic programme over intervals of time.
+//! [`Bound::rms_error`] is a lower bound for every motion in continuous time, not only for those
+//! that the intervals can describe: the programme keeps of a motion only what holds for all of
+//! them. It is not the solver's word for it either, but the value of a dual solution, computed here
+//! from the multipliers that the solver found. [`Bound::attained`] is the RMS error of a motion
+//! that keeps all limits, so that the true optimum lies between the two.
 
 mod certificate;
 mod programme;
@@ -102,9 +104,9 @@ pub enum NoBound {
 /// Intervals shorter than this gain nothing on smooth rides and cost time \[s\].
 pub const INTERVAL: f64 = 0.02;
 
-/// The bound for a desired specific force along one axis, as a deviation from rest (gravity taken off in heave), sampled every
-/// `step` seconds and linear in between. `interval` is how finely the motion is divided, [`INTERVAL`] by default; it is rounded
-/// to a number of steps, one at least.
+/// The bound for a desired specific force along one axis, as a deviation from rest (gravity taken
+/// off in heave), sampled every `step` seconds and linear in between. `interval` is how finely the
+/// motion is divided, [`INTERVAL`] by default; it is rounded to a number of steps, one at least.
 ///
 /// # Errors
 /// The ride or the limits cannot be used, or the solver fails.

@@ -1,19 +1,23 @@
-//! The quadratic programme: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities and s >= 0 for the rest.
+//! The quadratic programme: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities
+//! and s >= 0 for the rest.
 //!
-//! Time is divided into intervals of length T. At each of their ends there are position p, velocity v, the tilt as the force
-//! that it adds, q = g sin(tilt) (`tilt_force`), and its rate q'; of each interval, the mean error e and the mean tilt m. The
-//! mean of p'' over an interval is the change of v over T, whatever the motion in between, so that
+//! Time is divided into intervals of length T. At each of their ends there are position p, velocity
+//! v, the tilt as the force that it adds, q = g sin(tilt) (`tilt_force`), and its rate q'; of each
+//! interval, the mean error e and the mean tilt m. The mean of p'' over an interval is the change
+//! of v over T, whatever the motion in between, so that
 //!
 //! e_k = (v_k+1 - v_k)/T - (h/g)(q'_k+1 - q'_k)/T + m_k - f_k,
 //!
-//! with f_k the mean of the desired force. The integral of the squared error over an interval is at least T e_k^2.
+//! with f_k the mean of the desired force. The integral of the squared error over an
+//! interval is at least T e_k^2.
 //!
-//! A motion's way over an interval differs from T (v_k + v_k+1)/2 by the integral of p'' times t (T - t)/2, which is at most
-//! T^3/12 times the limit of |p''|. So does the tilt's, and its mean from (q_k + q_k+1)/2 by at most T^2/12 times the limit
-//! of |q''|. The relaxed programme asks for no more than this. The restricted one has constant accelerations over an interval,
-//! where the first two are zero and the third is known. Its positions and tilts are parabolas between the moments; such a one
-//! stays between the least and the greatest of its ends and of the point where the tangents at its ends meet, p_k + v_k T/2,
-//! so that this point too is kept within the limits.
+//! A motion's way over an interval differs from T (v_k + v_k+1)/2 by the integral of p'' times t
+//! (T - t)/2, which is at most T^3/12 times the limit of |p''|. So does the tilt's, and its mean
+//! from (q_k + q_k+1)/2 by at most T^2/12 times the limit of |q''|. The relaxed programme asks for
+//! no more than this. The restricted one has constant accelerations over an interval, where the
+//! first two are zero and the third is known. Its positions and tilts are parabolas between the
+//! moments; such a one stays between the least and the greatest of its ends and of the point where
+//! the tangents at its ends meet, p_k + v_k T/2, so that this point too is kept within the limits.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, ZeroConeT};

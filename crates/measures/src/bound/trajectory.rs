@@ -25,8 +25,9 @@ pub struct Knot {
 }
 
 impl Trajectory {
-    /// The specific force that is felt at a time, as a deviation from rest \[m/s2\]; at the end of an interval, that of the
-    /// interval that begins there. Before the first interval and after the last these go on.
+    /// The specific force that is felt at a time, as a deviation from rest \[m/s2\]; at the end of
+    /// an interval, that of the interval that begins there. Before the first interval and after
+    /// the last these go on.
     pub fn felt(&self, time: f64) -> f64 {
         let last = self.knots.len() - 2;
         let k = ((time / self.interval).max(0.0) as usize).min(last);
@@ -42,8 +43,8 @@ impl Trajectory {
         acceleration - self.arm * tilt_acceleration + tilt
     }
 
-    /// RMS error against a desired force that goes linearly from sample to sample, in continuous time and over its whole
-    /// duration \[m/s2\]. An interval is a number of steps.
+    /// RMS error against a desired force that goes linearly from sample to sample, in continuous
+    /// time and over its whole duration \[m/s2\]. An interval is a number of steps.
     pub fn rms_error(&self, desired: &[f64], step: f64) -> f64 {
         let steps = (self.interval / step).round() as usize;
         let last = self.knots.len() - 2;

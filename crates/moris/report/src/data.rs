@@ -1,7 +1,7 @@
 //! Plain data of a report.
 //!
-//! All quantities are in SI units and in the frames of the washout: x forward, y left, z up; positive pitch is nose down.
-//! Every series of a [`Run`] has one value for each of its times.
+//! All quantities are in SI units and in the frames of the washout: x forward, y left, z up;
+//! positive pitch is nose down. Every series of a [`Run`] has one value for each of its times.
 
 use serde::Serialize;
 
@@ -19,7 +19,8 @@ pub struct Report {
     /// Facts for the foot of the page as name and value: files, versions, step.
     pub provenance: Vec<(String, String)>,
     pub rig: Rig,
-    /// The runs, for instance with the default parameters and with tuned ones. At least one; at most four are readable.
+    /// The runs, for instance with the default parameters and with tuned ones. At least one; at
+    /// most four are readable.
     pub runs: Vec<Run>,
     /// Which of the runs the platform shows first.
     pub selected: usize,
@@ -94,7 +95,8 @@ pub struct Run {
     pub lean: Vec<f64>,
     pub limited: Limited,
     pub limits: Limits,
-    /// The table's rows for this run. Rows of several runs with the same group and name stand side by side.
+    /// The table's rows for this run. Rows of several runs with the same group and
+    /// name stand side by side.
     pub measures: Vec<Measure>,
     /// Further charts, below the others; a chart of the same title in another run joins it.
     pub charts: Vec<Chart>,
@@ -167,7 +169,8 @@ pub struct Measure {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
-    /// Shown with three significant digits, down to a millionth; one that is not finite is shown as undefined.
+    /// Shown with three significant digits, down to a millionth; one that is not finite
+    /// is shown as undefined.
     Number(f64),
     Text(String),
     /// Shown as a dash.

@@ -1,5 +1,5 @@
-//! Encoding of series in the page: numbers as base64 of their little-endian bytes, which is a quarter of their digits and
-//! keeps what is not a number.
+//! Encoding of series in the page: numbers as base64 of their little-endian bytes, which is a
+//! quarter of their digits and keeps what is not a number.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;

@@ -1,8 +1,9 @@
-//! One self-contained HTML page about a ride on a motion platform: what is felt against what is desired, the legs against
-//! their stroke, what was limited and when, a table of measures; and beside it the platform itself, moving in 3D.
+//! One self-contained HTML page about a ride on a motion platform: what is felt against what is
+//! desired, the legs against their stroke, what was limited and when, a table of measures; and
+//! beside it the platform itself, moving in 3D.
 //!
-//! Plain data in ([`Report`]), text out ([`html`]). The page needs no network and no other file: its script and style are
-//! those of `crates/moris/report/page/`, its numbers are inside it.
+//! Plain data in ([`Report`]), text out ([`html`]). The page needs no network and no other file:
+//! its script and style are those of `crates/moris/report/page/`, its numbers are inside it.
 
 #![forbid(unsafe_code)]
 

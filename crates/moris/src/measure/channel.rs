@@ -50,7 +50,8 @@ pub struct Channel {
     pub error: f64,
     /// RMS error of what the vestibular model senses.
     pub sensed_error: f64,
-    /// Fractions of the time with a cue in the vehicle, a false one and a missing one on the platform.
+    /// Fractions of the time with a cue in the vehicle, a false one and a
+    /// missing one on the platform.
     pub cues: Cues,
 }
 

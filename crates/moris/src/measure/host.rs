@@ -1,4 +1,5 @@
-//! A recording replayed as a host does it: in steps of the host's length, with or without slopes of the inputs.
+//! A recording replayed as a host does it: in steps of the host's length, with or without
+//! slopes of the inputs.
 
 use anyhow::{Result, bail};
 use moris_washout::{Input, Output, Parameters, Washout};
@@ -29,11 +30,12 @@ pub struct Host {
 const ROUNDING: f64 = 1e-6;
 
 impl Host {
-    /// Replays a recording from rest at neutral. Between its samples the recording is linear; outputs are kept at its
-    /// samples, or at the ends of the host's steps where those are longer.
+    /// Replays a recording from rest at neutral. Between its samples the recording is linear;
+    /// outputs are kept at its samples, or at the ends of the host's steps where those are longer.
     ///
     /// # Errors
-    /// The parameters cannot be used, or neither of the host's step and the recording's is a multiple of the other.
+    /// The parameters cannot be used, or neither of the host's step and the recording's is a
+    /// multiple of the other.
     pub fn replay(&self, ride: &Ride, parameters: &Parameters) -> Result<Recording> {
         let steps = Steps::of(ride, self.step)?;
         let mut inputs = ride.inputs().iter().step_by(steps.samples);
@@ -54,7 +56,8 @@ impl Host {
         Ok(recording)
     }
 
-    /// The output at the end of the steps between two inputs; its flags say what acted in any of them.
+    /// The output at the end of the steps between two inputs; its flags say what
+    /// acted in any of them.
     fn between_samples(&self, washout: &mut Washout, from: &Input, to: &Input, steps: &Steps) -> Output {
         let mut flags = [false; 3];
         for k in 0..steps.divisions {

@@ -1,7 +1,7 @@
 //! `moris measure`: rides times channels, in one table.
 //!
-//! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] compares with what is asked, [`table`]
-//! prints.
+//! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] compares with what
+//! is asked, [`table`] prints.
 
 pub mod channel;
 pub mod host;
@@ -26,10 +26,10 @@ use targets::Targets;
 
 /// Measure rides channel by channel and say which targets are missed
 ///
-/// A line for each ride and channel: the error of a platform at rest, the bound where asked for, the RMS error, the RMS
-/// error as sensed, and the fractions of the time with a cue in the vehicle, with a false and with a missing one on the
-/// platform. Then what was limited on each ride, and the targets. Recordings are led in from rest over 1 s unless
-/// --fade-in says otherwise.
+/// A line for each ride and channel: the error of a platform at rest, the bound where asked for,
+/// the RMS error, the RMS error as sensed, and the fractions of the time with a cue in the vehicle,
+/// with a false and with a missing one on the platform. Then what was limited on each ride, and the
+/// targets. Recordings are led in from rest over 1 s unless --fade-in says otherwise.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns
@@ -39,7 +39,8 @@ pub struct Options {
     #[command(flatten)]
     setup: SetupOptions,
 
-    /// Communication step of the host, in s, a divisor or a multiple of the recording's [default: the recording's]
+    /// Communication step of the host, in s, a divisor or a multiple of the recording's
+    /// [default: the recording's]
     #[arg(long, value_name = "SECONDS", value_parser = step)]
     step: Option<f64>,
 
@@ -47,7 +48,8 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t)]
     inputs: Inputs,
 
-    /// Compute the bound, the least error that any controller could reach; it takes some seconds a ride
+    /// Compute the bound, the least error that any controller could reach; it
+    /// takes some seconds a ride
     #[arg(long)]
     bound: bool,
 
@@ -74,7 +76,8 @@ pub struct MeasuredRide {
     pub duration: f64,
     /// The channels on which something is desired or felt.
     pub channels: Vec<Channel>,
-    /// Fractions of the steps in which tilt coordination, a safety unit and the actuator guard were limited.
+    /// Fractions of the steps in which tilt coordination, a safety unit and the
+    /// actuator guard were limited.
     pub limits: [f64; 3],
     /// Fraction of the steps in which a safety unit or the actuator guard limited the platform.
     pub limited: f64,

@@ -3,14 +3,16 @@
 use super::MeasuredRide;
 use super::channel::{Channel, Quantity};
 
-/// A force on which less than this is desired does not count; an error below it counts as this \[m/s2\].
+/// A force on which less than this is desired does not count; an error below it
+/// counts as this \[m/s2\].
 pub const LEAST_FORCE: f64 = 0.03;
 
 /// Targets for a set of parameters.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(next_help_heading = "Targets")]
 pub struct Targets {
-    /// Largest geometric mean of the RMS errors of surge and sway over all rides, each error at least 0.03 m/s2
+    /// Largest geometric mean of the RMS errors of surge and sway over all rides, each
+    /// error at least 0.03 m/s2
     #[arg(long, value_name = "M/S2", default_value_t = 0.68)]
     pub geometric_mean: f64,
 
@@ -26,11 +28,13 @@ pub struct Targets {
     #[arg(long, value_name = "M/S2", default_value_t = 0.15)]
     pub heave: f64,
 
-    /// Largest fraction of a ride's steps in which a safety unit or the actuator guard limits the platform
+    /// Largest fraction of a ride's steps in which a safety unit or the actuator
+    /// guard limits the platform
     #[arg(long, value_name = "FRACTION", default_value_t = 0.01)]
     pub limited: f64,
 
-    /// Largest fraction of the time with a false or a missing cue of a rate, over all rides, beyond that of a platform at rest
+    /// Largest fraction of the time with a false or a missing cue of a rate, over all rides, beyond
+    /// that of a platform at rest
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_negative_numbers = true)]
     pub cues: f64,
 }
@@ -51,8 +55,8 @@ pub fn geometric_mean(rides: &[MeasuredRide]) -> (f64, usize) {
     ((errors.iter().sum::<f64>() / errors.len().max(1) as f64).exp(), errors.len())
 }
 
-/// Fractions of the time, weighted by the rides' durations: a false or a missing cue of a rate, and the same on a
-/// platform at rest.
+/// Fractions of the time, weighted by the rides' durations: a false or a missing cue of a rate, and
+/// the same on a platform at rest.
 pub fn wrong_cues(rides: &[MeasuredRide], axis: usize) -> [f64; 2] {
     let duration: f64 = rides.iter().map(|ride| ride.duration).sum();
     let mut wrong = [0.0; 2];

@@ -20,7 +20,8 @@ pub const CHANNELS: usize = 6;
 pub const ALL: [Channel; CHANNELS] =
     [Channel::Surge, Channel::Sway, Channel::Heave, Channel::Roll, Channel::Pitch, Channel::Yaw];
 
-/// The channels that gravity joins: a tilted head feels it along surge or sway, and surge and sway are cued by tilting.
+/// The channels that gravity joins: a tilted head feels it along surge or sway, and surge and
+/// sway are cued by tilting.
 pub const CROSS: [(Channel, Channel); 4] = [
     (Channel::Pitch, Channel::Surge),
     (Channel::Roll, Channel::Sway),

@@ -69,7 +69,8 @@ pub struct Sine<'a> {
     pub frequency: f64,
     /// Time over which it fades in, whole periods \[s\].
     pub fade: f64,
-    /// True if the vehicle's orientation follows its roll and pitch rates, and the specific force with it.
+    /// True if the vehicle's orientation follows its roll and pitch rates, and the
+    /// specific force with it.
     pub gravity_turns: bool,
     pub parameters: &'a Parameters,
 }

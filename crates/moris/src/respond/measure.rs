@@ -18,8 +18,8 @@ pub struct Response {
     pub amplitude: f64,
     /// Felt amplitude of each channel over the input's, in SI units.
     pub ratios: [Complex<f64>; CHANNELS],
-    /// Of each channel: what it holds beside the input's frequency and its mean, as a share of what it holds at that
-    /// frequency (root mean squares). A linear filter has none.
+    /// Of each channel: what it holds beside the input's frequency and its mean, as a share of what
+    /// it holds at that frequency (root mean squares). A linear filter has none.
     pub distortion: [f64; CHANNELS],
     /// Share of time in which the tilt, a safety unit, the actuator guard limited.
     pub limited: [f64; 3],
@@ -34,10 +34,11 @@ const SHORTEST_BLOCK: f64 = 10.0;
 /// After so long it is not waited for any more, but for at least [`FEWEST_BLOCKS`] \[s\].
 const LONGEST_WAIT: f64 = 300.0;
 const FEWEST_BLOCKS: usize = 4;
-/// No further block is needed when the last two differ in what is felt by less than this share of the input, 1 °/s counting
-/// as much as 1 m/s2.
+/// No further block is needed when the last two differ in what is felt by less than this share of
+/// the input, 1 °/s counting as much as 1 m/s2.
 const AGREEMENT: f64 = 1e-4;
-/// A filter at its limits need not repeat itself from period to period. Up to this share of the input that is no matter.
+/// A filter at its limits need not repeat itself from period to period. Up to this share of the
+/// input that is no matter.
 const SETTLED: f64 = 1e-2;
 
 /// Measures the response to a channel at a frequency, from rest at neutral.
@@ -134,7 +135,8 @@ impl Block {
         }
     }
 
-    /// The largest difference between an output's amplitude here and in another block, in the channel's own unit.
+    /// The largest difference between an output's amplitude here and in another block, in
+    /// the channel's own unit.
     fn difference(&self, other: &Block) -> f64 {
         let of = |channel: &Channel| {
             let i = channel.index();

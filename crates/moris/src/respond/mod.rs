@@ -1,8 +1,9 @@
-//! `moris frequency-response`: the frequency response of the whole washout, from the head in the vehicle to the head on the platform.
+//! `moris frequency-response`: the frequency response of the whole washout, from the head in the
+//! vehicle to the head on the platform.
 //!
-//! In the manner of the objective motion cueing test of ICAO Doc 9625: sines of twelve frequencies on one channel at a
-//! time, and what is felt of them on every channel. [`excitation`] says what goes in, [`measure`] steps the washout
-//! through it, [`table`] and [`picture`] show what came out.
+//! In the manner of the objective motion cueing test of ICAO Doc 9625: sines of twelve frequencies
+//! on one channel at a time, and what is felt of them on every channel. [`excitation`] says what
+//! goes in, [`measure`] steps the washout through it, [`table`] and [`picture`] show what came out.
 
 pub mod channel;
 pub mod excitation;
@@ -30,10 +31,11 @@ const SMALL: f64 = 1e-3;
 
 /// Measure the frequency response of the whole washout
 ///
-/// After ICAO Doc 9625's objective motion cueing test: the vehicle moves on one channel at a time (surge, sway, heave, roll,
-/// pitch, yaw) in sines of twelve frequencies from 0.1 to 15.8 rad/s. The felt motion is compared with it on the same channel
-/// and on those coupled by gravity. Each test is made twice: with the amplitudes below, where the tilt's rate limit may be
-/// active, and with a thousandth of them, which shows the linear filters.
+/// After ICAO Doc 9625's objective motion cueing test: the vehicle moves on one channel at a time
+/// (surge, sway, heave, roll, pitch, yaw) in sines of twelve frequencies from 0.1 to 15.8 rad/s.
+/// The felt motion is compared with it on the same channel and on those coupled by gravity. Each
+/// test is made twice: with the amplitudes below, where the tilt's rate limit may be active, and
+/// with a thousandth of them, which shows the linear filters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     #[command(flatten)]
@@ -43,13 +45,14 @@ pub struct Options {
     #[arg(long, value_name = "M/S2", default_value_t = 1.0)]
     force: f64,
 
-    /// Amplitude of the angular velocity [deg/s]; slow turning is bounded by an angle of six times, quick turning by an
-    /// angular acceleration of ten times as much
+    /// Amplitude of the angular velocity [deg/s]; slow turning is bounded by an angle of six times,
+    /// quick turning by an angular acceleration of ten times as much
     #[arg(long, value_name = "DEG/S", default_value_t = 1.0)]
     rate: f64,
 
-    /// Let orientation and gravity follow the vehicle's roll and pitch, as for a vehicle that tilts without accelerating;
-    /// otherwise only the rates are present, as for a motorcycle in a balanced turn
+    /// Let orientation and gravity follow the vehicle's roll and pitch, as for a vehicle
+    /// that tilts without accelerating; otherwise only the rates are present, as for a
+    /// motorcycle in a balanced turn
     #[arg(long)]
     gravity_turns: bool,
 
@@ -58,7 +61,8 @@ pub struct Options {
     report: PathBuf,
 }
 
-/// Responses on all channels at all frequencies, channel by channel in the order of the frequencies.
+/// Responses on all channels at all frequencies, channel by channel in the order of the
+/// frequencies.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// With the test's amplitudes.
@@ -101,7 +105,8 @@ impl Measured {
 /// Runs the command.
 ///
 /// # Errors
-/// The rig or the parameters cannot be used, an amplitude is not positive, or a file cannot be written.
+/// The rig or the parameters cannot be used, an amplitude is not positive, or a
+/// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
     let amplitudes = options.amplitudes()?;

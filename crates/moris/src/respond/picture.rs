@@ -141,8 +141,8 @@ fn draw_phase(area: &Area, test: &[Response], small: &[Response], output: Channe
     draw_curves(&mut chart, test, small, output, |response| phase(response, output), |a, b| (a - b).abs() > 180.0)
 }
 
-/// The small signals as a line, the test's as a line with dots; no line is drawn over a `gap` between neighbours, and nothing
-/// of what cannot be felt.
+/// The small signals as a line, the test's as a line with dots; no line is drawn over a `gap`
+/// between neighbours, and nothing of what cannot be felt.
 fn draw_curves<'a, C>(
     chart: &mut ChartContext<'a, SVGBackend<'a>, C>,
     test: &[Response],

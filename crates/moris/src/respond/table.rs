@@ -99,7 +99,8 @@ pub fn phase(response: &Response, output: Channel) -> f64 {
     response.ratios[output.index()].arg().to_degrees() + 0.0
 }
 
-/// Modulus and phase of the direct and the cross channels with the test's amplitudes, and what limited them.
+/// Modulus and phase of the direct and the cross channels with the test's amplitudes,
+/// and what limited them.
 pub fn text(measured: &Measured) -> String {
     let direct: Vec<_> = ALL.iter().map(|&channel| (channel, channel)).collect();
     let mut text = String::new();

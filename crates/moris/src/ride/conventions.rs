@@ -1,7 +1,7 @@
 //! Names, units and axes of a recording's columns.
 //!
-//! They are given by options, by a small TOML file with the same words, or by both: options take precedence over the
-//! file. Units in the recording's header take precedence over the defaults.
+//! They are given by options, by a small TOML file with the same words, or by both: options take
+//! precedence over the file. Units in the recording's header take precedence over the defaults.
 //!
 //! ```toml
 //! axes = "forward-right-down"
@@ -129,8 +129,8 @@ impl From<RateFrame> for AngularVelocityFrame {
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Columns of the recording")]
 pub struct ConventionOptions {
-    /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any, roll pitch yaw, speed,
-    /// lean): time=t,ax=accel_x. Upper and lower case are the same
+    /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
+    /// roll pitch yaw, speed, lean): time=t,ax=accel_x. Upper and lower case are the same
     #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
     #[serde(deserialize_with = "columns_of_table")]
     pub columns: Vec<(Quantity, String)>,
@@ -175,7 +175,8 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "SECONDS")]
     pub fade_in: Option<f64>,
 
-    /// TOML file with these options by the same names (force-unit = "g"), the names of columns under columns
+    /// TOML file with these options by the same names (force-unit = "g"), the names of
+    /// columns under columns
     #[arg(long, value_name = "FILE")]
     #[serde(skip)]
     pub conventions: Option<PathBuf>,
@@ -224,7 +225,8 @@ impl ConventionOptions {
         self.load_or_fade_in(0.0)
     }
 
-    /// The conventions, with a time to fade recordings in where neither the options nor the file give one \[s\].
+    /// The conventions, with a time to fade recordings in where neither the options nor
+    /// the file give one \[s\].
     ///
     /// # Errors
     /// As [`ConventionOptions::load`].

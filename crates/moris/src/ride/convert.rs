@@ -37,7 +37,8 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Vec<Input> {
     (0..table.time.len()).map(input).collect()
 }
 
-/// Fades the inputs in from rest over the first `duration` seconds, by x^2 (3 - 2x) after a fraction x of the time.
+/// Fades the inputs in from rest over the first `duration` seconds, by x^2 (3 - 2x) after a
+/// fraction x of the time.
 pub fn fade_in(inputs: &mut [Input], step: f64, duration: f64) {
     let rest = Input::default();
     let faded = inputs.iter_mut().enumerate().map(|(k, input)| (k as f64 * step, input));

@@ -50,7 +50,8 @@ struct Title {
 }
 
 impl Title {
-    /// Takes `ax [m/s2]` apart. Of several brackets, the first with a known unit counts, otherwise the last.
+    /// Takes `ax [m/s2]` apart. Of several brackets, the first with a known unit
+    /// counts, otherwise the last.
     fn new(full: &str) -> Self {
         let full = full.trim();
         let name = match full.find(['[', '(']) {
@@ -93,8 +94,8 @@ impl Header {
         self.titles.get(place).map_or_else(String::new, |title| quoted(&title.full))
     }
 
-    /// Takes a line of units below the names: no field is a number, and one at least is a unit. Returns false and leaves
-    /// the header alone if the line is none.
+    /// Takes a line of units below the names: no field is a number, and one at least is a unit.
+    /// Returns false and leaves the header alone if the line is none.
     pub fn take_units<'a>(&mut self, fields: impl Iterator<Item = &'a str> + Clone) -> bool {
         let bare = |field: &'a str| field.trim().trim_matches(['[', ']', '(', ')']);
         if fields.clone().any(|field| field.trim().replace(',', ".").parse::<f64>().is_ok())
@@ -119,8 +120,8 @@ impl Header {
     /// The columns that are used.
     ///
     /// # Errors
-    /// Columns are missing, all of which are named; a name stands twice; a column is given for two quantities; a unit is
-    /// unknown, or contradicts an option.
+    /// Columns are missing, all of which are named; a name stands twice; a column is given for two
+    /// quantities; a unit is unknown, or contradicts an option.
     pub fn columns(&self, file: &Path, conventions: &Conventions) -> Result<Vec<Column>, RideError> {
         let refused = |reason: String| RideError::Whole { file: file.to_owned(), reason };
         let places = self.places(file, conventions)?;
@@ -253,8 +254,8 @@ impl Header {
         }
     }
 
-    /// Columns of one dimension state their units all or not at all: what the header leaves open beside a unit that is
-    /// not the default is not guessed.
+    /// Columns of one dimension state their units all or not at all: what the header leaves open
+    /// beside a unit that is not the default is not guessed.
     fn check_units_are_complete(&self, columns: &[Column]) -> Result<(), String> {
         for dimension in Dimension::ALL {
             let of = |source| {

@@ -1,19 +1,23 @@
-//! Recordings: read from CSV, converted to the washout's frames and units, and checked for plausibility.
+//! Recordings: read from CSV, converted to the washout's frames and units, and
+//! checked for plausibility.
 //!
-//! [`Ride::read`] does it all. `source` reads the text, [`header`] finds the columns and their [`units`], [`table`] reads
-//! the numbers. [`sampling`] makes the steps equal. [`plausibility`] recognises wrong units and axes. [`conventions`] are
-//! the names, units and axes that options give.
+//! [`Ride::read`] does it all. `source` reads the text, [`header`] finds the columns and their
+//! [`units`], [`table`] reads the numbers. [`sampling`] makes the steps equal.
+//! [`plausibility`] recognises wrong units and axes. [`conventions`] are the names, units and
+//! axes that options give.
 //!
 //! # Gravity without orientation
 //!
-//! The washout cues the difference between the specific force on the vehicle's rider and that on a rider at rest on a
-//! level platform, (0, 0, g). A recording without orientation is taken as level. Gravity removal then takes g from z and
-//! nothing from x and y, with `head_vertical` and with `full`. The specific force at the head of a two-wheeler's rider
-//! already holds the lean: in a balanced turn it points along the rider's spine, so there is no lateral force to cue. On a
-//! slope it holds the part of gravity that pushes the rider back, and that part is cued. In a lean z reads more than g,
-//! as the rider feels.
+//! The washout cues the difference between the specific force on the vehicle's rider and that on a
+//! rider at rest on a level platform, (0, 0, g). A recording without orientation is taken as level.
+//! Gravity removal then takes g from z and nothing from x and y, with `head_vertical` and with
+//! `full`. The specific force at the head of a two-wheeler's rider already holds the lean: in a
+//! balanced turn it points along the rider's spine, so there is no lateral force to cue. On a slope
+//! it holds the part of gravity that pushes the rider back, and that part is cued. In a lean z
+//! reads more than g, as the rider feels.
 //!
-//! Columns of orientation are used where there are any: gravity is removed as the parameter `gravityRemoval` states.
+//! Columns of orientation are used where there are any: gravity is removed as the parameter
+//! `gravityRemoval` states.
 
 pub mod conventions;
 mod convert;
@@ -52,11 +56,13 @@ pub struct Ride {
 }
 
 impl Ride {
-    /// Reads a recording from a file, or from standard input if the file is `-`. Files compressed with gzip are unpacked.
+    /// Reads a recording from a file, or from standard input if the file is `-`. Files compressed
+    /// with gzip are unpacked.
     ///
     /// # Errors
-    /// The file cannot be read or is no CSV, columns are missing or stand twice, a field is no number, the steps of time
-    /// are unequal, a unit in the header contradicts an option, or the units or axes are implausible.
+    /// The file cannot be read or is no CSV, columns are missing or stand twice, a field is no
+    /// number, the steps of time are unequal, a unit in the header contradicts an option, or the
+    /// units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RideError> {
         let table = table::read(file, conventions)?;
         let (table, mut remarks) = sampling::at_equal_steps(table, conventions)?;
@@ -79,7 +85,8 @@ impl Ride {
         source::name(file)
     }
 
-    /// The parameters for its simulation: those given, with the recording's axes of the angular velocity.
+    /// The parameters for its simulation: those given, with the recording's axes of
+    /// the angular velocity.
     pub fn parameters(&self, parameters: &Parameters) -> Parameters {
         let mut parameters = *parameters;
         parameters.conditioning.angular_velocity_frame = self.angular_velocity_frame;

@@ -1,13 +1,14 @@
 //! Recognition of units and axes that are not those given.
 //!
-//! Rates in deg/s that are taken for rad/s are 57 times too large, and a quiet car's still look like a lively rider's. Four
-//! tests tell them apart, each by a fact that holds for every vehicle:
+//! Rates in deg/s that are taken for rad/s are 57 times too large, and a quiet car's still look
+//! like a lively rider's. Four tests tell them apart, each by a fact that holds for every vehicle:
 //!
 //! - no head turns faster than 10 rad/s for a hundredth of the time;
 //! - rates are the derivatives of the angles, where the recording has both;
-//! - roll and pitch are bounded, so the integral of their rates may drift, but does not swing by more than half a turn;
-//! - lateral force and yaw rate that go together are those of a turn, a = v omega, whose radius a / omega^2 is metres
-//!   and more.
+//! - roll and pitch are bounded, so the integral of their rates may drift, but does not swing by
+//!   more than half a turn;
+//! - lateral force and yaw rate that go together are those of a turn, a = v omega, whose radius a /
+//!   omega^2 is metres and more.
 
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -18,7 +19,8 @@ use super::conventions::{AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quant
 use super::header::UnitSource;
 use super::table::Table;
 
-/// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors are biased and tilted.
+/// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
+/// are biased and tilted.
 const GRAVITY_TOLERANCE: f64 = 3.0;
 /// Medians below this hold no gravity \[m/s2\].
 const NO_GRAVITY: f64 = 3.0;
@@ -30,7 +32,8 @@ const BRISK: f64 = 2.5;
 const STEEPEST: f64 = 3.2;
 /// Time over which the drift of an integrated rate is removed \[s\].
 const DRIFT: f64 = 10.0;
-/// Swing of roll or pitch, drift removed, that no vehicle exceeds \[rad\]: a motorcycle goes from -1 to 1.
+/// Swing of roll or pitch, drift removed, that no vehicle exceeds \[rad\]: a
+/// motorcycle goes from -1 to 1.
 const WIDEST_SWING: f64 = 3.5;
 /// Correlation above which two signals go together.
 const TOGETHER: f64 = 0.7;
@@ -118,7 +121,8 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
     Err(format!("{shown}, {meaning}"))
 }
 
-/// Rejects rates that are plausible only as deg/s. A unit that is given stands against all tests but the first.
+/// Rejects rates that are plausible only as deg/s. A unit that is given stands against
+/// all tests but the first.
 fn rates_are_plausible(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
     let (unit, source) = unit(table, Quantity::Rate(0));
     if unit != RateUnit::RadianPerSecond.unit() {
@@ -204,7 +208,8 @@ fn smooth(values: impl Iterator<Item = f64> + Clone, step: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Widest swing of the integral of a rate over any [`DRIFT`] seconds, from which its straight drift is removed \[rad\].
+/// Widest swing of the integral of a rate over any [`DRIFT`] seconds, from which its straight
+/// drift is removed \[rad\].
 fn widest_swing(rates: impl Iterator<Item = f64>, step: f64) -> f64 {
     let angles: Vec<f64> = rates
         .scan(0.0, |angle, rate| {

@@ -4,8 +4,8 @@ use super::RideError;
 use super::conventions::{Conventions, Quantity};
 use super::table::Table;
 
-/// Largest distance of a sample from its place at equal steps \[fractions of a step\]. Clocks that are written with few
-/// digits need it.
+/// Largest distance of a sample from its place at equal steps \[fractions of a step\]. Clocks that
+/// are written with few digits need it.
 const JITTER: f64 = 0.2;
 /// Coarsest step of a usable recording \[s\].
 const COARSEST: f64 = 0.25;
@@ -16,11 +16,12 @@ const MOST_SAMPLES: f64 = 1e7;
 /// Longest gap that is interpolated over without a warning \[s\].
 const GAP: f64 = 0.2;
 
-/// The recording at equal steps, with warnings: unchanged where its steps are equal, interpolated on demand.
+/// The recording at equal steps, with warnings: unchanged where its steps are equal,
+/// interpolated on demand.
 ///
 /// # Errors
-/// Time stands still or goes back; the steps are unequal and interpolation is off; the steps are too coarse or too fine
-/// for the unit of time.
+/// Time stands still or goes back; the steps are unequal and interpolation is off; the steps are
+/// too coarse or too fine for the unit of time.
 pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RideError> {
     check_order(&table)?;
     check_unit(&table)?;

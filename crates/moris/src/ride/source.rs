@@ -15,7 +15,8 @@ const LARGEST: u64 = 2_000_000_000;
 /// Part of a file in which a zero byte shows that it is no text \[bytes\].
 const HEAD: usize = 4096;
 
-/// The name of the recording in a file: without directory, `.csv` and `.gz`; `stdin` for standard input.
+/// The name of the recording in a file: without directory, `.csv` and `.gz`;
+/// `stdin` for standard input.
 pub fn name(file: &Path) -> String {
     if is_standard_input(file) {
         return "stdin".to_owned();
@@ -38,7 +39,8 @@ fn is_standard_input(file: &Path) -> bool {
 /// The text of a recording, unpacked if it is compressed with gzip.
 ///
 /// # Errors
-/// The file cannot be read or unpacked, is too large, or is of a known format that is not CSV: what to do about it.
+/// The file cannot be read or unpacked, is too large, or is of a known format that is not
+/// CSV: what to do about it.
 pub fn text(file: &Path) -> Result<String, RideError> {
     let unreadable = |reason| RideError::Read { file: shown(file), reason };
     let refused = |reason: &str| RideError::Whole { file: shown(file), reason: reason.to_owned() };

@@ -48,12 +48,14 @@ impl Table {
     }
 }
 
-/// Reads a recording: a header of names, then lines of numbers, with commas, semicolons or tabulators between them. A line
-/// of units may follow the header, and a logger's preamble may precede it. Lines that begin with # are comments. Between semicolons or tabulators, numbers may have a decimal comma.
+/// Reads a recording: a header of names, then lines of numbers, with commas, semicolons or
+/// tabulators between them. A line of units may follow the header, and a logger's preamble may
+/// precede it. Lines that begin with # are comments. Between semicolons or tabulators, numbers may
+/// have a decimal comma.
 ///
 /// # Errors
-/// The file cannot be read or holds no samples, columns are missing, a unit contradicts an option, a value is not a
-/// number.
+/// The file cannot be read or holds no samples, columns are missing, a unit contradicts an option,
+/// a value is not a number.
 pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
     let text = source::text(file)?;
     let text = text.trim_start_matches('\u{feff}');
@@ -112,8 +114,8 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
 
 /// The number of lines before the header, and the text from the header on.
 ///
-/// The header is the first line with all columns that a recording needs. Where there is none, it is the first of the lines
-/// with the most names, so that an error lists those.
+/// The header is the first line with all columns that a recording needs. Where there is none, it is
+/// the first of the lines with the most names, so that an error lists those.
 fn without_preamble<'a>(text: &'a str, conventions: &Conventions) -> (u64, &'a str) {
     let mut start = 0;
     let mut widest = (0, 0, text);
@@ -140,7 +142,8 @@ fn without_preamble<'a>(text: &'a str, conventions: &Conventions) -> (u64, &'a s
     (widest.1, widest.2)
 }
 
-/// Line of a record. Its position is where the reader began, before the blank lines and comments that it skipped.
+/// Line of a record. Its position is where the reader began, before the blank lines and
+/// comments that it skipped.
 fn line_of_record(position: &csv::Position, text: &str) -> u64 {
     let rest = text.get(position.byte() as usize..).unwrap_or_default();
     let is_skipped = |line: &&str| line.trim_end_matches('\r').is_empty() || line.starts_with('#');

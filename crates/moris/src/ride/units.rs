@@ -42,7 +42,8 @@ macro_rules! choices {
 }
 pub(super) use choices;
 
-/// Declares the units of one dimension: word, item, factor to SI, and other spellings, as [`plain`] leaves them.
+/// Declares the units of one dimension: word, item, factor to SI, and other spellings, as
+/// [`plain`] leaves them.
 macro_rules! units {
     ($(#[$attribute:meta])* $name:ident {
         $( $(#[doc = $text:literal])+ $word:literal $item:ident = $in_si:expr, [$($spelling:literal)*], )+
@@ -178,7 +179,8 @@ impl Dimension {
         }
     }
 
-    /// The unit with this spelling in a header, whatever its case and signs; none if it is no unit of this dimension.
+    /// The unit with this spelling in a header, whatever its case and signs; none if it is no
+    /// unit of this dimension.
     pub fn spelled(self, text: &str) -> Option<Unit> {
         let plain = plain(text);
         match self {
@@ -196,7 +198,8 @@ pub fn any_spelled(text: &str) -> Option<(Dimension, Unit)> {
     Dimension::ALL.into_iter().find_map(|dimension| Some((dimension, dimension.spelled(text)?)))
 }
 
-/// A unit in lower case, without spaces and signs of multiplication, with plain exponents: `m·s⁻²` is `ms-2`.
+/// A unit in lower case, without spaces and signs of multiplication, with plain
+/// exponents: `m·s⁻²` is `ms-2`.
 fn plain(text: &str) -> String {
     let plain = |c: char| match c {
         '^' | '*' | '·' | '⋅' | '.' => None,

@@ -1,6 +1,7 @@
 //! `moris rig`: looks at a platform.
 //!
-//! [`survey`] gathers what there is to know of it, [`workspace`] measures where it can go, [`picture`] draws both.
+//! [`survey`] gathers what there is to know of it, [`workspace`] measures where it can go,
+//! [`picture`] draws both.
 
 pub mod picture;
 mod section;
@@ -24,8 +25,9 @@ use survey::{Singularities, Survey};
 pub enum Command {
     /// Reach and singularities of a rig
     ///
-    /// Prints reach, speed and acceleration along each axis alone, the size of the workspace and the condition number over all
-    /// leg lengths, and draws the rig. The exit status is not 0 for an invalid rig.
+    /// Prints reach, speed and acceleration along each axis alone, the size of the workspace
+    /// and the condition number over all leg lengths, and draws the rig. The exit status is not
+    /// 0 for an invalid rig.
     Check(CheckOptions),
 }
 

@@ -1,8 +1,8 @@
 //! Sections through the workspace of the level platform.
 //!
-//! With the platform level, each leg keeps its origin inside a shell: a ball of its longest about the point where its joints
-//! would meet, less a ball of its shortest. A section of a shell is a ring, and so the drawing is exact: what six discs
-//! have in common, less six others.
+//! With the platform level, each leg keeps its origin inside a shell: a ball of its longest about
+//! the point where its joints would meet, less a ball of its shortest. A section of a shell is a
+//! ring, and so the drawing is exact: what six discs have in common, less six others.
 
 use std::fmt::Write;
 
@@ -11,7 +11,8 @@ use moris_washout::nalgebra::Vector3;
 
 use super::svg::Window;
 
-/// Margins to the ends of the stroke for which the section is drawn \[m\], and the colours of what is between them.
+/// Margins to the ends of the stroke for which the section is drawn \[m\], and the colours of
+/// what is between them.
 pub const MARGINS: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
 
 /// A plane through neutral.
@@ -32,7 +33,8 @@ pub const PLANES: [Plane; 3] = [
     Plane { title: "From the front, through neutral", axes: [1, 2], names: ["y: sway", "z: heave"] },
 ];
 
-/// The section, with coordinates from neutral: as far as `extent` goes, and the safety units' box dashed in it.
+/// The section, with coordinates from neutral: as far as `extent` goes, and the safety
+/// units' box dashed in it.
 pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vector3<f64>) -> String {
     let neutral = Vector3::new(0.0, 0.0, rig.neutral_height);
     let flat = |v: Vector3<f64>| plane.axes.map(|axis| v[axis]);
@@ -81,8 +83,8 @@ fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option
     (0..6).map(ring).collect()
 }
 
-/// The interior of all rings, filled: groups within groups, each clipped by one disc, with the holes masked out. (A clip of a
-/// clip would say the same, but not every viewer follows it.)
+/// The interior of all rings, filled: groups within groups, each clipped by one disc, with the
+/// holes masked out. (A clip of a clip would say the same, but not every viewer follows it.)
 fn shape(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
     let circle = |ring: &Ring, radius: f64| {
         let [x, y] = window.pixel(ring.centre);

@@ -51,7 +51,8 @@ impl Survey {
     /// Surveys a rig, trying `samples` points for the volume of its workspace.
     ///
     /// # Errors
-    /// The rig cannot be surveyed: a value is out of its range, or the legs do not reach neutral. A singular rig can be.
+    /// The rig cannot be surveyed: a value is out of its range, or the legs do not reach neutral.
+    /// A singular rig can be.
     pub fn of(file: &RigFile, samples: u32) -> Result<Self, Refusal> {
         let parameters = file.parameters();
         let rig = &parameters.rig;

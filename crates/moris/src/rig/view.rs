@@ -17,7 +17,8 @@ const HEAD_RADIUS: f64 = 0.12;
 /// Length of the arrows along the base's axes, as a share of its radius.
 const ARROW: f64 = 0.4;
 
-/// The base, the platform, the six legs with their numbers, the rider's head, and the axes of the base.
+/// The base, the platform, the six legs with their numbers, the rider's head, and
+/// the axes of the base.
 pub fn view(parameters: &Parameters) -> String {
     let rig = &parameters.rig;
     let raised = |joint: &Vector3<f64>| joint + Vector3::new(0.0, 0.0, rig.neutral_height);

@@ -15,7 +15,8 @@ use rayon::prelude::*;
 pub const TILT: f64 = 10.0 * TAU / 360.0;
 /// Directions in which it is tilted.
 const DIRECTIONS: u32 = 8;
-/// Points are drawn in blocks of this many, each with a stream of its own: the same points on any number of cores.
+/// Points are drawn in blocks of this many, each with a stream of its own: the same points
+/// on any number of cores.
 const BLOCK: u32 = 10_000;
 /// Begins the streams of points.
 const SEED: u64 = 1;
@@ -27,8 +28,8 @@ pub struct Workspace {
     pub level: Volume,
     /// Where the platform can also be tilted by [`TILT`] in each of eight directions.
     pub tilted: Volume,
-    /// Smallest and largest coordinates found with the platform level, and a little around neutral at least, in the base
-    /// frame \[m\].
+    /// Smallest and largest coordinates found with the platform level, and a little around neutral
+    /// at least, in the base frame \[m\].
     pub extent: [Vector3<f64>; 2],
     /// Points that were tried.
     pub samples: u32,
@@ -46,8 +47,8 @@ pub struct Volume {
 impl Workspace {
     /// Tries points evenly distributed over a box that holds the workspace.
     ///
-    /// A point counts if all legs are inside their stroke there, and the Jacobian's determinant has the sign that it has at
-    /// neutral: the platform's mirror image below the base does not.
+    /// A point counts if all legs are inside their stroke there, and the Jacobian's determinant has
+    /// the sign that it has at neutral: the platform's mirror image below the base does not.
     pub fn of(rig: &Rig, samples: u32) -> Self {
         let [low, high] = bounds(rig);
         let blocks = samples.div_ceil(BLOCK);
@@ -74,8 +75,8 @@ impl Volume {
     }
 }
 
-/// A box that holds every level position: each leg lets the origin go no farther than its longest from the point where its
-/// joints would meet.
+/// A box that holds every level position: each leg lets the origin go no farther than its longest
+/// from the point where its joints would meet.
 fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
     let reach = Vector3::repeat(rig.max_length);
     let meeting = (0..6).map(|i| rig.base[i] - rig.platform[i]);
@@ -146,8 +147,8 @@ fn tilts() -> impl Iterator<Item = Orientation> {
 mod tests {
     use super::*;
 
-    /// With all joints of a kind in one point and legs that may shrink to nothing, the workspace is a ball. Its Jacobian is
-    /// singular, so the counting is tested without it, on the volume alone.
+    /// With all joints of a kind in one point and legs that may shrink to nothing, the workspace is
+    /// a ball. Its Jacobian is singular, so the counting is tested without it, on the volume alone.
     #[test]
     fn the_share_of_points_inside_gives_the_volume_and_its_error() {
         let volume = Volume::of(250, 1000, 8.0);

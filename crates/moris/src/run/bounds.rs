@@ -29,12 +29,15 @@ impl AxisBound {
 /// An axis on which less than this is desired has no bound worth computing: RMS \[m/s2\].
 const WORTH_BOUNDING: f64 = 0.01;
 
-/// More intervals than this take too long, and a longer ride gets longer ones: its bound is a little lower, and as valid.
+/// More intervals than this take too long, and a longer ride gets longer ones: its bound is a
+/// little lower, and as valid.
 const MOST_INTERVALS: f64 = 10_000.0;
 
-/// The bounds of surge, sway and heave, computed beside each other; none where nothing is desired on an axis.
+/// The bounds of surge, sway and heave, computed beside each other; none where nothing
+/// is desired on an axis.
 ///
-/// The bound knows an upright rider: his head's height is that of the washout location without lean.
+/// The bound knows an upright rider: his head's height is that of the washout
+/// location without lean.
 ///
 /// # Errors
 /// The ride is too short for a bound, or the solver fails.
@@ -55,7 +58,8 @@ pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound>
     Ok(std::array::from_fn(|_| found.next().flatten()))
 }
 
-/// The limits that the washout keeps on an axis: the safety unit's, or the stroke along the axis alone where that is less.
+/// The limits that the washout keeps on an axis: the safety unit's, or the stroke along the axis
+/// alone where that is less.
 fn limits(parameters: &Parameters, axis: usize) -> AxisLimits {
     let Parameters { safety, tilt, structure, rig, .. } = parameters;
     let reach = single_axis_range(rig, [Axis::Surge, Axis::Sway, Axis::Heave][axis]);

@@ -6,7 +6,8 @@ use moris_report::{Finding, Weight};
 use super::{Outcome, Recording};
 use moris_washout::Output;
 
-/// Less than this of a signal is not worth a sentence: RMS of the desired specific force without its mean \[m/s2\].
+/// Less than this of a signal is not worth a sentence: RMS of the desired specific force
+/// without its mean \[m/s2\].
 const WORTH_SAYING: f64 = 0.1;
 /// Less error than this share of what is desired, and it is felt as it should be.
 const FAITHFUL: f64 = 0.25;

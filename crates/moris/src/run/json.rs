@@ -7,7 +7,8 @@ use crate::ride::Ride;
 
 /// A recording with one or several parameter sets.
 ///
-/// Each measure has the subject, name, value and unit of the report's table; an undefined value is `null`.
+/// Each measure has the subject, name, value and unit of the report's table; an
+/// undefined value is `null`.
 pub fn recording(ride: &Ride, outcomes: &[Outcome]) -> Value {
     json!({
         "recording": ride.name,

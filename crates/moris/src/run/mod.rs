@@ -1,8 +1,8 @@
 //! `moris simulate`: simulates a recording on a rig and measures the cues.
 //!
-//! [`recording`] steps the washout; everything else reads its result: [`output_table`] writes it down, [`measured`]
-//! measures it, [`bounds`] computes the least possible error, [`summary`] and [`json`] print it, [`findings`] puts it in
-//! sentences, [`page`] makes the report.
+//! [`recording`] steps the washout; everything else reads its result: [`output_table`] writes it
+//! down, [`measured`] measures it, [`bounds`] computes the least possible error, [`summary`] and
+//! [`json`] print it, [`findings`] puts it in sentences, [`page`] makes the report.
 
 pub mod bounds;
 pub mod findings;
@@ -34,17 +34,18 @@ const DOES_NOT_FIT: u8 = 3;
 
 /// Simulate recordings on a rig and report how well they are felt
 ///
-/// Prints the measures of each recording and writes two files: NAME.outputs.csv, every input and output at every sample
-/// by the names of the FMU's variables, and NAME.html, a page with all curves and the moving platform, which needs no
-/// network and nothing beside it. A recording that cannot be used does not end the others.
+/// Prints the measures of each recording and writes two files: NAME.outputs.csv, every input and
+/// output at every sample by the names of the FMU's variables, and NAME.html, a page with all
+/// curves and the moving platform, which needs no network and nothing beside it. A recording that
+/// cannot be used does not end the others.
 ///
-/// Exit status: 0 if every recording fits the rig; 3 if a safety unit or an actuator's limit was active on one, with the
-/// first parameters; 1 if one could not be simulated.
+/// Exit status: 0 if every recording fits the rig; 3 if a safety unit or an actuator's limit was
+/// active on one, with the first parameters; 1 if one could not be simulated.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// Recordings (CSV, also .csv.gz; - is standard input) with columns time, ax, ay, az (specific force, m/s2) and wx,
-    /// wy, wz (rad/s) at the rider's head, x forward, y left, z up. Units in the header's brackets are read. Other names,
-    /// units and axes are given by the options below
+    /// Recordings (CSV, also .csv.gz; - is standard input) with columns time, ax, ay, az (specific
+    /// force, m/s2) and wx, wy, wz (rad/s) at the rider's head, x forward, y left, z up. Units in
+    /// the header's brackets are read. Other names, units and axes are given by the options below
     #[arg(required = true, value_name = "RECORDING")]
     rides: Vec<PathBuf>,
 
@@ -59,7 +60,8 @@ pub struct Options {
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     report: PathBuf,
 
-    /// Do not compute the bound, the least error that any controller could reach; it takes some seconds a recording
+    /// Do not compute the bound, the least error that any controller could reach; it takes
+    /// some seconds a recording
     #[arg(long)]
     no_bound: bool,
 
@@ -191,7 +193,8 @@ fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool, progress: &mut Pro
     outcomes?.into_iter().map(Outcome::with_bounds).collect()
 }
 
-/// File name of the outputs with one of the setups: the recording's for the first, with the parameters' name for others.
+/// File name of the outputs with one of the setups: the recording's for the first, with the
+/// parameters' name for others.
 fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
     match index {
         0 => format!("{ride}.outputs.csv"),

@@ -11,7 +11,8 @@ use super::Recording;
 /// Digits after the point: micrometres, and no more than a sensor has.
 const DECIMALS: usize = 6;
 
-/// Writes every input and output at every sample, in columns named as the FMU's variables; booleans are 0 and 1.
+/// Writes every input and output at every sample, in columns named as the FMU's variables;
+/// booleans are 0 and 1.
 ///
 /// # Errors
 /// The file cannot be written.

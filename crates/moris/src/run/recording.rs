@@ -23,7 +23,8 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Rides from rest at neutral, the inputs going linearly from sample to sample. `progress` is told after each.
+    /// Rides from rest at neutral, the inputs going linearly from sample to sample.
+    /// `progress` is told after each.
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.

@@ -1,13 +1,15 @@
 //! The objective: sensed error of a recording, and penalties for active limits.
 //!
-//! A ride has six channels, specific force and angular velocity along x, y and z. Each is what the vestibular model makes of it,
-//! counted in perception thresholds, so that metres per second squared and degrees per second can be added. With e_k the RMS of
-//! felt minus desired on channel k, d_k that of the desired alone and w_k the channel's weight, the ride's error is
+//! A ride has six channels, specific force and angular velocity along x, y and z. Each is what the
+//! vestibular model makes of it, counted in perception thresholds, so that metres per second
+//! squared and degrees per second can be added. With e_k the RMS of felt minus desired on channel
+//! k, d_k that of the desired alone and w_k the channel's weight, the ride's error is
 //!
 //! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2).
 //!
-//! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the ride: to scale everything down to nothing earns
-//! nothing, and false cues on channels on which nothing is desired cost what they are felt.
+//! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the ride: to scale
+//! everything down to nothing earns nothing, and false cues on channels on which nothing is desired
+//! cost what they are felt.
 
 use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
 use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
@@ -35,7 +37,8 @@ pub struct Cost {
     pub channels: Channels<f64>,
     /// The ride's error: 0 perfect, 1 a platform at rest.
     pub error: f64,
-    /// Share of the steps in which a safety unit or the actuator guard was at work or the reserve of stroke was touched.
+    /// Share of the steps in which a safety unit or the actuator guard was at work or the reserve
+    /// of stroke was touched.
     pub violated: f64,
 }
 
@@ -56,16 +59,18 @@ pub struct Judge {
     desired_rms: Channels<f64>,
     weights: Channels<f64>,
     constraints: Constraints,
-    /// At rest with the fixed parameters, the internal step being as long as the ride's: a new one would have its rig
-    /// surveyed each time.
+    /// At rest with the fixed parameters, the internal step being as long as the ride's: a new one
+    /// would have its rig surveyed each time.
     coarse: Washout,
 }
 
-/// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits act a little more coarsely,
-/// which is why the result is ridden again with the internal step that it will be used with.
+/// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits
+/// act a little more coarsely, which is why the result is ridden again with the internal step that
+/// it will be used with.
 const LONGEST_STEP: f64 = 0.02;
 
-/// Share of the acceleration limits that the search's long steps may use: within such a step acceleration varies unseen.
+/// Share of the acceleration limits that the search's long steps may use: within such a step
+/// acceleration varies unseen.
 const RESERVE_OF_ACCELERATION: f64 = 0.85;
 
 impl Judge {

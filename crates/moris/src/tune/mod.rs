@@ -1,7 +1,8 @@
 //! `moris tune`: finds better parameters for a set of rides.
 //!
-//! [`space`] says what may change, [`cost`] what is made small, [`search`](mod@search) does it, [`tuner`] rides the result with
-//! the steps that it will be used with, and tries on rides that it was not tuned on. [`summary`] says what came of it.
+//! [`space`] says what may change, [`cost`] what is made small, [`search`](mod@search) does it,
+//! [`tuner`] rides the result with the steps that it will be used with, and tries on rides that it
+//! was not tuned on. [`summary`] says what came of it.
 
 pub mod cost;
 mod folds;
@@ -33,15 +34,16 @@ use space::Space;
 use summary::RideResult;
 use tuner::Tuner;
 
-/// A recording that is cut out of a longer ride begins in motion, and the platform at rest: no parameters could keep the limits
-/// at such a jump. It is led in from rest over this time unless another is said \[s\].
+/// A recording that is cut out of a longer ride begins in motion, and the platform at rest: no
+/// parameters could keep the limits at such a jump. It is led in from rest over this time unless
+/// another is said \[s\].
 const LEAD_IN: f64 = 1.0;
 
 /// Runs the command.
 ///
 /// # Errors
-/// A ride, a rig or parameters that cannot be used, no parameters found that keep the limits, or a file that cannot be
-/// written.
+/// A ride, a rig or parameters that cannot be used, no parameters found that keep the limits, or a
+/// file that cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let before = options.setup.load()?;
     let tuned_on = judges(options, &options.rides, &before)?;
@@ -75,10 +77,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(if summary::is_worse(&results) { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
-/// Exit status where the tuned parameters are written and are worse than before on some ride; see [`summary::is_worse`].
+/// Exit status where the tuned parameters are written and are worse than before on some ride; see
+/// [`summary::is_worse`].
 const WORSE: u8 = 2;
 
-/// One for each ride unless another number is wanted, and none where there are rides that are held out anyway.
+/// One for each ride unless another number is wanted, and none where there are rides
+/// that are held out anyway.
 fn number_of_folds(options: &Options) -> usize {
     if options.hold_out.is_empty() { options.folds.unwrap_or(options.rides.len()) } else { 0 }
 }

@@ -10,13 +10,15 @@ use crate::setup_options::SetupOptions;
 
 /// Search for parameters with a smaller sensed error on a rig
 ///
-/// Searches for break frequencies, dampings and scales with a small sensed error on all recordings, such that no safety unit
-/// and no actuator limit is ever active. The error of a recording: the vestibular model's response to felt minus desired, RMS
-/// over time in perception thresholds, added in quadrature over specific force and angular velocity along x, y, z, and divided
-/// by the same of the desired motion. 0 is perfect; a platform at rest scores 1.
+/// Searches for break frequencies, dampings and scales with a small sensed error on all recordings,
+/// such that no safety unit and no actuator limit is ever active. The error of a recording: the
+/// vestibular model's response to felt minus desired, RMS over time in perception thresholds, added
+/// in quadrature over specific force and angular velocity along x, y, z, and divided by the same of
+/// the desired motion. 0 is perfect; a platform at rest scores 1.
 ///
-/// Rides are led in from rest over 1 s unless --fade-in says otherwise. The search starts from the parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result, however
-/// many cores there are.
+/// Rides are led in from rest over 1 s unless --fade-in says otherwise. The search starts from the
+/// parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result,
+/// however many cores there are.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV) to tune on; see `moris simulate --help` for their columns
@@ -26,7 +28,8 @@ pub struct Options {
     #[command(flatten)]
     pub setup: SetupOptions,
 
-    /// Recordings to try the result on, and not to tune on [default: each ride in turn is left out of a tuning of its own]
+    /// Recordings to try the result on, and not to tune on [default: each ride in turn is left out
+    /// of a tuning of its own]
     #[arg(long, value_name = "RIDE", num_args = 1..)]
     pub hold_out: Vec<PathBuf>,
 

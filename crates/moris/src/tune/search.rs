@@ -1,4 +1,5 @@
-//! The search: CMA-ES over the space of parameters, on all cores, the same for the same seed whatever their number.
+//! The search: CMA-ES over the space of parameters, on all cores, the same for the same seed
+//! whatever their number.
 
 use std::sync::Mutex;
 
@@ -24,14 +25,16 @@ pub struct Budget {
 const FIRST_STEP: f64 = 0.4;
 /// The search ends when a generation's costs differ by less.
 const TOLERANCE: f64 = 1e-5;
-/// Cost of limits at work throughout; all errors are about 1. It goes with the root of the time: a thousandth of it costs 0.06.
+/// Cost of limits at work throughout; all errors are about 1. It goes with the root of the time: a
+/// thousandth of it costs 0.06.
 const PRICE_OF_LIMITS: f64 = 2.0;
 /// And that of limits at work at all.
 const PRICE_OF_ANY: f64 = 0.05;
 /// Cost of being outside the space's box by a factor of e in one parameter.
 const PRICE_OF_OUTSIDE: f64 = 0.1;
-/// Cost of being away from the start by a factor of e in every parameter: of two sets that serve the same, the one that is
-/// more like the start is taken, and what no ride has anything to say about stays where it is.
+/// Cost of being away from the start by a factor of e in every parameter: of two sets that serve
+/// the same, the one that is more like the start is taken, and what no ride has anything to say
+/// about stays where it is.
 const PRICE_OF_DISTANCE: f64 = 2e-3;
 /// Number of best sets that are kept.
 const KEPT: usize = 10;
@@ -48,7 +51,8 @@ pub struct Found {
 }
 
 impl Found {
-    /// The parameters a part of the way from the start of the search to this set, by the logarithms.
+    /// The parameters a part of the way from the start of the search to this
+    /// set, by the logarithms.
     pub fn part_of_the_way(&self, space: &Space, fraction: f64) -> Parameters {
         space.parameters(&(fraction * nalgebra::DVector::from_column_slice(&self.point)))
     }
@@ -65,8 +69,8 @@ pub struct Searched {
 
 /// Searches for parameters with the smallest objective over these rides that keep all constraints.
 ///
-/// `progress` is told after each generation how many sets have been tried and what the least error is so far, and says whether
-/// to go on.
+/// `progress` is told after each generation how many sets have been tried and what the least error
+/// is so far, and says whether to go on.
 ///
 /// # Errors
 /// Parameters of the space cannot be used.
@@ -107,8 +111,9 @@ pub fn search(
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
 }
 
-/// Factors tried on each channel before the search, relative to the start: the cost has several valleys, most of all along the
-/// break frequencies, and the search ends in the one that it begins in.
+/// Factors tried on each channel before the search, relative to the start: the cost has
+/// several valleys, most of all along the break frequencies, and the search ends in the
+/// one that it begins in.
 const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
 const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
@@ -133,7 +138,8 @@ fn first_point(rides: &Rides, space: &Space, cost: impl Fn(&nalgebra::DVector<f6
 const SMALLER: f64 = 0.8;
 const TRIES: i32 = 21;
 
-/// The start itself, or, where that lets limits act, with all scales made smaller until it does not.
+/// The start itself, or, where that lets limits act, with all scales made
+/// smaller until it does not.
 fn start_within_limits(rides: &Rides, space: &Space) -> Vec<f64> {
     let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
     let keeps = |point: &nalgebra::DVector<f64>| {
@@ -152,7 +158,8 @@ fn at(space: &Space, point: &[f64]) -> Parameters {
 /// Error that may be given up to have one parameter back where it was.
 const WORTH_TIDYING: f64 = 2e-4;
 
-/// The set with every parameter put back to where the search started that hardly matters to these rides.
+/// The set with every parameter put back to where the search started that hardly
+/// matters to these rides.
 fn tidied(rides: &Rides, space: &Space, found: &Found) -> Found {
     let mut tidied = found.clone();
     for k in 0..found.point.len() {
@@ -186,10 +193,12 @@ impl<'a> Rides<'a> {
         Ok(Rides { judges, starts: starts? })
     }
 
-    /// The objective and the mean fraction of the time in violation; none where the parameters cannot be used.
+    /// The objective and the mean fraction of the time in violation; none where the
+    /// parameters cannot be used.
     ///
-    /// The objective is the mean error over the rides, with the worst ride's error and every worsening priced beside it:
-    /// what serves one ride at another's expense hardly serves a ride that is not known.
+    /// The objective is the mean error over the rides, with the worst ride's error and every
+    /// worsening priced beside it: what serves one ride at another's expense hardly serves a
+    /// ride that is not known.
     fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
         let costs: Result<Vec<_>, _> = self.judges.par_iter().map(|judge| judge.coarse_cost(parameters)).collect();
         let costs = costs.ok()?;
@@ -220,7 +229,8 @@ fn price(rides: &Rides, space: &Space, point: &[f64], best: &Mutex<Best>) -> f64
     }
 }
 
-/// The best sets so far, the best first. Which they are does not depend on the order in which they came.
+/// The best sets so far, the best first. Which they are does not depend on the
+/// order in which they came.
 #[derive(Default)]
 struct Best(Vec<Found>);
 

@@ -37,15 +37,16 @@ struct Range {
     max: f64,
 }
 
-/// Where the search begins for a parameter that is 0, which has no logarithm: a scale at next to nothing, a low-pass that is off
-/// at its highest frequency.
+/// Where the search begins for a parameter that is 0, which has no logarithm: a scale at next to
+/// nothing, a low-pass that is off at its highest frequency.
 fn instead_of_none(range: Range) -> f64 {
     if range == CUTOFFS { range.max } else { range.min }
 }
 
 /// The parameters that are tuned, as a box of logarithms about those that the search starts from.
 ///
-/// A point of the space is a vector of logarithms of the ratios to the start: 0 is the start itself.
+/// A point of the space is a vector of logarithms of the ratios to the start: 0 is the start
+/// itself.
 #[derive(Clone, Debug)]
 pub struct Space {
     start: Parameters,
@@ -55,7 +56,8 @@ pub struct Space {
 }
 
 impl Space {
-    /// The space about these parameters. Where they are outside the usual ranges, the ranges reach to them.
+    /// The space about these parameters. Where they are outside the usual ranges, the
+    /// ranges reach to them.
     pub fn new(start: &Parameters, groups: &[Group]) -> Self {
         let mut start = *start;
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
@@ -95,8 +97,8 @@ impl Space {
         self.clamped(&logarithms.into()).0
     }
 
-    /// A point with other frequencies and another scale on one channel, 0 to 5: those of the start times these factors, as far as the box
-    /// goes.
+    /// A point with other frequencies and another scale on one channel, 0 to 5: those of the start
+    /// times these factors, as far as the box goes.
     pub fn with_channel(&self, point: &DVector<f64>, channel: usize, frequency: f64, scale: f64) -> DVector<f64> {
         let mut moved = point.clone();
         let mut coordinates = moved.iter_mut();
@@ -122,8 +124,9 @@ impl Space {
     }
 }
 
-/// Visits every parameter that is tuned, always in the same order, with its range and its channel: 0 to 2 for what acts on the specific
-/// force along x, y and z, 3 to 5 for what acts on roll, pitch and yaw, none for what acts on all.
+/// Visits every parameter that is tuned, always in the same order, with its range and its channel:
+/// 0 to 2 for what acts on the specific force along x, y and z, 3 to 5 for what acts on roll, pitch
+/// and yaw, none for what acts on all.
 fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range, Option<usize>)) {
     let Parameters { splitter, angular, conditioning, tilt, .. } = parameters;
     let mut vector = |values: &mut Vector3<f64>, range, first: usize| {

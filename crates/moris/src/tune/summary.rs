@@ -34,8 +34,8 @@ pub fn worsened(results: &[RideResult]) -> Vec<&RideResult> {
     results.iter().filter(unseen).collect()
 }
 
-/// True where the tuned parameters are worse on rides that they were not tuned on: in the mean, or on one of them by more than
-/// 5 %; or by more than 5 % on a ride that they were tuned on.
+/// True where the tuned parameters are worse on rides that they were not tuned on: in the mean, or
+/// on one of them by more than 5 %; or by more than 5 % on a ride that they were tuned on.
 pub fn is_worse(results: &[RideResult]) -> bool {
     let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
     let tuned = |result: &RideResult| result.tuned.is_some_and(|after| after.error > WORST_RATIO * result.before.error);

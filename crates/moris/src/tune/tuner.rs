@@ -49,7 +49,8 @@ impl Tuner<'_> {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    /// The best parameters for these rides that keep all constraints, also in the internal steps that they will be used with.
+    /// The best parameters for these rides that keep all constraints, also in the internal steps
+    /// that they will be used with.
     ///
     /// # Errors
     /// None were found ([`NothingFound`]), or parameters cannot be used.
@@ -91,8 +92,8 @@ impl Tuner<'_> {
         Err(NothingFound(text).into())
     }
 
-    /// Candidates to verify in the final step size, one after the other: the best of the search, and, where none of them
-    /// holds, the best with its scales made smaller and smaller.
+    /// Candidates to verify in the final step size, one after the other: the best of the search,
+    /// and, where none of them holds, the best with its scales made smaller and smaller.
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
         let tries = if self.space.has_scales() { TRIES } else { 0 };
@@ -123,9 +124,9 @@ impl Tuner<'_> {
         Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
     }
 
-    /// Tunes without these rides and adds to their results what they come to then, or that nothing was found: what was tuned on all rides
-    /// is worth no less for it. Does nothing once the user wants it to end:
-    /// a search that was broken off says nothing.
+    /// Tunes without these rides and adds to their results what they come to then, or that nothing
+    /// was found: what was tuned on all rides is worth no less for it. Does nothing once the user
+    /// wants it to end: a search that was broken off says nothing.
     ///
     /// # Errors
     /// Parameters cannot be used.

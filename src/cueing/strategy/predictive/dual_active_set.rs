@@ -1,9 +1,10 @@
 //! A dual active-set solver for small dense strictly convex quadratic programs.
 //!
-//! Minimizes u'Hu/2 + g'u subject to lower <= C u <= upper. The method is that of Goldfarb and Idnani, *A numerically
-//! stable dual method for solving strictly convex quadratic programs*, Mathematical Programming 27 (1983) 1-33, for
-//! two-sided rows. It starts at the unconstrained minimum, so that no feasible start is needed, and adds one violated
-//! row after the other. Each iterate is the minimum under its active rows.
+//! Minimizes u'Hu/2 + g'u subject to lower <= C u <= upper. The method is that of Goldfarb and
+//! Idnani, *A numerically stable dual method for solving strictly convex quadratic programs*,
+//! Mathematical Programming 27 (1983) 1-33, for two-sided rows. It starts at the unconstrained
+//! minimum, so that no feasible start is needed, and adds one violated row after the other. Each
+//! iterate is the minimum under its active rows.
 //!
 //! With N the normals of the active rows, the method keeps J and the upper triangular R of
 //!
@@ -11,10 +12,11 @@
 //!     H = L L',   L^-1 N = Q [R; 0],   J = L^-T Q
 //! ```
 //!
-//! A row is added by one Householder reflection of J's last columns and dropped by Givens rotations.
+//! A row is added by one Householder reflection of J's last columns and dropped by Givens
+//! rotations.
 //!
-//! The solver's state is plain data of a fixed size: a solve can be interrupted after any iteration, stored, and
-//! continued.
+//! The solver's state is plain data of a fixed size: a solve can be interrupted after any
+//! iteration, stored, and continued.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
@@ -150,7 +152,8 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         self.given_up.iter().filter(|&&given_up| given_up).count()
     }
 
-    /// One step of the method: to the point where the pending row holds, or where an active row's multiplier vanishes.
+    /// One step of the method: to the point where the pending row holds, or where an active
+    /// row's multiplier vanishes.
     fn iterate(&mut self, rows: &Rows<N, M>) {
         let Some(mut pending) = self.pending.take().or_else(|| self.most_violated(rows)) else {
             let finite = self.solution.iter().all(|value| value.is_finite());
@@ -214,7 +217,8 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         found
     }
 
-    /// R^-1 of the projection's first part: how the active rows' multipliers fall as the pending one's grows.
+    /// R^-1 of the projection's first part: how the active rows' multipliers fall as
+    /// the pending one's grows.
     fn multiplier_change(&self, projection: &SVector<f64, N>) -> SVector<f64, N> {
         let mut change = *projection;
         for k in (0..self.active).rev() {
@@ -239,8 +243,8 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         (first, shortest)
     }
 
-    /// Makes the pending row active. A Householder reflection turns the projection's free part into one component;
-    /// `direction` is J times that part, of which the reflection of J needs no more.
+    /// Makes the pending row active. A Householder reflection turns the projection's free part into
+    /// one component; `direction` is J times that part, of which the reflection of J needs no more.
     fn add(&mut self, row: PendingRow, projection: &SVector<f64, N>, free_squared: f64, direction: &SVector<f64, N>) {
         let first = self.active;
         let length = -free_squared.sqrt().copysign(projection[first]);

@@ -1,9 +1,10 @@
 //! The forecast of one axis's reference over the horizon, learned while it is followed.
 //!
-//! Four experts forecast the reference's mean over each block, and its slow and fast part at the horizon's end. Each is
-//! linear in the reference and low-passes of it. Three are fixed; the fourth is the least-squares fit to what followed
-//! in the past (direct multi-step: one regression for each target), which forgets and falls back on a prior. The
-//! forecast is a mixture of the four with weights by the size of their latest errors.
+//! Four experts forecast the reference's mean over each block, and its slow and fast part at the
+//! horizon's end. Each is linear in the reference and low-passes of it. Three are fixed; the fourth
+//! is the least-squares fit to what followed in the past (direct multi-step: one regression for
+//! each target), which forgets and falls back on a prior. The forecast is a mixture of the four
+//! with weights by the size of their latest errors.
 //!
 //! Only the past enters: an error is used once the time that was forecast is over.
 
@@ -14,7 +15,8 @@ use super::horizon::{BLOCKS, DURATIONS, HORIZON, HORIZON_SAMPLES, SAMPLE, SAMPLE
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 
-/// Time constants of the reference's low-passes \[s\]: those that the fit uses, and two for a trend.
+/// Time constants of the reference's low-passes \[s\]: those that the fit uses, and two for a
+/// trend.
 const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.06, 0.2, 0.6, 2.0, 6.0, 0.1, 0.3];
 const LOW_PASSES: usize = 7;
 /// The low-pass that stands for the slow part of the reference.
@@ -23,7 +25,8 @@ const SLOW: usize = 2;
 const TREND: [usize; 2] = [5, 6];
 /// Number of features of the fit: the reference and its first five low-passes.
 const FEATURES: usize = 6;
-/// What is forecast: the means over the blocks, and the slow and the fast part at the horizon's end.
+/// What is forecast: the means over the blocks, and the slow and the fast part
+/// at the horizon's end.
 const TARGETS: usize = BLOCKS + 2;
 const EXPERTS: usize = 4;
 
@@ -40,7 +43,8 @@ const TREND_TIME: f64 = 1.5;
 const PRIOR_TIME: f64 = 1.0;
 /// Ridge of the prior \[(m/s2)^2\].
 const RIDGE: f64 = 3e-3;
-/// Poles \[rad/s\] and variances \[(m/s2)^2\] of the prior's reference: a sum of Ornstein-Uhlenbeck processes.
+/// Poles \[rad/s\] and variances \[(m/s2)^2\] of the prior's reference: a sum of
+/// Ornstein-Uhlenbeck processes.
 const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
 /// The least squared error that an expert is taken to have \[(m/s2)^2\].
 const LEAST_ERROR: f64 = 1e-4;
@@ -149,7 +153,8 @@ impl Default for Tables {
     }
 }
 
-/// Means over the blocks of a part that decays from 1, and the part at the end: the slow one or the fast one.
+/// Means over the blocks of a part that decays from 1, and the part at the end: the
+/// slow one or the fast one.
 fn exponential(decay: f64, slow: bool) -> Targets {
     let ends = ends();
     Targets::from_fn(|k, _| match k {
@@ -244,7 +249,8 @@ impl Forecaster {
         &self.forecast
     }
 
-    /// The forecast for a reference that stays what it is until the vehicle stops, and is zero from then on.
+    /// The forecast for a reference that stays what it is until the vehicle stops, and
+    /// is zero from then on.
     pub fn until_stop(&self, time: f64) -> Forecast {
         let ends = ends();
         let before = |k: usize| ((time - ends[k] + DURATIONS[k]) / DURATIONS[k]).clamp(0.0, 1.0);
@@ -340,7 +346,8 @@ impl Forecaster {
         self.until_fit = self.until_fit.saturating_sub(1);
     }
 
-    /// The experts' forecasts, each target weighted by the inverse fourth power of the mean squared errors.
+    /// The experts' forecasts, each target weighted by the inverse fourth power of
+    /// the mean squared errors.
     fn mixture(&self, forecasts: &[Targets; EXPERTS]) -> Targets {
         Targets::from_fn(|target, _| {
             let errors = self.errors.column(target);

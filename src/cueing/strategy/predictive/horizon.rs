@@ -2,7 +2,8 @@
 
 /// Number of blocks.
 pub const BLOCKS: usize = 8;
-/// Durations of the blocks \[s\], each a multiple of [`SAMPLE`]: fine where a plan is about to be carried out.
+/// Durations of the blocks \[s\], each a multiple of [`SAMPLE`]: fine where a plan is
+/// about to be carried out.
 pub const DURATIONS: [f64; BLOCKS] = [0.04, 0.06, 0.1, 0.18, 0.28, 0.44, 0.72, 1.18];
 /// The whole horizon \[s\].
 pub const HORIZON: f64 = 3.0;

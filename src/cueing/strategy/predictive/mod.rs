@@ -1,11 +1,13 @@
-//! The predictive strategy: a plan of surge, sway and tilt over the next seconds, made anew 50 times a second.
+//! The predictive strategy: a plan of surge, sway and tilt over the next seconds, made
+//! anew 50 times a second.
 //!
-//! A plan is the solution of a quadratic [`program`] over blocks of a [`horizon`]: the least dropped force for the
-//! reference that is [`forecast`], within the limits of travel, tilt and the actuators' lengths ([`legs`]). The
-//! [`dual_active_set`] method solves it a few iterations at a time, so that no internal step takes long.
+//! A plan is the solution of a quadratic [`program`] over blocks of a [`horizon`]: the least
+//! dropped force for the reference that is [`forecast`], within the limits of travel, tilt and the
+//! actuators' lengths ([`legs`]). The [`dual_active_set`] method solves it a few iterations at a
+//! time, so that no internal step takes long.
 //!
-//! A plan says how much force to drop and how the tilt accelerates. The rest follows from what comes in, at once: see
-//! [`coordinated`](super::coordinated).
+//! A plan says how much force to drop and how the tilt accelerates. The rest follows from what
+//! comes in, at once: see [`coordinated`](super::coordinated).
 
 pub mod dual_active_set;
 pub mod forecast;
@@ -55,7 +57,8 @@ pub struct Predictive {
     solver: Box<DualActiveSet<CONTROLS, ROWS>>,
     /// Whether a new plan is to be made.
     due: bool,
-    /// The nodes without control of the plan that is being made, and the time since it was begun \[s\].
+    /// The nodes without control of the plan that is being made, and the time
+    /// since it was begun \[s\].
     free: [Nodes; 2],
     begun: f64,
     plan: Plan,
@@ -121,8 +124,8 @@ impl Predictive {
         })
     }
 
-    /// Takes other parameters. The plan stays; the next one is made with them. False, and nothing changes, if they cannot
-    /// be used.
+    /// Takes other parameters. The plan stays; the next one is made with them. False, and nothing
+    /// changes, if they cannot be used.
     pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> bool {
         if (models, tuning) == (&self.models, &self.tuning) {
             return true;
@@ -150,8 +153,9 @@ impl Predictive {
         &self.plan
     }
 
-    /// What to do in a step of `step` seconds, at whose beginning surge and sway are in these states. None once the plan
-    /// is over. `time_to_stop` is infinite while no stop of the vehicle is foreseen.
+    /// What to do in a step of `step` seconds, at whose beginning surge and sway are in
+    /// these states. None once the plan is over. `time_to_stop` is infinite while no stop of
+    /// the vehicle is foreseen.
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],

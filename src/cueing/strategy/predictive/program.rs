@@ -1,6 +1,8 @@
-//! The plan as a quadratic program, condensed: its variables are the blocks' dropped forces and tilt accelerations alone.
+//! The plan as a quadratic program, condensed: its variables are the blocks' dropped forces and
+//! tilt accelerations alone.
 //!
-//! Over block j of duration T, with the reference's mean F and constant dropped force e and tilt acceleration alpha,
+//! Over block j of duration T, with the reference's mean F and constant dropped force e and
+//! tilt acceleration alpha,
 //!
 //! ```text
 //!     u  = F + H alpha + e
@@ -9,8 +11,9 @@
 //!     q' = q + w T + alpha T^2/2,   w' = w + alpha T
 //! ```
 //!
-//! with g' somewhat below g, the chord of the sine. The nodes' states are linear in the start, the reference and the
-//! variables. The cost is that of the regulator, by the trapezoidal rule, with the regulator's cost to come at the end.
+//! with g' somewhat below g, the chord of the sine. The nodes' states are linear in the start, the
+//! reference and the variables. The cost is that of the regulator, by the trapezoidal rule, with
+//! the regulator's cost to come at the end.
 
 use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
@@ -25,8 +28,8 @@ use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 pub const AXIS_CONTROLS: usize = 2 * BLOCKS;
 /// Variables: those of surge, then those of sway.
 pub const CONTROLS: usize = 2 * AXIS_CONTROLS;
-/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, position in the middle of the blocks after the
-/// first, tilt acceleration, and two for the end.
+/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, position in the middle of
+/// the blocks after the first, tilt acceleration, and two for the end.
 pub const AXIS_ROWS: usize = 6 * BLOCKS + 1;
 /// Rows of the actuators' lengths, six for each node.
 pub const LEG_ROWS: usize = 6 * BLOCKS;
@@ -44,7 +47,8 @@ pub type AxisControls = SVector<f64, AXIS_CONTROLS>;
 const POSITION_FRACTION: f64 = 0.435 / 0.45;
 const VELOCITY_FRACTION: f64 = 0.95;
 const RATE_FRACTION: f64 = 0.999;
-/// The plan must be able to stop inside its limits from the end: position plus so much time at the velocity \[s\].
+/// The plan must be able to stop inside its limits from the end: position plus so much time
+/// at the velocity \[s\].
 const STOPPING_TIME: f64 = 0.3;
 /// Gravity along the tilt relative to the sine's tangent.
 pub const CHORD: f64 = 0.985;

@@ -1,8 +1,9 @@
 //! Steps an FMU by the crate fmu-runner: `with-fmu-runner FMU`.
 //!
-//! Standard input has the names of the inputs, those of the outputs, the communication step in s, and then, a line a step, the
-//! inputs to set. Standard output gets the outputs after each step, a line a step. From half way on everything is
-//! done twice: the second time from the state that was serialized there, and the numbers have to be the same.
+//! Standard input has the names of the inputs, those of the outputs, the communication step in s,
+//! and then, a line a step, the inputs to set. Standard output gets the outputs after each step, a
+//! line a step. From half way on everything is done twice: the second time from the state that was
+//! serialized there, and the numbers have to be the same.
 
 use std::collections::HashMap;
 use std::io::read_to_string;

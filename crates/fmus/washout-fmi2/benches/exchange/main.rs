@@ -1,6 +1,7 @@
-//! The whole exchange of a 1 kHz loop through the C functions of the built FMU, beside the same exchange with an FMU that
-//! does nothing, and that beside the loop without any functions: set 9 inputs, step 1 ms, get 6 lengths and 6 felt values.
-//! The C functions' own share is the exchange with an FMU that does nothing less the loop alone.
+//! The whole exchange of a 1 kHz loop through the C functions of the built FMU, beside the same
+//! exchange with an FMU that does nothing, and that beside the loop without any functions: set 9
+//! inputs, step 1 ms, get 6 lengths and 6 felt values. The C functions' own share is the exchange
+//! with an FMU that does nothing less the loop alone.
 //!
 //! ```sh
 //! cargo build-fmu && cargo build --release -p moris-fmi --example do_nothing

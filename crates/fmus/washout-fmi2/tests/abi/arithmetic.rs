@@ -5,7 +5,8 @@ use moris_fmu_host::Fmu;
 use crate::fixture::*;
 use crate::hostile::driver::{Choices, run};
 
-/// Control word of floating-point arithmetic: rounding, flushing to zero, traps; without the flags of what happened.
+/// Control word of floating-point arithmetic: rounding, flushing to zero, traps; without the
+/// flags of what happened.
 fn arithmetic() -> u64 {
     let (mut sse, mut x87) = (0u32, 0u16);
     // SAFETY: the instructions store the two control words.

@@ -12,7 +12,8 @@ const SLOPE: f64 = 0.3;
 /// Communication step \[s\]; the washout divides it.
 const STEP: f64 = 0.02;
 
-/// The paper's set without tilt and without compensation, so that its channels are plain filters s^4/(s + A)^4.
+/// The paper's set without tilt and without compensation, so that its channels are plain
+/// filters s^4/(s + A)^4.
 fn plain_filters() -> Instance {
     let mut instance = open().instantiate("washout").unwrap();
     let parameters = [
@@ -28,7 +29,8 @@ fn plain_filters() -> Instance {
     instance
 }
 
-/// Ramps an input from 0 by [`SLOPE`], with or without telling the slope; calls `look` with the time after each step.
+/// Ramps an input from 0 by [`SLOPE`], with or without telling the slope; calls `look` with the
+/// time after each step.
 fn ramp(instance: &mut Instance, name: &str, with_slope: bool, mut look: impl FnMut(&mut Instance, f64)) {
     let input = [reference(name)];
     for step in 0..100 {
@@ -82,7 +84,8 @@ fn a_ramp_of_surge_moves_the_platform_as_the_closed_form_says() {
     });
 }
 
-/// The legs of a platform that only surges: L = |p + c|, with c from platform joint, base joint and height.
+/// The legs of a platform that only surges: L = |p + c|, with c from platform joint,
+/// base joint and height.
 #[test]
 fn the_legs_derivatives_are_those_of_their_lengths() {
     let mut instance = plain_filters();

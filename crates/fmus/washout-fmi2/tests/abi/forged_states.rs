@@ -76,8 +76,8 @@ fn a_state_of_another_kind_is_refused_with_the_reason() {
     assert!(bytes(&mut instance) == before);
 }
 
-/// Bytes with a right checksum and anything in them: whatever they make of the instance, it answers every call, and
-/// lives on after a reset.
+/// Bytes with a right checksum and anything in them: whatever they make of the instance, it answers
+/// every call, and lives on after a reset.
 #[test]
 fn a_forged_state_does_no_harm() {
     let (mut instance, good) = ridden();

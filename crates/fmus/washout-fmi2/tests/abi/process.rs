@@ -5,8 +5,8 @@ use moris_fmu_host::Fmu;
 use crate::fixture::*;
 use crate::hostile::driver::{Choices, run};
 
-/// Properties of the process: locale, directory, signals' handlers, environment, threads, open files, what is done at
-/// its end.
+/// Properties of the process: locale, directory, signals' handlers, environment, threads, open
+/// files, what is done at its end.
 fn process() -> Vec<String> {
     let count = |directory: &str| std::fs::read_dir(directory).unwrap().count();
     // SAFETY: null asks for the present locale.

@@ -1,5 +1,5 @@
-//! Actions forbidden in a real-time loop: allocation and system calls. That it takes no lock follows: an
-//! instance is its caller's alone, and a contended lock would call the system.
+//! Actions forbidden in a real-time loop: allocation and system calls. That it takes no lock
+//! follows: an instance is its caller's alone, and a contended lock would call the system.
 
 use libloading::{Library, Symbol};
 use moris_fmu_host::{Fmu, Instance, Status};
@@ -37,7 +37,8 @@ impl Loop {
         }
     }
 
-    /// One round, now and then with a changed parameter and with inputs so large that everything is limited.
+    /// One round, now and then with a changed parameter and with inputs so large that
+    /// everything is limited.
     fn round(&mut self, k: u32) -> bool {
         let time = f64::from(k) * STEP;
         let strength = if k % 1000 < 300 { 30.0 } else { 1.0 };
@@ -76,7 +77,8 @@ fn no_set_step_or_get_touches_memory() {
     assert!(memory_operations() > before);
 }
 
-/// In a process of its own, to which the kernel then allows nothing but to end: any other call kills it.
+/// In a process of its own, to which the kernel then allows nothing but to end:
+/// any other call kills it.
 #[cfg(target_os = "linux")]
 #[test]
 fn no_set_step_or_get_calls_the_system() {

@@ -9,7 +9,8 @@ use moris_washout::Washout;
 
 use crate::fixture::*;
 
-/// The library in a directory with spaces and letters of other languages, and its resources' location in every form.
+/// The library in a directory with spaces and letters of other languages, and its resources'
+/// location in every form.
 #[test]
 fn any_directory_and_any_form_of_its_location_will_do() {
     let directory = tempfile::Builder::new().prefix("Wäsche büro — モーション %20 ").tempdir().unwrap();

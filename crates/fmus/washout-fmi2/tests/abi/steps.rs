@@ -12,7 +12,8 @@ fn ready(start: f64, stop: Option<f64>) -> Instance {
     instance
 }
 
-/// A hundred seconds of 1 ms steps up to the stop time, with the host's time as a product and as a sum.
+/// A hundred seconds of 1 ms steps up to the stop time, with the host's time as a
+/// product and as a sum.
 #[test]
 fn time_does_not_drift_and_the_stop_time_is_the_end() {
     let h = 1e-3;
@@ -39,7 +40,8 @@ fn time_does_not_drift_and_the_stop_time_is_the_end() {
     }
 }
 
-/// Where time is that of a calendar, its last digits are worth more than a step's millionth, but a step still is a step.
+/// Where time is that of a calendar, its last digits are worth more than a step's millionth, but a
+/// step still is a step.
 #[test]
 fn a_step_made_twice_is_refused_however_late_it_is() {
     let h = 1e-3;

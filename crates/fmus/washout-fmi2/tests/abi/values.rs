@@ -5,7 +5,8 @@ use moris_interface::{Causality, Kind, Variability};
 
 use crate::fixture::*;
 
-/// Instances in initialization mode and between steps, with whether fixed parameters can be set in them.
+/// Instances in initialization mode and between steps, with whether fixed
+/// parameters can be set in them.
 fn instances() -> [(Instance, bool); 2] {
     let mut initializing = open().instantiate("washout").unwrap();
     assert_eq!(initializing.setup_experiment(0.0, None), Status::Ok);

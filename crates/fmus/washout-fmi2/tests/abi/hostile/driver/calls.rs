@@ -1,4 +1,5 @@
-//! The functions of an instance's life, those that ask how it went, and those that can never be used.
+//! The functions of an instance's life, those that ask how it went, and those
+//! that can never be used.
 
 use std::ffi::{CStr, c_int};
 use std::ptr::{null, null_mut};

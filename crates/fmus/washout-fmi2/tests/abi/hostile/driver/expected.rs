@@ -91,7 +91,8 @@ pub fn type_of(slot: usize) -> Type {
     }
 }
 
-/// True if the variable accepts this value: an input to any finite one, for beyond its range it counts as the end.
+/// True if the variable accepts this value: an input to any finite one, for beyond its range
+/// it counts as the end.
 pub fn admits(slot: usize, value: f64) -> bool {
     let row = IDENTITY.row(slot);
     let any = row.causality == Causality::Input && matches!(row.kind, Kind::Real(_));

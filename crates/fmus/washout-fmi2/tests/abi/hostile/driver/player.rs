@@ -69,7 +69,8 @@ impl Player {
         player
     }
 
-    /// Checks that the call ended in one of these ways, and that the instance said about it what it should.
+    /// Checks that the call ended in one of these ways, and that the instance said
+    /// about it what it should.
     pub fn accept(&mut self, function: &str, status: c_int, right: &[c_int]) {
         let said = self.log.as_mut().map(|log| std::mem::take(&mut log.said));
         assert!(right.contains(&status), "{function}: {status}, not one of {right:?}; {said:?}; {:?}", self.expected);
@@ -154,7 +155,8 @@ impl Player {
         self.expected.legs = Some((length, velocity));
     }
 
-    /// Checks that a step of `step` seconds has taken the legs no farther and made them no faster than they can go.
+    /// Checks that a step of `step` seconds has taken the legs no farther and made them no
+    /// faster than they can go.
     pub fn check_travel(&mut self, api: &Api, step: f64) {
         let Some((length, velocity)) = self.expected.legs else { return };
         let values = self.values(api);
