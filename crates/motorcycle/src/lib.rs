@@ -40,3 +40,8 @@ pub mod whipple;
 pub use interface::{Input, Output, Parameters};
 pub use moris_interface::Refusal;
 pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, SHORTEST_STEP, STRONGEST_WIND};
+
+// The snippets of this page, as doc tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/motorcycle.md")]
+mod page {}
