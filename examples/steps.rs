@@ -1,13 +1,15 @@
 //! Steps the washout a given number of times, for profilers and instruction counters: on a smooth
-//! ride on all axes, or in jumps on slow actuators, so that the actuator guard limits the motion.
+//! ride on all axes, by the default parameters or by the paper's; or in jumps on slow actuators, so
+//! that the actuator guard limits the motion.
 //!
 //!     cargo run --release --example steps 1000000
 //!     cargo run --release --example steps 1000000 jumps
+//!     cargo run --release --example steps 1000000 paper
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use moris_washout::{Input, Parameters, Refusal, Washout};
+use moris_washout::{Input, Parameters, Refusal, Washout, presets};
 
 #[path = "../tests/washout/common/random.rs"]
 #[allow(dead_code)] // The tests use the rest of it.
@@ -18,11 +20,16 @@ use random::Random;
 fn main() -> Result<(), Refusal> {
     let count: usize = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
     let mut parameters = Parameters::default();
-    let ride = if std::env::args().nth(2).as_deref() == Some("jumps") {
-        (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
-        jumps(count.div_ceil(HELD))
-    } else {
-        smooth()
+    let ride = match std::env::args().nth(2).as_deref() {
+        Some("jumps") => {
+            (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
+            jumps(count.div_ceil(HELD))
+        }
+        Some("paper") => {
+            parameters = presets::parameters(presets::PAPER);
+            smooth()
+        }
+        _ => smooth(),
     };
     let mut washout = Washout::new(&parameters)?;
     let mut limited = 0;

@@ -9,11 +9,13 @@ use crate::cueing::compensation::compensated;
 use crate::cueing::conditioning::{Cue, InputFilter, cue, forward_acceleration};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
+use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::coordinated::Circumstances;
 use crate::interface::{Input, Output, Parameters, Preaction, Reconstruction, StrategyKind};
 use crate::motion::Motions;
+use crate::motion::extremes::{max, min};
 use crate::motion::orientation::Turning;
 use crate::platform::head::Head;
 use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
@@ -64,10 +66,11 @@ struct Sample {
 }
 
 impl Sample {
-    fn new(input: &Input, parameters: &Parameters) -> Self {
+    #[inline(always)]
+    fn new(input: Input, parameters: &Parameters) -> Self {
         let Parameters { conditioning, structure, .. } = parameters;
         let head = Head::new(structure, input.lean);
-        Sample { input: *input, head, cue: cue(input, conditioning, structure.gravity, head.lean) }
+        Sample { input, head, cue: cue(&input, conditioning, structure.gravity, head.lean) }
     }
 }
 
@@ -107,7 +110,7 @@ impl Washout {
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
         let guard = ActuatorGuard::new(rig, structure.max_step);
         let strategy = Strategy::new(parameters).ok_or_else(|| no_regulator(parameters))?;
-        let last = Sample::new(&Input::default(), parameters);
+        let last = Sample::new(Input::default(), parameters);
         let at_rest = felt(guard.motion(), &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
@@ -128,7 +131,7 @@ impl Washout {
     /// The washout at rest at neutral before its first step, with this input: disengaged if that
     /// says so, and the head where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
-        self.last = Sample::new(&input.sanitized(), &self.parameters);
+        self.last = Sample::new(input.sanitized(), &self.parameters);
         self.engagement = f64::from(input.engaged);
         self.felt = felt(self.guard.motion(), &self.last.head, self.parameters.structure.gravity);
         self.before.felt = self.felt;
@@ -143,50 +146,61 @@ impl Washout {
     /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal
     /// steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
-        let input = input.sanitized();
-        match self.parameters.conditioning.reconstruction {
-            Reconstruction::Hold => {
-                let held = Sample::new(&input, &self.parameters);
-                self.divided(step, |washout, _, step| washout.internal_step(&held, &held, step));
-            }
-            Reconstruction::Ramp => {
-                let last = self.last.input.ramp_start(&input);
-                let same = last.orientation == self.last.input.orientation;
-                let mut start = if same { self.last } else { Sample::new(&last, &self.parameters) };
-                start.input.engaged = input.engaged;
-                self.step_from(start, &input, step);
+        if step >= SHORTEST_STEP {
+            match self.parameters.conditioning.reconstruction {
+                Reconstruction::Hold => self.hold(input, step),
+                Reconstruction::Ramp => self.ramp_to(input, step),
             }
         }
+    }
+
+    /// A step with the input held.
+    fn hold(&mut self, input: &Input, step: f64) {
+        let held = Sample::new(input.sanitized(), &self.parameters);
+        self.last = held;
+        self.divided(step, |washout, _, step| washout.internal_step(&held, step));
+    }
+
+    /// A step in which the input goes linearly from the last one to `end`.
+    fn ramp_to(&mut self, end: &Input, step: f64) {
+        let end = end.sanitized();
+        let start = self.last.input.ramp_start(&end);
+        if start.orientation != self.last.input.orientation {
+            self.last = Sample::new(start, &self.parameters);
+        }
+        self.last.input.engaged = end.engaged;
+        self.step_to(&end, step);
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order
     /// hold); whether it is engaged is taken from `start`.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        let start = Sample::new(&start.sanitized(), &self.parameters);
-        self.step_from(start, &end.sanitized(), step);
+        if step >= SHORTEST_STEP {
+            self.last = Sample::new(start.sanitized(), &self.parameters);
+            self.step_to(&end.sanitized(), step);
+        }
     }
 
-    /// As [`Washout::step_between`], from a start whose cue is known.
-    fn step_from(&mut self, start: Sample, end: &Input, step: f64) {
-        let mut from = start;
-        self.divided(step, |washout, share, step| {
-            let to = Sample::new(&start.input.towards(end, share), &washout.parameters);
-            washout.internal_step(&from, &to, step);
-            from = to;
+    /// As [`Washout::step_between`], from the last sample.
+    fn step_to(&mut self, end: &Input, step: f64) {
+        let start = self.last.input;
+        self.divided(step, |washout, fraction, step| {
+            let end = Sample::new(start.towards(end, fraction), &washout.parameters);
+            washout.internal_step(&end, step);
+            washout.last = end;
         });
     }
 
-    /// Divides a step into internal ones. `advance` does one of them, which ends at this share of
-    /// the whole and is so long.
+    /// Divides a step into internal ones. `advance` does one of them, with the fraction of the
+    /// whole at which it ends and its length.
     fn divided(&mut self, step: f64, mut advance: impl FnMut(&mut Self, f64, f64)) {
-        if step.is_nan() || step < SHORTEST_STEP {
-            return;
-        }
         let count = self.internal_steps(step);
-        let internal_step = (step / count).min(self.parameters.structure.max_step);
+        let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited = Limited::default();
-        for k in 1..=count as usize {
-            advance(self, k as f64 / count, internal_step);
+        let mut done = 0.0;
+        while done < count {
+            done += 1.0;
+            advance(self, done / count, internal_step);
         }
     }
 
@@ -198,10 +212,10 @@ impl Washout {
         if step <= longest { 1.0 } else { (step / longest * (1.0 - ROUNDING)).ceil().clamp(1.0, MOST_INTERNAL_STEPS) }
     }
 
-    /// One step of Fig. 4, from left to right. The cue goes linearly from `start` to `end`.
-    fn internal_step(&mut self, start: &Sample, end: &Sample, step: f64) {
-        let (head, head_at_end) = (start.head, end.head);
-        let (mut cue_start, mut cue_end) = self.conditioned(start.cue, end.cue, start.input.engaged, step);
+    /// One step of Fig. 4, from left to right. The cue goes linearly from the last sample to `end`.
+    fn internal_step(&mut self, end: &Sample, step: f64) {
+        let (head, head_at_end) = (self.last.head, end.head);
+        let (mut cue_start, mut cue_end) = self.conditioned(self.last.cue, end.cue, self.last.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
         let rotation = self.guard.motion().orientation.rotation;
@@ -209,10 +223,9 @@ impl Washout {
         let force_start = rotation * head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
-        let mut angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
+        let beside_tilt = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * self.engagement;
-        let beside_tilt = angles;
         let circumstances = || Circumstances {
             parameters: &self.parameters,
             guard: &self.guard,
@@ -230,10 +243,13 @@ impl Washout {
             }
             Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances(), step),
         }
-        self.strategy.add_tilt_to(&mut angles);
+        let [tilt_roll, tilt_pitch] = self.strategy.tilt();
+        let mut angles = beside_tilt;
+        angles.add_to_axis(0, &tilt_roll);
+        angles.add_to_axis(1, &tilt_pitch);
         let turning = Turning::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
-        let tilt = self.strategy.tilt_angles();
+        let tilt = Tilt { roll: tilt_roll.position, pitch: tilt_pitch.position };
         let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
         let mut demand = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
         match &self.strategy {
@@ -251,7 +267,6 @@ impl Washout {
         self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
         self.guard.advance(&demand, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
-        self.last = *end;
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.limited();
@@ -303,7 +318,7 @@ impl Washout {
         }
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
-        self.last = Sample::new(&self.last.input, parameters);
+        self.last = Sample::new(self.last.input, parameters);
         let now = self.input_filter.output(self.last.cue.scaled(self.engagement), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;
@@ -339,7 +354,10 @@ impl Washout {
         let motion = self.guard.motion();
         let legs = self.guard.legs();
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
-        let plan = self.strategy.plan();
+        let (plan_kept, plan_age, plan_iterations) = match self.strategy.plan() {
+            Some(plan) => (plan.kept, plan.age, plan.iterations as i32),
+            None => (false, 0.0, 0),
+        };
         Output {
             position: motion.position,
             velocity: motion.velocity,
@@ -358,9 +376,9 @@ impl Washout {
             safety_active: self.limited.safety,
             actuator_limited: self.limited.actuator,
             stroke_margin: self.guard.stroke_margin(),
-            plan_kept: plan.is_some_and(|plan| plan.kept),
-            plan_age: plan.map_or(0.0, |plan| plan.age),
-            plan_iterations: plan.map_or(0, |plan| plan.iterations as i32),
+            plan_kept,
+            plan_age,
+            plan_iterations,
         }
     }
 
@@ -402,7 +420,7 @@ impl Washout {
 /// The engagement after `step` seconds on the way to `engaged`.
 fn faded(engagement: f64, engaged: bool, step: f64) -> f64 {
     let change = step / ENGAGE_TIME;
-    if engaged { (engagement + change).min(1.0) } else { (engagement - change).max(0.0) }
+    if engaged { min(engagement + change, 1.0) } else { max(engagement - change, 0.0) }
 }
 
 /// The refusal of a strategy's prices for which there is no regulator in numbers.

@@ -29,16 +29,17 @@ impl Cue {
 /// `lean` is the lean of the head's frame relative to the vehicle's \[rad\], `gravity` the
 /// magnitude of gravity \[m/s2\].
 pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
-    let pitch = libm::sincos(input.orientation.pitch);
-    let force = input.specific_force
-        + gravity * removed_gravity(parameters.gravity_removal, input.orientation.roll + lean, pitch);
+    let (roll, pitch) = (libm::sincos(input.orientation.roll), libm::sincos(input.orientation.pitch));
+    // The rider sits upright for most of the time.
+    let leaned = if lean == 0.0 { roll } else { libm::sincos(input.orientation.roll + lean) };
+    let force = input.specific_force + gravity * removed_gravity(parameters.gravity_removal, leaned, pitch);
     let rates = match parameters.angular_velocity_frame {
         AngularVelocityFrame::World => {
             let (sin_pitch, cos_pitch) = pitch;
             let (yaw, pitch) = (libm::sincos(input.orientation.yaw), (sin_pitch, away_from_zero(cos_pitch)));
             rates_from_reference(input.angular_velocity, yaw, pitch).to_vector()
         }
-        AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, input.orientation.roll, pitch),
+        AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, roll, pitch),
     };
     Cue {
         force: force.component_mul(&parameters.force_scale).zip_map(&parameters.force_limit, soft_limit),
@@ -57,21 +58,25 @@ pub fn forward_acceleration(input: &Input, parameters: &ConditioningParameters, 
 }
 
 /// The direction of gravity in head axes, R_D^H (0, 0, -1), or the part of it that is removed.
-fn removed_gravity(removal: GravityRemoval, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
+fn removed_gravity(
+    removal: GravityRemoval,
+    (sin_roll, cos_roll): (f64, f64),
+    (sin_pitch, cos_pitch): (f64, f64),
+) -> Vector3<f64> {
     match removal {
         GravityRemoval::None => Vector3::zeros(),
-        GravityRemoval::HeadVertical => Vector3::new(0.0, 0.0, -cos_pitch * libm::cos(roll)),
-        GravityRemoval::Full => {
-            let (sin_roll, cos_roll) = libm::sincos(roll);
-            Vector3::new(sin_pitch, -cos_pitch * sin_roll, -cos_pitch * cos_roll)
-        }
+        GravityRemoval::HeadVertical => Vector3::new(0.0, 0.0, -cos_pitch * cos_roll),
+        GravityRemoval::Full => Vector3::new(sin_pitch, -cos_pitch * sin_roll, -cos_pitch * cos_roll),
     }
 }
 
 /// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R
 /// omega_body, inverted.
-fn rates_from_body(omega: Vector3<f64>, roll: f64, (sin_pitch, cos_pitch): (f64, f64)) -> Vector3<f64> {
-    let (sin_roll, cos_roll) = libm::sincos(roll);
+fn rates_from_body(
+    omega: Vector3<f64>,
+    (sin_roll, cos_roll): (f64, f64),
+    (sin_pitch, cos_pitch): (f64, f64),
+) -> Vector3<f64> {
     let yaw = (sin_roll * omega.y + cos_roll * omega.z) / away_from_zero(cos_pitch);
     Vector3::new(omega.x + sin_pitch * yaw, cos_roll * omega.y - sin_roll * omega.z, yaw)
 }

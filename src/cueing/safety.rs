@@ -2,10 +2,12 @@
 //! follow it within them otherwise.
 
 use serde::{Deserialize, Serialize};
+use wide::f64x4;
 
 use crate::interface::SafetyParameters;
 use crate::motion::Motions;
 use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, REJOIN_DISTANCE, ROUNDING, WITH_ROUNDING};
+use crate::motion::lanes::lanes;
 
 /// One safety unit for each axis of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,7 +42,7 @@ impl SafetyUnits {
 
     /// True if a unit limited the motion in the last step.
     pub fn active(&self) -> bool {
-        self.active.contains(&true)
+        self.active != [false; 3]
     }
 
     /// Continues from the platform's real motion, where that is not the one that the units gave.
@@ -64,18 +66,20 @@ impl SafetyUnits {
 
     /// Advances by one step at whose end the motion `demand` is.
     pub fn advance(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) {
-        self.motion = if !self.following.contains(&true) && self.all_keep_limits(demand, limits, step) {
+        let keep = self.keep_limits(demand, limits, step);
+        self.motion = if self.following == [false; 3] && keep == [true; 3] {
             *demand
         } else {
-            self.followed(demand, limits, step)
+            self.followed(demand, keep, limits, step)
         };
     }
 
     /// Axis by axis: the demanded motion where it keeps the limits, and what comes nearest to
     /// it where it does not.
-    fn followed(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) -> Motions {
-        for k in 0..3 {
-            let joins = self.may_join(k, demand, limits, step);
+    #[cold]
+    fn followed(&mut self, demand: &Motions, keep: [bool; 3], limits: &SafetyParameters, step: f64) -> Motions {
+        for (k, keeps) in keep.into_iter().enumerate() {
+            let joins = keeps && (!self.following[k] || self.has_caught_up(k, demand, limits, step));
             self.active[k] = !joins && (self.active[k] || !self.following[k]);
             self.following[k] = !joins;
         }
@@ -89,45 +93,38 @@ impl SafetyUnits {
         })
     }
 
-    fn all_keep_limits(&self, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
-        let mut keep = true;
-        for k in 0..3 {
-            keep &= self.keeps_limits(k, demand, limits, step);
-        }
-        keep
-    }
-
-    /// True if the motion on this axis can be the demanded one at the step's end.
-    fn may_join(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
-        let keeps = self.keeps_limits(k, demand, limits, step);
-        if !self.following[k] {
-            return keeps;
-        }
+    /// True if the motion on this axis can go over to the demanded one: their positions differ
+    /// from what the velocities account for by next to nothing.
+    fn has_caught_up(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * limits.acceleration_limit[k] * step * step;
         let expected = self.motion.position[k] + 0.5 * (self.motion.velocity[k] + demand.velocity[k]) * step;
-        keeps && (demand.position[k] - expected).abs() <= near
+        (demand.position[k] - expected).abs() <= near
     }
 
-    /// True if the demand keeps the limits at the step's end, can stop before them, and
+    /// The axes on which the demand keeps the limits at the step's end, can stop before them, and
     /// is reached within them.
     ///
     /// The gap between the positions' difference and the mean velocity times the step h counts as
     /// an acceleration of 2 gap/h², for who sees positions only.
-    fn keeps_limits(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
-        let (farthest, fastest) = (limits.position_limit[k], limits.velocity_limit[k]);
-        let most = limits.acceleration_limit[k];
-        let (position, velocity) = (demand.position[k], demand.velocity[k]);
+    fn keep_limits(&self, demand: &Motions, limits: &SafetyParameters, step: f64) -> [bool; 3] {
+        let (farthest, fastest) = (lanes(&limits.position_limit), lanes(&limits.velocity_limit));
+        let most = lanes(&limits.acceleration_limit);
+        let (position, velocity) = (lanes(&demand.position), lanes(&demand.velocity));
+        let (position_before, velocity_before) = (lanes(&self.motion.position), lanes(&self.motion.velocity));
         let speed = velocity.abs();
         // The braking distance v^2/(2 a) + v h/2 of `approach_velocity`, without its division.
-        let ahead = farthest - position * 1.0_f64.copysign(velocity);
-        let sum = velocity + self.motion.velocity[k];
-        let change = (velocity - self.motion.velocity[k]).abs();
-        let gap = (position - self.motion.position[k] - 0.5 * sum * step).abs();
-        let mut keeps = position.abs() <= farthest;
-        keeps &= speed <= fastest;
-        keeps &= (0.5 * sum).abs() * step + gap <= fastest * step * WITH_ROUNDING + ROUNDING;
-        keeps &= demand.acceleration[k].abs() <= most;
-        keeps &= speed * (speed + most * self.longest_step) <= 2.0 * most * ahead;
-        keeps & (change * step + 2.0 * gap <= most * step * step * WITH_ROUNDING + 2.0 * ROUNDING)
+        let direction = velocity & f64x4::splat(-0.0);
+        let ahead = farthest - (position ^ direction);
+        let mean = 0.5 * (velocity + velocity_before);
+        let change = (velocity - velocity_before).abs();
+        let gap = (position - position_before - mean * step).abs();
+        let mut keep = farthest.simd_ge(position.abs());
+        keep &= fastest.simd_ge(speed);
+        keep &= (fastest * step * WITH_ROUNDING + ROUNDING).simd_ge(mean.abs() * step + gap);
+        keep &= most.simd_ge(lanes(&demand.acceleration).abs());
+        keep &= (2.0 * most * ahead).simd_ge(speed * (speed + most * self.longest_step));
+        keep &= (most * step * step * WITH_ROUNDING + 2.0 * ROUNDING).simd_ge(change * step + 2.0 * gap);
+        let keep = keep.to_bitmask();
+        std::array::from_fn(|k| keep & (1 << k) != 0)
     }
 }

@@ -5,6 +5,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use wide::f64x4;
 
+use crate::motion::lanes::lanes;
+
 /// Three low-passes of one break frequency, side by side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CriticallyDamped {
@@ -29,7 +31,7 @@ impl CriticallyDamped {
 
     /// Sets the outputs, at rest.
     pub fn set(&mut self, value: Vector3<f64>) {
-        self.value = lanes(value);
+        self.value = lanes(&value);
         self.slope = f64x4::ZERO;
     }
 
@@ -43,7 +45,7 @@ impl CriticallyDamped {
         if angle != self.angle {
             (self.angle, self.decay) = (angle, libm::exp(-angle));
         }
-        let (start, end) = (lanes(start), lanes(end));
+        let (start, end) = (lanes(&start), lanes(&end));
         let slope = (end - start) / step;
         let lag = slope * (2.0 / omega);
         let error = self.value - start + lag;
@@ -53,8 +55,4 @@ impl CriticallyDamped {
         self.value = !value.abs().simd_lt(REST) & value;
         self.slope = !slope.abs().simd_lt(REST) & slope;
     }
-}
-
-fn lanes(vector: Vector3<f64>) -> f64x4 {
-    f64x4::new([vector.x, vector.y, vector.z, 0.0])
 }

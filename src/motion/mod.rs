@@ -4,6 +4,7 @@
 
 pub mod braking_law;
 pub(crate) mod extremes;
+pub(crate) mod lanes;
 pub mod orientation;
 
 use nalgebra::Vector3;

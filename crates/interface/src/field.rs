@@ -20,7 +20,7 @@ pub trait Field: Copy {
         let mut room = [0.0; LARGEST_FIELD];
         let slots = &mut room[..Self::COUNT * Self::COMPONENTS.len()];
         self.write(slots);
-        slots.iter().fold(true, |all, &value| all & (min..=max).contains(&value))
+        slots.iter().fold(true, |all, &value| all & (min <= value) & (value <= max))
     }
 
     /// Every scalar moved to the nearest end of `range` if it is outside, or to `rest`

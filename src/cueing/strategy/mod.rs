@@ -25,7 +25,6 @@ use self::coordinated::Coordinated;
 use self::predictive::Plan;
 use crate::cueing::gravitational::Tilt;
 use crate::interface::{Parameters, StrategyKind};
-use crate::motion::Motions;
 use crate::motion::braking_law::Motion;
 
 /// The strategy in use, with its state.
@@ -107,13 +106,6 @@ impl Strategy {
         match self {
             Strategy::Classical(classical) => classical.tilt().limited,
             Strategy::Coordinated(coordinated) => coordinated.limited,
-        }
-    }
-
-    /// Adds the tilt to roll, pitch and yaw.
-    pub fn add_tilt_to(&self, angles: &mut Motions) {
-        for (k, tilt) in self.tilt().iter().enumerate() {
-            angles.add_to_axis(k, tilt);
         }
     }
 }
