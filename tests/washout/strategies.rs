@@ -58,6 +58,30 @@ fn the_predictive_strategy_tracks_the_papers_runs_better_than_the_classical_one(
     }
 }
 
+/// RMS error of the felt force along x on run c with preaction, the vehicle's speed given \[m/s2\].
+fn error_at_the_stop(strategy: f64) -> f64 {
+    const STEP: f64 = 0.01;
+    let mut washout = washout(&[("strategy", strategy), ("preaction", 2.0)]);
+    let (mut felt, mut desired, mut speed) = (vec![], vec![], 0.0);
+    let mut start = Input::default();
+    for k in 1..=(BRUSQUE_STOP_TIME / STEP).round() as usize {
+        let mut end = surging(brusque_stop)(k as f64 * STEP);
+        speed += 0.5 * STEP * (start.specific_force.x + end.specific_force.x);
+        end.speed = f64::max(speed, 0.0);
+        washout.step_between(&start, &end, STEP);
+        felt.push(washout.output().felt_specific_force.x);
+        desired.push(end.specific_force.x);
+        start = end;
+    }
+    rms_difference(&felt, &desired)
+}
+
+#[test]
+fn with_preaction_the_predictive_strategy_plans_for_a_stop() {
+    let error = error_at_the_stop(PREDICTIVE);
+    assert!(error <= 0.30, "run c with the stop foreseen: {error}");
+}
+
 /// Dropped force over reference at the frequency omega: C (s I - A + B K)^-1 B_f + D, with the
 /// reference split by a low-pass of time constant tau.
 fn closed_loop(model: &AxisModel, weights: &Weights, tau: f64, omega: f64) -> Complex<f64> {

@@ -248,7 +248,7 @@ impl Circumstances<'_> {
     }
 
     fn surroundings<'a>(&'a self, geometry: &'a Geometry) -> Surroundings<'a> {
-        let Parameters { rig, predictive, .. } = self.parameters;
+        let Parameters { rig, predictive, angular, .. } = self.parameters;
         let stroke = [rig.min_length, rig.max_length];
         // A margin beyond half the stroke would leave nothing.
         let margin = predictive.leg_margin.min(0.25 * (rig.max_length - rig.min_length));
@@ -258,6 +258,8 @@ impl Circumstances<'_> {
             stroke: [stroke[0] + margin, stroke[1] - margin],
             heave: self.guard.coordinates().linear.position.z,
             angles: self.angles.position,
+            angle_rates: self.angles.velocity,
+            frequencies: Vector3::new(angular.omega1.roll, angular.omega1.pitch, angular.omega1.yaw),
         }
     }
 }

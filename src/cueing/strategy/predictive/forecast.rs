@@ -11,7 +11,7 @@
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
-use super::horizon::{BLOCKS, DURATIONS, HORIZON, HORIZON_SAMPLES, SAMPLE, SAMPLES, end_samples, ends};
+use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLES, end_samples};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 
@@ -31,7 +31,7 @@ const TARGETS: usize = BLOCKS + 2;
 const EXPERTS: usize = 4;
 
 /// Samples that are remembered: the horizon's and the present one.
-const MEMORY: usize = HORIZON_SAMPLES + 1;
+const MEMORY: usize = FORECAST_SAMPLES + 1;
 
 /// Decay of the expert that holds the reference \[1/s\].
 const HOLD_DECAY: f64 = 0.02;
@@ -108,6 +108,24 @@ struct Sample {
     fitted: Targets,
 }
 
+impl Forecast {
+    /// The forecast over the blocks of another horizon. Beyond its own, its slow and its fast part fade.
+    pub fn over(&self, horizon: Horizon) -> Self {
+        let (ends, durations) = (horizon.ends(), horizon.durations());
+        let (own_ends, own_durations) = (Horizon::Near.ends(), Horizon::Near.durations());
+        let faded = |time: f64, part: usize| libm::exp(-FADE_DECAY[part] * (time - FORECAST).max(0.0));
+        let means = SVector::from_fn(|k, _| {
+            let (start, end) = (ends[k] - durations[k], ends[k]);
+            let common = |j: usize| (end.min(own_ends[j]) - start.max(own_ends[j] - own_durations[j])).max(0.0);
+            let inside: f64 = (0..BLOCKS).map(|j| common(j) * self.means[j]).sum();
+            let beyond = |part: usize| self.end[part] * (faded(start, part) - faded(end, part)) / FADE_DECAY[part];
+            (inside + beyond(0) + beyond(1)) / durations[k]
+        });
+        let last = ends[BLOCKS - 1];
+        Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(last, part)) }
+    }
+}
+
 impl Sample {
     fn features(&self) -> Features {
         let low = &self.low_passes;
@@ -156,11 +174,11 @@ impl Default for Tables {
 /// Means over the blocks of a part that decays from 1, and the part at the end: the
 /// slow one or the fast one.
 fn exponential(decay: f64, slow: bool) -> Targets {
-    let ends = ends();
+    let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
     Targets::from_fn(|k, _| match k {
         BLOCKS => {
             if slow {
-                libm::exp(-decay * HORIZON)
+                libm::exp(-decay * FORECAST)
             } else {
                 0.0
             }
@@ -169,12 +187,12 @@ fn exponential(decay: f64, slow: bool) -> Targets {
             if slow {
                 0.0
             } else {
-                libm::exp(-decay * HORIZON)
+                libm::exp(-decay * FORECAST)
             }
         }
         _ => {
-            let start = ends[k] - DURATIONS[k];
-            (libm::exp(-decay * start) - libm::exp(-decay * ends[k])) / (decay * DURATIONS[k])
+            let start = ends[k] - durations[k];
+            (libm::exp(-decay * start) - libm::exp(-decay * ends[k])) / (decay * durations[k])
         }
     })
 }
@@ -182,8 +200,8 @@ fn exponential(decay: f64, slow: bool) -> Targets {
 /// What a slope of 1 adds by the middle of each block, and by the end, half of it to either part.
 fn trend() -> Targets {
     let grown = |time: f64| TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME));
-    let ends = ends();
-    Targets::from_fn(|k, _| if k < BLOCKS { grown(ends[k] - 0.5 * DURATIONS[k]) } else { 0.5 * grown(HORIZON) })
+    let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
+    Targets::from_fn(|k, _| if k < BLOCKS { grown(ends[k] - 0.5 * durations[k]) } else { 0.5 * grown(FORECAST) })
 }
 
 /// What a slow and a fast part of 1 lead to, as a forecast from the features.
@@ -249,13 +267,12 @@ impl Forecaster {
         &self.forecast
     }
 
-    /// The forecast for a reference that stays what it is until the vehicle stops, and
-    /// is zero from then on.
-    pub fn until_stop(&self, time: f64) -> Forecast {
-        let ends = ends();
-        let before = |k: usize| ((time - ends[k] + DURATIONS[k]) / DURATIONS[k]).clamp(0.0, 1.0);
+    /// The forecast for a reference that stays what it is until the vehicle stops, and is zero from then on.
+    pub fn until_stop(&self, time: f64, horizon: Horizon) -> Forecast {
+        let (ends, durations) = (horizon.ends(), horizon.durations());
+        let before = |k: usize| ((time - ends[k] + durations[k]) / durations[k]).clamp(0.0, 1.0);
         let slow = self.low_passes[SLOW];
-        let end = if time < HORIZON { [0.0; 2] } else { [slow, self.value - slow] };
+        let end = if time < ends[BLOCKS - 1] { [0.0; 2] } else { [slow, self.value - slow] };
         Forecast { means: SVector::from_fn(|k, _| self.value * before(k)), end }
     }
 
@@ -299,7 +316,7 @@ impl Forecaster {
 
     /// The reference's mean over a block that ended so many samples ago.
     fn mean(&self, block: usize, ended: usize) -> f64 {
-        (self.ago(ended).integral - self.ago(ended + SAMPLES[block]).integral) / DURATIONS[block]
+        (self.ago(ended).integral - self.ago(ended + SAMPLES[block]).integral) / Horizon::Near.durations()[block]
     }
 
     /// Takes down the errors of what was forecast for the times that have just become known.
@@ -326,13 +343,13 @@ impl Forecaster {
 
     /// Adds what followed the oldest sample to the fit's sums, and fits anew every few samples.
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
-        let x = self.ago(HORIZON_SAMPLES).features();
+        let x = self.ago(FORECAST_SAMPLES).features();
         let now = self.ago(0);
         let end_samples = end_samples();
         let y = Targets::from_fn(|target, _| match target {
             BLOCKS => now.low_passes[SLOW],
             target if target > BLOCKS => now.value - now.low_passes[SLOW],
-            block => self.mean(block, HORIZON_SAMPLES - end_samples[block]),
+            block => self.mean(block, FORECAST_SAMPLES - end_samples[block]),
         });
         let keep = libm::exp(-SAMPLE / memory.fit);
         self.squares = keep * self.squares + (1.0 - keep) * tables.prior_squares + x * x.transpose();
@@ -384,10 +401,10 @@ mod tests {
 
     /// Means of a reference over the blocks that follow a time.
     fn means(reference: impl Fn(f64) -> f64, time: f64) -> SVector<f64, BLOCKS> {
-        let ends = ends();
+        let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
         SVector::from_fn(|k, _| {
-            let start = time + ends[k] - DURATIONS[k];
-            (0..1000).map(|i| reference(start + DURATIONS[k] * (f64::from(i) + 0.5) / 1000.0)).sum::<f64>() / 1000.0
+            let start = time + ends[k] - durations[k];
+            (0..1000).map(|i| reference(start + durations[k] * (f64::from(i) + 0.5) / 1000.0)).sum::<f64>() / 1000.0
         })
     }
 
@@ -414,6 +431,31 @@ mod tests {
         let forecast = *followed(|_| 1.5, 30.0, ForecastKind::Learned).forecast();
         assert!(forecast.means.iter().all(|mean| (mean - 1.5).abs() < 0.05), "{}", forecast.means);
         assert_eq!(*followed(|_| 0.0, 10.0, ForecastKind::Learned).forecast(), Forecast::default());
+    }
+
+    #[test]
+    fn over_a_longer_horizon_a_forecast_keeps_its_integral_and_fades() {
+        let forecast = Forecast { means: SVector::from_fn(|k, _| 1.0 + k as f64), end: [2.0, 0.5] };
+        assert!((forecast.over(Horizon::Near).means - forecast.means).amax() < 1e-12);
+        let far = forecast.over(Horizon::Far);
+        let sum = |means: &SVector<f64, BLOCKS>, horizon: Horizon| means.dot(&SVector::from(horizon.durations()));
+        let [slow, fast] = FADE_DECAY;
+        let tail = 2.0 * (1.0 - (-slow * FORECAST).exp()) / slow + 0.5 * (1.0 - (-fast * FORECAST).exp()) / fast;
+        let expected = sum(&forecast.means, Horizon::Near) + tail;
+        assert!((sum(&far.means, Horizon::Far) - expected).abs() < 1e-12);
+        assert!((far.end[0] - 2.0 * (-slow * FORECAST).exp()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_stop_takes_the_reference_away_from_its_time_on() {
+        let forecaster = followed(|_| -2.0, 20.0, ForecastKind::Learned);
+        let forecast = forecaster.until_stop(1.5, Horizon::Far);
+        let (ends, durations) = (Horizon::Far.ends(), Horizon::Far.durations());
+        for k in 0..BLOCKS {
+            let braking = (1.5 - (ends[k] - durations[k])).clamp(0.0, durations[k]) / durations[k];
+            assert!((forecast.means[k] + 2.0 * braking).abs() < 1e-9, "block {k}: {}", forecast.means[k]);
+        }
+        assert_eq!(forecast.end, [0.0; 2]);
     }
 
     #[test]

@@ -1,30 +1,54 @@
 //! The plan's horizon: blocks over which dropped force and tilt acceleration are constant.
 
+use serde::{Deserialize, Serialize};
+
 /// Number of blocks.
 pub const BLOCKS: usize = 8;
-/// Durations of the blocks \[s\], each a multiple of [`SAMPLE`]: fine where a plan is
-/// about to be carried out.
-pub const DURATIONS: [f64; BLOCKS] = [0.04, 0.06, 0.1, 0.18, 0.28, 0.44, 0.72, 1.18];
-/// The whole horizon \[s\].
-pub const HORIZON: f64 = 3.0;
 /// Time between two samples of the reference, and between two plans \[s\].
 pub const SAMPLE: f64 = 0.02;
-
-/// Number of samples in each block.
+/// Time over which the reference is forecast: the near horizon's \[s\] ...
+pub const FORECAST: f64 = 3.0;
+/// ... and in samples.
+pub const FORECAST_SAMPLES: usize = 150;
+/// Number of samples in each block of the near horizon.
 pub const SAMPLES: [usize; BLOCKS] = [2, 3, 5, 9, 14, 22, 36, 59];
-/// Number of samples in the horizon.
-pub const HORIZON_SAMPLES: usize = 150;
 
-/// End of each block \[s\].
-pub fn ends() -> [f64; BLOCKS] {
-    let mut time = 0.0;
-    DURATIONS.map(|duration| {
-        time += duration;
-        time
-    })
+/// How far a plan reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Horizon {
+    /// As far as the reference is forecast.
+    #[default]
+    Near,
+    /// Twice as far, for the stop that a braking vehicle approaches.
+    Far,
 }
 
-/// Number of samples from now to the end of each block.
+impl Horizon {
+    /// Durations of the blocks \[s\]: short where a plan is about to be carried out.
+    pub const fn durations(self) -> [f64; BLOCKS] {
+        match self {
+            Horizon::Near => [0.04, 0.06, 0.1, 0.18, 0.28, 0.44, 0.72, 1.18],
+            Horizon::Far => [0.04, 0.06, 0.12, 0.28, 0.6, 1.1, 1.7, 2.1],
+        }
+    }
+
+    /// End of each block \[s\].
+    pub fn ends(self) -> [f64; BLOCKS] {
+        let mut time = 0.0;
+        self.durations().map(|duration| {
+            time += duration;
+            time
+        })
+    }
+
+    /// The block that is carried out at this age of a plan, if the plan reaches so far.
+    pub fn block_at(self, age: f64) -> Option<usize> {
+        // Half a microsecond stands above the rounding of a sum of steps.
+        self.ends().iter().position(|&end| age < end - 5e-7)
+    }
+}
+
+/// Number of samples from now to the end of each block of the near horizon.
 pub fn end_samples() -> [usize; BLOCKS] {
     let mut count = 0;
     SAMPLES.map(|samples| {
@@ -33,31 +57,32 @@ pub fn end_samples() -> [usize; BLOCKS] {
     })
 }
 
-/// The block that is carried out at this age of a plan, if the plan reaches so far.
-pub fn block_at(age: f64) -> Option<usize> {
-    // Half a microsecond stands above the rounding of a sum of steps.
-    ends().iter().position(|&end| age < end - 5e-7)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn blocks_are_whole_numbers_of_samples_and_fill_the_horizon() {
-        for (duration, samples) in DURATIONS.iter().zip(SAMPLES) {
+    fn blocks_of_the_near_horizon_are_whole_numbers_of_samples_and_fill_the_forecast() {
+        for (duration, samples) in Horizon::Near.durations().iter().zip(SAMPLES) {
             assert!((duration - samples as f64 * SAMPLE).abs() < 1e-15);
         }
-        assert!((ends()[BLOCKS - 1] - HORIZON).abs() < 1e-15);
-        assert_eq!(end_samples()[BLOCKS - 1], HORIZON_SAMPLES);
+        assert!((Horizon::Near.ends()[BLOCKS - 1] - FORECAST).abs() < 1e-15);
+        assert_eq!(end_samples()[BLOCKS - 1], FORECAST_SAMPLES);
+    }
+
+    #[test]
+    fn the_far_horizon_is_twice_the_near_one() {
+        assert!((Horizon::Far.ends()[BLOCKS - 1] - 2.0 * FORECAST).abs() < 1e-14);
     }
 
     #[test]
     fn a_plan_is_carried_out_block_by_block() {
-        assert_eq!(block_at(0.0), Some(0));
-        assert_eq!(block_at(0.039), Some(0));
-        assert_eq!(block_at(0.04 - 1e-12), Some(1));
-        assert_eq!(block_at(2.999), Some(7));
-        assert_eq!(block_at(3.0), None);
+        assert_eq!(Horizon::Near.block_at(0.0), Some(0));
+        assert_eq!(Horizon::Near.block_at(0.039), Some(0));
+        assert_eq!(Horizon::Near.block_at(0.04 - 1e-12), Some(1));
+        assert_eq!(Horizon::Near.block_at(2.999), Some(7));
+        assert_eq!(Horizon::Near.block_at(3.0), None);
+        assert_eq!(Horizon::Far.block_at(3.0), Some(6));
+        assert_eq!(Horizon::Far.block_at(6.0), None);
     }
 }

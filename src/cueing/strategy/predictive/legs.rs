@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::horizon::{BLOCKS, ends};
+use super::horizon::{BLOCKS, Horizon};
 use super::program::Nodes;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
@@ -17,8 +17,11 @@ pub struct Surroundings<'a> {
     pub stroke: [f64; 2],
     /// Heave from neutral \[m\].
     pub heave: f64,
-    /// Roll, pitch and yaw beside the tilt \[rad\].
+    /// Roll, pitch and yaw beside the tilt \[rad\] and their rates \[rad/s\].
     pub angles: Vector3<f64>,
+    pub angle_rates: Vector3<f64>,
+    /// Break frequencies of the angular channel \[rad/s\].
+    pub frequencies: Vector3<f64>,
 }
 
 /// A leg's length near a pose, and how it changes with position and tilt of surge and sway.
@@ -36,19 +39,36 @@ pub struct LegRow {
 const HEAVE_STAYS: f64 = 0.1;
 const HEAVE_FADES: f64 = 0.4;
 
-/// The legs at each node of a plan for surge and sway.
-pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2]) -> [[LegRow; 6]; BLOCKS] {
-    let ends = ends();
+impl Surroundings<'_> {
+    /// Roll, pitch and yaw beside the tilt after so much time, if the vehicle goes on turning as it does: the free response
+    /// of a second-order high-pass with damping 1, which also stands for the angular channel's other filters.
+    fn angles_after(&self, time: f64) -> Vector3<f64> {
+        Vector3::from_fn(|k, _| {
+            let (angle, frequency) = (self.angles[k], self.frequencies[k]);
+            (angle + (self.angle_rates[k] + frequency * angle) * time) * libm::exp(-frequency * time)
+        })
+    }
+}
+
+/// The legs at each node of a plan for surge and sway, near the poses of the plan before.
+pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2], horizon: Horizon) -> [[LegRow; 6]; BLOCKS] {
+    let ends = horizon.ends();
     std::array::from_fn(|node| {
         let heave = surroundings.heave * libm::exp(-(ends[node] - HEAVE_STAYS).max(0.0) / HEAVE_FADES);
         let position = [0, 1].map(|axis: usize| plan[axis][4 * node]);
         let tilt = [0, 1].map(|axis: usize| plan[axis][4 * node + 2]);
-        legs_near(surroundings, position, tilt, heave)
+        legs_near(surroundings, &surroundings.angles_after(ends[node]), position, tilt, heave)
     })
 }
 
-fn legs_near(surroundings: &Surroundings, position: [f64; 2], tilt: [f64; 2], heave: f64) -> [LegRow; 6] {
-    let Surroundings { geometry, neutral_height, angles, .. } = *surroundings;
+fn legs_near(
+    surroundings: &Surroundings,
+    angles: &Vector3<f64>,
+    position: [f64; 2],
+    tilt: [f64; 2],
+    heave: f64,
+) -> [LegRow; 6] {
+    let Surroundings { geometry, neutral_height, .. } = *surroundings;
     let orientation = Orientation::new(RollPitchYaw::new(angles.x + tilt[1], angles.y - tilt[0], angles.z));
     let pose = Pose { position: Vector3::new(position[0], position[1], neutral_height + heave), orientation };
     let lengths = leg_lengths(geometry, &pose);
@@ -71,6 +91,35 @@ mod tests {
     use crate::interface::Rig;
 
     #[test]
+    fn angles_go_on_as_the_high_pass_lets_them_while_the_vehicle_turns_steadily() {
+        let rig = Rig::default();
+        let surroundings = Surroundings {
+            geometry: &Geometry::from(&rig),
+            neutral_height: rig.neutral_height,
+            stroke: [rig.min_length, rig.max_length],
+            heave: 0.0,
+            angles: Vector3::new(0.05, -0.04, 0.1),
+            angle_rates: Vector3::new(0.2, 0.0, -0.3),
+            frequencies: Vector3::new(0.9, 0.6, 1.0),
+        };
+        // y'' + 2 w y' + w^2 y = 0, by small steps of the midpoint rule.
+        let (mut angles, mut rates) = (surroundings.angles, surroundings.angle_rates);
+        let w = surroundings.frequencies;
+        let acceleration = |angles: &Vector3<f64>, rates: &Vector3<f64>| {
+            -(2.0 * w.component_mul(rates) + w.component_mul(&w).component_mul(angles))
+        };
+        let (steps, time) = (20_000, 2.0);
+        let step = time / f64::from(steps);
+        for _ in 0..steps {
+            let middle_rates = rates + 0.5 * step * acceleration(&angles, &rates);
+            let middle_angles = angles + 0.5 * step * rates;
+            angles += step * middle_rates;
+            rates += step * acceleration(&middle_angles, &middle_rates);
+        }
+        assert!((surroundings.angles_after(time) - angles).amax() < 1e-8);
+    }
+
+    #[test]
     fn slopes_are_those_of_finite_differences() {
         let rig = Rig::default();
         let geometry = Geometry::from(&rig);
@@ -80,14 +129,16 @@ mod tests {
             stroke: [rig.min_length, rig.max_length],
             heave: 0.03,
             angles: Vector3::new(0.05, -0.04, 0.1),
+            angle_rates: Vector3::zeros(),
+            frequencies: Vector3::repeat(1.0),
         };
         let (position, tilt) = ([0.1, -0.2], [0.15, -0.1]);
         let length = |position: [f64; 2], tilt: [f64; 2], leg: usize| {
-            let row = legs_near(&surroundings, position, tilt, 0.03)[leg];
+            let row = legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03)[leg];
             row.offset + (0..2).map(|k| row.by_position[k] * position[k] + row.by_tilt[k] * tilt[k]).sum::<f64>()
         };
         let step = 1e-5;
-        for (leg, row) in legs_near(&surroundings, position, tilt, 0.03).iter().enumerate() {
+        for (leg, row) in legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03).iter().enumerate() {
             for axis in 0..2 {
                 let moved = |values: [f64; 2], by: f64| {
                     let mut moved = values;

@@ -15,14 +15,14 @@ pub mod horizon;
 pub mod legs;
 pub mod program;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Rows, Status};
 use self::forecast::{Forecaster, Memory, Tables};
-use self::horizon::{BLOCKS, SAMPLE, block_at};
+use self::horizon::{BLOCKS, Horizon, SAMPLE};
 use self::legs::{Surroundings, leg_rows};
-use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, AxisProgram, CONTROLS, Nodes, ROWS};
+use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, ROWS};
 use super::regulator::{AxisModel, Regulator, Weights};
 use super::{AxisState, Decision};
 use crate::interface::{ForecastKind, PredictiveParameters};
@@ -51,14 +51,14 @@ pub struct Predictive {
     tables: Box<Tables>,
     forecasters: [Box<Forecaster>; 2],
     until_sample: f64,
-    axes: [Box<AxisProgram>; 2],
-    factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
+    programs: Programs,
     rows: Box<Rows<CONTROLS, ROWS>>,
     solver: Box<DualActiveSet<CONTROLS, ROWS>>,
     /// Whether a new plan is to be made.
     due: bool,
-    /// The nodes without control of the plan that is being made, and the time
-    /// since it was begun \[s\].
+    /// Horizon of the plan that is being made, its nodes without control, and the time since it was
+    /// begun \[s\].
+    horizon: Horizon,
     free: [Nodes; 2],
     begun: f64,
     plan: Plan,
@@ -69,6 +69,7 @@ pub struct Predictive {
 pub struct Plan {
     controls: [AxisControls; 2],
     nodes: [Nodes; 2],
+    horizon: Horizon,
     /// Time since the plan was begun \[s\].
     pub age: f64,
     /// Iterations that it took.
@@ -98,11 +99,11 @@ impl Predictive {
     /// At rest. None if the weights cannot be used.
     pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
         let tables = Box::new(Tables::default());
-        let program = |axis: usize| AxisProgram::new(&models[axis], &tuning.weights).map(Box::new);
-        let axes = [program(0)?, program(1)?];
+        let programs = Programs::new(models, &tuning.weights)?;
         let plan = Plan {
             controls: [AxisControls::zeros(); 2],
             nodes: [Nodes::zeros(); 2],
+            horizon: Horizon::Near,
             age: 0.0,
             iterations: 0,
             kept: false,
@@ -113,11 +114,11 @@ impl Predictive {
             forecasters: [0, 1].map(|_| Box::new(Forecaster::new(&tables))),
             tables,
             until_sample: SAMPLE,
-            factor: Box::new(program::factor(&axes)?),
-            rows: Box::new(program::rows(&axes)),
-            axes,
+            rows: Box::new(program::rows(&programs.near)),
+            programs,
             solver: Box::new(DualActiveSet::new()),
             due: true,
+            horizon: Horizon::Near,
             free: [Nodes::zeros(); 2],
             begun: 0.0,
             plan,
@@ -133,15 +134,8 @@ impl Predictive {
         if models.iter().any(|model| Regulator::new(model, &tuning.weights).is_none()) {
             return false;
         }
-        for (axis, model) in self.axes.iter_mut().zip(models) {
-            if let Some(program) = AxisProgram::new(model, &tuning.weights) {
-                **axis = program;
-            }
-        }
-        if let Some(factor) = program::factor(&self.axes) {
-            *self.factor = factor;
-        }
-        program::set_axis_normals(&mut self.rows, &self.axes);
+        self.programs.retune(models, &tuning.weights);
+        program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
         (self.models, self.tuning) = (*models, *tuning);
         self.solver.abandon();
         self.due = true;
@@ -168,10 +162,10 @@ impl Predictive {
         } else {
             self.proceed(step);
         }
-        let decisions = block_at(self.plan.age).map(|block| {
+        let decisions = self.plan.horizon.block_at(self.plan.age).map(|block| {
             [0, 1].map(|axis: usize| Decision {
                 dropped_force: self.plan.controls[axis][block],
-                tilt_acceleration: self.axes[axis].acceleration_limit() * self.plan.controls[axis][BLOCKS + block],
+                tilt_acceleration: self.models[axis].acceleration_limit * self.plan.controls[axis][BLOCKS + block],
             })
         });
         self.plan.age += step;
@@ -206,12 +200,21 @@ impl Predictive {
     fn begin(&mut self, states: &[AxisState; 2], surroundings: &Surroundings, time_to_stop: f64) {
         self.due = false;
         self.begun = 0.0;
+        let horizon = if time_to_stop.is_finite() { Horizon::Far } else { Horizon::Near };
+        if horizon != self.horizon {
+            self.horizon = horizon;
+            program::set_axis_normals(&mut self.rows, self.programs.over(horizon));
+        }
+        let program = self.programs.over(horizon);
         let mut gradient = SVector::<f64, CONTROLS>::zeros();
-        for (k, axis) in self.axes.iter().enumerate() {
+        for (k, axis) in program.axes.iter().enumerate() {
             let forecaster = &self.forecasters[k];
-            // A stop takes the reference of surge away.
-            let stops = k == 0 && time_to_stop.is_finite();
-            let forecast = if stops { forecaster.until_stop(time_to_stop) } else { *forecaster.forecast() };
+            let forecast = match horizon {
+                Horizon::Near => *forecaster.forecast(),
+                // A stop takes the reference of surge away.
+                Horizon::Far if k == 0 => forecaster.until_stop(time_to_stop, horizon),
+                Horizon::Far => forecaster.forecast().over(horizon),
+            };
             let data = program::data(&states[k], &forecast);
             self.free[k] = axis.free_nodes(&data);
             gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
@@ -220,19 +223,21 @@ impl Predictive {
             self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| 1.0 - value));
         }
         self.limit_legs(surroundings);
-        self.solver.start(&self.factor, &gradient);
+        self.solver.start(&self.programs.over(horizon).factor, &gradient);
     }
 
     /// Sets the rows of the actuators, in halves of the stroke.
     fn limit_legs(&mut self, surroundings: &Surroundings) {
         let [min, max] = surroundings.stroke;
         let scale = 2.0 / (max - min);
-        for (node, legs) in leg_rows(surroundings, &self.plan.nodes).iter().enumerate() {
+        let program = self.programs.over(self.horizon);
+        // After a change of horizon the plan's nodes are at other times: the rows are less exact for once.
+        for (node, legs) in leg_rows(surroundings, &self.plan.nodes, self.horizon).iter().enumerate() {
             for (leg, row) in legs.iter().enumerate() {
                 let mut free = row.offset;
                 let number = 2 * AXIS_ROWS + 6 * node + leg;
                 let Some(normal) = self.rows.normals.get_mut(number) else { continue };
-                for (axis, program) in self.axes.iter().enumerate() {
+                for (axis, program) in program.axes.iter().enumerate() {
                     let (by_position, by_tilt) = (row.by_position[axis], row.by_tilt[axis]);
                     free += by_position * self.free[axis][4 * node] + by_tilt * self.free[axis][4 * node + 2];
                     let controls = by_position * program.response(node, 0) + by_tilt * program.response(node, 2);
@@ -262,11 +267,13 @@ impl Predictive {
     }
 
     fn take_over(&mut self) {
-        for (k, axis) in self.axes.iter().enumerate() {
+        let program = self.programs.over(self.horizon);
+        for (k, axis) in program.axes.iter().enumerate() {
             let controls = self.solver.solution().fixed_rows::<AXIS_CONTROLS>(k * AXIS_CONTROLS).into_owned();
             self.plan.nodes[k] = axis.nodes(&self.free[k], &controls);
             self.plan.controls[k] = controls;
         }
+        self.plan.horizon = self.horizon;
         self.plan.age = self.begun;
         self.plan.iterations = self.solver.iterations();
         self.plan.kept = false;
@@ -302,6 +309,8 @@ mod tests {
             stroke: [rig.min_length, rig.max_length],
             heave: 0.0,
             angles: Vector3::zeros(),
+            angle_rates: Vector3::zeros(),
+            frequencies: Vector3::repeat(1.0),
         }
     }
 
@@ -342,7 +351,7 @@ mod tests {
     fn the_plan_keeps_its_rows() {
         let mut predictive = predictive();
         passed(&mut predictive, 2000, 6.0);
-        for (axis, program) in predictive.axes.iter().enumerate() {
+        for (axis, program) in predictive.programs.near.axes.iter().enumerate() {
             let rows = program.rows(&predictive.plan.nodes[axis], &predictive.plan.controls[axis]);
             assert!(rows.amax() <= 1.0 + 1e-8, "{}", rows.amax());
             assert!(rows.amax() > 0.999, "a strong reference must reach a limit");
@@ -357,13 +366,13 @@ mod tests {
         let mut forecast = forecast::Forecast::default();
         forecast.means.fill(0.7);
         let data = program::data(&state, &forecast);
-        let axis = &predictive.axes[0];
+        let axis = &predictive.programs.near.axes[0];
         let nodes = axis.nodes(&axis.free_nodes(&data), &controls);
         let (mut x, mut v, mut q, mut w) = (0.1, -0.2, 0.05, 0.01);
         for block in 0..BLOCKS {
             let alpha = MODEL.acceleration_limit * controls[BLOCKS + block];
             let steps = 20_000;
-            let step = horizon::DURATIONS[block] / f64::from(steps);
+            let step = Horizon::Near.durations()[block] / f64::from(steps);
             for _ in 0..steps {
                 let middle = q + 0.5 * step * (w + step * alpha / 3.0);
                 let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + controls[block];

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dual_active_set::Rows;
 use super::forecast::Forecast;
-use super::horizon::{BLOCKS, DURATIONS};
+use super::horizon::{BLOCKS, Horizon};
 use crate::cueing::strategy::AxisState;
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 
@@ -55,10 +55,72 @@ pub const CHORD: f64 = 0.985;
 /// A little price on tilt acceleration keeps the program strictly convex.
 const LEAST_PRICE: f64 = 1e-5;
 
-/// One axis of the program: what does not change from plan to plan.
+/// The programs over both horizons.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Programs {
+    pub near: Program,
+    pub far: Program,
+}
+
+impl Programs {
+    /// Both programs. None if there is no regulator for these weights.
+    pub fn new(models: &[AxisModel; 2], weights: &Weights) -> Option<Self> {
+        let program = |horizon| Program::new(models, weights, horizon);
+        Some(Programs { near: program(Horizon::Near)?, far: program(Horizon::Far)? })
+    }
+
+    /// Replaces both by those for other models or weights.
+    pub fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) {
+        self.near.retune(models, weights);
+        self.far.retune(models, weights);
+    }
+
+    /// The program over a horizon.
+    pub fn over(&self, horizon: Horizon) -> &Program {
+        match horizon {
+            Horizon::Near => &self.near,
+            Horizon::Far => &self.far,
+        }
+    }
+}
+
+/// The program over a horizon: what does not change from plan to plan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Program {
+    pub horizon: Horizon,
+    /// Surge and sway.
+    pub axes: [Box<AxisProgram>; 2],
+    /// L^-T of the Hessian L L' of both axes.
+    pub factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
+}
+
+impl Program {
+    /// The program of both axes. None if there is no regulator for these weights.
+    pub fn new(models: &[AxisModel; 2], weights: &Weights, horizon: Horizon) -> Option<Self> {
+        let axis = |axis: usize| AxisProgram::new(&models[axis], weights, horizon).map(Box::new);
+        let axes = [axis(0)?, axis(1)?];
+        let factor = Box::new(factor_of([&axes[0], &axes[1]])?);
+        Some(Program { horizon, axes, factor })
+    }
+
+    /// Replaces the program by that for other models or weights; it stays if there is no other.
+    fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) {
+        // In place of the old one, because a change of parameters allocates nothing.
+        let [Some(surge), Some(sway)] =
+            [0, 1].map(|axis: usize| AxisProgram::new(&models[axis], weights, self.horizon))
+        else {
+            return;
+        };
+        let Some(factor) = factor_of([&surge, &sway]) else { return };
+        (*self.axes[0], *self.axes[1], *self.factor) = (surge, sway, factor);
+    }
+}
+
+/// One axis of the program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AxisProgram {
     model: AxisModel,
+    horizon: Horizon,
     from_data: SMatrix<f64, { 4 * BLOCKS }, { BLOCKS + 6 }>,
     from_controls: SMatrix<f64, { 4 * BLOCKS }, AXIS_CONTROLS>,
     gradient: SMatrix<f64, AXIS_CONTROLS, { BLOCKS + 6 }>,
@@ -67,20 +129,21 @@ pub struct AxisProgram {
 
 impl AxisProgram {
     /// The program of an axis. None if there is no regulator for these weights.
-    pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
+    pub fn new(model: &AxisModel, weights: &Weights, horizon: Horizon) -> Option<Self> {
         let regulator = Regulator::new(model, weights)?;
-        let from_data = responses(model, |data: &Data| {
+        let from_data = responses(model, horizon, |data: &Data| {
             (data.fixed_rows::<4>(0).into_owned(), data.fixed_rows::<BLOCKS>(4).into_owned(), AxisControls::zeros())
         });
-        let from_controls = responses(model, |controls: &AxisControls| (Vector4::zeros(), SVector::zeros(), *controls));
+        let from_controls =
+            responses(model, horizon, |controls: &AxisControls| (Vector4::zeros(), SVector::zeros(), *controls));
         let mut weighted = SMatrix::<f64, { 4 * BLOCKS }, AXIS_CONTROLS>::zeros();
         for node in 0..BLOCKS {
-            let weight = node_weight(model, weights, &regulator, node);
+            let weight = node_weight(model, weights, &regulator, horizon, node);
             let states = weight * from_controls.fixed_rows::<4>(4 * node);
             weighted.fixed_rows_mut::<4>(4 * node).copy_from(&states);
         }
         let mut hessian = from_controls.tr_mul(&weighted);
-        for (block, duration) in DURATIONS.iter().enumerate() {
+        for (block, duration) in horizon.durations().iter().enumerate() {
             hessian[(block, block)] += duration;
             hessian[(BLOCKS + block, BLOCKS + block)] += duration * (weights.tilt_acceleration + LEAST_PRICE);
         }
@@ -88,7 +151,7 @@ impl AxisProgram {
         let end_to_end = regulator.cost.fixed_view::<4, 2>(0, 4);
         let end = from_controls.fixed_rows::<4>(4 * (BLOCKS - 1)).tr_mul(&end_to_end);
         gradient.fixed_columns_mut::<2>(BLOCKS + 4).copy_from(&end);
-        Some(AxisProgram { model: *model, from_data, from_controls, gradient, hessian })
+        Some(AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian })
     }
 
     /// Largest tilt acceleration, which the controls are relative to \[rad/s2\].
@@ -143,6 +206,7 @@ impl AxisProgram {
             1.0 / angle_limit,
             1.0 / (RATE_FRACTION * rate_limit),
         ];
+        let durations = self.horizon.durations();
         let mut rows = SVector::zeros();
         for node in 0..BLOCKS {
             for (state, scale) in scales.iter().enumerate() {
@@ -150,7 +214,7 @@ impl AxisProgram {
             }
             rows[4 * BLOCKS + node] = controls[BLOCKS + node];
             if node + 1 < BLOCKS {
-                let middle = nodes[4 * node] + 0.5 * DURATIONS[node + 1] * nodes[4 * node + 1];
+                let middle = nodes[4 * node] + 0.5 * durations[node + 1] * nodes[4 * node + 1];
                 rows[5 * BLOCKS + node] = position * middle;
             }
         }
@@ -175,6 +239,7 @@ pub fn data(state: &AxisState, forecast: &Forecast) -> Data {
 /// The nodes' response to one unit of each argument.
 fn responses<const K: usize>(
     model: &AxisModel,
+    horizon: Horizon,
     split: impl Fn(&SVector<f64, K>) -> (Vector4<f64>, SVector<f64, BLOCKS>, AxisControls),
 ) -> SMatrix<f64, { 4 * BLOCKS }, K> {
     let mut responses = SMatrix::<f64, { 4 * BLOCKS }, K>::zeros();
@@ -182,7 +247,7 @@ fn responses<const K: usize>(
         let mut unit = SVector::<f64, K>::zeros();
         unit[k] = 1.0;
         let (start, reference, controls) = split(&unit);
-        responses.set_column(k, &rolled_out(model, start, &reference, &controls));
+        responses.set_column(k, &rolled_out(model, horizon, start, &reference, &controls));
     }
     responses
 }
@@ -190,13 +255,14 @@ fn responses<const K: usize>(
 /// The nodes that follow from a start, a reference and controls.
 fn rolled_out(
     model: &AxisModel,
+    horizon: Horizon,
     start: Vector4<f64>,
     reference: &SVector<f64, BLOCKS>,
     controls: &AxisControls,
 ) -> Nodes {
     let mut nodes = Nodes::zeros();
     let [mut x, mut v, mut q, mut w]: [f64; 4] = start.into();
-    for (block, &t) in DURATIONS.iter().enumerate() {
+    for (block, &t) in horizon.durations().iter().enumerate() {
         let alpha = model.acceleration_limit * controls[BLOCKS + block];
         let constant = reference[block] + model.head_height * alpha + controls[block];
         let gravity = CHORD * model.gravity;
@@ -211,9 +277,15 @@ fn rolled_out(
 }
 
 /// The price of a node's state: by the trapezoidal rule, and at the last one the cost to come.
-fn node_weight(model: &AxisModel, weights: &Weights, regulator: &Regulator, node: usize) -> Matrix4<f64> {
-    let last = node + 1 == BLOCKS;
-    let time = 0.5 * (DURATIONS[node] + if last { 0.0 } else { DURATIONS[node + 1] });
+fn node_weight(
+    model: &AxisModel,
+    weights: &Weights,
+    regulator: &Regulator,
+    horizon: Horizon,
+    node: usize,
+) -> Matrix4<f64> {
+    let (last, durations) = (node + 1 == BLOCKS, horizon.durations());
+    let time = 0.5 * (durations[node] + if last { 0.0 } else { durations[node + 1] });
     let prices = Vector4::new(
         weights.position / model.position_limit.powi(2),
         weights.velocity / model.velocity_limit.powi(2),
@@ -225,7 +297,7 @@ fn node_weight(model: &AxisModel, weights: &Weights, regulator: &Regulator, node
 }
 
 /// L^-T of the Hessian L L' of both axes. None if rounding has made it indefinite.
-pub fn factor(axes: &[Box<AxisProgram>; 2]) -> Option<SMatrix<f64, CONTROLS, CONTROLS>> {
+fn factor_of(axes: [&AxisProgram; 2]) -> Option<SMatrix<f64, CONTROLS, CONTROLS>> {
     let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
     for (k, axis) in axes.iter().enumerate() {
         let inverse = axis.hessian.cholesky()?.l().try_inverse()?;
@@ -236,16 +308,16 @@ pub fn factor(axes: &[Box<AxisProgram>; 2]) -> Option<SMatrix<f64, CONTROLS, CON
 }
 
 /// The rows, those of the actuators without their normals.
-pub fn rows(axes: &[Box<AxisProgram>; 2]) -> Rows<CONTROLS, ROWS> {
+pub fn rows(program: &Program) -> Rows<CONTROLS, ROWS> {
     let mut rows =
         Rows { normals: vec![SVector::zeros(); ROWS], lower: SVector::repeat(-1.0), upper: SVector::repeat(1.0) };
-    set_axis_normals(&mut rows, axes);
+    set_axis_normals(&mut rows, program);
     rows
 }
 
 /// Sets the normals that do not change from plan to plan.
-pub fn set_axis_normals(rows: &mut Rows<CONTROLS, ROWS>, axes: &[Box<AxisProgram>; 2]) {
-    for (k, axis) in axes.iter().enumerate() {
+pub fn set_axis_normals(rows: &mut Rows<CONTROLS, ROWS>, program: &Program) {
+    for (k, axis) in program.axes.iter().enumerate() {
         let normals = axis.normals();
         for (normal, column) in rows.normals.iter_mut().skip(k * AXIS_ROWS).zip(normals.column_iter()) {
             normal.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&column);
