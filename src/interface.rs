@@ -14,14 +14,6 @@ pub use crate::motion::orientation::RollPitchYaw;
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 interface! {
-    /// Time of the host.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
-
-interface! {
     /// Inputs from the vehicle model at every communication point.
     pub struct Input: Input, Continuous {
         /// Specific force at the washout location in the rider's head axes (x forward, y left, z up), as an accelerometer measures it: (0, 0, +g) at rest.

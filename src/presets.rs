@@ -1,9 +1,8 @@
 //! Parameter sets shipped beside the default, as names and values of the interface's variables.
 
-use moris_interface::{Causality, Model};
+use moris_interface::{Causality, Model, SlotModel};
 
 use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, StrategyKind};
-use crate::model::parameters_in;
 use crate::washout::Washout;
 
 /// The set of the paper's runs: filters of fourth order with one break frequency for all
@@ -172,11 +171,11 @@ pub const fn joined<const N: usize>(
 pub fn parameters(set: &[(&str, f64)]) -> Parameters {
     let identity = Washout::IDENTITY;
     let mut slots = vec![0.0; identity.slots.len()];
-    Washout::start(&mut slots);
+    Washout::start_slots(&mut slots);
     for (name, value) in set {
         let slot = identity.slot(name).unwrap_or_else(|| panic!("{name} is no variable of the washout"));
         assert_eq!(identity.row(slot).causality, Causality::Parameter, "{name}");
         slots[slot] = *value;
     }
-    parameters_in(&slots)
+    Washout::parameters_in(&slots)
 }

@@ -7,7 +7,7 @@
 
 use std::fmt::Write;
 
-use moris_interface::{Causality, Kind, Model};
+use moris_interface::{Causality, Kind, Model, SlotModel};
 
 use crate::archive::Contents;
 
@@ -95,7 +95,7 @@ pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
         }
     };
     set(&mut slots, 0.0);
-    let mut model = M::new(&slots).expect("start values are usable");
+    let mut model = M::from_slots(&slots).expect("start values are usable");
 
     let names = outputs.iter().map(|&slot| identity.variable_name(slot));
     let mut table = std::iter::once("time".to_owned()).chain(names).collect::<Vec<_>>().join(",");
@@ -104,10 +104,10 @@ pub fn output<M: Model>(input: &Stimuli, start: &[f64]) -> String {
     for step in 0..=(input.end() * RATE as f64).round() as usize {
         if step > 0 {
             set(&mut slots, time(step - 1));
-            model.step(&slots, None, time(step) - time(step - 1));
+            model.step_slots(&slots, None, time(step) - time(step - 1));
         }
         if step.is_multiple_of(STEPS_PER_ROW) {
-            model.outputs(&mut slots);
+            model.write_outputs(&mut slots);
             write!(table, "{}", time(step)).expect("a string takes whatever is written");
             for &slot in &outputs {
                 // Adding 0 makes a negative zero a plain one.

@@ -7,7 +7,7 @@ mod small_model;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
-use moris_interface::{Causality, Identity, Kind, Model, Row};
+use moris_interface::{Causality, Identity, Kind, Model, Row, SlotModel};
 use moris_model_description::fmi2::describe;
 use moris_model_description::fmi3::{self, Layout};
 use moris_model_description::to_xml;
@@ -179,7 +179,7 @@ fn start_values_are_the_models_bit_for_bit<M: Model>(layout: Layout) {
     let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let mut start = vec![f64::NAN; M::IDENTITY.slots.len()];
-    M::start(&mut start);
+    M::start_slots(&mut start);
     for (variable, (_, row, slots)) in variables_by_reference(&document).into_iter().zip(places(&M::IDENTITY, layout)) {
         let name = variable.attribute("name").unwrap();
         let Some(list) = variable.attribute("start") else {

@@ -5,7 +5,7 @@ mod small_model;
 
 use std::collections::{BTreeSet, HashMap};
 
-use moris_interface::{Causality, Kind, Model};
+use moris_interface::{Causality, Kind, Model, SlotModel};
 use moris_model_description::{fmi2::describe, to_xml};
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
@@ -153,7 +153,7 @@ fn start_values_are_the_models_bit_for_bit<M: Model>() {
     let document = Document::parse(&xml).unwrap();
     let identity = M::IDENTITY;
     let mut start = vec![f64::NAN; identity.slots.len()];
-    M::start(&mut start);
+    M::start_slots(&mut start);
     for variable in variables(&document) {
         let slot = slot_of(variable);
         let name = identity.variable_name(slot);

@@ -1,6 +1,6 @@
 //! Parameters that cannot be used are refused with the variable's name and the reason.
 
-use moris_interface::{Causality, Kind, Model, Refusal};
+use moris_interface::{Causality, Kind, Model, Refusal, SlotModel};
 use moris_washout::{Input, Washout, check};
 
 use crate::common::parameters;
@@ -75,12 +75,12 @@ fn what_is_out_of_its_range_is_refused() {
 #[test]
 fn the_model_refuses_alike_and_retuning_changes_nothing() {
     let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
-    Washout::start(&mut slots);
-    let mut washout = <Washout as Model>::new(&slots).unwrap();
+    Washout::start_slots(&mut slots);
+    let mut washout = Washout::from_slots(&slots).unwrap();
     let before = washout.clone();
     slots[Washout::IDENTITY.slot("tilt.rateLimit").unwrap()] = -1.0;
-    assert_eq!(Model::retune(&mut washout, &slots).unwrap_err().variable, "tilt.rateLimit");
-    assert_eq!(<Washout as Model>::new(&slots).unwrap_err().variable, "tilt.rateLimit");
+    assert_eq!(washout.retune_from(&slots).unwrap_err().variable, "tilt.rateLimit");
+    assert_eq!(Washout::from_slots(&slots).unwrap_err().variable, "tilt.rateLimit");
     assert_eq!(washout, before);
 }
 

@@ -1,6 +1,6 @@
 //! Tunable parameters changed in the middle of a ride, engaging and disengaging: nothing jumps.
 
-use moris_interface::{Causality, Kind, Model, Variability};
+use moris_interface::{Causality, Kind, Model, SlotModel, Variability};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::presets::parameters;
 use moris_washout::{Input, Output, Parameters, Washout};
@@ -31,7 +31,7 @@ fn moving(t: f64) -> Input {
 /// Slots of the model with the default parameters.
 fn start_slots() -> Vec<f64> {
     let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
-    Washout::start(&mut slots);
+    Washout::start_slots(&mut slots);
     slots
 }
 
@@ -89,7 +89,7 @@ fn no_tunable_parameter_makes_anything_jump() {
             let mut slots = start_slots();
             slots[slot] = value;
             let (mut changed, mut unchanged) = (ridden.clone(), ridden.clone());
-            Model::retune(&mut changed, &slots).unwrap_or_else(|refusal| panic!("{refusal}"));
+            changed.retune_from(&slots).unwrap_or_else(|refusal| panic!("{refusal}"));
             let mut after = |changed: &mut Washout| {
                 changed.step(&moving(6.0), STEP);
                 unchanged.step(&moving(6.0), STEP);

@@ -6,7 +6,7 @@ mod washout;
 
 use std::path::PathBuf;
 
-use moris_interface::{Identity, Model as Interface, Refusal, start_values};
+use moris_interface::{Identity, Model as Interface, Refusal, SlotModel, start_values};
 use moris_model_description::{fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
@@ -102,7 +102,7 @@ impl Made {
         Made {
             identity: M::IDENTITY,
             start: start_values::<M>,
-            check: |start| M::new(start).map(drop),
+            check: |start| M::from_slots(start).map(drop),
             description: fmi2::describe_with::<M>,
             fmi3_description: fmi3::describe_with::<M>,
             variables: fmi2::variables_html::<M>,

@@ -3,7 +3,7 @@
 
 use std::mem::MaybeUninit;
 
-use moris_interface::Model;
+use moris_interface::{Model, SlotModel};
 
 use crate::{CallError, Instance, Mode, Role, Scalar, VariableInfo, Variables};
 
@@ -94,7 +94,7 @@ impl<M: Model> Instance<M> {
         let Some(model) = &self.state.model else {
             return Err(CallError::error("there are no derivatives before the model is initialized"));
         };
-        model.output_derivatives(&mut self.output_derivatives);
+        model.write_output_derivatives(&mut self.output_derivatives);
         for ((slot, _), value) in requests.zip(values) {
             value.write(self.output_derivatives[slot as usize]);
         }
@@ -183,7 +183,7 @@ impl<M: Model> Instance<M> {
             self.tables.infos[slot].role == Role::Parameter && self.state.values[slot] != self.old_values[slot]
         });
         let Some(model) = self.state.model.as_mut().filter(|_| changed) else { return Ok(()) };
-        model.retune(&self.state.values).map_err(|refusal| {
+        model.retune_from(&self.state.values).map_err(|refusal| {
             self.state.values.copy_from_slice(&self.old_values);
             CallError::discard(format!("{refusal}. The values of this call have not been taken; the old ones hold"))
         })

@@ -1,6 +1,6 @@
 //! From the start values to the first step.
 
-use moris_interface::Model;
+use moris_interface::{Model, SlotModel};
 
 use crate::instance_state::Experiment;
 use crate::{CallError, Instance, Mode};
@@ -49,11 +49,11 @@ impl<M: Model> Instance<M> {
     /// that another can be set.
     pub fn exit_initialization(&mut self) -> Result<(), CallError> {
         if self.state.dirty || self.state.model.is_none() {
-            let model = M::new(&self.state.values).map_err(|refusal| {
+            let model = M::from_slots(&self.state.values).map_err(|refusal| {
                 CallError::error(format!("{refusal}. Initialization goes on: set another value and try again"))
             })?;
             self.state.dirty = false;
-            model.outputs(&mut self.state.values);
+            model.write_outputs(&mut self.state.values);
             self.state.model = Some(model);
         }
         self.state.mode = Mode::StepComplete;
@@ -63,10 +63,10 @@ impl<M: Model> Instance<M> {
     /// Makes the outputs those of the values set so far. If the model refuses these, the outputs
     /// stay as they are, and the end of the initialization will say why.
     pub(crate) fn evaluate_start(&mut self) {
-        self.state.model = M::new(&self.state.values).ok();
+        self.state.model = M::from_slots(&self.state.values).ok();
         self.state.dirty = false;
         if let Some(model) = &self.state.model {
-            model.outputs(&mut self.state.values);
+            model.write_outputs(&mut self.state.values);
         }
     }
 }

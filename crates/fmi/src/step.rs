@@ -1,6 +1,6 @@
 //! Communication steps.
 
-use moris_interface::Model;
+use moris_interface::{Model, SlotModel};
 
 use crate::{CallError, Instance};
 
@@ -35,8 +35,8 @@ impl<M: Model> Instance<M> {
             return Err(self.why_no_step(time, step));
         }
         let derivatives = self.state.derivatives_given.then_some(&*self.state.derivatives);
-        model.step(&self.state.values, derivatives, step);
-        model.outputs(&mut self.state.values);
+        model.step_slots(&self.state.values, derivatives, step);
+        model.write_outputs(&mut self.state.values);
         if self.state.derivatives_given {
             self.state.derivatives.fill(0.0);
             self.state.derivatives_given = false;

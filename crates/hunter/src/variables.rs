@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use anyhow::{Context, Result};
-use moris_interface::{Causality, Identity, Kind, Model, Row, Variability};
+use moris_interface::{Causality, Identity, Kind, Model, Row, SlotModel, Variability};
 use moris_washout::Washout;
 
 use crate::episode::Values;
@@ -23,7 +23,7 @@ impl Variables {
     /// All variables with their start values.
     pub fn new() -> Self {
         let mut start = vec![0.0; IDENTITY.slots.len()];
-        Washout::start(&mut start);
+        Washout::start_slots(&mut start);
         let slots = (0..IDENTITY.slots.len()).map(|slot| (IDENTITY.variable_name(slot), slot)).collect();
         Variables { slots, start }
     }

@@ -67,6 +67,8 @@ macro_rules! interface {
                     concat!($($text),+),
                 ), )+
             ];
+            const SLOTS: &'static [$crate::Slot] =
+                &$crate::slot_table::<{ $crate::slot_count(<$group as $crate::Group>::ROWS) }>(Self::ROWS);
             const START: Self = $group { $( $field: $start, )+ };
             #[inline]
             fn read(reader: &mut $crate::Reader) -> Self {
@@ -144,6 +146,8 @@ macro_rules! interface_tree {
                 const ROWS: [$crate::Row; $crate::row_count(GROUPS)] = $crate::concat_rows(GROUPS);
                 &ROWS
             };
+            const SLOTS: &'static [$crate::Slot] =
+                &$crate::slot_table::<{ $crate::slot_count(<$group as $crate::Group>::ROWS) }>(Self::ROWS);
             const START: Self = $group { $( $field: <$type as $crate::Group>::START, )+ };
             fn read(reader: &mut $crate::Reader) -> Self {
                 $group { $( $field: $crate::Group::read(reader), )+ }

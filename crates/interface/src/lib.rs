@@ -9,11 +9,14 @@
 //! order of the rows. A value reference is a slot's index. Booleans are 0 and 1, enumerations and
 //! integers whole numbers.
 
+extern crate self as moris_interface; // the macros name this crate so
+
 mod declare;
 mod field;
 mod guid;
 mod model;
 mod row;
+mod slot_model;
 mod slots;
 mod start;
 mod unit;
@@ -23,8 +26,9 @@ pub use serde;
 
 pub use field::Field;
 pub use guid::{guid, guid_of};
-pub use model::{Identity, Model, Refusal, refuse};
+pub use model::{Identity, MOST_INTERNAL_STEPS, Model, Refusal, SHORTEST_STEP, Time, refuse};
 pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable};
+pub use slot_model::SlotModel;
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
 pub use start::{read_start_values, start_values, write_start_values};
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
@@ -54,11 +58,16 @@ pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G
     Ok(())
 }
 
+/// Largest number of slots of a group that is extrapolated.
+const MOST_EXTRAPOLATED: usize = 64;
+
 /// A struct whose fields are variables of the interface: made by [`interface!`]
 /// and [`interface_tree!`].
 pub trait Group: Default + 'static {
     /// The rows of the struct's fields, in the order of the fields.
     const ROWS: &'static [Row];
+    /// The rows' slots.
+    const SLOTS: &'static [Slot];
     /// The start values.
     const START: Self;
     /// Takes the struct's fields from the reader's next slots.
@@ -75,6 +84,20 @@ pub trait Group: Default + 'static {
     /// The values forced into their ranges: a number outside counts as the nearest end, and what is
     /// not a number as the start value.
     fn sanitized(&self) -> Self;
+    /// The values after `time` at these slopes. Booleans and whole numbers keep their values where
+    /// their slopes are zero.
+    fn extrapolated(&self, slope: &Self, time: f64) -> Self {
+        const { assert!(slot_count(Self::ROWS) <= MOST_EXTRAPOLATED) }
+        let mut room = [[0.0; MOST_EXTRAPOLATED]; 2];
+        let [values, slopes] = room.each_mut().map(|room| &mut room[..const { slot_count(Self::ROWS) }]);
+        self.write(&mut Writer::new(values));
+        slope.write(&mut Writer::new(slopes));
+        for (value, slope) in values.iter_mut().zip(slopes) {
+            *value += time * *slope;
+        }
+        Self::read(&mut Reader::new(values))
+    }
+
     #[doc(hidden)] // the part of `sanitized` that is rarely needed
     fn forced_into_ranges(&self) -> Self;
 }

@@ -2,7 +2,8 @@
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use crate::{Causality, Row, Slot};
+use crate::units::S;
+use crate::{Causality, Group, Row, Slot, interface};
 
 /// Who a model is and what its variables are.
 #[derive(Clone, Copy, Debug)]
@@ -12,6 +13,7 @@ pub struct Identity {
     pub version: &'static str,
     /// A sentence or two on what the model does.
     pub text: &'static str,
+    /// The rows of time, inputs, outputs and parameters, in this order, and their slots.
     pub rows: &'static [Row],
     pub slots: &'static [Slot],
     /// Names of the rows of the parameters that matter most, which descriptions list first.
@@ -19,6 +21,14 @@ pub struct Identity {
     /// The default experiment's stop time and step \[s\].
     pub stop_time: f64,
     pub step_size: f64,
+}
+
+interface! {
+    /// The independent variable, the first of every model.
+    pub struct Time: Independent, Continuous {
+        /// Simulation time.
+        "time" time: f64 [S] = 0.0;
+    }
 }
 
 impl Identity {
@@ -68,42 +78,136 @@ pub fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Resu
     Err(Refusal { variable: variable.into(), reason: reason.into() })
 }
 
-/// A model that a host steps.
+/// Shorter steps than this do nothing: a change of the input in so short a time is lost to rounding
+/// \[s\].
+pub const SHORTEST_STEP: f64 = 1e-12;
+
+/// Largest number of internal steps in a communication step.
+pub const MOST_INTERNAL_STEPS: f64 = 1e6;
+
+/// A model that a host steps, in terms of its structs of variables.
 ///
-/// The host keeps the values, one `f64` a slot. It gives the model the slots when parameters matter
-/// ([`Model::new`], [`Model::retune`]) and at every step, and the model writes its outputs back.
+/// ```
+/// use moris_interface::units::M;
+/// use moris_interface::{Group, Identity, Model, Refusal, SlotModel, Time, interface, interface_tree};
+/// use serde::{Deserialize, Serialize};
+///
+/// interface! {
+///     /// The signal.
+///     pub struct Input: Input, Continuous {
+///         /// Length.
+///         "length" length: f64 [M] = 1.0;
+///     }
+/// }
+/// interface! {
+///     /// The delayed signal.
+///     pub struct Output: Output, Continuous {
+///         /// Length at the last step's end.
+///         "delayed" delayed: f64 [M] = 1.0;
+///     }
+/// }
+/// interface! {
+///     /// Parameters.
+///     pub struct Parameters: Parameter, Tunable {
+///         /// Ratio of output to input.
+///         "gain" gain: f64 { 0.0 ..= 10.0 } = 1.0;
+///     }
+/// }
+/// interface_tree! {
+///     /// All variables.
+///     pub struct Variables {
+///         time: Time,
+///         input: Input,
+///         output: Output,
+///         parameters: Parameters,
+///     }
+/// }
+///
+/// #[derive(Clone, Serialize, Deserialize)]
+/// struct Gain(Parameters, f64);
+///
+/// impl Model for Gain {
+///     type Input = Input;
+///     type Output = Output;
+///     type Parameters = Parameters;
+///     const IDENTITY: Identity = Identity {
+///         name: "Gain",
+///         version: "1",
+///         text: "A gain.",
+///         rows: Variables::ROWS,
+///         slots: Variables::SLOTS,
+///         main_parameters: &["gain"],
+///         stop_time: 1.0,
+///         step_size: 0.01,
+///     };
+///     fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+///         Ok(Gain(*parameters, parameters.gain * input.length))
+///     }
+///     fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+///         self.0 = *parameters;
+///         Ok(())
+///     }
+///     fn step_between(&mut self, _start: &Input, end: &Input, _step: f64) {
+///         self.1 = self.0.gain * end.length;
+///     }
+///     fn output(&self) -> Output {
+///         Output { delayed: self.1 }
+///     }
+///     fn output_derivative(&self) -> Output {
+///         Output { delayed: 0.0 }
+///     }
+/// }
+///
+/// // The slots are time, length, delayed and gain.
+/// let mut slots = [0.0; 4];
+/// Gain::start_slots(&mut slots);
+/// slots[3] = 3.0;
+/// let mut model = Gain::from_slots(&slots)?;
+/// slots[1] = 2.0;
+/// model.step_slots(&slots, None, 0.01);
+/// model.write_outputs(&mut slots);
+/// assert_eq!(slots, [0.0, 2.0, 6.0, 3.0]);
+/// # Ok::<(), Refusal>(())
+/// ```
 pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
+    type Input: Group;
+    type Output: Group;
+    type Parameters: Group;
     const IDENTITY: Identity;
 
-    /// Writes the start value of every slot, outputs included: they are those of [`Model::new`]
-    /// from these very slots.
-    fn start(slots: &mut [f64]);
-
-    /// The model at rest, with the parameters in `slots`.
+    /// The model at rest before its first step.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    fn new(slots: &[f64]) -> Result<Self, Refusal>;
+    fn new(parameters: &Self::Parameters, input: &Self::Input) -> Result<Self, Refusal>;
 
-    /// Takes over tunable parameters that have changed. On an error nothing has changed.
+    /// Changes tunable parameters. On an error nothing has changed.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    fn retune(&mut self, slots: &[f64]) -> Result<(), Refusal>;
+    fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), Refusal>;
 
     /// Longest communication step \[s\].
     fn longest_step(&self) -> f64 {
         f64::INFINITY
     }
 
-    /// Advances by `step` seconds. Inputs are read from `slots` as they are at the beginning of the
-    /// step, and hold until its end unless the host gives `derivatives`: a slot for each of
-    /// `slots`, the inputs' time derivatives, zero where it gives none.
-    fn step(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64);
+    /// Advances by `step` seconds with an input whose slopes are unknown; by default it is held.
+    fn step(&mut self, input: &Self::Input, step: f64) {
+        self.step_between(input, input, step);
+    }
 
-    /// Writes the outputs into their slots.
-    fn outputs(&self, slots: &mut [f64]);
+    /// Advances by `step` seconds while the input goes linearly from `start` to `end`.
+    fn step_between(&mut self, start: &Self::Input, end: &Self::Input, step: f64);
 
-    /// Writes the outputs' time derivatives into their slots.
-    fn output_derivatives(&self, slots: &mut [f64]);
+    /// The input after `step` seconds at these slopes, zero where the host gives none.
+    fn input_after(start: &Self::Input, slope: &Self::Input, step: f64) -> Self::Input {
+        start.extrapolated(slope, step)
+    }
+
+    /// The outputs now.
+    fn output(&self) -> Self::Output;
+
+    /// The outputs' time derivatives now.
+    fn output_derivative(&self) -> Self::Output;
 }

@@ -2,23 +2,23 @@
 
 use std::fmt::Write;
 
-use crate::Model;
+use crate::{Model, SlotModel};
 
 /// The start value of every slot of a model, with these laid over the model's own, each a
 /// slot and its value. The outputs are those that follow from them. Slots that the model does
 /// not have are left out.
 pub fn start_values<M: Model>(others: &[(usize, f64)]) -> Vec<f64> {
     let mut slots = vec![0.0; M::IDENTITY.slots.len()];
-    M::start(&mut slots);
+    M::start_slots(&mut slots);
     for &(slot, value) in others {
         if let Some(start) = slots.get_mut(slot) {
             *start = value;
         }
     }
     if !others.is_empty()
-        && let Ok(model) = M::new(&slots)
+        && let Ok(model) = M::from_slots(&slots)
     {
-        model.outputs(&mut slots);
+        model.write_outputs(&mut slots);
     }
     slots
 }

@@ -5,7 +5,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use moris_motorcycle::{Input, Motorcycle, Output, Parameters};
+use moris_motorcycle::{Input, Model, Motorcycle, Output, Parameters};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
@@ -54,7 +54,7 @@ fn ride() -> Result<Vec<Panel>, Box<dyn Error>> {
         let time = f64::from(k) * 0.001;
         motorcycle.step(&command(time), 0.001);
         if k % 25 == 24 {
-            recorded.push((time + 0.001, command(time), *motorcycle.output()));
+            recorded.push((time + 0.001, command(time), motorcycle.output()));
         }
     }
     let curve = |value: fn(&Input, &Output) -> f64| -> Vec<(f64, f64)> {

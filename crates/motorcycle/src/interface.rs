@@ -16,14 +16,6 @@ use crate::check::LARGEST_SPEED;
 use crate::motorcycle::STRONGEST_WIND;
 
 interface! {
-    /// Time of the host.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
-
-interface! {
     /// Commands to the rider, and the wind.
     pub struct Input: Input, Continuous {
         /// Throttle, from 0 (closed) to 1 (full).

@@ -24,10 +24,10 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod identity;
 pub mod interface;
 pub mod lateral;
 pub mod longitudinal;
-mod model;
 mod motorcycle;
 mod output_rate;
 pub mod pose;
@@ -38,8 +38,8 @@ pub mod suspension;
 pub mod whipple;
 
 pub use interface::{Input, Output, Parameters};
-pub use moris_interface::Refusal;
-pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, SHORTEST_STEP, STRONGEST_WIND};
+pub use moris_interface::{Model, Refusal};
+pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};
 
 // The snippets of this page, as doc tests.
 #[cfg(doctest)]

@@ -1,12 +1,13 @@
 //! The whole: parameters, state, and a step.
 
-use moris_interface::{Group, Refusal};
+use moris_interface::{Group, Identity, Model, Refusal, SHORTEST_STEP};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::braking_law::Motion;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::check::{check, check_change, check_step, design_rider, fastest};
+use crate::identity::IDENTITY;
 use crate::interface::{Input, Output, Parameters};
 use crate::lateral::{self, Actions, Lateral, Wheels, foot_support, place};
 use crate::longitudinal::{Accelerations, Forces, Longitudinal, Situation};
@@ -15,9 +16,6 @@ use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
 use crate::state::State;
 use crate::suspension::{self, Suspension};
-
-/// Shorter steps than this do nothing \[s\].
-pub const SHORTEST_STEP: f64 = 1e-12;
 
 /// Largest number of internal steps in a communication step.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
@@ -49,13 +47,18 @@ struct Dynamics {
     feet: f64,
 }
 
-impl Motorcycle {
+impl Model for Motorcycle {
+    type Input = Input;
+    type Output = Output;
+    type Parameters = Parameters;
+    const IDENTITY: Identity = IDENTITY;
+
     /// The motorcycle at its initial speed, upright and straight ahead, with throttle closed and
     /// brakes off; in the wind of the input.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    pub fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
         check(parameters)?;
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
@@ -94,7 +97,7 @@ impl Motorcycle {
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
     /// changed then.
-    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
         check_change(&self.parameters, parameters)?;
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
@@ -116,6 +119,43 @@ impl Motorcycle {
         Ok(())
     }
 
+    fn longest_step(&self) -> f64 {
+        MOST_INTERNAL_STEPS * self.parameters.run.max_step
+    }
+
+    /// In equal internal steps of solver.maxStep at most. Any step is safe: one shorter than
+    /// [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut
+    /// off there.
+    fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+        if step.is_nan() || step < SHORTEST_STEP {
+            return;
+        }
+        let longest = self.parameters.run.max_step;
+        let step = step.min(MOST_INTERNAL_STEPS * longest);
+        let (start, end) = (start.sanitized(), end.sanitized());
+        let steps = libm::ceil((step / longest - 1e-6).max(1.0));
+        let size = step / steps;
+        for k in 0..steps as u32 {
+            let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
+            self.advance([at(0.0), at(0.5), at(1.0)], size);
+        }
+        let before = self.output;
+        self.output = self.output_for(&end);
+        self.output_derivative = mean_rate(&before, &self.output, step);
+    }
+
+    /// The outputs now.
+    fn output(&self) -> Output {
+        self.output
+    }
+
+    /// The outputs' time derivatives: their means over the last step, and zero before the first.
+    fn output_derivative(&self) -> Output {
+        self.output_derivative
+    }
+}
+
+impl Motorcycle {
     /// The parameters in force.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
@@ -134,44 +174,6 @@ impl Motorcycle {
     /// The state now.
     pub fn state(&self) -> &State {
         &self.state
-    }
-
-    /// The outputs now.
-    pub fn output(&self) -> &Output {
-        &self.output
-    }
-
-    /// The outputs' time derivatives: their means over the last step, and zero before the first.
-    pub fn output_derivative(&self) -> &Output {
-        &self.output_derivative
-    }
-
-    /// Advances by `step` seconds while the inputs stay.
-    ///
-    /// Any step is safe: one shorter than [`SHORTEST_STEP`] does nothing, and one longer than
-    /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
-    pub fn step(&mut self, input: &Input, step: f64) {
-        self.step_between(input, input, step);
-    }
-
-    /// Advances by `step` seconds while the inputs go linearly from `start` to `end`, in equal
-    /// internal steps of solver.maxStep at most.
-    pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        if step.is_nan() || step < SHORTEST_STEP {
-            return;
-        }
-        let longest = self.parameters.run.max_step;
-        let step = step.min(MOST_INTERNAL_STEPS * longest);
-        let (start, end) = (start.sanitized(), end.sanitized());
-        let steps = libm::ceil((step / longest - 1e-6).max(1.0));
-        let size = step / steps;
-        for k in 0..steps as u32 {
-            let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
-            self.advance([at(0.0), at(0.5), at(1.0)], size);
-        }
-        let before = self.output;
-        self.output = self.output_for(&end);
-        self.output_derivative = mean_rate(&before, &self.output, step);
     }
 
     /// One step by the classical Runge-Kutta rule. A speed below zero becomes zero.

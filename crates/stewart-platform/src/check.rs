@@ -4,8 +4,8 @@ use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
 use moris_washout::interface::StructureParameters;
 use nalgebra::Vector6;
 
+use crate::identity::parameter_rows;
 use crate::interface::{Inertia, Parameters};
-use crate::model::parameter_rows;
 
 /// Checks parameters; `at_rest` are the forces that carry the platform at rest at neutral \[N\].
 ///

@@ -51,14 +51,6 @@ impl Field for Inertia {
 }
 
 interface! {
-    /// Time of the host.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
-
-interface! {
     /// Commands to the actuators, and the rider's lean.
     pub struct Input: Input, Continuous {
         /// Commanded length of the actuator, from base joint to platform joint; a length outside the stroke is rejected.

@@ -25,12 +25,12 @@ mod check;
 pub mod delay;
 pub mod drive;
 pub mod dynamics;
+mod identity;
 pub mod interface;
-mod model;
 pub mod saturation;
 mod stewart_platform;
 
 pub use check::check;
 pub use interface::{Input, Output, Parameters};
-pub use moris_interface::Refusal;
-pub use stewart_platform::{MOST_INTERNAL_STEPS, SHORTEST_STEP, StewartPlatform};
+pub use moris_interface::{Model, Refusal};
+pub use stewart_platform::StewartPlatform;

@@ -1,6 +1,6 @@
 //! The whole platform: parameters, state and step.
 
-use moris_interface::{Group, Refusal, bounds_of};
+use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, Refusal, SHORTEST_STEP, bounds_of};
 use moris_washout::cueing::evaluator::{Felt, felt};
 use moris_washout::interface::StructureParameters;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
@@ -14,22 +14,17 @@ use crate::check::{check, check_change};
 use crate::delay::{DelayLine, Ramp};
 use crate::drive::{Drive, DriveTarget};
 use crate::dynamics::Dynamics;
+use crate::identity::IDENTITY;
 use crate::interface::{Input, Output, Parameters, neutral_lengths};
 use crate::saturation::{Leg, Outcome, solve};
-
-/// Shorter steps than this do nothing \[s\].
-pub const SHORTEST_STEP: f64 = 1e-12;
-
-/// Largest number of internal steps in one call.
-pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 
 /// A Stewart platform on its actuators.
 ///
 /// ```
-/// use moris_stewart_platform::{Input, Parameters, StewartPlatform};
+/// use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 ///
-/// let mut platform = StewartPlatform::new(&Parameters::default())?;
 /// let mut input = Input::default();
+/// let mut platform = StewartPlatform::new(&Parameters::default(), &input)?;
 /// input.length = [1.32; 6]; // m: all actuators 2 cm longer
 /// for _ in 0..1000 {
 ///     platform.step(&input, 0.001);
@@ -78,13 +73,18 @@ struct Limited {
     stop: bool,
 }
 
-impl StewartPlatform {
-    /// The platform at rest at neutral.
+impl Model for StewartPlatform {
+    type Input = Input;
+    type Output = Output;
+    type Parameters = Parameters;
+    const IDENTITY: Identity = IDENTITY;
+
+    /// The platform at rest at neutral, with the rider leaning as the input says.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    pub fn new(parameters: &Parameters) -> Result<Self, Refusal> {
-        let now = Instant::at_rest(parameters);
+    fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+        let now = Instant { lean: lean_or(input.lean, 0.0), ..Instant::at_rest(parameters) };
         check(parameters, &now.force)?;
         let neutral = neutral_lengths(&parameters.rig);
         Ok(StewartPlatform {
@@ -99,20 +99,13 @@ impl StewartPlatform {
         })
     }
 
-    /// The platform before its first step, with the rider leaning like this \[rad\].
-    pub fn starting_with(mut self, lean: f64) -> Self {
-        self.now.lean = lean_or(lean, 0.0);
-        self.before.lean = self.now.lean;
-        self
-    }
-
     /// Changes tunable parameters. Lengths, pose and their rates do not jump; forces and
     /// accelerations may.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
     /// changed then.
-    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
         check_change(&self.parameters, parameters, &Instant::at_rest(parameters).force)?;
         let dead_time = parameters.actuators.dead_time;
         if dead_time != self.parameters.actuators.dead_time {
@@ -128,9 +121,8 @@ impl StewartPlatform {
         Ok(())
     }
 
-    /// The parameters in force.
-    pub fn parameters(&self) -> &Parameters {
-        &self.parameters
+    fn longest_step(&self) -> f64 {
+        MOST_INTERNAL_STEPS * self.parameters.setting.max_step
     }
 
     /// Advances by `step` seconds while the commands go on at the commanded rates.
@@ -138,14 +130,14 @@ impl StewartPlatform {
     /// Any input is safe: a length outside the stroke is rejected, and the previous command is
     /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
     /// [`MOST_INTERNAL_STEPS`] internal steps is cut off there.
-    pub fn step(&mut self, input: &Input, step: f64) {
+    fn step(&mut self, input: &Input, step: f64) {
         let end = std::array::from_fn(|i| input.length[i] + step * input.velocity[i].clamp(VELOCITY.0, VELOCITY.1));
         self.step_between(input, &Input { length: end, ..*input }, step);
     }
 
     /// Advances by `step` seconds while the lengths and the rider's lean go linearly from `start`
     /// to `end`; the commanded rates do not count.
-    pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+    fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
         }
@@ -162,6 +154,60 @@ impl StewartPlatform {
             left -= ramp.duration;
             self.internal_step(&ramp, leaning - (leaning - lean) * (left / step));
         }
+    }
+
+    /// Lengths go on at the slopes that the host gives, and at the commanded rates where it gives none.
+    fn input_after(start: &Input, slope: &Input, step: f64) -> Input {
+        let rates = std::array::from_fn(|i| if slope.length[i] != 0.0 { slope.length[i] } else { start.velocity[i] });
+        start.extrapolated(&Input { length: rates, velocity: [0.0; 6], ..*slope }, step)
+    }
+
+    /// The outputs now.
+    fn output(&self) -> Output {
+        let output = self.output_at(&self.now);
+        Output {
+            command_refused: self.limited.command,
+            drive_limited: self.limited.drive,
+            force_limited: self.limited.force,
+            at_stop: self.limited.stop,
+            ..output
+        }
+    }
+
+    /// The rates of the outputs \[their units per second\]: exact for what has its rate among the
+    /// outputs, else the mean over the last internal step.
+    fn output_derivative(&self) -> Output {
+        let (now, before) = (self.output_at(&self.now), self.output_at(&self.before));
+        let per_second = if self.last_step > 0.0 { 1.0 / self.last_step } else { 0.0 };
+        let rates = |now: &[f64; 6], before: &[f64; 6]| std::array::from_fn(|i| (now[i] - before[i]) * per_second);
+        Output {
+            position: now.velocity,
+            velocity: now.acceleration,
+            acceleration: (now.acceleration - before.acceleration) * per_second,
+            orientation: self.now.motion.orientation.rates(now.angular_velocity),
+            angular_velocity: now.angular_acceleration,
+            angular_acceleration: (now.angular_acceleration - before.angular_acceleration) * per_second,
+            length: now.leg_velocity,
+            leg_velocity: now.leg_acceleration,
+            leg_acceleration: rates(&now.leg_acceleration, &before.leg_acceleration),
+            force: rates(&now.force, &before.force),
+            stop_force: rates(&now.stop_force, &before.stop_force),
+            total_power: (now.total_power - before.total_power) * per_second,
+            felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
+            felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
+            command_refused: false,
+            drive_limited: false,
+            force_limited: false,
+            at_stop: false,
+            stroke_margin: self.stroke_margin(&self.now.legs).1,
+        }
+    }
+}
+
+impl StewartPlatform {
+    /// The parameters in force.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
     }
 
     /// The commands inside the stroke; in place of any other, the last one that was inside.
@@ -271,47 +317,6 @@ impl StewartPlatform {
     fn within_force_limit(&self, force: Vector6<f64>) -> Vector6<f64> {
         let limit = self.parameters.actuators.force_limit;
         force.map(|force| force.clamp(-limit, limit))
-    }
-
-    /// The outputs now.
-    pub fn output(&self) -> Output {
-        let output = self.output_at(&self.now);
-        Output {
-            command_refused: self.limited.command,
-            drive_limited: self.limited.drive,
-            force_limited: self.limited.force,
-            at_stop: self.limited.stop,
-            ..output
-        }
-    }
-
-    /// The rates of the outputs \[their units per second\]: exact for what has its rate among the
-    /// outputs, else the mean over the last internal step.
-    pub fn output_derivative(&self) -> Output {
-        let (now, before) = (self.output_at(&self.now), self.output_at(&self.before));
-        let per_second = if self.last_step > 0.0 { 1.0 / self.last_step } else { 0.0 };
-        let rates = |now: &[f64; 6], before: &[f64; 6]| std::array::from_fn(|i| (now[i] - before[i]) * per_second);
-        Output {
-            position: now.velocity,
-            velocity: now.acceleration,
-            acceleration: (now.acceleration - before.acceleration) * per_second,
-            orientation: self.now.motion.orientation.rates(now.angular_velocity),
-            angular_velocity: now.angular_acceleration,
-            angular_acceleration: (now.angular_acceleration - before.angular_acceleration) * per_second,
-            length: now.leg_velocity,
-            leg_velocity: now.leg_acceleration,
-            leg_acceleration: rates(&now.leg_acceleration, &before.leg_acceleration),
-            force: rates(&now.force, &before.force),
-            stop_force: rates(&now.stop_force, &before.stop_force),
-            total_power: (now.total_power - before.total_power) * per_second,
-            felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
-            felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
-            command_refused: false,
-            drive_limited: false,
-            force_limited: false,
-            at_stop: false,
-            stroke_margin: self.stroke_margin(&self.now.legs).1,
-        }
     }
 
     /// The outputs at an instant, with nothing limited.

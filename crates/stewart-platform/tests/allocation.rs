@@ -1,6 +1,6 @@
 //! A step allocates no memory, whatever happens in it.
 
-use moris_stewart_platform::{Input, Parameters, StewartPlatform};
+use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 
 /// Commands that make drives, forces and stops act.
 fn input(k: usize) -> Input {
@@ -13,7 +13,7 @@ fn input(k: usize) -> Input {
 fn a_step_allocates_nothing() {
     let mut parameters = Parameters::default();
     parameters.actuators.force_limit = 800.0;
-    let mut platform = StewartPlatform::new(&parameters).unwrap();
+    let mut platform = StewartPlatform::new(&parameters, &Input::default()).unwrap();
     let (mut drive, mut force, mut stop) = (false, false, false);
     let count = allocation_counter::measure(|| {
         for k in 0..5000 {

@@ -1,8 +1,8 @@
 //! Whatever is commanded, the legs stay inside their stroke, the drives inside their force, and all
 //! is finite; and a state continues as its copy does.
 
-use moris_interface::Model;
-use moris_stewart_platform::{Input, Output, Parameters, StewartPlatform};
+use moris_interface::SlotModel;
+use moris_stewart_platform::{Input, Model, Output, Parameters, StewartPlatform};
 use proptest::prelude::*;
 
 /// A commanded length, sane or not.
@@ -48,7 +48,7 @@ fn parameters() -> impl Strategy<Value = Parameters> {
 fn heaviest_load(parameters: &Parameters) -> f64 {
     let mut strong = *parameters;
     strong.actuators.force_limit = 1e9;
-    let forces = StewartPlatform::new(&strong).unwrap().output().force;
+    let forces = StewartPlatform::new(&strong, &Input::default()).unwrap().output().force;
     1.001 * forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()))
 }
 
@@ -85,7 +85,7 @@ proptest! {
         parameters in parameters(),
         ride in prop::collection::vec((input(), step(), 1..30_usize), 1..8),
     ) {
-        let mut platform = StewartPlatform::new(&parameters).unwrap();
+        let mut platform = StewartPlatform::new(&parameters, &Input::default()).unwrap();
         for (input, step, times) in ride {
             for _ in 0..times {
                 platform.step(&input, step);
@@ -96,7 +96,7 @@ proptest! {
 
     #[test]
     fn a_ride_repeats_bit_for_bit(ride in prop::collection::vec((input(), step()), 1..60)) {
-        let mut platform = StewartPlatform::new(&Parameters::default()).unwrap();
+        let mut platform = StewartPlatform::new(&Parameters::default(), &Input::default()).unwrap();
         let mut copies = Vec::new();
         for (k, (input, step)) in ride.iter().enumerate() {
             if k % 20 == 7 {
@@ -117,10 +117,10 @@ fn slopes_rates_and_smaller_steps_say_the_same() {
     let identity = StewartPlatform::IDENTITY;
     let slot = |name: String| identity.slot(&name).unwrap();
     let mut slots = vec![0.0; identity.slots.len()];
-    StewartPlatform::start(&mut slots);
+    StewartPlatform::start_slots(&mut slots);
     let neutral = slots[slot("command[1].length".to_owned())];
     let ride = |steps: usize, by_slopes: bool| {
-        let mut platform = <StewartPlatform as Model>::new(&slots).unwrap();
+        let mut platform = StewartPlatform::from_slots(&slots).unwrap();
         let (mut slots, mut derivatives) = (slots.clone(), vec![0.0; slots.len()]);
         for k in 0..steps {
             for i in 1..=6 {
@@ -133,7 +133,7 @@ fn slopes_rates_and_smaller_steps_say_the_same() {
                     slots[slot(format!("command[{i}].velocity"))] = rate;
                 }
             }
-            Model::step(&mut platform, &slots, Some(&derivatives), 1.0 / steps as f64);
+            platform.step_slots(&slots, Some(&derivatives), 1.0 / steps as f64);
         }
         numbers(&platform.output())
     };

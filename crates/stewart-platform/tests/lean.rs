@@ -1,7 +1,7 @@
 //! Specific force of a leaning rider on a platform at rest: gravity rotated by the lean, so that
 //! the force to the left is g sin(lean), and its rate g cos(lean) times the lean's.
 
-use moris_stewart_platform::{Input, Parameters, StewartPlatform};
+use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 
 const RATE: f64 = 0.4;
 
@@ -15,7 +15,7 @@ fn the_rate_of_what_is_felt_has_the_lean_s() {
     let parameters = Parameters::default();
     let gravity = parameters.setting.gravity;
     for step in [0.001, 0.0004, 0.02] {
-        let mut platform = StewartPlatform::new(&parameters).unwrap();
+        let mut platform = StewartPlatform::new(&parameters, &Input::default()).unwrap();
         for k in 0..20 {
             let (from, to) = (RATE * step * f64::from(k), RATE * step * f64::from(k + 1));
             platform.step_between(&leaning(from), &leaning(to), step);
@@ -30,7 +30,7 @@ fn the_rate_of_what_is_felt_has_the_lean_s() {
 
 #[test]
 fn a_lean_that_stays_has_no_rate() {
-    let mut platform = StewartPlatform::new(&Parameters::default()).unwrap().starting_with(0.2);
+    let mut platform = StewartPlatform::new(&Parameters::default(), &Input { lean: 0.2, ..Input::default() }).unwrap();
     assert!(platform.output_derivative().felt_specific_force.norm() == 0.0);
     platform.step(&leaning(0.2), 0.01);
     assert!(platform.output_derivative().felt_specific_force.norm() < 1e-9);

@@ -1,12 +1,12 @@
 //! Parameters that no platform can have are refused, and the refusal names what is wrong.
 
-use moris_stewart_platform::{Parameters, StewartPlatform};
+use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 
 /// The variable that a refusal of these parameters names, and why.
 fn refusal(change: impl Fn(&mut Parameters)) -> (String, String) {
     let mut parameters = Parameters::default();
     change(&mut parameters);
-    let refusal = StewartPlatform::new(&parameters).expect_err("it must be refused");
+    let refusal = StewartPlatform::new(&parameters, &Input::default()).expect_err("it must be refused");
     (refusal.variable, refusal.reason)
 }
 
@@ -52,5 +52,5 @@ fn a_platform_without_rider_and_payload_is_one() {
     parameters.masses.rider_mass = 0.0;
     parameters.masses.rider_inertia = Default::default();
     parameters.actuators.dead_time = 0.0;
-    assert!(StewartPlatform::new(&parameters).is_ok());
+    assert!(StewartPlatform::new(&parameters, &Input::default()).is_ok());
 }

@@ -1,7 +1,7 @@
 //! Parameters that change in flight: what has inertia does not jump, and the new values hold from
 //! then on.
 
-use moris_stewart_platform::{Input, Output, Parameters, StewartPlatform};
+use moris_stewart_platform::{Input, Model, Output, Parameters, StewartPlatform};
 
 const STEP: f64 = 0.001;
 
@@ -20,7 +20,7 @@ fn run(platform: &mut StewartPlatform, from: f64, count: u32) {
 }
 
 fn in_motion() -> StewartPlatform {
-    let mut platform = StewartPlatform::new(&Parameters::default()).unwrap();
+    let mut platform = StewartPlatform::new(&Parameters::default(), &Input::default()).unwrap();
     run(&mut platform, 0.0, 1000);
     platform
 }
@@ -95,7 +95,7 @@ fn the_new_values_hold() {
         let mut platform = in_motion();
         platform.retune(&parameters).unwrap();
         run(&mut platform, 1.0, 4000);
-        let mut expected = StewartPlatform::new(&parameters).unwrap();
+        let mut expected = StewartPlatform::new(&parameters, &Input::default()).unwrap();
         run(&mut expected, 0.0, 5000);
         let (is, should) = (platform.output(), expected.output());
         for i in 0..6 {

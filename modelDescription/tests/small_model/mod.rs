@@ -1,19 +1,9 @@
 //! A model with a variable of every kind, for the tests.
 
-use moris_interface::units::{M, RAD_PER_S, S};
-use moris_interface::{
-    Group, Identity, Model, Refusal, Slot, Writer, enumeration, interface, interface_tree, slot_count, slot_table,
-};
+use moris_interface::units::{M, RAD_PER_S};
+use moris_interface::{Group, Identity, Model, Refusal, Time, enumeration, interface, interface_tree};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-interface! {
-    /// The host's clock.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
 
 interface! {
     /// Inputs.
@@ -66,49 +56,57 @@ interface! {
 }
 
 interface_tree! {
-    /// All of it.
-    pub struct All {
-        clock: Clock,
-        entry: Entry,
-        exit: Exit,
+    /// All parameters.
+    pub struct Parameters {
         tunable: Tunable,
         fixed: Fixed,
     }
 }
 
-static SLOTS: [Slot; slot_count(All::ROWS)] = slot_table(All::ROWS);
+interface_tree! {
+    /// All of it.
+    pub struct All {
+        time: Time,
+        entry: Entry,
+        exit: Exit,
+        parameters: Parameters,
+    }
+}
 
 /// It does nothing; it is only described.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct Small;
 
 impl Model for Small {
+    type Input = Entry;
+    type Output = Exit;
+    type Parameters = Parameters;
     const IDENTITY: Identity = Identity {
         name: "Small",
         version: "1.2.3",
         text: "A model for tests.",
         rows: All::ROWS,
-        slots: &SLOTS,
+        slots: All::SLOTS,
         main_parameters: &["many"],
         stop_time: 2.5,
         step_size: 0.01,
     };
 
-    fn start(slots: &mut [f64]) {
-        All::default().write(&mut Writer::new(slots));
-    }
-
-    fn new(_: &[f64]) -> Result<Self, Refusal> {
+    fn new(_: &Parameters, _: &Entry) -> Result<Self, Refusal> {
         Ok(Small)
     }
 
-    fn retune(&mut self, _: &[f64]) -> Result<(), Refusal> {
+    fn retune(&mut self, _: &Parameters) -> Result<(), Refusal> {
         Ok(())
     }
 
-    fn step(&mut self, _: &[f64], _: Option<&[f64]>, _: f64) {}
+    fn step_between(&mut self, _: &Entry, _: &Entry, _: f64) {}
 
-    fn outputs(&self, _: &mut [f64]) {}
+    fn output(&self) -> Exit {
+        Exit::START
+    }
 
-    fn output_derivatives(&self, _: &mut [f64]) {}
+    fn output_derivative(&self) -> Exit {
+        Exit::START
+    }
 }

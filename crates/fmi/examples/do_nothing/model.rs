@@ -1,18 +1,8 @@
 //! As many inputs and outputs as a washout has at a step, and nothing between them.
 
-use moris_interface::{
-    Group, Identity, Model, Refusal, Row, Slot, concat_rows, interface, row_count, slot_count, slot_table, units::S,
-};
+use moris_interface::{Group, Identity, Model, Refusal, Time, interface, interface_tree};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-interface! {
-    /// The independent variable.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
 
 interface! {
     /// Nine inputs.
@@ -36,42 +26,58 @@ interface! {
     }
 }
 
-const GROUPS: &[&[Row]] = &[Clock::ROWS, Input::ROWS, Output::ROWS];
-static ROWS: [Row; row_count(GROUPS)] = concat_rows(GROUPS);
-static SLOTS: [Slot; slot_count(&concat_rows::<{ row_count(GROUPS) }>(GROUPS))] =
-    slot_table(&concat_rows::<{ row_count(GROUPS) }>(GROUPS));
+interface! {
+    /// A parameter.
+    pub struct Parameters: Parameter, Fixed {
+        /// A parameter that does nothing.
+        "idle" idle: bool = false;
+    }
+}
+
+interface_tree! {
+    /// All variables.
+    pub struct Variables {
+        time: Time,
+        input: Input,
+        output: Output,
+        parameters: Parameters,
+    }
+}
 
 /// Nothing, as a model.
 #[derive(Clone, Serialize, Deserialize)]
 pub struct DoNothing;
 
 impl Model for DoNothing {
+    type Input = Input;
+    type Output = Output;
+    type Parameters = Parameters;
     const IDENTITY: Identity = Identity {
         name: "DoNothing",
         version: "1",
         text: "A model that does nothing.",
-        rows: &ROWS,
-        slots: &SLOTS,
+        rows: Variables::ROWS,
+        slots: Variables::SLOTS,
         main_parameters: &[],
         stop_time: 1.0,
         step_size: 0.001,
     };
 
-    fn start(slots: &mut [f64]) {
-        slots.fill(0.0);
-    }
-
-    fn new(_slots: &[f64]) -> Result<Self, Refusal> {
+    fn new(_: &Parameters, _: &Input) -> Result<Self, Refusal> {
         Ok(DoNothing)
     }
 
-    fn retune(&mut self, _slots: &[f64]) -> Result<(), Refusal> {
+    fn retune(&mut self, _: &Parameters) -> Result<(), Refusal> {
         Ok(())
     }
 
-    fn step(&mut self, _slots: &[f64], _derivatives: Option<&[f64]>, _step: f64) {}
+    fn step_between(&mut self, _: &Input, _: &Input, _: f64) {}
 
-    fn outputs(&self, _slots: &mut [f64]) {}
+    fn output(&self) -> Output {
+        Output::START
+    }
 
-    fn output_derivatives(&self, _slots: &mut [f64]) {}
+    fn output_derivative(&self) -> Output {
+        Output::START
+    }
 }

@@ -2,22 +2,13 @@
 //! refuses, and with traps.
 
 use moris_interface::{
-    Group, Identity, Model, Reader, Refusal, Row, Slot, Writer, enumeration, interface, interface_tree, slot_count,
-    slot_table, units::S,
+    Group, Identity, Model, Refusal, Time, enumeration, interface, interface_tree, refuse, units::S,
 };
 use serde::{Deserialize, Serialize};
 
 interface! {
-    /// The independent variable.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
-
-interface! {
     /// Signals to filter.
-    pub struct Input: Input, Continuous {
+    pub struct Signals: Input, Continuous {
         /// Input of the lag.
         "u" u: f64 = 0.0;
     }
@@ -35,7 +26,7 @@ interface! {
 
 interface! {
     /// The lagged input.
-    pub struct Output: Output, Continuous {
+    pub struct Lagged: Output, Continuous {
         /// Follows gain * (u + offset).
         "y" y: f64 = 0.0;
     }
@@ -90,79 +81,83 @@ interface! {
 }
 
 interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        clock: Clock,
-        input: Input,
+    /// All inputs.
+    pub struct Input {
+        signals: Signals,
         switch: Switch,
-        output: Output,
+    }
+}
+
+interface_tree! {
+    /// All outputs.
+    pub struct Output {
+        lagged: Lagged,
         counted: Counted,
+    }
+}
+
+interface_tree! {
+    /// All parameters.
+    pub struct Parameters {
         tunable: Tunable,
         fixed: Fixed,
     }
 }
 
-const SLOTS: [Slot; slot_count(Variables::ROWS)] = slot_table(Variables::ROWS);
-/// Where the outputs begin: after time and three inputs.
-const FIRST_OUTPUT: usize = 4;
-const ROWS: &[Row] = Variables::ROWS;
+interface_tree! {
+    /// All variables.
+    pub struct Variables {
+        time: Time,
+        input: Input,
+        output: Output,
+        parameters: Parameters,
+    }
+}
 
 /// A first-order lag.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FirstOrder {
+    parameters: Parameters,
     y: f64,
     slope: f64,
-    count: i32,
-    rising: bool,
-    euler: bool,
-    tau: f64,
-    gain: f64,
+    counted: Counted,
 }
 
-fn variables(slots: &[f64]) -> Variables {
-    Variables::read(&mut Reader::new(slots))
-}
-
-fn accept(variables: &Variables) -> Result<(), Refusal> {
-    let refuse = |variable: &str, reason: &str| Err(Refusal { variable: variable.into(), reason: reason.into() });
-    if variables.tunable.gain < 0.0 {
+fn check(parameters: &Parameters) -> Result<(), Refusal> {
+    if parameters.tunable.gain < 0.0 {
         return refuse("gain", "must not be negative");
     }
-    if variables.fixed.tau <= 0.0 {
+    if parameters.fixed.tau <= 0.0 {
         return refuse("tau", "must be positive");
     }
     Ok(())
 }
 
 impl Model for FirstOrder {
+    type Input = Input;
+    type Output = Output;
+    type Parameters = Parameters;
     const IDENTITY: Identity = Identity {
         name: "FirstOrder",
         version: "1.0",
         text: "A first-order lag.",
-        rows: ROWS,
-        slots: &SLOTS,
+        rows: Variables::ROWS,
+        slots: Variables::SLOTS,
         main_parameters: &[],
         stop_time: 2.0,
         step_size: 0.1,
     };
 
-    fn start(slots: &mut [f64]) {
-        Variables::default().write(&mut Writer::new(slots));
+    fn new(parameters: &Parameters, _: &Input) -> Result<Self, Refusal> {
+        check(parameters)?;
+        assert!(parameters.tunable.trap != 1, "trapped in new");
+        Ok(FirstOrder { parameters: *parameters, y: parameters.fixed.y0, slope: 0.0, counted: Counted::default() })
     }
 
-    fn new(slots: &[f64]) -> Result<Self, Refusal> {
-        let v = variables(slots);
-        accept(&v)?;
-        assert!(v.tunable.trap != 1, "trapped in new");
-        let (tau, gain) = (v.fixed.tau, v.tunable.gain);
-        Ok(FirstOrder { y: v.fixed.y0, slope: 0.0, count: 0, rising: false, euler: false, tau, gain })
-    }
-
-    fn retune(&mut self, slots: &[f64]) -> Result<(), Refusal> {
-        let v = variables(slots);
-        accept(&v)?;
-        assert!(v.tunable.trap != 2, "trapped in retune");
-        self.gain = v.tunable.gain;
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+        check(parameters)?;
+        assert!(parameters.tunable.trap != 2, "trapped in retune");
+        self.parameters = *parameters;
         Ok(())
     }
 
@@ -170,37 +165,34 @@ impl Model for FirstOrder {
         1.0
     }
 
-    fn step(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64) {
-        let v = variables(slots);
+    fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+        let Parameters { tunable, fixed } = self.parameters;
         let before = self.y;
-        let slope = self.gain * derivatives.map_or(0.0, |derivatives| derivatives[1]);
-        let target = self.gain * (v.input.u + f64::from(v.switch.offset));
-        self.euler = v.tunable.method == Method::Euler;
-        if !v.switch.frozen {
-            self.y = if self.euler {
-                let part = step / f64::from(v.fixed.substeps);
-                (0..v.fixed.substeps).fold(before, |y, _| y + part * (target - y) / self.tau)
-            } else {
+        let slope = tunable.gain * (end.signals.u - start.signals.u) / step;
+        let target = tunable.gain * (start.signals.u + f64::from(start.switch.offset));
+        if !start.switch.frozen {
+            self.y = match tunable.method {
+                Method::Euler => {
+                    let part = step / f64::from(fixed.substeps);
+                    (0..fixed.substeps).fold(before, |y, _| y + part * (target - y) / fixed.tau)
+                }
                 // y = target + slope (t - tau) is the solution that the transient decays to.
-                let decay = (-step / self.tau).exp();
-                target + slope * (step - self.tau) + (before - target + slope * self.tau) * decay
+                Method::Exact => {
+                    let decay = (-step / fixed.tau).exp();
+                    target + slope * (step - fixed.tau) + (before - target + slope * fixed.tau) * decay
+                }
             };
         }
-        assert!(v.tunable.trap != 3, "trapped in step");
-        self.slope = (target + slope * step - self.y) / self.tau;
-        self.rising = self.y > before;
-        self.count += 1;
+        assert!(tunable.trap != 3, "trapped in step");
+        self.slope = (target + slope * step - self.y) / fixed.tau;
+        self.counted = Counted { count: self.counted.count + 1, rising: self.y > before, method_used: tunable.method };
     }
 
-    fn outputs(&self, slots: &mut [f64]) {
-        let method_used = if self.euler { Method::Euler } else { Method::Exact };
-        let counted = Counted { count: self.count, rising: self.rising, method_used };
-        let mut writer = Writer::new(&mut slots[FIRST_OUTPUT..]);
-        Output { y: self.y }.write(&mut writer);
-        counted.write(&mut writer);
+    fn output(&self) -> Output {
+        Output { lagged: Lagged { y: self.y }, counted: self.counted }
     }
 
-    fn output_derivatives(&self, slots: &mut [f64]) {
-        slots[FIRST_OUTPUT] = self.slope;
+    fn output_derivative(&self) -> Output {
+        Output { lagged: Lagged { y: self.slope }, ..Output::START }
     }
 }

@@ -2,19 +2,10 @@
 //! that are refused, and a trap.
 
 use moris_interface::{
-    Group, Identity, Model, Reader, Refusal, Row, Slot, Writer, enumeration, interface, interface_tree, slot_count,
-    slot_table, units::S,
+    Group, Identity, Model, Refusal, Time, enumeration, interface, interface_tree, refuse, units::S,
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
-
-interface! {
-    /// The independent variable.
-    pub struct Clock: Independent, Continuous {
-        /// Simulation time.
-        "time" time: f64 [S] = 0.0;
-    }
-}
 
 interface! {
     /// Signals to filter.
@@ -79,13 +70,20 @@ interface! {
 }
 
 interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        clock: Clock,
-        input: Input,
-        output: Output,
+    /// All parameters.
+    pub struct Parameters {
         tunable: Tunable,
         fixed: Fixed,
+    }
+}
+
+interface_tree! {
+    /// All variables.
+    pub struct Variables {
+        time: Time,
+        input: Input,
+        output: Output,
+        parameters: Parameters,
     }
 }
 
@@ -99,93 +97,84 @@ const WEIGHTS: [Vector3<f64>; 6] = [
     Vector3::new(16.0, 17.0, 18.0),
 ];
 
-const SLOTS: [Slot; slot_count(Variables::ROWS)] = slot_table(Variables::ROWS);
-const ROWS: &[Row] = Variables::ROWS;
-/// Where the outputs begin: after time and inputs.
-const FIRST_OUTPUT: usize = slot_count(Clock::ROWS) + slot_count(Input::ROWS);
-
 /// Three first-order lags.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Lags {
-    y: [f64; 3],
-    slope: [f64; 3],
-    weights: [[f64; 3]; 6],
+    parameters: Parameters,
+    y: Vector3<f64>,
+    slope: Vector3<f64>,
     count: i32,
-    euler: bool,
-    tau: f64,
+    method_used: Method,
 }
 
-fn variables(slots: &[f64]) -> Variables {
-    Variables::read(&mut Reader::new(slots))
-}
-
-fn accept(variables: &Variables) -> Result<(), Refusal> {
-    let refuse = |variable: &str, reason: &str| Err(Refusal { variable: variable.into(), reason: reason.into() });
-    if variables.tunable.gain.min() < 0.0 {
+fn check(parameters: &Parameters) -> Result<(), Refusal> {
+    if parameters.tunable.gain.min() < 0.0 {
         return refuse("gain", "must not be negative");
     }
-    if variables.fixed.tau <= 0.0 {
+    if parameters.fixed.tau <= 0.0 {
         return refuse("tau", "must be positive");
     }
     Ok(())
 }
 
 impl Lags {
-    fn sums(&self, values: &[f64; 3]) -> [f64; 6] {
-        self.weights.map(|row| row.iter().zip(values).map(|(weight, value)| weight * value).sum())
+    fn sums(&self, values: &Vector3<f64>) -> [f64; 6] {
+        self.parameters.fixed.weight.map(|row| row.iter().zip(values).map(|(weight, value)| weight * value).sum())
     }
 }
 
 impl Model for Lags {
+    type Input = Input;
+    type Output = Output;
+    type Parameters = Parameters;
     const IDENTITY: Identity = Identity {
         name: "Lags",
         version: "1.0",
         text: "Three first-order lags.",
-        rows: ROWS,
-        slots: &SLOTS,
+        rows: Variables::ROWS,
+        slots: Variables::SLOTS,
         main_parameters: &[],
         stop_time: 2.0,
         step_size: 0.1,
     };
 
-    fn start(slots: &mut [f64]) {
-        Variables::default().write(&mut Writer::new(slots));
+    fn new(parameters: &Parameters, _: &Input) -> Result<Self, Refusal> {
+        check(parameters)?;
+        Ok(Lags {
+            parameters: *parameters,
+            y: parameters.fixed.y0,
+            slope: Vector3::zeros(),
+            count: 0,
+            method_used: Method::Exact,
+        })
     }
 
-    fn new(slots: &[f64]) -> Result<Self, Refusal> {
-        let v = variables(slots);
-        accept(&v)?;
-        let weights = v.fixed.weight.map(Into::into);
-        Ok(Lags { y: v.fixed.y0.into(), slope: [0.0; 3], weights, count: 0, euler: false, tau: v.fixed.tau })
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+        check(parameters)?;
+        self.parameters = *parameters;
+        Ok(())
     }
 
-    fn retune(&mut self, slots: &[f64]) -> Result<(), Refusal> {
-        accept(&variables(slots))
-    }
-
-    fn step(&mut self, slots: &[f64], _: Option<&[f64]>, step: f64) {
-        let v = variables(slots);
-        assert!(!v.tunable.trap, "trapped in step");
-        self.euler = v.tunable.method == Method::Euler;
-        let part = if self.euler { step / self.tau } else { -(-step / self.tau).exp_m1() };
+    fn step_between(&mut self, input: &Input, _: &Input, step: f64) {
+        let Parameters { tunable, fixed } = self.parameters;
+        assert!(!tunable.trap, "trapped in step");
+        self.method_used = tunable.method;
+        let part = if tunable.method == Method::Euler { step / fixed.tau } else { -(-step / fixed.tau).exp_m1() };
         for k in 0..3 {
             let target =
-                if v.input.frozen { self.y[k] } else { v.tunable.gain[k] * (v.input.u[k] + f64::from(v.input.offset)) };
+                if input.frozen { self.y[k] } else { tunable.gain[k] * (input.u[k] + f64::from(input.offset)) };
             self.y[k] += part * (target - self.y[k]);
-            self.slope[k] = (target - self.y[k]) / self.tau;
+            self.slope[k] = (target - self.y[k]) / fixed.tau;
         }
         self.count += 1;
     }
 
-    fn outputs(&self, slots: &mut [f64]) {
-        let method_used = if self.euler { Method::Euler } else { Method::Exact };
-        let still = self.slope == [0.0; 3];
-        let output = Output { y: self.y.into(), sum: self.sums(&self.y), count: self.count, still, method_used };
-        output.write(&mut Writer::new(&mut slots[FIRST_OUTPUT..]));
+    fn output(&self) -> Output {
+        let still = self.slope == Vector3::zeros();
+        Output { y: self.y, sum: self.sums(&self.y), count: self.count, still, method_used: self.method_used }
     }
 
-    fn output_derivatives(&self, slots: &mut [f64]) {
-        slots[FIRST_OUTPUT..][..3].copy_from_slice(&self.slope);
-        slots[FIRST_OUTPUT + 3..][..6].copy_from_slice(&self.sums(&self.slope));
+    fn output_derivative(&self) -> Output {
+        Output { y: self.slope, sum: self.sums(&self.slope), ..Output::START }
     }
 }

@@ -1,7 +1,7 @@
 //! Getting and setting.
 
 use moris_fmu_host::{Instance, Status};
-use moris_interface::{Causality, Kind, Model, Variability};
+use moris_interface::{Causality, Kind, SlotModel, Variability};
 
 use crate::fixture::*;
 use crate::model::FirstOrder;
@@ -9,7 +9,7 @@ use crate::model::FirstOrder;
 #[test]
 fn every_variable_shows_its_start_value_during_initialization() {
     let mut start = vec![0.0; IDENTITY.slots.len()];
-    FirstOrder::start(&mut start);
+    FirstOrder::start_slots(&mut start);
     let mut instance = initializing();
     for (slot, value) in start.into_iter().enumerate() {
         let name = IDENTITY.variable_name(slot);

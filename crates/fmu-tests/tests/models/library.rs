@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::ptr::null;
 
 use moris_fmu_host::{Fmu, api, fmi3};
-use moris_interface::{Identity, Kind, Model};
+use moris_interface::{Identity, Kind, Model, SlotModel};
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
@@ -22,7 +22,7 @@ pub struct TestedModel {
 
 impl TestedModel {
     const fn of<M: Model>(library: &'static str) -> Self {
-        TestedModel { identity: M::IDENTITY, library, guid: moris_interface::guid::<M>, start: M::start }
+        TestedModel { identity: M::IDENTITY, library, guid: moris_interface::guid::<M>, start: M::start_slots }
     }
 
     /// The library, which `cargo test` has put beside the test.

@@ -6,7 +6,7 @@ use std::ptr::{null, null_mut};
 
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::fmi3::{self, Api, Library};
-use moris_interface::{Identity, Kind, Model};
+use moris_interface::{Identity, Kind, Model, SlotModel};
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Parameters, Washout};
 
@@ -109,7 +109,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
 #[test]
 fn every_variable_can_be_read_and_has_its_start_value() {
     let mut start = vec![0.0; IDENTITY.slots.len()];
-    Washout::start(&mut start);
+    Washout::start_slots(&mut start);
     let instance = Instance::new();
     assert_eq!(bits(&instance.all_values()), bits(&start));
     instance.exit_initialization_mode();

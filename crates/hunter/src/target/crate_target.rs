@@ -1,7 +1,7 @@
 //! The washout through the crate.
 
 use anyhow::{Context, Result};
-use moris_interface::{Group, Model, Reader};
+use moris_interface::{Group, Reader, SlotModel};
 use moris_washout::{Input, Output, Washout};
 
 use super::{Inputs, Target};
@@ -26,7 +26,7 @@ impl CrateTarget {
 
 impl Target for CrateTarget {
     fn make(&mut self, slots: &[f64]) -> Result<()> {
-        self.fresh = Some(<Washout as Model>::new(slots)?);
+        self.fresh = Some(Washout::from_slots(slots)?);
         self.rewind();
         Ok(())
     }
@@ -37,7 +37,7 @@ impl Target for CrateTarget {
     }
 
     fn set(&mut self, slots: &[f64], _: &[usize]) -> bool {
-        Model::retune(self.washout(), slots).is_ok()
+        self.washout().retune_from(slots).is_ok()
     }
 
     #[inline]

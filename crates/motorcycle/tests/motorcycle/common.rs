@@ -1,7 +1,7 @@
 //! Helpers of several tests.
 
 use moris_motorcycle::whipple::{Bicycle, Body, Wheel};
-use moris_motorcycle::{Input, Motorcycle, Parameters};
+use moris_motorcycle::{Input, Model, Motorcycle, Parameters};
 
 /// The benchmark bicycle of Meijaard et al. (2007), table 1.
 pub fn benchmark() -> Bicycle {

@@ -1,7 +1,7 @@
 //! Whatever it is fed, the motorcycle stays upright and its numbers finite.
 
 use moris_interface::{Group, Writer, slot_count};
-use moris_motorcycle::{Input, Output, Parameters};
+use moris_motorcycle::{Input, Model, Output, Parameters};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -60,7 +60,7 @@ proptest! {
         for (input, steps) in inputs {
             for _ in 0..steps {
                 ridden.step(&input, 0.002);
-                assert_sane(ridden.output());
+                assert_sane(&ridden.output());
             }
         }
         // Left alone, it comes to rest.

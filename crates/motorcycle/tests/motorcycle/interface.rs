@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use moris_interface::{Causality, Kind, Model};
+use moris_interface::{Causality, Kind, Model, SlotModel};
 use moris_motorcycle::Motorcycle;
 use moris_washout::Washout;
 
@@ -35,11 +35,11 @@ fn no_name_is_used_twice() {
 fn as_a_model_it_starts_with_the_outputs_of_a_motorcycle_at_rest() {
     let identity = Motorcycle::IDENTITY;
     let mut slots = vec![0.0; identity.slots.len()];
-    Motorcycle::start(&mut slots);
+    Motorcycle::start_slots(&mut slots);
     let at = |name: &str| slots[identity.slot(name).unwrap()];
     assert_eq!(at("vehicle.specificForce.z"), 9.80665);
     assert_eq!(at("rider.feetDown"), 1.0);
     let mut again = slots.clone();
-    <Motorcycle as Model>::new(&slots).unwrap().outputs(&mut again);
+    Motorcycle::from_slots(&slots).unwrap().write_outputs(&mut again);
     assert_eq!(slots, again);
 }

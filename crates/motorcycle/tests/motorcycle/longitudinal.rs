@@ -2,7 +2,7 @@
 
 use moris_motorcycle::longitudinal::Longitudinal;
 use moris_motorcycle::suspension::Suspension;
-use moris_motorcycle::{Input, Parameters};
+use moris_motorcycle::{Input, Model, Parameters};
 
 use crate::common::{assert_near, at_speed, motorcycle};
 
@@ -24,10 +24,10 @@ fn it_stops_at_exactly_zero_and_never_rolls_back() {
     let mut braking = motorcycle(&at_speed(20.0));
     let input = Input { brake: 0.7, ..Input::default() };
     let mut stopped = None;
-    let mut before = *braking.output();
+    let mut before = braking.output();
     for k in 0..8000 {
         braking.step(&input, 0.001);
-        let output = *braking.output();
+        let output = braking.output();
         assert!(output.speed >= 0.0 && output.speed <= before.speed + 1e-12);
         if output.speed == 0.0 && stopped.is_none() {
             stopped = Some(k);

@@ -1,6 +1,6 @@
 //! Parameters that cannot be used are refused by name; the others ride.
 
-use moris_motorcycle::{Input, Motorcycle, Parameters};
+use moris_motorcycle::{Input, Model, Motorcycle, Parameters};
 
 #[track_caller]
 fn assert_refused(change: impl FnOnce(&mut Parameters), variable: &str) {

@@ -1,6 +1,6 @@
 //! Specific force at the head, against finite differences of its position.
 
-use moris_motorcycle::{Input, Motorcycle, Output, Parameters};
+use moris_motorcycle::{Input, Model, Motorcycle, Output, Parameters};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::common::{at_speed, motorcycle};
@@ -28,11 +28,11 @@ fn three_by_three(step: f64, steps: u32, mut check: impl FnMut(&[Output; 3])) {
     let mut parameters = at_speed(15.0);
     parameters.run.max_step = step;
     let mut ridden: Motorcycle = motorcycle(&parameters);
-    let mut last = [*ridden.output(); 3];
+    let mut last = [ridden.output(); 3];
     for k in 0..steps {
         let time = f64::from(k) * step;
         ridden.step_between(&ride(time), &ride(time + step), step);
-        last = [last[1], last[2], *ridden.output()];
+        last = [last[1], last[2], ridden.output()];
         if k > 200 {
             check(&last);
         }
@@ -101,7 +101,7 @@ fn body_axes_are_the_worlds_turned() {
         let input = ride(f64::from(k) * 1e-3);
         world.step(&input, 1e-3);
         body.step(&input, 1e-3);
-        let turned = rotation(world.output()).inverse() * world.output().angular_velocity;
+        let turned = rotation(&world.output()).inverse() * world.output().angular_velocity;
         assert!((turned - body.output().angular_velocity).norm() < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! Parameters that change in flight.
 
-use moris_motorcycle::{Input, Motorcycle, Output, Parameters};
+use moris_motorcycle::{Input, Model, Motorcycle, Output, Parameters};
 
 use crate::common::{at_speed, motorcycle};
 
@@ -67,11 +67,11 @@ fn what_has_inertia_does_not_jump() {
     for (name, change) in CHANGES {
         let mut motorcycle = in_a_bend();
         let parameters = changed(&motorcycle, *change);
-        let before = *motorcycle.output();
+        let before = motorcycle.output();
         motorcycle.retune(&parameters).unwrap();
-        assert_eq!(*motorcycle.output(), before, "{name}: nothing changes before a step");
+        assert_eq!(motorcycle.output(), before, "{name}: nothing changes before a step");
         run(&mut motorcycle, 1000, 1);
-        let after = *motorcycle.output();
+        let after = motorcycle.output();
         for (k, ((from, rate_from), (to, rate_to))) in pairs(&before).into_iter().zip(pairs(&after)).enumerate() {
             let covered = 0.5 * STEP * (rate_from + rate_to);
             // A rate that is itself a state changes by no more than an acceleration of 50 m/s2 or rad/s2 makes.

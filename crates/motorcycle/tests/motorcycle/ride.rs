@@ -1,6 +1,6 @@
 //! A whole ride: accelerate, slalom, brake to a stop.
 
-use moris_motorcycle::{Input, Parameters};
+use moris_motorcycle::{Input, Model, Parameters};
 
 use crate::common::motorcycle;
 

@@ -2,7 +2,7 @@
 
 use moris_motorcycle::lateral::place;
 use moris_motorcycle::riccati::lqr_gain;
-use moris_motorcycle::{Input, Parameters};
+use moris_motorcycle::{Input, Model, Parameters};
 use nalgebra::{Complex, Matrix1, Matrix2, SMatrix, SVector, Vector1, Vector2};
 
 use crate::common::{assert_near, at_speed, cruise, motorcycle};

@@ -1,6 +1,6 @@
 //! Steps: that they converge, agree with each other, allocate nothing, and go on from saved bytes.
 
-use moris_motorcycle::{Input, MOST_INTERNAL_STEPS, Motorcycle, Parameters};
+use moris_motorcycle::{Input, MOST_INTERNAL_STEPS, Model, Motorcycle, Parameters};
 
 use crate::common::{at_speed, motorcycle};
 

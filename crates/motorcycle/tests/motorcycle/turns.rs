@@ -1,6 +1,6 @@
 //! Steady turns: the balance of moments and forces, from the masses and not from the equations.
 
-use moris_motorcycle::{Input, Motorcycle};
+use moris_motorcycle::{Input, Model, Motorcycle};
 
 use crate::common::{assert_near, at_speed, cruise, motorcycle};
 
@@ -29,7 +29,7 @@ const GRAVITY: f64 = 9.80665;
 fn the_lean_is_that_of_speed_and_radius() {
     for speed in [10.0, 20.0, 30.0] {
         for lean in [-0.7_f64, -0.2, 0.1, 0.5] {
-            let output = *turning(speed, lean).output();
+            let output = turning(speed, lean).output();
             let rate = output.angular_velocity.z;
             // For a point mass, lean = atan(v^2 / (g R)). The wheels' spin asks for some more lean.
             let radius = output.speed / rate.abs();
@@ -44,7 +44,7 @@ fn the_lean_is_that_of_speed_and_radius() {
 #[test]
 fn the_lean_beyond_a_point_masss_is_the_documented_one() {
     let excess = |share: f64, speed: f64| {
-        let output = *turning_with(share, speed, 0.3).output();
+        let output = turning_with(share, speed, 0.3).output();
         let point_mass = output.speed * output.angular_velocity.z.abs() / GRAVITY;
         100.0 * (output.orientation.roll.tan() / point_mass - 1.0)
     };
@@ -94,7 +94,7 @@ fn hardly_any_force_is_felt_sideways_and_all_along_the_plane() {
 
 #[test]
 fn in_a_turn_the_springs_carry_more() {
-    let output = *turning(20.0, 0.6).output();
+    let output = turning(20.0, 0.6).output();
     let expected = 270.0 * GRAVITY / 0.6_f64.cos();
     assert_near((output.front_load + output.rear_load) / expected, 1.0, 0.02, "loads in the plane");
     assert!(output.front_travel > 0.005 && output.rear_travel > 0.005);

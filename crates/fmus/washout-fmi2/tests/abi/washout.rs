@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use moris_fmu_host::{Api, Status};
-use moris_interface::Model;
+use moris_interface::SlotModel;
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Parameters, Washout};
 use object::Object;
@@ -13,7 +13,7 @@ use crate::fixture::*;
 #[test]
 fn every_variable_can_be_read_and_has_its_start_value() {
     let mut start = vec![0.0; IDENTITY.slots.len()];
-    Washout::start(&mut start);
+    Washout::start_slots(&mut start);
     let mut instance = open().instantiate("washout").unwrap();
     assert_eq!(instance.setup_experiment(0.0, None), Status::Ok);
     assert_eq!(instance.enter_initialization_mode(), Status::Ok);

@@ -1,6 +1,6 @@
 //! Expected state of an instance after the calls so far: a second, plain account of the standard.
 
-use moris_interface::{Causality, Identity, Kind, Model, Variability};
+use moris_interface::{Causality, Identity, Kind, Model, SlotModel, Variability};
 use moris_washout::Washout;
 
 use crate::standard::CALLING_SEQUENCE;
@@ -31,7 +31,7 @@ impl Expected {
     /// A fresh instance.
     pub fn fresh() -> Self {
         let mut values = vec![0.0; IDENTITY.slots.len()];
-        Washout::start(&mut values);
+        Washout::start_slots(&mut values);
         Expected { state: 'I', experiment: None, time: 0.0, values, legs: None }
     }
 

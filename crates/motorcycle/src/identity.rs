@@ -1,0 +1,37 @@
+//! The motorcycle's name and variables.
+
+use moris_interface::{Group, Identity, Time, interface_tree};
+
+use crate::interface::{Input, Output, Parameters};
+
+interface_tree! {
+    /// All variables.
+    pub struct Variables {
+        time: Time,
+        input: Input,
+        output: Output,
+        parameters: Parameters,
+    }
+}
+
+pub const IDENTITY: Identity = Identity {
+    name: "Motorcycle",
+    version: env!("CARGO_PKG_VERSION"),
+    text: "Motorcycle and rider: from throttle, brake, lean and wind to the motion of the rider's head, as the washout takes it in.",
+    rows: Variables::ROWS,
+    slots: Variables::SLOTS,
+    main_parameters: &[
+        "initial.speed",
+        "drive.power",
+        "drive.forceLimit",
+        "brake.forceLimit",
+        "brake.frontShare",
+        "aero.dragArea",
+        "tyre.friction",
+        "rider.leanLimit",
+        "rider.torqueWeight",
+        "frame.mass",
+    ],
+    stop_time: 60.0,
+    step_size: 0.001,
+};

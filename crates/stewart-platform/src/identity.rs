@@ -1,0 +1,49 @@
+//! The platform's name and variables.
+
+use moris_interface::{Group, Identity, Row, Time, interface_tree, with_tunable};
+
+use crate::interface::{Input, Output, Parameters};
+
+interface_tree! {
+    /// All variables.
+    pub struct Variables {
+        time: Time,
+        input: Input,
+        output: Output,
+        parameters: Parameters,
+    }
+}
+
+/// The rows of [`Variables`]. The drives' limits are the rig's; they are fixed for the washout, which
+/// plans by them, and tunable here.
+static ROWS: [Row; Variables::ROWS.len()] = with_tunable(
+    *Variables::ROWS.first_chunk().expect("an array has as many rows as itself"),
+    &["actuator.velocityLimit", "actuator.accelerationLimit"],
+);
+
+/// The parameters' rows.
+pub fn parameter_rows() -> &'static [Row] {
+    &ROWS[ROWS.len() - Parameters::ROWS.len()..]
+}
+
+pub const IDENTITY: Identity = Identity {
+    name: "StewartPlatform",
+    version: env!("CARGO_PKG_VERSION"),
+    text: "Stewart platform with the dynamics of its actuators and of its body: from commanded actuator lengths to the real ones, the forces they carry, and what the rider feels on the real motion.",
+    rows: &ROWS,
+    slots: Variables::SLOTS,
+    main_parameters: &[
+        "platform.mass",
+        "rider.mass",
+        "payload.mass",
+        "actuator.bandwidth",
+        "actuator.damping",
+        "actuator.deadTime",
+        "actuator.forceLimit",
+        "actuator.velocityLimit",
+        "actuator.accelerationLimit",
+        "head.height",
+    ],
+    stop_time: 60.0,
+    step_size: 0.001,
+};
