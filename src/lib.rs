@@ -37,3 +37,8 @@ pub use interface::{Input, Output, Parameters, Rig};
 pub use moris_interface::Refusal;
 pub use validate::check;
 pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, SHORTEST_STEP, Washout};
+
+// The snippets of this page, as doc tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+mod page {}

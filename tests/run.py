@@ -48,7 +48,7 @@ def main():
     run("cargo", "build-fmu", "--fmi", "3", "--arrays")
     run("cargo", "build-ssp")
     run("cargo", "build-ssp", "--flat")
-    run("cargo", "test", "--workspace", "--quiet")
+    run("cargo", "test", "--workspace", "--", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(sys.executable, "tests/importers/run.py", *(["--require"] if arguments.require else []))
     run(sys.executable, "tests/platforms/run.py", *passed_on)

@@ -105,7 +105,6 @@ def fmi_sim(version):
                 # That libclang comes without the compiler's own headers.
                 headers = subprocess.run(["gcc", "-print-file-name=include"], capture_output=True, text=True, check=True)
                 environment["BINDGEN_EXTRA_CLANG_ARGS"] = f"-I{headers.stdout.strip()}"
-            print(f"compiling fmi-sim {version}, once ...", flush=True)
             # Not optimised: that takes a third of the time, and the ride is short.
             environment["CARGO_PROFILE_DEV_DEBUG"] = "0"
             install = ["--debug", "--locked", "--version", version, "--root", directory]
@@ -174,10 +173,9 @@ def need(program):
 def cargo(command, *arguments, environment=None):
     """Runs cargo with a target directory of its own for each crate."""
     crate = "fmi-sim" if command == "install" else "fmu-runner"
-    line = ["cargo", command, "--quiet", "--target-dir", compiled(crate), *arguments]
-    done = subprocess.run(line, env=environment, capture_output=True, text=True)
-    if done.returncode != 0:
-        raise Missing(f"cargo cannot {command} it: {last_error(done.stderr)}")
+    line = ["cargo", command, "--target-dir", compiled(crate), *arguments]
+    if subprocess.run(line, env=environment).returncode != 0:
+        raise Missing(f"cargo cannot {command} it, see above")
 
 
 def compiled(crate):

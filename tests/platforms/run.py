@@ -109,6 +109,7 @@ def install():
 def build_library(chosen):
     """Builds the FMU for a platform; returns it and the place of its library, unpacked."""
     directory = WORK / chosen.name
+    print(f"building the FMU for {chosen.name} ...", flush=True)
     done = call(["cargo", "build-fmu", "--model", MODEL, "--platform", chosen.name, "--output", directory])
     if done.returncode != 0:
         reason = done.stderr.strip().splitlines()[-1].removeprefix("error: ")

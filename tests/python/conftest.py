@@ -1,7 +1,9 @@
 """What the tests share: the FMU, and a thin wrapper that steps it."""
 
+import importlib
 import os
 import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +14,15 @@ from fmpy.fmi2 import FMU2Slave
 ROOT = Path(__file__).resolve().parents[2]
 AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
+
+
+def example(name):
+    """An example in Python as a module."""
+    sys.path.insert(0, str(ROOT / "examples"))
+    try:
+        return importlib.import_module(name)
+    finally:
+        sys.path.pop(0)
 
 
 @pytest.fixture(scope="session")

@@ -1,6 +1,5 @@
 """The whole simulator as an SSP: its schemas, that its wiring fits the FMUs in it, and the documented ride."""
 
-import importlib.util
 import io
 import os
 import zipfile
@@ -12,7 +11,7 @@ import pytest
 from fmpy import read_model_description
 from lxml import etree
 
-from conftest import ANGLES, AXES, ROOT
+from conftest import ANGLES, AXES, ROOT, example
 
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 NAMESPACES = {
@@ -180,22 +179,15 @@ def test_every_parameter_is_one_of_its_fmu_with_its_unit(parameters, models):
             assert value.get("unit") == variable.unit and (variable.unit is None or variable.unit in defined)
 
 
-@pytest.fixture(scope="module")
-def example():
-    spec = importlib.util.spec_from_file_location("ssp_ride", ROOT / "examples" / "ssp" / "ride.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-def test_the_ride_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(example, ssp, tmp_path):
-    result = example.ride(ssp, 2e-3)
+def test_the_example_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(ssp):
+    whole = example("06_whole_simulator")
+    result = whole.simulate(ssp, 2e-3)
     time, speed = result["time"], result["motorcycle.vehicle.speed"]
     assert speed[0] == 0.0 and speed.max() > 20.0
     assert np.all(speed[time > 40.0] == 0.0) and np.all(speed >= 0.0)
     lean = np.degrees(result["motorcycle.vehicle.orientation.roll"])
     assert lean.max() > 12.0 and lean.min() < -12.0
-    lengths = example.legs(result, "platform", "length")
+    lengths = whole.legs(result, "platform", "length")
     # The system's outputs are the components' variables.
     assert np.array_equal(result["speed"], speed)
     assert np.array_equal(result["actuatorLength3"], lengths[:, 2])
@@ -222,6 +214,3 @@ def test_the_ride_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(exa
     for i in range(1, 7):
         commanded = np.interp(time - late, time, result[f"washout.actuator[{i}].length"])
         assert np.max(np.abs(commanded - result[f"platform.actuator[{i}].length"])) < 1e-3
-    picture = tmp_path / "ride.svg"
-    example.draw(picture, result)
-    assert picture.stat().st_size > 50_000
