@@ -124,8 +124,8 @@ impl Model for Motorcycle {
     }
 
     /// In equal internal steps of solver.maxStep at most. Any step is safe: one shorter than
-    /// [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_INTERNAL_STEPS`] internal steps is cut
-    /// off there.
+    /// [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_INTERNAL_STEPS`] internal
+    /// steps is cut off there.
     fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;

@@ -14,8 +14,8 @@ interface_tree! {
     }
 }
 
-/// The rows of [`Variables`]. The drives' limits are the rig's; they are fixed for the washout, which
-/// plans by them, and tunable here.
+/// The rows of [`Variables`]. The drives' limits are the rig's; they are fixed for the washout,
+/// which plans by them, and tunable here.
 static ROWS: [Row; Variables::ROWS.len()] = with_tunable(
     *Variables::ROWS.first_chunk().expect("an array has as many rows as itself"),
     &["actuator.velocityLimit", "actuator.accelerationLimit"],

@@ -156,7 +156,8 @@ impl Model for StewartPlatform {
         }
     }
 
-    /// Lengths go on at the slopes that the host gives, and at the commanded rates where it gives none.
+    /// Lengths go on at the slopes that the host gives, and at the commanded
+    /// rates where it gives none.
     fn input_after(start: &Input, slope: &Input, step: f64) -> Input {
         let rates = std::array::from_fn(|i| if slope.length[i] != 0.0 { slope.length[i] } else { start.velocity[i] });
         start.extrapolated(&Input { length: rates, velocity: [0.0; 6], ..*slope }, step)

@@ -109,7 +109,8 @@ struct Sample {
 }
 
 impl Forecast {
-    /// The forecast over the blocks of another horizon. Beyond its own, its slow and its fast part fade.
+    /// The forecast over the blocks of another horizon. Beyond its own, its slow
+    /// and its fast part fade.
     pub fn over(&self, horizon: Horizon) -> Self {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let (own_ends, own_durations) = (Horizon::Near.ends(), Horizon::Near.durations());
@@ -267,7 +268,8 @@ impl Forecaster {
         &self.forecast
     }
 
-    /// The forecast for a reference that stays what it is until the vehicle stops, and is zero from then on.
+    /// The forecast for a reference that stays what it is until the vehicle stops, and
+    /// is zero from then on.
     pub fn until_stop(&self, time: f64, horizon: Horizon) -> Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let before = |k: usize| ((time - ends[k] + durations[k]) / durations[k]).clamp(0.0, 1.0);

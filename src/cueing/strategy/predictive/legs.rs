@@ -40,8 +40,9 @@ const HEAVE_STAYS: f64 = 0.1;
 const HEAVE_FADES: f64 = 0.4;
 
 impl Surroundings<'_> {
-    /// Roll, pitch and yaw beside the tilt after so much time, if the vehicle goes on turning as it does: the free response
-    /// of a second-order high-pass with damping 1, which also stands for the angular channel's other filters.
+    /// Roll, pitch and yaw beside the tilt after so much time, if the vehicle goes on turning as it
+    /// does: the free response of a second-order high-pass with damping 1, which also stands for
+    /// the angular channel's other filters.
     fn angles_after(&self, time: f64) -> Vector3<f64> {
         Vector3::from_fn(|k, _| {
             let (angle, frequency) = (self.angles[k], self.frequencies[k]);
