@@ -20,7 +20,9 @@ def draw(path, title, time, panels):
     A curve without a label is a limit, a constant.
     """
     plt.rcParams |= {"svg.hashsalt": "moris", "svg.fonttype": "none", "font.family": "sans-serif"}
-    figure, axes = plt.subplots(len(panels), 1, figsize=(9, 2.4 * len(panels)), sharex=True, layout="constrained")
+    size = (9, max(2.8, 2.4 * len(panels)))
+    figure, axes = plt.subplots(len(panels), 1, figsize=size, sharex=True, squeeze=False, layout="constrained")
+    axes = axes[:, 0]
     figure.suptitle(title)
     shown = np.linspace(0, len(time) - 1, POINTS).astype(int)
     for axis, (quantity, curves) in zip(axes, panels):
