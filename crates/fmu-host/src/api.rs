@@ -86,49 +86,57 @@ macro_rules! api {
 }
 pub(crate) use api;
 
-api! {
-    get_types_platform fmi2GetTypesPlatform() -> Text;
-    get_version fmi2GetVersion() -> Text;
-    set_debug_logging fmi2SetDebugLogging(Component, c_int, usize, *const Text) -> c_int;
-    instantiate fmi2Instantiate(Text, c_int, Text, Text, *const Callbacks, c_int, c_int) -> Component;
-    free_instance fmi2FreeInstance(Component);
-    setup_experiment fmi2SetupExperiment(Component, c_int, f64, f64, c_int, f64) -> c_int;
-    enter_initialization_mode fmi2EnterInitializationMode(Component) -> c_int;
-    exit_initialization_mode fmi2ExitInitializationMode(Component) -> c_int;
-    terminate fmi2Terminate(Component) -> c_int;
-    reset fmi2Reset(Component) -> c_int;
-    get_real fmi2GetReal(Component, *const u32, usize, *mut f64) -> c_int;
-    get_integer fmi2GetInteger(Component, *const u32, usize, *mut c_int) -> c_int;
-    get_boolean fmi2GetBoolean(Component, *const u32, usize, *mut c_int) -> c_int;
-    get_string fmi2GetString(Component, *const u32, usize, *mut Text) -> c_int;
-    set_real fmi2SetReal(Component, *const u32, usize, *const f64) -> c_int;
-    set_integer fmi2SetInteger(Component, *const u32, usize, *const c_int) -> c_int;
-    set_boolean fmi2SetBoolean(Component, *const u32, usize, *const c_int) -> c_int;
-    set_string fmi2SetString(Component, *const u32, usize, *const Text) -> c_int;
-    get_fmu_state fmi2GetFMUstate(Component, *mut FmuState) -> c_int;
-    set_fmu_state fmi2SetFMUstate(Component, FmuState) -> c_int;
-    free_fmu_state fmi2FreeFMUstate(Component, *mut FmuState) -> c_int;
-    serialized_fmu_state_size fmi2SerializedFMUstateSize(Component, FmuState, *mut usize) -> c_int;
-    serialize_fmu_state fmi2SerializeFMUstate(Component, FmuState, *mut u8, usize) -> c_int;
-    deserialize_fmu_state fmi2DeSerializeFMUstate(Component, *const u8, usize, *mut FmuState) -> c_int;
-    get_directional_derivative fmi2GetDirectionalDerivative(Component, *const u32, usize, *const u32, usize, *const f64, *mut f64) -> c_int;
-    set_real_input_derivatives fmi2SetRealInputDerivatives(Component, *const u32, usize, *const c_int, *const f64) -> c_int;
-    get_real_output_derivatives fmi2GetRealOutputDerivatives(Component, *const u32, usize, *const c_int, *mut f64) -> c_int;
-    do_step fmi2DoStep(Component, f64, f64, c_int) -> c_int;
-    cancel_step fmi2CancelStep(Component) -> c_int;
-    get_status fmi2GetStatus(Component, c_int, *mut c_int) -> c_int;
-    get_real_status fmi2GetRealStatus(Component, c_int, *mut f64) -> c_int;
-    get_integer_status fmi2GetIntegerStatus(Component, c_int, *mut c_int) -> c_int;
-    get_boolean_status fmi2GetBooleanStatus(Component, c_int, *mut c_int) -> c_int;
-    get_string_status fmi2GetStringStatus(Component, c_int, *mut Text) -> c_int;
-    enter_event_mode fmi2EnterEventMode(Component) -> c_int;
-    new_discrete_states fmi2NewDiscreteStates(Component, *mut c_void) -> c_int;
-    enter_continuous_time_mode fmi2EnterContinuousTimeMode(Component) -> c_int;
-    completed_integrator_step fmi2CompletedIntegratorStep(Component, c_int, *mut c_int, *mut c_int) -> c_int;
-    set_time fmi2SetTime(Component, f64) -> c_int;
-    set_continuous_states fmi2SetContinuousStates(Component, *const f64, usize) -> c_int;
-    get_derivatives fmi2GetDerivatives(Component, *mut f64, usize) -> c_int;
-    get_event_indicators fmi2GetEventIndicators(Component, *mut f64, usize) -> c_int;
-    get_continuous_states fmi2GetContinuousStates(Component, *mut f64, usize) -> c_int;
-    get_nominals_of_continuous_states fmi2GetNominalsOfContinuousStates(Component, *mut f64, usize) -> c_int;
+/// Passes the functions of FMI 2.0 to a macro: each with a field's name, its own name, and its type.
+#[macro_export]
+macro_rules! fmi2_functions {
+    ($to:ident) => {
+        $to! {
+            get_types_platform fmi2GetTypesPlatform() -> Text;
+            get_version fmi2GetVersion() -> Text;
+            set_debug_logging fmi2SetDebugLogging(Component, c_int, usize, *const Text) -> c_int;
+            instantiate fmi2Instantiate(Text, c_int, Text, Text, *const Callbacks, c_int, c_int) -> Component;
+            free_instance fmi2FreeInstance(Component);
+            setup_experiment fmi2SetupExperiment(Component, c_int, f64, f64, c_int, f64) -> c_int;
+            enter_initialization_mode fmi2EnterInitializationMode(Component) -> c_int;
+            exit_initialization_mode fmi2ExitInitializationMode(Component) -> c_int;
+            terminate fmi2Terminate(Component) -> c_int;
+            reset fmi2Reset(Component) -> c_int;
+            get_real fmi2GetReal(Component, *const u32, usize, *mut f64) -> c_int;
+            get_integer fmi2GetInteger(Component, *const u32, usize, *mut c_int) -> c_int;
+            get_boolean fmi2GetBoolean(Component, *const u32, usize, *mut c_int) -> c_int;
+            get_string fmi2GetString(Component, *const u32, usize, *mut Text) -> c_int;
+            set_real fmi2SetReal(Component, *const u32, usize, *const f64) -> c_int;
+            set_integer fmi2SetInteger(Component, *const u32, usize, *const c_int) -> c_int;
+            set_boolean fmi2SetBoolean(Component, *const u32, usize, *const c_int) -> c_int;
+            set_string fmi2SetString(Component, *const u32, usize, *const Text) -> c_int;
+            get_fmu_state fmi2GetFMUstate(Component, *mut FmuState) -> c_int;
+            set_fmu_state fmi2SetFMUstate(Component, FmuState) -> c_int;
+            free_fmu_state fmi2FreeFMUstate(Component, *mut FmuState) -> c_int;
+            serialized_fmu_state_size fmi2SerializedFMUstateSize(Component, FmuState, *mut usize) -> c_int;
+            serialize_fmu_state fmi2SerializeFMUstate(Component, FmuState, *mut u8, usize) -> c_int;
+            deserialize_fmu_state fmi2DeSerializeFMUstate(Component, *const u8, usize, *mut FmuState) -> c_int;
+            get_directional_derivative fmi2GetDirectionalDerivative(Component, *const u32, usize, *const u32, usize, *const f64, *mut f64) -> c_int;
+            set_real_input_derivatives fmi2SetRealInputDerivatives(Component, *const u32, usize, *const c_int, *const f64) -> c_int;
+            get_real_output_derivatives fmi2GetRealOutputDerivatives(Component, *const u32, usize, *const c_int, *mut f64) -> c_int;
+            do_step fmi2DoStep(Component, f64, f64, c_int) -> c_int;
+            cancel_step fmi2CancelStep(Component) -> c_int;
+            get_status fmi2GetStatus(Component, c_int, *mut c_int) -> c_int;
+            get_real_status fmi2GetRealStatus(Component, c_int, *mut f64) -> c_int;
+            get_integer_status fmi2GetIntegerStatus(Component, c_int, *mut c_int) -> c_int;
+            get_boolean_status fmi2GetBooleanStatus(Component, c_int, *mut c_int) -> c_int;
+            get_string_status fmi2GetStringStatus(Component, c_int, *mut Text) -> c_int;
+            enter_event_mode fmi2EnterEventMode(Component) -> c_int;
+            new_discrete_states fmi2NewDiscreteStates(Component, *mut c_void) -> c_int;
+            enter_continuous_time_mode fmi2EnterContinuousTimeMode(Component) -> c_int;
+            completed_integrator_step fmi2CompletedIntegratorStep(Component, c_int, *mut c_int, *mut c_int) -> c_int;
+            set_time fmi2SetTime(Component, f64) -> c_int;
+            set_continuous_states fmi2SetContinuousStates(Component, *const f64, usize) -> c_int;
+            get_derivatives fmi2GetDerivatives(Component, *mut f64, usize) -> c_int;
+            get_event_indicators fmi2GetEventIndicators(Component, *mut f64, usize) -> c_int;
+            get_continuous_states fmi2GetContinuousStates(Component, *mut f64, usize) -> c_int;
+            get_nominals_of_continuous_states fmi2GetNominalsOfContinuousStates(Component, *mut f64, usize) -> c_int;
+        }
+    };
 }
+
+fmi2_functions!(api);

@@ -6,84 +6,7 @@ use std::ptr::{null, null_mut};
 use moris_fmu_host::fmi3::Api;
 
 use crate::fixture::*;
-
-/// FMI 3.0, 2.3 and 4.2: I instantiated, N initialization mode, S step mode, T terminated, to
-/// which the standard counts an instance after an error (E), but for looking at it. Without
-/// structural parameters, event mode, clocks, model exchange and scheduled execution their
-/// functions are allowed in no state.
-const TABLE: &str = "
-    fmi3GetVersion                      I N S T E
-    fmi3SetDebugLogging                 I N S T E
-    fmi3Reset                           I N S T E
-    fmi3GetFMUState                     I N S T E
-    fmi3SetFMUState                     I N S T E
-    fmi3FreeFMUState                    I N S T E
-    fmi3SerializedFMUStateSize          I N S T E
-    fmi3SerializeFMUState               I N S T E
-    fmi3DeserializeFMUState             I N S T E
-    fmi3EnterInitializationMode         I
-    fmi3ExitInitializationMode          N
-    fmi3Terminate                       S
-    fmi3DoStep                          S
-    fmi3GetOutputDerivatives            S T
-    fmi3GetDirectionalDerivative        N S T
-    fmi3GetAdjointDerivative            N S T
-    fmi3GetNumberOfVariableDependencies I N S T
-    fmi3GetVariableDependencies         I N S T
-    fmi3GetFloat32                      I N S T E
-    fmi3GetFloat64                      I N S T E
-    fmi3GetInt8                         I N S T E
-    fmi3GetUInt8                        I N S T E
-    fmi3GetInt16                        I N S T E
-    fmi3GetUInt16                       I N S T E
-    fmi3GetInt32                        I N S T E
-    fmi3GetUInt32                       I N S T E
-    fmi3GetInt64                        I N S T E
-    fmi3GetUInt64                       I N S T E
-    fmi3GetBoolean                      I N S T E
-    fmi3GetString                       I N S T E
-    fmi3GetBinary                       I N S T E
-    fmi3SetFloat32                      I N S
-    fmi3SetFloat64                      I N S
-    fmi3SetInt8                         I N S
-    fmi3SetUInt8                        I N S
-    fmi3SetInt16                        I N S
-    fmi3SetUInt16                       I N S
-    fmi3SetInt32                        I N S
-    fmi3SetUInt32                       I N S
-    fmi3SetInt64                        I N S
-    fmi3SetUInt64                       I N S
-    fmi3SetBoolean                      I N S
-    fmi3SetString                       I N S
-    fmi3SetBinary                       I N S
-    fmi3EnterConfigurationMode
-    fmi3ExitConfigurationMode
-    fmi3EnterEventMode
-    fmi3EvaluateDiscreteStates
-    fmi3UpdateDiscreteStates
-    fmi3EnterStepMode
-    fmi3GetClock
-    fmi3SetClock
-    fmi3GetIntervalDecimal
-    fmi3GetIntervalFraction
-    fmi3GetShiftDecimal
-    fmi3GetShiftFraction
-    fmi3SetIntervalDecimal
-    fmi3SetIntervalFraction
-    fmi3SetShiftDecimal
-    fmi3SetShiftFraction
-    fmi3EnterContinuousTimeMode
-    fmi3CompletedIntegratorStep
-    fmi3SetTime
-    fmi3SetContinuousStates
-    fmi3GetContinuousStateDerivatives
-    fmi3GetEventIndicators
-    fmi3GetContinuousStates
-    fmi3GetNominalsOfContinuousStates
-    fmi3GetNumberOfEventIndicators
-    fmi3GetNumberOfContinuousStates
-    fmi3ActivateModelPartition
-";
+use crate::standard::CALLING_SEQUENCE;
 
 /// The functions of what the FMU does not provide: allowed, and refused.
 const NOT_PROVIDED: [&str; 4] = [
@@ -94,24 +17,21 @@ const NOT_PROVIDED: [&str; 4] = [
 ];
 
 /// The states that an instance can be in, with how to get there.
-type State = (&'static str, &'static str, fn() -> Instance);
+type State = (char, &'static str, fn() -> Instance);
 const STATES: [State; 5] = [
-    ("I", "instantiated", Instance::new),
-    ("N", "initialization mode", initializing),
-    ("S", "step mode", stepping),
-    ("T", "terminated", terminated),
-    ("E", "error", failed),
+    ('I', "instantiated", Instance::new),
+    ('N', "initialization mode", initializing),
+    ('S', "step mode", stepping),
+    ('T', "terminated", terminated),
+    ('E', "error", failed),
 ];
 
 #[test]
 fn every_function_is_allowed_where_the_standard_says() {
     let mut checked = 0;
-    for line in TABLE.lines().filter(|line| !line.trim().is_empty()) {
-        let mut words = line.split_whitespace();
-        let function = words.next().unwrap();
-        let allowed: Vec<_> = words.collect();
+    for &(function, allowed) in CALLING_SEQUENCE {
         for (letter, state, make) in STATES {
-            check(function, allowed.contains(&letter), state, &make());
+            check(function, allowed.contains(letter), state, &make());
             checked += 1;
         }
     }

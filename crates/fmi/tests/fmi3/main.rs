@@ -13,6 +13,7 @@ mod library;
 mod model;
 mod random_calls;
 mod scalars;
+mod standard;
 mod states;
 mod steps;
 mod variables;

@@ -2,5 +2,6 @@
 
 #[cfg(target_arch = "x86_64")]
 mod arithmetic;
+mod hostile;
 mod library;
 mod ranges;

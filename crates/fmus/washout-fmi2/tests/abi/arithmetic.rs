@@ -1,9 +1,9 @@
 //! The arithmetic of the thread that the library runs in is left as it was.
 
 use moris_fmu_host::Fmu;
+use moris_fmu_tests::hostile::{Choices, Functions, run};
 
 use crate::fixture::*;
-use crate::hostile::driver::{Choices, run};
 
 /// Control word of floating-point arithmetic: rounding, flushing to zero, traps; without the
 /// flags of what happened.
@@ -23,7 +23,7 @@ fn arithmetic_is_left_as_it_was() {
     std::thread::spawn(|| {
         let fmu = Fmu::from_library(&library(), "").unwrap();
         let usual = arithmetic();
-        run(fmu.api(), Choices::Seed(11), 10_000);
+        run(&Functions::fmi2(fmu.api()), Choices::Seed(11), 10_000);
         assert_eq!(arithmetic(), usual);
     })
     .join()

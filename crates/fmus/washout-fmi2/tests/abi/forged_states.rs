@@ -1,9 +1,9 @@
 //! Serialized states that somebody made up: refused with a reason, and harmless where they are not.
 
 use moris_fmu_host::{Instance, Status};
+use moris_fmu_tests::hostile::Choices;
 
 use crate::fixture::*;
-use crate::hostile::driver::Choices;
 
 /// Where the parts of a serialized state begin: mark, format, GUID, length, checksum and the rest.
 const FORMAT: usize = 8;

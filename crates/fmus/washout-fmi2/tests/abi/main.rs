@@ -5,7 +5,6 @@ mod arithmetic;
 mod derivatives;
 mod fixture;
 mod forged_states;
-mod hostile;
 mod hunter;
 #[cfg(target_os = "linux")]
 mod process;
@@ -13,8 +12,6 @@ mod real_time;
 mod resources;
 #[cfg(all(target_os = "linux", target_env = "gnu"))]
 mod rounds;
-#[path = "../../../../fmi/tests/abi/standard.rs"]
-mod standard;
 mod steps;
 mod threads;
 mod values;

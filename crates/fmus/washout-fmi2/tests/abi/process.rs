@@ -1,9 +1,9 @@
 //! The process that the library finds itself in is left as it was.
 
 use moris_fmu_host::Fmu;
+use moris_fmu_tests::hostile::{Choices, Functions, run};
 
 use crate::fixture::*;
-use crate::hostile::driver::{Choices, run};
 
 /// Properties of the process: locale, directory, signals' handlers, environment, threads, open
 /// files, what is done at its end.
@@ -39,7 +39,7 @@ fn look_before_and_after() {
     let before = process();
     let fmu = Fmu::from_library(&library(), "").unwrap();
     assert_eq!(process(), before, "by loading it");
-    run(fmu.api(), Choices::Seed(13), 20_000);
+    run(&Functions::fmi2(fmu.api()), Choices::Seed(13), 20_000);
     assert_eq!(process(), before, "by calling it");
     drop(fmu);
     assert_eq!(process(), before, "by unloading it");

@@ -5,6 +5,7 @@ use std::ptr::null_mut;
 use moris_fmu_host::api::FmuState;
 
 use super::expected::{ERROR, Expected, OK};
+use super::functions::Functions;
 use super::player::Player;
 use super::world::World;
 
@@ -38,7 +39,7 @@ pub fn any(world: &mut World, who: usize) -> i32 {
     }
 }
 
-/// `fmi2GetFMUstate`, into a new state or over one that is there.
+/// Saving, into a new state or over one that is there.
 fn get(world: &mut World, who: usize) -> i32 {
     let over = !world.states.is_empty() && (!world.has_room_for_states() || world.choices.once_in(2));
     if !over {
@@ -48,76 +49,82 @@ fn get(world: &mut World, who: usize) -> i32 {
     let saved = &mut world.states[which];
     saved.expected = world.players[who].expected.clone();
     // SAFETY: the instance is alive, and so is the state, or it is null.
-    let status = unsafe { (world.api.get_fmu_state)(world.players[who].component, &mut saved.pointer) };
+    let answer = unsafe { world.functions.get_fmu_state(world.players[who].component, &mut saved.pointer) };
     assert!(!saved.pointer.is_null());
-    world.accept(who, "fmi2GetFMUstate", status, &[OK])
+    world.accept(who, answer, &[OK])
 }
 
-/// `fmi2SetFMUstate` with any instance's state; the instance is then to the bit what the other was.
+/// Restoring any instance's state; the instance is then to the bit what the other was.
 fn set(world: &mut World, who: usize) -> i32 {
     let which = world.choices.below(world.states.len());
     let saved = &world.states[which];
     let player = &mut world.players[who];
     // SAFETY: the instance and the state are alive.
-    let status = unsafe { (world.api.set_fmu_state)(player.component, saved.pointer) };
+    let answer = unsafe { world.functions.set_fmu_state(player.component, saved.pointer) };
     player.expected = saved.expected.clone();
     if world.choices.once_in(8) {
-        let expected = bytes_of(player, world.api, saved.pointer);
-        assert!(player.bytes(world.api) == expected, "a restored state is another");
+        let expected = bytes_of(player, world.functions, saved.pointer);
+        assert!(player.bytes(world.functions) == expected, "a restored state is another");
     }
-    world.accept(who, "fmi2SetFMUstate", status, &[OK])
+    world.accept(who, answer, &[OK])
 }
 
-/// `fmi2FreeFMUstate`
+/// Freeing a state.
 pub fn free(world: &mut World, who: usize) -> i32 {
     let which = world.choices.below(world.states.len());
     let mut saved = world.states.swap_remove(which);
     // SAFETY: the instance and the state are alive, and nobody uses the state from here on.
-    let status = unsafe { (world.api.free_fmu_state)(world.players[who].component, &mut saved.pointer) };
+    let answer = unsafe { world.functions.free_fmu_state(world.players[who].component, &mut saved.pointer) };
     assert!(saved.pointer.is_null());
-    world.accept(who, "fmi2FreeFMUstate", status, &[OK])
+    world.accept(who, answer, &[OK])
 }
 
 /// A state's bytes, by any instance.
-fn bytes_of(player: &Player, api: &moris_fmu_host::Api, state: FmuState) -> Vec<u8> {
+fn bytes_of(player: &Player, functions: &Functions, state: FmuState) -> Vec<u8> {
     let mut size = 0;
     // SAFETY: the instance and the state are alive, and there is room for `size` bytes.
     unsafe {
-        assert_eq!((api.serialized_fmu_state_size)(player.component, state, &mut size), OK);
+        assert_eq!(functions.serialized_fmu_state_size(player.component, state, &mut size).1, OK);
         let mut bytes = vec![0; size];
-        assert_eq!((api.serialize_fmu_state)(player.component, state, bytes.as_mut_ptr(), size), OK);
+        assert_eq!(functions.serialize_fmu_state(player.component, state, bytes.as_mut_ptr(), size).1, OK);
         bytes
     }
 }
 
-/// `fmi2SerializedFMUstateSize`, `fmi2SerializeFMUstate`
+/// Serialization of a state.
 fn serialize(world: &mut World, who: usize) -> i32 {
     let which = world.choices.below(world.states.len());
-    let bytes = bytes_of(&world.players[who], world.api, world.states[which].pointer);
+    let (component, state) = (world.players[who].component, world.states[which].pointer);
+    let mut size = 0;
+    // SAFETY: the instance and the state are alive.
+    let answer = unsafe { world.functions.serialized_fmu_state_size(component, state, &mut size) };
+    world.accept(who, answer, &[OK]);
+    let mut bytes = vec![0; size];
+    // SAFETY: the instance and the state are alive, and there is room for `size` bytes.
+    let answer = unsafe { world.functions.serialize_fmu_state(component, state, bytes.as_mut_ptr(), size) };
     if world.bytes.len() == KEPT {
         let oldest = world.choices.below(KEPT);
         world.bytes.swap_remove(oldest);
     }
     world.bytes.push(Bytes { bytes, expected: world.states[which].expected.clone() });
-    world.count("fmi2SerializedFMUstateSize", OK);
-    world.accept(who, "fmi2SerializeFMUstate", OK, &[OK])
+    world.accept(who, answer, &[OK])
 }
 
-/// `fmi2SerializeFMUstate` into less room than it takes.
+/// Serialization into less room than it takes.
 fn too_little_room(world: &mut World, who: usize) -> i32 {
     let state = world.states[0].pointer;
-    let size = bytes_of(&world.players[who], world.api, state).len();
+    let size = bytes_of(&world.players[who], world.functions, state).len();
     let size = world.choices.of(&[0, 1, size / 2, size - 1]);
     // One byte more than none, so that there is a pointer.
     let mut room = vec![0xaa; size + 1];
     // SAFETY: the instance and the state are alive, and there is room for `size` bytes.
-    let status =
-        unsafe { (world.api.serialize_fmu_state)(world.players[who].component, state, room.as_mut_ptr(), size) };
+    let answer =
+        unsafe { world.functions.serialize_fmu_state(world.players[who].component, state, room.as_mut_ptr(), size) };
     assert!(room.iter().all(|&byte| byte == 0xaa), "a refused state was written");
-    world.accept(who, "fmi2SerializeFMUstate", status, &[ERROR])
+    world.accept(who, answer, &[ERROR])
 }
 
-/// `fmi2DeSerializeFMUstate`, into a new state or over one that is there.
+/// Deserialization, into a new state or over one that is there.
 fn deserialize(world: &mut World, who: usize) -> i32 {
     let which = world.choices.below(world.bytes.len());
     if world.has_room_for_states() {
@@ -128,12 +135,12 @@ fn deserialize(world: &mut World, who: usize) -> i32 {
     saved.expected = expected.clone();
     let (pointer, component) = (&mut saved.pointer, world.players[who].component);
     // SAFETY: the instance is alive, the bytes are as many as given, and the state is alive or null.
-    let status = unsafe { (world.api.deserialize_fmu_state)(component, bytes.as_ptr(), bytes.len(), pointer) };
-    assert!(bytes_of(&world.players[who], world.api, *pointer) == *bytes);
-    world.accept(who, "fmi2DeSerializeFMUstate", status, &[OK])
+    let answer = unsafe { world.functions.deserialize_fmu_state(component, bytes.as_ptr(), bytes.len(), pointer) };
+    assert!(bytes_of(&world.players[who], world.functions, *pointer) == *bytes);
+    world.accept(who, answer, &[OK])
 }
 
-/// `fmi2DeSerializeFMUstate` with bytes that are no state.
+/// Deserialization of bytes that are no state.
 fn damaged_bytes(world: &mut World, who: usize) -> i32 {
     let mut bytes = match world.bytes.len() {
         0 => b"FMI-RUN\n".to_vec(),
@@ -150,9 +157,9 @@ fn damaged_bytes(world: &mut World, who: usize) -> i32 {
     }
     let (mut state, component) = (null_mut(), world.players[who].component);
     // SAFETY: the instance is alive, and the bytes are as many as given.
-    let status = unsafe { (world.api.deserialize_fmu_state)(component, bytes.as_ptr(), bytes.len(), &mut state) };
+    let answer = unsafe { world.functions.deserialize_fmu_state(component, bytes.as_ptr(), bytes.len(), &mut state) };
     assert!(state.is_null());
-    world.accept(who, "fmi2DeSerializeFMUstate", status, &[ERROR])
+    world.accept(who, answer, &[ERROR])
 }
 
 /// Null, and memory that is no state.
@@ -160,19 +167,19 @@ fn wrong_pointers(world: &mut World, who: usize) -> i32 {
     let mut no_state = [0x5555_5555_5555_5555u64; 512];
     let null = world.choices.once_in(2);
     let mut pointer: FmuState = if null { null_mut() } else { no_state.as_mut_ptr().cast() };
-    let (c, api, mut size) = (world.players[who].component, world.api, 0);
+    let (c, functions, mut size) = (world.players[who].component, world.functions, 0);
     let mut room = [0; 64];
     let function = world.choices.below(6);
     // SAFETY: the instance is alive, and the pointers are null or lead to more memory than a look takes.
-    let (name, status, right) = unsafe {
+    let (answer, right) = unsafe {
         match function {
-            0 => ("fmi2SetFMUstate", (api.set_fmu_state)(c, pointer), ERROR),
-            1 => ("fmi2FreeFMUstate", (api.free_fmu_state)(c, &mut pointer), if null { OK } else { ERROR }),
-            2 => ("fmi2SerializedFMUstateSize", (api.serialized_fmu_state_size)(c, pointer, &mut size), ERROR),
-            3 => ("fmi2SerializeFMUstate", (api.serialize_fmu_state)(c, pointer, room.as_mut_ptr(), 64), ERROR),
-            4 => ("fmi2DeSerializeFMUstate", (api.deserialize_fmu_state)(c, room.as_ptr(), 64, &mut pointer), ERROR),
-            _ => ("fmi2GetFMUstate", (api.get_fmu_state)(c, null_mut()), ERROR),
+            0 => (functions.set_fmu_state(c, pointer), ERROR),
+            1 => (functions.free_fmu_state(c, &mut pointer), if null { OK } else { ERROR }),
+            2 => (functions.serialized_fmu_state_size(c, pointer, &mut size), ERROR),
+            3 => (functions.serialize_fmu_state(c, pointer, room.as_mut_ptr(), 64), ERROR),
+            4 => (functions.deserialize_fmu_state(c, room.as_ptr(), 64, &mut pointer), ERROR),
+            _ => (functions.get_fmu_state(c, null_mut()), ERROR),
         }
     };
-    world.accept(who, name, status, &[right])
+    world.accept(who, answer, &[right])
 }

@@ -1,15 +1,17 @@
 //! One instance in the hostile host's hands.
 
-use std::ffi::{CString, c_int};
+use std::ffi::{CString, c_int, c_void};
 use std::ptr::{null, null_mut};
 use std::sync::LazyLock;
 
-use moris_fmu_host::Api;
-use moris_fmu_host::api::{Callbacks, Component, FmuState};
+use moris_fmu_host::api::{CO_SIMULATION, Callbacks, Component, FmuState};
+use moris_fmu_host::fmi3::LogMessage;
+use moris_interface::guid;
 use moris_washout::Washout;
 
-use super::expected::{ERROR, Expected, IDENTITY, OK, Type, is_set_by_host, slot, type_of};
-use super::logger::{Log, log};
+use super::expected::{DISCARD, ERROR, Expected, IDENTITY, OK, is_set_by_host, slot};
+use super::functions::{Access, Answer, Functions, Variables, Version};
+use super::logger::{Log, log2, log3};
 
 /// An instance, what it said, and what it has to be.
 pub struct Player {
@@ -17,15 +19,23 @@ pub struct Player {
     pub expected: Expected,
     /// `None` for an instance that was made without a logger.
     log: Option<Box<Log>>,
-    /// True if stages of the instance's life are logged.
-    pub events: bool,
+    pub logged: Logged,
 }
 
-/// The references of all variables of a type.
-static REFERENCES: LazyLock<[Vec<u32>; 3]> = LazyLock::new(|| {
-    let of = |wanted| (0..IDENTITY.slots.len() as u32).filter(|&slot| type_of(slot as usize) == wanted).collect();
-    [Type::Real, Type::Integer, Type::Boolean].map(of)
-});
+/// Categories of messages that an instance sends.
+#[derive(Clone, Copy, Debug)]
+pub struct Logged {
+    pub events: bool,
+    pub discards: bool,
+    pub errors: bool,
+}
+
+impl Logged {
+    /// Categories after instantiation with logging on or off: FMI 2.0's instance always says why it discards.
+    fn after_instantiation(functions: &Functions, on: bool) -> Self {
+        Logged { events: on, discards: on || matches!(functions.version, Version::Fmi2(_)), errors: true }
+    }
+}
 
 /// The slots that the checks after each call look at.
 struct Slots {
@@ -56,28 +66,49 @@ const ROUNDING_LENGTH: f64 = 1e-12;
 
 impl Player {
     /// Makes an instance with arguments that are right.
-    pub fn new(api: &Api, name: &str, with_logger: bool, events: bool) -> Self {
+    pub fn new(functions: &Functions, name: &str, with_logger: bool, logging_on: bool) -> Self {
         let mut log = with_logger.then(|| Box::new(Log { name: name.into(), ..Log::default() }));
-        let callbacks = callbacks(log.as_deref_mut());
-        let (name, guid) = (c_string(name), c_string(&moris_interface::guid::<Washout>()));
-        // SAFETY: strings and callbacks live during the call, the log as long as the instance.
-        let component =
-            unsafe { (api.instantiate)(name.as_ptr(), 1, guid.as_ptr(), null(), &callbacks, 0, c_int::from(events)) };
+        let name = c_string(name);
+        let (function, component) = match &functions.version {
+            Version::Fmi2(api) => {
+                let (callbacks, guid) = (callbacks(log.as_deref_mut()), c_string(&guid::<Washout>()));
+                let (name, guid, logging_on) = (name.as_ptr(), guid.as_ptr(), c_int::from(logging_on));
+                // SAFETY: strings and callbacks live during the call, the log as long as the instance.
+                let component =
+                    unsafe { (api.instantiate)(name, CO_SIMULATION, guid, null(), &callbacks, 0, logging_on) };
+                ("fmi2Instantiate", component)
+            }
+            Version::Fmi3(api, layout) => {
+                let (callback, environment) = fmi3_callback(log.as_deref_mut());
+                let token = c_string(&layout.token(&guid::<Washout>()));
+                let (name, token, logging_on) = (name.as_ptr(), token.as_ptr(), u8::from(logging_on));
+                // SAFETY: the strings live during the call, the log as long as the instance.
+                let component = unsafe {
+                    let instantiate = api.instantiate_co_simulation;
+                    instantiate(name, token, null(), 0, logging_on, 0, 0, null(), 0, environment, callback, None)
+                };
+                ("fmi3InstantiateCoSimulation", component)
+            }
+        };
         assert!(!component.is_null());
-        let mut player = Player { component, expected: Expected::fresh(), log, events };
-        player.accept("fmi2Instantiate", OK, &[OK]);
+        let logged = Logged::after_instantiation(functions, logging_on);
+        let mut player = Player { component, expected: Expected::fresh(), log, logged };
+        player.accept((function, OK), &[OK]);
         player
     }
 
-    /// Checks that the call ended in one of these ways, and that the instance said
-    /// about it what it should.
-    pub fn accept(&mut self, function: &str, status: c_int, right: &[c_int]) {
+    /// Checks that the call ended in one of these ways, and that the instance said about it what it should.
+    pub fn accept(&mut self, (function, status): Answer, right: &[c_int]) {
         let said = self.log.as_mut().map(|log| std::mem::take(&mut log.said));
         assert!(right.contains(&status), "{function}: {status}, not one of {right:?}; {said:?}; {:?}", self.expected);
         let Some(said) = said else { return };
         if status == OK {
-            let quiet = said.iter().all(|said| self.events && said.status == OK && said.category == "logEvents");
+            let quiet = said.iter().all(|said| self.logged.events && said.status == OK && said.category == "logEvents");
             assert!(quiet, "{function}: {said:?}");
+            return;
+        }
+        if status == ERROR && !self.logged.errors || status == DISCARD && !self.logged.discards {
+            assert!(said.is_empty(), "{function}: {said:?}");
             return;
         }
         let [said] = &said[..] else { panic!("{function}: {status}, {said:?}") };
@@ -88,11 +119,11 @@ impl Player {
     }
 
     /// Checks everything that the instance shows, if it shows anything now.
-    pub fn inspect(&mut self, api: &Api) {
+    pub fn inspect(&mut self, functions: &Functions) {
         if self.expected.state == 'I' {
             return;
         }
-        let values = self.values(api);
+        let values = self.values(functions);
         self.check_settings(&values);
         self.check_outputs(&values);
         if "CT".contains(self.expected.state) {
@@ -100,27 +131,22 @@ impl Player {
         }
     }
 
-    /// The value of every variable.
-    fn values(&mut self, api: &Api) -> Vec<f64> {
-        let [reals, integers, booleans] = &*REFERENCES;
-        let mut values = vec![0.0; IDENTITY.slots.len()];
-        let mut real = vec![f64::NAN; reals.len()];
-        let mut whole = [vec![c_int::MIN; integers.len()], vec![c_int::MIN; booleans.len()]];
-        // SAFETY: the instance is alive, and the arrays have the lengths given.
-        let statuses = unsafe {
-            let c = self.component;
-            [
-                (api.get_real)(c, reals.as_ptr(), reals.len(), real.as_mut_ptr()),
-                (api.get_integer)(c, integers.as_ptr(), integers.len(), whole[0].as_mut_ptr()),
-                (api.get_boolean)(c, booleans.as_ptr(), booleans.len(), whole[1].as_mut_ptr()),
-            ]
-        };
-        for (function, status) in ["fmi2GetReal", "fmi2GetInteger", "fmi2GetBoolean"].iter().zip(statuses) {
-            self.accept(function, status, &[OK]);
-        }
-        let whole = whole.iter().flatten().map(|&value| f64::from(value));
-        for (&reference, value) in reals.iter().chain(integers).chain(booleans).zip(real.into_iter().chain(whole)) {
-            values[reference as usize] = value;
+    /// The value of every slot.
+    fn values(&mut self, functions: &Functions) -> Vec<f64> {
+        let mut values = vec![f64::NAN; IDENTITY.slots.len()];
+        for Variables { kind, references, slots } in &functions.variables {
+            let mut read = vec![f64::NAN; slots.len()];
+            let access = Access {
+                kind: *kind,
+                references: references.as_ptr(),
+                count: references.len(),
+                value_count: read.len(),
+                values: Some(&mut read),
+            };
+            // SAFETY: the instance is alive, and the arrays have the lengths given.
+            let answer = unsafe { functions.get(self.component, access) };
+            self.accept(answer, &[OK]);
+            slots.iter().zip(read).for_each(|(&slot, value)| values[slot] = value);
         }
         values
     }
@@ -157,9 +183,9 @@ impl Player {
 
     /// Checks that a step of `step` seconds has taken the legs no farther and made them no
     /// faster than they can go.
-    pub fn check_travel(&mut self, api: &Api, step: f64) {
+    pub fn check_travel(&mut self, functions: &Functions, step: f64) {
         let Some((length, velocity)) = self.expected.legs else { return };
-        let values = self.values(api);
+        let values = self.values(functions);
         let limits = [SLOTS.velocity_limit, SLOTS.acceleration_limit].map(|slot| values[slot]);
         let [way, change] = limits.map(|limit| limit * step * (1.0 + ROUNDING));
         for i in 0..6 {
@@ -171,34 +197,41 @@ impl Player {
     }
 
     /// Everything about the instance, as bytes.
-    pub fn bytes(&mut self, api: &Api) -> Vec<u8> {
+    pub fn bytes(&mut self, functions: &Functions) -> Vec<u8> {
         let mut state: FmuState = null_mut();
         let mut size = 0;
         // SAFETY: the instance is alive, and the pointers lead to what the functions want.
         unsafe {
-            assert_eq!((api.get_fmu_state)(self.component, &mut state), OK);
-            assert_eq!((api.serialized_fmu_state_size)(self.component, state, &mut size), OK);
+            assert_eq!(functions.get_fmu_state(self.component, &mut state).1, OK);
+            assert_eq!(functions.serialized_fmu_state_size(self.component, state, &mut size).1, OK);
             let mut bytes = vec![0; size];
-            assert_eq!((api.serialize_fmu_state)(self.component, state, bytes.as_mut_ptr(), size), OK);
-            assert_eq!((api.free_fmu_state)(self.component, &mut state), OK);
+            assert_eq!(functions.serialize_fmu_state(self.component, state, bytes.as_mut_ptr(), size).1, OK);
+            assert_eq!(functions.free_fmu_state(self.component, &mut state).1, OK);
             bytes
         }
     }
 
-    /// Frees the instance.
-    pub fn free(self, api: &Api) {
+    /// Frees the instance; returns the function's name.
+    pub fn free(self, functions: &Functions) -> &'static str {
         // SAFETY: the instance is alive, and nobody uses it from here on.
-        unsafe { (api.free_instance)(self.component) };
+        let function = unsafe { functions.free_instance(self.component) };
         let said = self.log.map(|log| log.said);
         assert!(said.is_none_or(|said| said.is_empty()));
+        function
     }
 }
 
-/// The host's functions, with this log or without a logger.
-pub fn callbacks(log_of_instance: Option<&mut Log>) -> Callbacks {
-    let logger = log_of_instance.is_some().then_some(log as moris_fmu_host::api::Logger);
-    let environment = log_of_instance.map_or(null_mut(), |log| (&raw mut *log).cast());
+/// FMI 2.0's functions of the host, with this log or without a logger.
+pub fn callbacks(log: Option<&mut Log>) -> Callbacks {
+    let logger = log.is_some().then_some(log2 as moris_fmu_host::api::Logger);
+    let environment = log.map_or(null_mut(), |log| (&raw mut *log).cast());
     Callbacks { logger, allocate_memory: None, free_memory: None, step_finished: None, environment }
+}
+
+/// FMI 3.0's function for messages with its environment, with this log or without a logger.
+pub fn fmi3_callback(log: Option<&mut Log>) -> (Option<LogMessage>, *mut c_void) {
+    let callback = log.is_some().then_some(log3 as LogMessage);
+    (callback, log.map_or(null_mut(), |log| (&raw mut *log).cast()))
 }
 
 pub fn c_string(text: &str) -> CString {

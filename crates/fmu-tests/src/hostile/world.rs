@@ -2,9 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use moris_fmu_host::Api;
-
 use super::choices::Choices;
+use super::functions::{Answer, Functions};
 use super::player::Player;
 use super::states::{Bytes, Saved};
 use super::{calls, states, steps, variables};
@@ -20,7 +19,7 @@ pub type Tally = BTreeMap<(&'static str, i32), u64>;
 
 /// Instances and states of the host.
 pub struct World<'a> {
-    pub api: &'a Api,
+    pub functions: &'a Functions,
     pub choices: Choices<'a>,
     pub players: Vec<Player>,
     pub states: Vec<Saved>,
@@ -33,9 +32,9 @@ pub struct World<'a> {
 ///
 /// # Panics
 /// If a call does anything but what it should.
-pub fn run(api: &Api, choices: Choices, calls: u64) -> Tally {
+pub fn run(functions: &Functions, choices: Choices, calls: u64) -> Tally {
     let mut world =
-        World { api, choices, players: vec![], states: vec![], bytes: vec![], tally: Tally::new(), calls: 0 };
+        World { functions, choices, players: vec![], states: vec![], bytes: vec![], tally: Tally::new(), calls: 0 };
     while world.calls < calls && !world.choices.are_over() {
         world.one_thing();
     }
@@ -50,30 +49,31 @@ impl World<'_> {
         }
         let who = self.choices.below(self.players.len());
         let watched = self.choices.once_in(WATCHED);
-        let before = watched.then(|| self.players[who].bytes(self.api));
+        let before = watched.then(|| self.players[who].bytes(self.functions));
         let status = match self.choices.below(100) {
             0..36 => steps::do_step(self, who),
             36..50 => variables::set(self, who),
             50..58 => variables::get(self, who),
-            58..62 => variables::input_derivatives(self, who),
+            58..62 => calls::own_of_version(self, who),
             62..66 => variables::output_derivatives(self, who),
             66..78 => states::any(self, who),
             78..88 => calls::towards_steps(self, who),
             88..98 => calls::any(self, who),
-            98 => calls::status(self, who),
+            98 => calls::seldom(self, who),
             _ => return calls::free_instance(self, who),
         };
         let player = &mut self.players[who];
-        player.inspect(self.api);
+        player.inspect(self.functions);
         if let Some(before) = before.filter(|_| status != 0) {
-            assert!(player.bytes(self.api) == before, "a refused call changed something");
+            assert!(player.bytes(self.functions) == before, "a refused call changed something");
         }
     }
 
-    /// Counts a call, and checks how it ended.
-    pub fn accept(&mut self, who: usize, function: &'static str, status: i32, right: &[i32]) -> i32 {
+    /// Counts a call, and checks how it ended; returns the status.
+    pub fn accept(&mut self, who: usize, answer: Answer, right: &[i32]) -> i32 {
+        let (function, status) = answer;
         self.count(function, status);
-        self.players[who].accept(function, status, right);
+        self.players[who].accept(answer, right);
         status
     }
 
@@ -91,12 +91,14 @@ impl World<'_> {
     /// Frees everything.
     fn leave(mut self) -> Tally {
         if self.players.is_empty() {
-            self.players.push(Player::new(self.api, "last", true, false));
+            self.players.push(Player::new(self.functions, "last", true, false));
         }
         while !self.states.is_empty() {
             states::free(&mut self, 0);
         }
-        self.players.drain(..).for_each(|player| player.free(self.api));
+        for player in self.players.drain(..) {
+            player.free(self.functions);
+        }
         self.tally
     }
 }

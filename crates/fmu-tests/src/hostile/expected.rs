@@ -3,11 +3,11 @@
 use moris_interface::{Causality, Identity, Kind, Model, SlotModel, Variability};
 use moris_washout::Washout;
 
-use crate::standard::CALLING_SEQUENCE;
+use crate::{standard2, standard3};
 
 pub const IDENTITY: Identity = Washout::IDENTITY;
 
-/// Status of a call: fmi2OK, fmi2Discard, fmi2Error.
+/// Status of a call, the same numbers in both versions.
 pub const OK: i32 = 0;
 pub const DISCARD: i32 = 2;
 pub const ERROR: i32 = 3;
@@ -15,7 +15,7 @@ pub const ERROR: i32 = 3;
 /// An instance as it has to be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
-    /// The state, by the letter that it has in [`CALLING_SEQUENCE`].
+    /// The state, by the letter that it has in the calling sequences.
     pub state: char,
     /// Start and stop time, once they are set up \[s\].
     pub experiment: Option<(f64, f64)>,
@@ -37,8 +37,9 @@ impl Expected {
 
     /// True if the function is allowed now.
     pub fn allows(&self, function: &str) -> bool {
-        let (_, states) = CALLING_SEQUENCE.iter().find(|(name, _)| *name == function).expect(function);
-        states.contains(self.state)
+        let mut rows = standard2::CALLING_SEQUENCE.iter().chain(standard3::CALLING_SEQUENCE);
+        let (_, states) = rows.find(|(name, _)| *name == function).expect(function);
+        states.contains(if function.starts_with("fmi3") && self.state == 'C' { 'S' } else { self.state })
     }
 
     /// True if the variable can be set now, by the rule of the standard.
@@ -74,20 +75,24 @@ pub fn is_set_by_host(slot: usize) -> bool {
     matches!(IDENTITY.row(slot).causality, Causality::Input | Causality::Parameter)
 }
 
-/// The type by which a variable goes through the interface.
+/// The type of a variable. FMI 2.0 has its enumerations set and read as integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
     Real,
     Integer,
     Boolean,
+    Enumeration,
 }
 
-/// The type of a variable.
-pub fn type_of(slot: usize) -> Type {
-    match IDENTITY.row(slot).kind {
-        Kind::Real(_) => Type::Real,
-        Kind::Boolean => Type::Boolean,
-        Kind::Integer | Kind::Enumeration(_) => Type::Integer,
+impl Type {
+    /// The type of a slot's variable.
+    pub fn of(slot: usize) -> Type {
+        match IDENTITY.row(slot).kind {
+            Kind::Real(_) => Type::Real,
+            Kind::Boolean => Type::Boolean,
+            Kind::Integer => Type::Integer,
+            Kind::Enumeration(_) => Type::Enumeration,
+        }
     }
 }
 

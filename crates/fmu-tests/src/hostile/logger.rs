@@ -19,8 +19,14 @@ pub struct Log {
     pub said: Vec<Said>,
 }
 
+impl Log {
+    fn say(&mut self, status: c_int, category: Text, text: Text) {
+        self.said.push(Said { status, category: string(category), text: string(text) });
+    }
+}
+
 /// fmi2CallbackLogger. The library calls it with one string for the format's one `%s`.
-pub unsafe extern "C" fn log(
+pub unsafe extern "C" fn log2(
     environment: *mut c_void,
     instance_name: Text,
     status: c_int,
@@ -32,7 +38,14 @@ pub unsafe extern "C" fn log(
     let log = unsafe { &mut *environment.cast::<Log>() };
     assert_eq!(string(instance_name), log.name);
     assert_eq!(string(message), "%s", "a text must never be a format");
-    log.said.push(Said { status, category: string(category), text: string(argument) });
+    log.say(status, category, argument);
+}
+
+/// fmi3LogMessageCallback
+pub unsafe extern "C" fn log3(environment: *mut c_void, status: c_int, category: Text, message: Text) {
+    // SAFETY: as above.
+    let log = unsafe { &mut *environment.cast::<Log>() };
+    log.say(status, category, message);
 }
 
 fn string(text: Text) -> String {

@@ -1,4 +1,4 @@
-//! fmi2DoStep, with times and steps that are right and wrong.
+//! Communication steps, with times and steps that are right and wrong.
 
 use super::expected::{ERROR, OK};
 use super::palette;
@@ -14,7 +14,7 @@ const CLOSE: f64 = 1e-6;
 /// A step, wrong in one way or not at all.
 pub fn do_step(world: &mut World, who: usize) -> i32 {
     let expected = &world.players[who].expected;
-    let (present, allowed) = (expected.time, expected.allows("fmi2DoStep"));
+    let present = expected.time;
     let max_step = expected.value("solver.maxStep");
     let stop = expected.experiment.map_or(f64::INFINITY, |(_, stop)| stop);
     let choices = &mut world.choices;
@@ -46,16 +46,16 @@ pub fn do_step(world: &mut World, who: usize) -> i32 {
     } else if beyond > 0.0 && right == [OK] {
         right.push(ERROR);
     }
-    if !allowed {
+    // SAFETY: the instance is alive.
+    let answer = unsafe { world.functions.do_step(world.players[who].component, time, step) };
+    if !world.players[who].expected.allows(answer.0) {
         right = vec![ERROR];
     }
-    // SAFETY: the instance is alive.
-    let status = unsafe { (world.api.do_step)(world.players[who].component, time, step, 1) };
-    world.accept(who, "fmi2DoStep", status, &right);
+    let status = world.accept(who, answer, &right);
     if status == OK {
         let player = &mut world.players[who];
         player.expected.time = time + step;
-        player.check_travel(world.api, step);
+        player.check_travel(world.functions, step);
     }
     status
 }
