@@ -23,7 +23,7 @@ pub const PAPER: &[(&str, f64)] = &joined::<{ OF_THE_PAPER.len() + QUICK_TILT.le
 pub const SMALL_MOTIONS: &[(&str, f64)] =
     &joined::<{ OF_THE_PAPER.len() + LONG_TRAVEL.len() }>(OF_THE_PAPER, LONG_TRAVEL);
 
-/// What the sets for the paper's runs have in common.
+/// Common part of the sets for the paper's runs.
 const OF_THE_PAPER: &[(&str, f64)] = &[
     ("splitter.order", 4.0),
     ("angular.order", 4.0),

@@ -1,5 +1,5 @@
-//! A hostile host's calls by FMI 3.0, led by the fuzzer: the same driver as in the tests. The first byte says whether the
-//! host has read the description with scalars or that with arrays.
+//! A hostile host's calls by FMI 3.0, led by the fuzzer: the same driver as in the tests. The first
+//! byte says whether the host has read the description with scalars or that with arrays.
 
 #![no_main]
 

@@ -56,7 +56,7 @@ pub struct VariableInfo {
 }
 
 impl VariableInfo {
-    /// What may be done with a row's scalar variable number `element` (from 0).
+    /// Access to a row's scalar variable number `element` (from 0).
     pub const fn of(row: &Row, element: usize) -> Self {
         let value_type = match row.kind {
             Kind::Real(_) => ValueType::Real,
@@ -102,7 +102,7 @@ const fn settable(row: &Row) -> Modes {
     }
 }
 
-/// What may be done with every slot. `N` is the number of slots.
+/// Access to every slot. `N` is the number of slots.
 pub(crate) const fn variable_infos<const N: usize>(identity: &Identity) -> [VariableInfo; N] {
     let mut infos = [VariableInfo::of(&identity.rows[0], 0); N];
     let mut slot = 0;

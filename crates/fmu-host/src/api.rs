@@ -86,7 +86,8 @@ macro_rules! api {
 }
 pub(crate) use api;
 
-/// Passes the functions of FMI 2.0 to a macro: each with a field's name, its own name, and its type.
+/// Passes the functions of FMI 2.0 to a macro: each with a field's name, its own name, and its
+/// type.
 #[macro_export]
 macro_rules! fmi2_functions {
     ($to:ident) => {

@@ -50,7 +50,8 @@ impl Library {
     }
 }
 
-/// Passes the functions of FMI 3.0 to a macro: each with a field's name, its own name, and its type.
+/// Passes the functions of FMI 3.0 to a macro: each with a field's name, its own name, and its
+/// type.
 #[macro_export]
 macro_rules! fmi3_functions {
     ($to:ident) => {

@@ -1,4 +1,4 @@
-//! What tests of several libraries share: a hostile host that the washout's library has to stand.
+//! Shared parts of the libraries' tests: a hostile host for the washout's library.
 
 pub mod hostile;
 /// The calling sequence of FMI 2.0.

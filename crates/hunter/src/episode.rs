@@ -19,12 +19,12 @@ pub struct Episode {
     /// episode on this machine.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<[i64; 3]>,
-    /// How many communication steps.
+    /// Number of communication steps.
     pub count: usize,
-    /// Whether inputs go linearly from the beginning to the end of a step; otherwise they are held.
+    /// True: inputs are linear over a step. False: they are held.
     #[serde(default)]
     pub linear: bool,
-    /// How long the steps are.
+    /// Lengths of the steps.
     pub steps: Steps,
     /// The parameters that differ from the default.
     #[serde(default)]
@@ -33,7 +33,7 @@ pub struct Episode {
     /// signal is not negative. That of `vehicle.specificForce.z` adds to its start value.
     #[serde(default)]
     pub inputs: BTreeMap<String, Signal>,
-    /// What happens between two steps, in the order of time.
+    /// Events between two steps, in the order of time.
     #[serde(default)]
     pub events: Vec<Event>,
 }
@@ -67,12 +67,12 @@ impl Steps {
 pub struct Event {
     /// The number of the step, from 0.
     pub before: usize,
-    /// What is done.
+    /// The action.
     #[serde(flatten)]
     pub action: Action,
 }
 
-/// What a host may do between two steps.
+/// Actions of a host between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Action {

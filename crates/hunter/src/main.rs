@@ -42,7 +42,7 @@ struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 0)]
     first_machine: u64,
 
-    /// What is driven: the crate, or the C functions of the FMU
+    /// Target of the search: the crate, or the C functions of the FMU
     #[arg(long, value_enum, default_value_t = Through::Crate)]
     through: Through,
 
@@ -75,7 +75,7 @@ struct Arguments {
     trace: Option<PathBuf>,
 }
 
-/// What is driven.
+/// Target of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Through {
     Crate,

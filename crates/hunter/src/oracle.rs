@@ -45,9 +45,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What a position may be beyond its limit \[m\].
+/// Tolerance of a position beyond its limit \[m\].
 pub const POSITION_TOLERANCE: f64 = 1e-9;
-/// What a velocity or an acceleration may be beyond its limit, relative to the limit.
+/// Tolerance of a velocity or an acceleration beyond its limit, relative to the limit.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 /// Roundings that a length, a coordinate or a velocity may have gone through, in units in the
 /// last place of its parts.
@@ -71,7 +71,7 @@ pub struct Sample {
     pub sum: f64,
 }
 
-/// What the actuators may do, and how large the machine is.
+/// Limits of the actuators, and size of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Machine {
     /// Shortest and longest length of a leg \[m\].
@@ -160,9 +160,9 @@ pub struct Breach {
     pub quantity: Quantity,
     /// The leg or the axis, from 1.
     pub index: usize,
-    /// What it is, less what rounding may have added.
+    /// The value, less the largest rounding error.
     pub value: f64,
-    /// What it may be at most.
+    /// The largest permitted value.
     pub limit: f64,
 }
 
@@ -186,15 +186,15 @@ struct Axis {
     velocity_limit: f64,
     /// Acceleration limit set last.
     acceleration_limit: f64,
-    /// What the position may be now.
+    /// Position limit in force.
     position: f64,
-    /// What the velocity may be now.
+    /// Velocity limit in force.
     velocity: f64,
-    /// What the acceleration may be now, and what it might have been during the last step.
+    /// Acceleration limits in force now and during the last step.
     acceleration: [f64; 2],
     /// The smallest acceleration limit under which the platform may still be coming to rest.
     slowest: f64,
-    /// Whether the axis has come to rest since its limits changed.
+    /// True if the axis has come to rest since its limits changed.
     stopped: bool,
 }
 
@@ -203,7 +203,7 @@ struct Axis {
 pub struct Oracle {
     machine: Machine,
     axes: [Axis; 3],
-    /// Whether some axis is held to limits other than those set last, and the time that
+    /// True if some axis is held to limits other than those set last, and the time that
     /// is left for it \[s\].
     settling: bool,
     remaining: f64,
@@ -395,7 +395,7 @@ impl Oracle {
     }
 }
 
-/// What rounding may add to the differences of a step.
+/// Largest rounding errors of a step's differences.
 struct Rounding {
     mean: f64,
     change: f64,

@@ -8,7 +8,7 @@ use crate::signal::{Signal, VELOCITIES};
 use crate::target::{Inputs, Target};
 use crate::variables::{REAL_INPUTS, Variables};
 
-/// What a run showed.
+/// Result of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Outcome {
     /// Communication steps made.

@@ -17,7 +17,7 @@ use crate::scenario::Scenarios;
 use crate::shrink::{is_geometry, shrink};
 use crate::target::Target;
 
-/// How long and where a search looks.
+/// Extent of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Plan {
     /// The search's seed.
@@ -32,7 +32,7 @@ pub struct Plan {
     pub breaches: usize,
     /// Threads that search.
     pub threads: usize,
-    /// Whether what is found is shrunk.
+    /// True: episodes found are shrunk.
     pub shrink: bool,
 }
 
@@ -51,13 +51,13 @@ pub enum Failure {
 pub struct Found {
     /// The episode, shrunk if that was asked for.
     pub episode: Episode,
-    /// What fails in it.
+    /// The failure in it.
     pub failure: Failure,
-    /// How many steps the episode had in which it was found.
+    /// Steps of the episode in which it was found.
     pub found_after: usize,
 }
 
-/// What a search has seen.
+/// Summary of a search.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Summary {
     pub seed: u64,
@@ -80,7 +80,7 @@ const EPISODES: [usize; 2] = [4, 24];
 /// Refused machines, without one that is made, after which the search gives up.
 const MOST_REFUSED: u64 = 50;
 
-/// What the threads share.
+/// Data shared by the threads.
 struct Shared<'a> {
     plan: &'a Plan,
     runner: &'a Runner,

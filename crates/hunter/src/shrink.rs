@@ -201,7 +201,8 @@ impl<T: Target> Shrinker<'_, T> {
     }
 }
 
-/// Whether a parameter belongs to the rig's geometry, which is one thing and takes long to survey.
+/// True if a parameter belongs to the rig's geometry, which changes as a whole
+/// and is slow to survey.
 pub fn is_geometry(name: &str) -> bool {
     name.starts_with("rig.") || name == "actuator.minLength" || name == "actuator.maxLength"
 }

@@ -10,7 +10,7 @@ use crate::episode::Values;
 
 /// The washout's interface.
 pub const IDENTITY: Identity = Washout::IDENTITY;
-/// How many inputs are real numbers: all but `engaged`.
+/// Number of real inputs: all but `engaged`.
 pub const REAL_INPUTS: usize = 11;
 
 /// Where a variable is in the model's slots, by its name.

@@ -7,7 +7,7 @@ const MACHINE: Machine =
 const SAFETY: Safety = Safety { position: [0.45; 3], velocity: [1.0; 3], acceleration: [10.0; 3] };
 const NEUTRAL: f64 = 1.3;
 
-/// What moves, the other coordinates being at rest.
+/// The coordinate in motion; the others are at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Mover {
     Leg,

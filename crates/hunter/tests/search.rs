@@ -57,7 +57,8 @@ fn broken(breaks: fn(&mut Sample)) -> Broken {
     Broken { inner: CrateTarget::default(), breaks }
 }
 
-/// What is found with outputs changed in this way is short, and a file of it repeats it.
+/// The quantity found with outputs changed in this way. The episode is short,
+/// and its file repeats it.
 fn is_found(breaks: fn(&mut Sample)) -> Quantity {
     let summary = search(&plan(), || Ok(broken(breaks)), |_| {}).unwrap();
     let [found] = &summary.found[..] else { panic!("{} found", summary.found.len()) };

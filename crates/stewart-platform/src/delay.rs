@@ -151,7 +151,7 @@ mod tests {
         }
     }
 
-    /// What was on its way has arrived when the dead time ends; the drives smooth the jump.
+    /// Delayed commands arrive at once when the dead time becomes zero; the drives smooth the jump.
     #[test]
     fn without_a_dead_time_the_last_command_arrives_at_once() {
         let mut line = DelayLine::new(0.01, &[0.0; 6]);

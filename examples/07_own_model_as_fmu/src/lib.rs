@@ -1,4 +1,5 @@
-//! A first-order low-pass, as for an accelerometer ahead of the washout: a model of three variables.
+//! A first-order low-pass, as for an accelerometer ahead of the washout: a model of three
+//! variables.
 #![allow(non_snake_case)] // FMI 2.0 names the library as the model
 
 use moris_interface::units::{M_PER_S2, S};

@@ -2,8 +2,8 @@
 //!
 //!     cargo run --package moris-07_own_model_as_fmu
 //!
-//! Writes `target/fmu/LowPass.fmu`. `cargo build-fmu` adds documentation, a reference simulation and
-//! libraries for other platforms; a model gets them by an entry in `build-fmu/src/model/`.
+//! Writes `target/fmu/LowPass.fmu`. `cargo build-fmu` adds documentation, a reference simulation
+//! and libraries for other platforms; a model gets them by an entry in `build-fmu/src/model/`.
 
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::error::Error;

@@ -34,7 +34,7 @@ pub struct Tuning {
     /// Break frequency \[rad/s\] and damping ratio of the travel's high-pass.
     pub omega: f64,
     pub zeta: f64,
-    /// How fast P1 and P2 follow the gradient.
+    /// Rates at which P1 and P2 follow the gradient.
     pub adaptation: [f64; 2],
     /// P1, and P2 \[(rad/s)/(m/s2)\], to which the gains are pulled.
     pub nominal: [f64; 2],
@@ -97,7 +97,7 @@ impl Adaptive {
         (self.models, self.tuning) = (*models, *tuning);
     }
 
-    /// What to do in a step of `step` seconds that begins in these states, with these references at
+    /// Decision for a step of `step` seconds that begins in these states, with these references at
     /// its end, when the actuators have so much left of their strokes \[m\].
     pub fn decide(
         &mut self,

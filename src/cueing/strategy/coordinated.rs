@@ -40,10 +40,10 @@ pub struct Coordinated {
     law: Law,
     /// The tilts q of surge and sway.
     tilt: [Motion; 2],
-    /// Whether a limit keeps either tilt from moving on.
+    /// True if a limit stops either tilt.
     pub limited: bool,
     dropped_force: [f64; 2],
-    /// How much of the law is in force; the rest returns to neutral.
+    /// Fraction of the law in force; the rest returns to neutral.
     share: f64,
 }
 
@@ -55,7 +55,7 @@ enum Law {
     Predictive(Box<Predictive>),
 }
 
-/// What a step begins with, and what is known of its end.
+/// State at a step's beginning, and the known part of its end.
 #[derive(Clone, Copy, Debug)]
 pub struct Circumstances<'a> {
     pub parameters: &'a Parameters,

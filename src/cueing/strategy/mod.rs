@@ -47,7 +47,7 @@ pub struct AxisState {
     pub tilt_rate: f64,
 }
 
-/// What a strategy decides for one axis.
+/// A strategy's decision for one axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Decision {
     /// Felt force less the cue \[m/s2\].
@@ -101,7 +101,7 @@ impl Strategy {
         }
     }
 
-    /// Whether a limit kept the tilt from what the strategy asks for in the last step.
+    /// True if a limit changed the strategy's tilt in the last step.
     pub fn tilt_limited(&self) -> bool {
         match self {
             Strategy::Classical(classical) => classical.tilt().limited,

@@ -62,7 +62,7 @@ impl Optimal {
         true
     }
 
-    /// What to do in a step of `step` seconds that begins in these states, with these
+    /// Decision for a step of `step` seconds that begins in these states, with these
     /// references at its end.
     pub fn decide(&mut self, states: &[AxisState; 2], references: [f64; 2], step: f64) -> [Decision; 2] {
         let share = 1.0 - libm::exp(-step / self.tuning.split_time);

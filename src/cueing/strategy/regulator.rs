@@ -17,7 +17,7 @@ pub type Gains = SMatrix<f64, 2, 6>;
 pub struct AxisModel {
     /// Height of the washout location above the platform \[m\].
     pub head_height: f64,
-    /// What a radian of tilt adds to the felt force \[m/s2\].
+    /// Felt force of a radian of tilt \[m/s2\].
     pub gravity: f64,
     /// Farthest travel \[m\] and largest velocity \[m/s\].
     pub position_limit: f64,
@@ -36,7 +36,7 @@ pub struct Weights {
     pub velocity: f64,
     pub tilt_rate: f64,
     pub tilt_acceleration: f64,
-    /// How fast the slow and the fast part of the reference are expected to fade \[rad/s\].
+    /// Expected decay rates of the slow and the fast part of the reference \[rad/s\].
     pub slow_pole: f64,
     pub fast_pole: f64,
 }

@@ -1,8 +1,9 @@
 //! The calling sequence as the standard has it, for tests to hold the functions against.
 
-/// FMI 3.0, 2.3 and 4.2: each function with the states in which it is allowed. I instantiated, N initialization mode, S step
-/// mode, T terminated, to which the standard counts an instance after an error (E), but for looking at it. Without structural
-/// parameters, event mode, clocks, model exchange and scheduled execution their functions are allowed in no state.
+/// FMI 3.0, 2.3 and 4.2: each function with the states in which it is allowed. I instantiated, N
+/// initialization mode, S step mode, T terminated, to which the standard counts an instance after
+/// an error (E), but for looking at it. Without structural parameters, event mode, clocks, model
+/// exchange and scheduled execution their functions are allowed in no state.
 pub const CALLING_SEQUENCE: &[(&str, &str)] = &[
     ("fmi3GetVersion", "INSTE"),
     ("fmi3SetDebugLogging", "INSTE"),

@@ -1,4 +1,5 @@
-//! The functions of an instance's life, by either version. What only one version has is in [`fmi2`] and [`fmi3`].
+//! The functions of an instance's life, by either version. What only one version has is in
+//! [`fmi2`] and [`fmi3`].
 
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
@@ -71,7 +72,7 @@ pub fn any(world: &mut World, who: usize) -> i32 {
     }
 }
 
-/// What a host of this version does often and one of the other never.
+/// A call that hosts of this version make often and those of the other never.
 pub fn own_of_version(world: &mut World, who: usize) -> i32 {
     let functions = world.functions;
     match &functions.version {
@@ -80,7 +81,7 @@ pub fn own_of_version(world: &mut World, who: usize) -> i32 {
     }
 }
 
-/// What tells how a step went, or what there is not.
+/// A query of the last step, or a call that is not supported.
 pub fn seldom(world: &mut World, who: usize) -> i32 {
     let functions = world.functions;
     match &functions.version {
@@ -175,7 +176,8 @@ fn reset(world: &mut World, who: usize) -> i32 {
     world.accept(who, answer, &[OK])
 }
 
-/// Switching categories of messages on or off: FMI 2.0 knows more of them, of which events alone make a difference.
+/// Switching categories of messages on or off: FMI 2.0 knows more of them, of which events
+/// alone make a difference.
 fn set_debug_logging(world: &mut World, who: usize) -> i32 {
     let functions = world.functions;
     let known: &[&CStr] = match functions.version {

@@ -88,8 +88,8 @@ impl Functions {
     }
 }
 
-/// All unsafe ones of these need an instance that is alive, and pointers that are null or lead to as many elements as are
-/// given.
+/// All unsafe ones of these need an instance that is alive, and pointers that are null or lead to
+/// as many elements as are given.
 impl Functions {
     /// The type by which a variable goes through the interface.
     pub fn type_of(&self, slot: usize) -> Type {
@@ -110,7 +110,7 @@ impl Functions {
         }
     }
 
-    /// What the version makes of a value: of a Boolean, 0 or 1.
+    /// The value as the version stores it: a Boolean as 0 or 1.
     pub fn converted(&self, kind: Type, value: f64) -> f64 {
         match (&self.version, kind) {
             (Fmi2(_), Type::Boolean) => f64::from(value as c_int != 0),

@@ -31,7 +31,8 @@ pub struct Logged {
 }
 
 impl Logged {
-    /// Categories after instantiation with logging on or off: FMI 2.0's instance always says why it discards.
+    /// Categories after instantiation with logging on or off: FMI 2.0's instance always
+    /// says why it discards.
     fn after_instantiation(functions: &Functions, on: bool) -> Self {
         Logged { events: on, discards: on || matches!(functions.version, Version::Fmi2(_)), errors: true }
     }
@@ -97,7 +98,8 @@ impl Player {
         player
     }
 
-    /// Checks that the call ended in one of these ways, and that the instance said about it what it should.
+    /// Checks that the call ended in one of these ways, and that the instance said
+    /// about it what it should.
     pub fn accept(&mut self, (function, status): Answer, right: &[c_int]) {
         let said = self.log.as_mut().map(|log| std::mem::take(&mut log.said));
         assert!(right.contains(&status), "{function}: {status}, not one of {right:?}; {said:?}; {:?}", self.expected);

@@ -1,4 +1,5 @@
-//! The washout's library in the hands of a host that does everything wrong, by both versions of FMI.
+//! The washout's library in the hands of a host that does everything wrong, by
+//! both versions of FMI.
 
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::{Api, Fmu, fmi3};
@@ -25,7 +26,8 @@ fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> Tally {
     total
 }
 
-/// Asserts that every function was called, and that those that can be used were, both with success and without.
+/// Asserts that every function was called, and that those that can be used were, both
+/// with success and without.
 fn assert_all_called(total: &Tally, functions: &[&str], sequence: &[(&str, &str)], exceptions: &Exceptions) {
     for function in functions {
         let count = |status| total.iter().filter(|((name, s), _)| name == function && *s == status).count();

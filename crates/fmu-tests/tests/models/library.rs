@@ -57,11 +57,11 @@ pub enum Version {
 
 pub const VERSIONS: [Version; 2] = [Version::Fmi2, Version::Fmi3];
 
-/// How a call ends, in both versions.
+/// Statuses of a call, in both versions.
 pub const OK: c_int = 0;
 pub const DISCARD: c_int = 2;
 
-/// What an instance has logged.
+/// Messages logged by an instance.
 pub type Messages = RefCell<Vec<String>>;
 
 /// An open library.

@@ -1,4 +1,4 @@
-//! What the rows say of ranges is what the libraries do.
+//! The libraries keep the ranges that the rows state.
 
 use moris_interface::{Causality, Kind, Row, Variability};
 

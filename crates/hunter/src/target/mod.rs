@@ -1,4 +1,4 @@
-//! What is driven: the washout, through the crate or through the C functions of its shared library.
+//! Targets of the search: the washout, by the crate or by the C functions of its shared library.
 
 mod crate_target;
 mod fmu_target;

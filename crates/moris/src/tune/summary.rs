@@ -44,7 +44,7 @@ pub fn is_worse(results: &[RideResult]) -> bool {
         || results.iter().any(tuned)
 }
 
-/// What matters most, in a sentence.
+/// The most important result, in a sentence.
 pub fn first_line(results: &[RideResult]) -> String {
     let names = |rides: Vec<&RideResult>| rides.iter().map(|ride| ride.name.as_str()).collect::<Vec<_>>().join(", ");
     if is_worse(results) {

@@ -52,7 +52,7 @@ const CHANGES: &[(&str, Change)] = &[
     ("rider.bodyLeanShare", |p| p.rider.body_lean_share = 0.5),
 ];
 
-/// What has inertia: each with its rate, where that is an output.
+/// Quantities with inertia, each with its rate if that is an output.
 fn pairs(output: &Output) -> [(f64, f64); 4] {
     [
         (output.speed, output.acceleration),

@@ -46,7 +46,7 @@ pub struct DualActiveSet<const N: usize, const M: usize> {
     active: usize,
     /// The violated row that is being added.
     pending: Option<PendingRow>,
-    /// Whether each row is left out, because no point satisfies it together with the active rows.
+    /// True for each row that no point satisfies together with the active rows; it is dropped.
     given_up: SVector<bool, M>,
     status: Status,
     iterations: u32,

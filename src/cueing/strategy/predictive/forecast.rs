@@ -66,7 +66,7 @@ pub struct Forecast {
     pub end: [f64; 2],
 }
 
-/// How long the forecaster remembers \[s\].
+/// Forgetting time of the forecaster \[s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Of the fit.
@@ -98,7 +98,7 @@ pub struct Forecaster {
     forecast: Forecast,
 }
 
-/// What is remembered of an instant.
+/// Data stored of an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Sample {
     value: f64,
@@ -133,7 +133,7 @@ impl Sample {
         Features::new(self.value, low[0], low[1], low[2], low[3], low[4])
     }
 
-    /// What the fixed experts forecast of this instant: hold, trend, fade.
+    /// Forecasts of the fixed experts at this instant: hold, trend, fade.
     fn fixed_forecasts(&self, tables: &Tables) -> [Targets; EXPERTS - 1] {
         let slow = self.low_passes[SLOW];
         let fast = self.value - slow;
@@ -145,7 +145,7 @@ impl Sample {
     }
 }
 
-/// What every forecaster needs and nothing changes.
+/// Constants of every forecaster.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Tables {
     /// Targets of the fixed experts for a slow and a fast part of 1, and for a slope of 1.
@@ -198,14 +198,15 @@ fn exponential(decay: f64, slow: bool) -> Targets {
     })
 }
 
-/// What a slope of 1 adds by the middle of each block, and by the end, half of it to either part.
+/// Contribution of a slope of 1 by the middle of each block and by its end, half
+/// of it to either part.
 fn trend() -> Targets {
     let grown = |time: f64| TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME));
     let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
     Targets::from_fn(|k, _| if k < BLOCKS { grown(ends[k] - 0.5 * durations[k]) } else { 0.5 * grown(FORECAST) })
 }
 
-/// What a slow and a fast part of 1 lead to, as a forecast from the features.
+/// Forecast of a slow and a fast part of 1, as a function of the features.
 fn from_features([slow, fast]: &[Targets; 2]) -> Linear {
     let mut linear = Linear::zeros();
     linear.set_column(0, fast);

@@ -13,7 +13,7 @@ pub const FORECAST_SAMPLES: usize = 150;
 /// Number of samples in each block of the near horizon.
 pub const SAMPLES: [usize; BLOCKS] = [2, 3, 5, 9, 14, 22, 36, 59];
 
-/// How far a plan reaches.
+/// Length of a plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Horizon {
     /// As far as the reference is forecast.

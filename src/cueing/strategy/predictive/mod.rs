@@ -54,7 +54,7 @@ pub struct Predictive {
     programs: Programs,
     rows: Box<Rows<CONTROLS, ROWS>>,
     solver: Box<DualActiveSet<CONTROLS, ROWS>>,
-    /// Whether a new plan is to be made.
+    /// True: a new plan is due.
     due: bool,
     /// Horizon of the plan that is being made, its nodes without control, and the time since it was
     /// begun \[s\].
@@ -74,7 +74,7 @@ pub struct Plan {
     pub age: f64,
     /// Iterations that it took.
     pub iterations: u32,
-    /// Whether the last attempt at a newer plan failed.
+    /// True if the last attempt at a newer plan failed.
     pub kept: bool,
 }
 
@@ -147,7 +147,7 @@ impl Predictive {
         &self.plan
     }
 
-    /// What to do in a step of `step` seconds, at whose beginning surge and sway are in
+    /// Decision for a step of `step` seconds, at whose beginning surge and sway are in
     /// these states. None once the plan is over. `time_to_stop` is infinite while no stop of
     /// the vehicle is foreseen.
     pub fn decide(

@@ -174,7 +174,7 @@ impl AxisProgram {
         self.gradient * data
     }
 
-    /// What one unit of each control does to a state (0: position, 2: tilt) of a node.
+    /// Effect of one unit of each control on a state (0: position, 2: tilt) of a node.
     pub fn response(&self, node: usize, state: usize) -> AxisControls {
         self.from_controls.row(4 * node + state).transpose()
     }
@@ -226,7 +226,7 @@ impl AxisProgram {
     }
 }
 
-/// What the program starts from.
+/// Initial state of the program.
 pub fn data(state: &AxisState, forecast: &Forecast) -> Data {
     let start = [state.position, state.velocity, state.tilt, state.tilt_rate];
     Data::from_fn(|k, _| match k {
