@@ -50,6 +50,8 @@ def main():
     run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--", "--quiet")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
+    run(python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".")
+    run(python(), "-m", "pytest", "--quiet", "tests/python_package")
     run(sys.executable, "tests/importers/run.py", *(["--require"] if arguments.require else []))
     run(sys.executable, "tests/platforms/run.py", *passed_on)
     run(sys.executable, "tests/report/run.py", *passed_on)

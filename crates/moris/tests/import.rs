@@ -357,3 +357,33 @@ fn a_preamble_and_a_line_of_units_are_passed_over() {
     let message = read(&text.replacen("wz", "yaw rate", 1)).unwrap_err();
     assert!(message.contains("there is no column wz; there are time, ax, ay, az, wx, wy, yaw rate"), "{message}");
 }
+
+/// Columns in memory are read by the same rules as a file's.
+#[test]
+fn columns_in_memory_are_read_as_a_file() {
+    let header = "time [ms],ax [g],ay [g],az [g],wx [deg/s],wy [deg/s],wz [deg/s],note";
+    let text = csv(header, &car(20.0), ms_g_degrees()).replace('\n', ",0\n").replacen(",0\n", "\n", 1);
+    let mut columns: Vec<(String, Vec<f64>)> = header.split(',').map(|title| (title.to_owned(), Vec::new())).collect();
+    for line in text.lines().skip(1) {
+        for (column, field) in columns.iter_mut().zip(line.split(',')) {
+            column.1.push(field.parse().unwrap());
+        }
+    }
+    let conventions = ConventionOptions::default().load().unwrap();
+    let in_memory = |columns: &[(String, Vec<f64>)]| {
+        Ride::of_columns("drive", columns, &conventions).map_err(|error| error.to_string())
+    };
+    let (file, ride) = (read(&text).unwrap(), in_memory(&columns).unwrap());
+    assert_eq!((ride.name.as_str(), ride.step(), ride.inputs()), ("drive", file.step(), file.inputs()));
+
+    let mut gap = columns.clone();
+    gap[2].1[7] = f64::NAN;
+    let message = in_memory(&gap).unwrap_err();
+    assert!(message.starts_with("drive, line 8, column ay [g]: is NaN"), "{message}");
+    let mut short = columns.clone();
+    short[3].1.pop();
+    let message = in_memory(&short).unwrap_err();
+    assert!(message.contains("column az [g] has") && message.contains("others have"), "{message}");
+    let message = in_memory(&columns[..6]).unwrap_err();
+    assert!(message.contains("there is no column wz"), "{message}");
+}

@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 use moris::ride::Ride;
 use moris::run::Recording;
 use moris::tune::cost::{Constraints, Judge};
-use moris::tune::search::{Budget, search};
+use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
 use moris_batch::Manoeuvre;
 use moris_setup::Setup;
@@ -116,7 +116,7 @@ fn searched(threads: usize, seed: u64) -> Parameters {
     let space = Space::new(&Parameters::default(), &DEFAULT);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let budget = Budget { evaluations: 120, seed };
-    pool.install(|| search(&[&first, &second], &space, budget, |_, _| true).unwrap().best[0].parameters)
+    pool.install(|| search(&[&first, &second], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].parameters)
 }
 
 fn brisk() -> Ride {
@@ -137,7 +137,7 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
     let space = Space::new(&start, &DEFAULT);
     let mut tried = Vec::new();
     let budget = Budget { evaluations: 600, seed: 3 };
-    let searched = search(&[&judge], &space, budget, |count, least| {
+    let searched = search(&[&judge], &evaluate_here, &space, budget, |count, least| {
         tried.push((count, least));
         true
     });
@@ -154,7 +154,7 @@ fn a_search_that_is_broken_off_keeps_what_it_has() {
     let space = Space::new(&Parameters::default(), &DEFAULT);
     let mut generations = 0;
     let budget = Budget { evaluations: 100_000, seed: 1 };
-    let searched = search(&[&judge], &space, budget, |_, _| {
+    let searched = search(&[&judge], &evaluate_here, &space, budget, |_, _| {
         generations += 1;
         generations < 3
     });
@@ -167,7 +167,8 @@ fn what_the_rides_have_nothing_to_say_about_stays_as_it_was() {
     let judge = judge(brisk(), NO_RESERVE);
     let start = Parameters::default();
     let space = Space::new(&start, &DEFAULT);
-    let best = search(&[&judge], &space, Budget { evaluations: 300, seed: 1 }, |_, _| true).unwrap().best;
+    let best =
+        search(&[&judge], &evaluate_here, &space, Budget { evaluations: 300, seed: 1 }, |_, _| true).unwrap().best;
     let tuned = best[0].parameters;
     assert_eq!(tuned.splitter.omega1.y, start.splitter.omega1.y);
     assert_eq!(tuned.angular.omega1.yaw, start.angular.omega1.yaw);

@@ -37,6 +37,7 @@ use moris_washout::{Input, Parameters};
 
 pub use conventions::{ConventionOptions, Conventions};
 pub use error::RideError;
+use table::Table;
 
 /// A recording.
 #[derive(Clone, Debug)]
@@ -64,14 +65,29 @@ impl Ride {
     /// number, the steps of time are unequal, a unit in the header contradicts an option, or the
     /// units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RideError> {
-        let table = table::read(file, conventions)?;
+        Self::of_table(source::name(file), table::read(file, conventions)?, conventions)
+    }
+
+    /// A recording of columns in memory, each a name and its values, read as the columns of a file.
+    ///
+    /// # Errors
+    /// As [`Ride::read`]; columns of different lengths.
+    pub fn of_columns(
+        name: &str,
+        columns: &[(String, Vec<f64>)],
+        conventions: &Conventions,
+    ) -> Result<Self, RideError> {
+        Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
+    }
+
+    fn of_table(name: String, table: Table, conventions: &Conventions) -> Result<Self, RideError> {
         let (table, mut remarks) = sampling::at_equal_steps(table, conventions)?;
         let mut inputs = convert::inputs(&table, conventions);
         plausibility::check(&table, &inputs, conventions)?;
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
         remarks.extend(plausibility::warnings(&table, &inputs));
         Ok(Ride {
-            name: source::name(file),
+            name,
             start: table.time[0],
             manoeuvre: Manoeuvre::new(table.step(), inputs),
             angular_velocity_frame: conventions.rate_frame.into(),

@@ -112,6 +112,48 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
     Ok(table)
 }
 
+/// The recording in columns that are in memory already, by the rules for a file's: names, and units
+/// in their brackets. `name` is what messages call it.
+///
+/// # Errors
+/// As [`read`]; columns of different lengths.
+pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)], conventions: &Conventions) -> Result<Table, RideError> {
+    let file = PathBuf::from(name);
+    let whole = |reason: String| RideError::Whole { file: file.clone(), reason };
+    let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
+    let layout = header.columns(&file, conventions)?;
+    let samples = layout.first().map_or(0, |column| columns[column.place].1.len());
+    if samples < 2 {
+        return Err(whole("has fewer than two samples".to_owned()));
+    }
+    let mut table = Table {
+        file: file.clone(),
+        time: Vec::new(),
+        columns: BTreeMap::new(),
+        layout,
+        lines: (1..=samples as u64).collect(),
+    };
+    for Column { quantity, place, unit, .. } in &table.layout {
+        let (title, values) = &columns[*place];
+        if values.len() != samples {
+            return Err(whole(format!("column {} has {} values, others have {samples}", quoted(title), values.len())));
+        }
+        if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
+            let reason = format!("is {}; cut this part off, or fill the gap with plausible values", values[sample]);
+            let column = Some(quoted(title));
+            return Err(RideError::Line { file: file.clone(), line: sample as u64 + 1, column, reason });
+        }
+        let in_si = values.iter().map(|value| value * unit.in_si).collect();
+        match quantity {
+            Quantity::Time => table.time = in_si,
+            _ => {
+                table.columns.insert(*quantity, in_si);
+            }
+        }
+    }
+    Ok(table)
+}
+
 /// The number of lines before the header, and the text from the header on.
 ///
 /// The header is the first line with all columns that a recording needs. Where there is none, it is

@@ -5,7 +5,7 @@
 //! was not tuned on. [`summary`] says what came of it.
 
 pub mod cost;
-mod folds;
+pub mod folds;
 mod options;
 pub mod search;
 pub mod space;
@@ -56,6 +56,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         setup: &before,
         space: Space::new(&before.parameters, &options.tune),
         budget: options.budget(),
+        evaluate: &search::evaluate_here,
+        observe: &|_, _, _| true,
         interrupted: listen()?,
         bar,
     };
@@ -112,7 +114,10 @@ fn listen() -> Result<Arc<AtomicBool>> {
 }
 
 /// Every ride before and after, those that were not tuned on among them.
-fn results(tuner: &Tuner, judges: &[&Judge], held_out: &[&Judge], tuned: &Setup) -> Result<Vec<RideResult>> {
+///
+/// # Errors
+/// The parameters cannot be used.
+pub fn results(tuner: &Tuner, judges: &[&Judge], held_out: &[&Judge], tuned: &Setup) -> Result<Vec<RideResult>> {
     let result = |judge: &&Judge, is_held_out: bool| {
         let after = tuner::full_cost(judge, tuned)?;
         Ok(RideResult {

@@ -9,7 +9,7 @@ use moris_washout::Parameters;
 use moris_washout::nalgebra;
 use rayon::prelude::*;
 
-use super::cost::Judge;
+use super::cost::{Cost, Judge};
 use super::space::Space;
 
 /// Length and start of a search.
@@ -19,6 +19,17 @@ pub struct Budget {
     pub evaluations: usize,
     /// Where the random numbers begin.
     pub seed: u64,
+}
+
+/// Computes the cost of each ride with these parameters, in the long steps of a search.
+pub type Evaluate<'a> = dyn Fn(&[&Judge], &Parameters) -> Result<Vec<Cost>> + Sync + 'a;
+
+/// Evaluates on all cores of this machine.
+///
+/// # Errors
+/// The parameters cannot be used.
+pub fn evaluate_here(judges: &[&Judge], parameters: &Parameters) -> Result<Vec<Cost>> {
+    judges.par_iter().map(|judge| Ok(judge.coarse_cost(parameters)?)).collect()
 }
 
 /// Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
@@ -69,19 +80,21 @@ pub struct Searched {
 
 /// Searches for parameters with the smallest objective over these rides that keep all constraints.
 ///
-/// `progress` is told after each generation how many sets have been tried and what the least error
-/// is so far, and says whether to go on.
+/// `evaluate` computes the costs, here or on other machines. `progress` is told after each
+/// generation how many sets have been tried and what the least error is so far, and says whether
+/// to go on.
 ///
 /// # Errors
 /// Parameters of the space cannot be used.
 pub fn search(
     judges: &[&Judge],
+    evaluate: &Evaluate,
     space: &Space,
     budget: Budget,
     mut progress: impl FnMut(usize, Option<f64>) -> bool,
 ) -> Result<Searched> {
     let best = Mutex::new(Best::default());
-    let rides = &Rides::new(judges, space)?;
+    let rides = &Rides::new(judges, evaluate, space)?;
     let cost = |point: &DVector<f64>| price(rides, space, point.as_slice(), &best);
     let start = first_point(rides, space, |point| cost(&DVector::from(point.as_slice().to_vec())));
     let mut search = CMAESOptions::new(start, FIRST_STEP)
@@ -182,15 +195,15 @@ const PRICE_OF_WORSENING: f64 = 4.0;
 /// The rides, with their errors at the start of the search.
 struct Rides<'a> {
     judges: &'a [&'a Judge],
+    evaluate: &'a Evaluate<'a>,
     starts: Vec<f64>,
 }
 
 impl<'a> Rides<'a> {
-    fn new(judges: &'a [&'a Judge], space: &Space) -> Result<Self> {
+    fn new(judges: &'a [&'a Judge], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
         let start = at(space, &vec![0.0; space.dimension()]);
-        let starts: Result<Vec<f64>, _> =
-            judges.par_iter().map(|judge| judge.coarse_cost(&start).map(|cost| cost.error)).collect();
-        Ok(Rides { judges, starts: starts? })
+        let starts = evaluate(judges, &start)?.iter().map(|cost| cost.error).collect();
+        Ok(Rides { judges, evaluate, starts })
     }
 
     /// The objective and the mean fraction of the time in violation; none where the
@@ -200,8 +213,7 @@ impl<'a> Rides<'a> {
     /// worsening priced beside it: what serves one ride at another's expense hardly serves a
     /// ride that is not known.
     fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
-        let costs: Result<Vec<_>, _> = self.judges.par_iter().map(|judge| judge.coarse_cost(parameters)).collect();
-        let costs = costs.ok()?;
+        let costs = (self.evaluate)(self.judges, parameters).ok()?;
         let count = costs.len() as f64;
         let mean = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
         let worst = costs.iter().map(|cost| cost.error).fold(0.0, f64::max);

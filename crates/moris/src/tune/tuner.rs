@@ -12,7 +12,7 @@ use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use super::cost::{Cost, Judge};
-use super::search::{Budget, Searched, search};
+use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
 use super::summary::RideResult;
 use crate::run::Recording;
@@ -37,6 +37,11 @@ pub struct Tuner<'a> {
     pub space: Space,
     /// Length of each search.
     pub budget: Budget,
+    /// Computes the costs of a search.
+    pub evaluate: &'a Evaluate<'a>,
+    /// Receives the progress of each search: its name, the parameter sets tried, and the least
+    /// error so far. Ends the search by returning false.
+    pub observe: &'a (dyn Fn(&str, usize, Option<f64>) -> bool + Sync),
     /// Set when the user wants it to end.
     pub interrupted: Arc<AtomicBool>,
     /// Counts parameter sets.
@@ -56,11 +61,12 @@ impl Tuner<'_> {
     /// None were found ([`NothingFound`]), or parameters cannot be used.
     pub fn tune(&self, judges: &[&Judge], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
-        let searched = search(judges, &self.space, self.budget, |tried, least| {
+        let searched = search(judges, self.evaluate, &self.space, self.budget, |tried, least| {
+            let go_on = (self.observe)(what, tried, least);
             self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
             let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
             self.bar.set_message(format!("{what}: {error}"));
-            !self.was_interrupted()
+            go_on && !self.was_interrupted()
         })?;
         self.bar.set_position(begin + self.budget.evaluations as u64);
         let before = full_costs(judges, self.setup)?;

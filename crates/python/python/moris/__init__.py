@@ -1,0 +1,55 @@
+"""Motion cueing: the MORIS washout filter, the quality of its cues, and its tuning.
+
+Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z, so that positive pitch is nose down. All quantities
+are in SI units. Variables have the names that they have in the FMU.
+"""
+
+from ._errors import BoundError, ClusterError, MorisError, NoParametersFound, ParameterError, RecordingError
+from ._fmu import BuildError, build_fmu
+from ._measures import Measure, Measures
+from ._moris import Output, Washout
+from ._outputs import Outputs
+from ._recording import Recording
+from ._response import FrequencyResponse, frequency_response
+from ._simulation import Bound, Simulation, bound, parameters, simulate, write_parameters
+from ._survey import AxisReach, Survey, survey
+from ._sweep import MEASURES, Result, Sweep, best, sweep
+from ._tune import Tuned, tune
+from ._variables import Variable, variables
+
+__all__ = [
+    "AxisReach",
+    "Bound",
+    "BoundError",
+    "BuildError",
+    "ClusterError",
+    "FrequencyResponse",
+    "MEASURES",
+    "Measure",
+    "Measures",
+    "MorisError",
+    "NoParametersFound",
+    "Output",
+    "Outputs",
+    "ParameterError",
+    "Recording",
+    "RecordingError",
+    "Result",
+    "Simulation",
+    "Survey",
+    "Sweep",
+    "Tuned",
+    "Variable",
+    "Washout",
+    "best",
+    "bound",
+    "build_fmu",
+    "frequency_response",
+    "parameters",
+    "simulate",
+    "survey",
+    "sweep",
+    "tune",
+    "variables",
+    "write_parameters",
+]

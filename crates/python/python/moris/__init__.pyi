@@ -1,0 +1,338 @@
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from threading import Event
+from typing import Any, Literal, NamedTuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+Rig = Union[str, PathLike[str], Mapping[str, Any]]
+ParameterSet = Union[str, PathLike[str], Mapping[str, Any], Sequence["ParameterSet"]]
+Strategy = Literal["classical", "adaptive", "optimal", "predictive"]
+Value = Union[float, bool, str]
+Source = Union["Recording", str, PathLike[str], Mapping[str, ArrayLike], Any]
+Show = Union[bool, None, Callable[[int, Union[int, None], str], Any]]
+
+__all__ = [
+    "AxisReach",
+    "Bound",
+    "BoundError",
+    "BuildError",
+    "ClusterError",
+    "FrequencyResponse",
+    "MEASURES",
+    "Measure",
+    "Measures",
+    "MorisError",
+    "NoParametersFound",
+    "Output",
+    "Outputs",
+    "ParameterError",
+    "Recording",
+    "RecordingError",
+    "Result",
+    "Simulation",
+    "Survey",
+    "Sweep",
+    "Tuned",
+    "Variable",
+    "Washout",
+    "best",
+    "bound",
+    "build_fmu",
+    "frequency_response",
+    "parameters",
+    "simulate",
+    "survey",
+    "sweep",
+    "tune",
+    "variables",
+    "write_parameters",
+]
+
+MEASURES: dict[str, str]
+
+class MorisError(ValueError): ...
+
+class ParameterError(MorisError):
+    parameter: str | None
+    value: Value | None
+    suggestions: tuple[str, ...]
+    def __init__(
+        self, message: str, parameter: str | None = None, value: Value | None = None, suggestions: Iterable[str] = ()
+    ) -> None: ...
+
+class RecordingError(MorisError): ...
+class BoundError(MorisError): ...
+class NoParametersFound(MorisError): ...
+class BuildError(RuntimeError): ...
+
+class ClusterError(RuntimeError):
+    partial: Sweep | None
+    def __init__(self, message: str, partial: Sweep | None = None) -> None: ...
+
+class Output:
+    def __getitem__(self, name: str, /) -> Any: ...
+    def __len__(self) -> int: ...
+    def __contains__(self, name: str, /) -> bool: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def keys(self) -> list[str]: ...
+    def values(self) -> list[Any]: ...
+    def items(self) -> list[tuple[str, Any]]: ...
+
+class Washout:
+    def __new__(cls, rig: Rig | None = None, parameters: ParameterSet | None = None, strategy: Strategy | None = None) -> Washout: ...
+    def step(
+        self,
+        dt: float,
+        specific_force: Sequence[float] | Floats | None = None,
+        angular_velocity: Sequence[float] | Floats | None = None,
+        orientation: Sequence[float] | Floats | None = None,
+        speed: float = 0.0,
+        lean: float = 0.0,
+        engaged: bool = True,
+    ) -> Output: ...
+    def run(
+        self,
+        time: ArrayLike,
+        specific_force: ArrayLike,
+        angular_velocity: ArrayLike | None = None,
+        orientation: ArrayLike | None = None,
+        speed: ArrayLike | None = None,
+        lean: ArrayLike | None = None,
+        engaged: ArrayLike | None = None,
+        *,
+        inputs: Literal["slopes", "values"] = "slopes",
+    ) -> Outputs: ...
+    def retune(self, parameters: ParameterSet) -> None: ...
+    def copy(self) -> Washout: ...
+    def __copy__(self) -> Washout: ...
+    def __deepcopy__(self, _memo: Any, /) -> Washout: ...
+    def __getitem__(self, name: str, /) -> Any: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    @property
+    def output(self) -> Output: ...
+    @property
+    def parameters(self) -> dict[str, Value]: ...
+
+class Outputs(Mapping[str, NDArray[Any]]):
+    time: Floats
+    values: Floats  # type: ignore[assignment]
+    names: tuple[str, ...]
+    def __init__(self, time: Floats, values: Floats, names: Iterable[str]) -> None: ...
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    def to_pandas(self) -> Any: ...
+
+class Variable(NamedTuple):
+    name: str
+    causality: str
+    kind: str
+    unit: str
+    min: float
+    max: float
+    start: Value | None
+    items: tuple[str, ...]
+    description: str
+    vector: str
+
+def variables(causality: Literal["input", "output", "parameter"] | None = None) -> dict[str, Variable]: ...
+
+class Recording:
+    def __init__(
+        self,
+        source: Source,
+        name: str | None = None,
+        **options: Any,
+    ) -> None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def step(self) -> float: ...
+    @property
+    def duration(self) -> float: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    @property
+    def inputs(self) -> Outputs: ...
+    def to_pandas(self) -> Any: ...
+
+class Measure(NamedTuple):
+    subject: str
+    name: str
+    value: float | None
+    unit: str
+    definition: str
+    source: str
+
+class Measures(dict[str, Union[float, None]]):
+    rows: tuple[Measure, ...]
+    def __init__(self, rows: Iterable[tuple[str, str, float | None, str, str, str]]) -> None: ...
+    def to_pandas(self) -> Any: ...
+
+class Simulation(Outputs):
+    recording: Recording
+    measures: Measures
+    findings: list[str]
+    parameters: dict[str, Value]
+    fits: bool
+    name: str
+    def __init__(self, native: Any, recording: Recording) -> None: ...
+    @property
+    def desired(self) -> tuple[Floats, Floats]: ...
+    def plot(self, figure: Any = None) -> Any: ...
+    def report(self, path: str | PathLike[str], compare: Iterable[Simulation] = ()) -> Path: ...
+
+class Bound(NamedTuple):
+    rms_error: float
+    desired_rms: float
+    felt: Floats
+
+def simulate(
+    recording: Source,
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    *,
+    bound: bool = False,
+    **options: Any,
+) -> Simulation: ...
+def bound(
+    recording: Source, rig: Rig | None = None, parameters: ParameterSet | None = None, **options: Any
+) -> dict[str, Bound]: ...
+def parameters(
+    rig: Rig | None = None, parameters: ParameterSet | None = None, strategy: Strategy | None = None
+) -> dict[str, Value]: ...
+def write_parameters(
+    path: str | PathLike[str], parameters: ParameterSet, rig: Rig | None = None, heading: str = "Written by moris"
+) -> Path: ...
+
+class FrequencyResponse:
+    channels: tuple[str, ...]
+    frequencies: Floats
+    ratios: NDArray[np.complex128]
+    small: NDArray[np.complex128]
+    distortion: Floats
+    limited: Floats
+    settled: NDArray[np.bool_]
+    def __init__(self, channels: Iterable[str], frequencies: Floats, test: Any, small: Any) -> None: ...
+    def to_pandas(self) -> Any: ...
+    def plot(self, figure: Any = None) -> Any: ...
+
+def frequency_response(
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    *,
+    force: float = 1.0,
+    rate: float | None = None,
+    gravity_turns: bool = False,
+) -> FrequencyResponse: ...
+
+class AxisReach(NamedTuple):
+    min: float
+    max: float
+    speed: float
+    acceleration: float
+
+class Survey:
+    name: str
+    reach: dict[str, AxisReach]
+    volume: float
+    tilted_volume: float
+    smallest_singular_value: float | None
+    worst_condition: float | None
+    singular_at: list[float] | None
+    def __init__(
+        self, name: Any, axes: Any, volumes: Any, condition: Any, singular_at: Any, text: Any, picture: Any
+    ) -> None: ...
+
+def survey(rig: Rig | None = None, samples: int = 1_000_000) -> Survey: ...
+def build_fmu(
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    *,
+    output: str | PathLike[str] = ".",
+    fmi: Literal[2, 3] = 2,
+    platforms: Sequence[str] | None = None,
+    source: str | PathLike[str] | None = None,
+) -> Path: ...
+
+class Result:
+    index: int
+    parameters: Any
+    values: Floats
+    error: str | None
+    def __init__(self, index: int, parameters: Any, values: Floats, error: str | None) -> None: ...
+    def __getitem__(self, name: str) -> Floats: ...
+
+class Sweep:
+    value: Any
+    done: int
+    complete: bool
+    recordings: list[str]
+    def __init__(self, value: Any, done: int, complete: bool, recordings: list[str]) -> None: ...
+    def to_pandas(self) -> Any: ...
+
+def best(count: int, cost: Callable[[Result], float]) -> Callable[[Any, Result], list[tuple[float, Result]]]: ...
+def sweep(
+    recordings: Source | Iterable[Source],
+    parameter_sets: Iterable[ParameterSet],
+    reduce: Callable[[Any, Result], Any] | None = None,
+    *,
+    initial: Any = None,
+    rig: Rig | None = None,
+    base: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    client: Any = None,
+    chunk: int | None = None,
+    progress: Show = None,
+    cancel: Event | None = None,
+    **options: Any,
+) -> Sweep: ...
+
+class Tuned:
+    parameters: dict[str, Value]
+    changed: dict[str, Value]
+    summary: str
+    verdict: str
+    is_worse: bool
+    interrupted: bool
+    errors: dict[str, dict[str, float | None]]
+    def __init__(
+        self,
+        before: Any,
+        parameters: Any,
+        summary: Any,
+        verdict: Any,
+        is_worse: Any,
+        interrupted: Any,
+        errors: Any,
+        rig: Any,
+    ) -> None: ...
+    def save(self, path: str | PathLike[str]) -> Path: ...
+    def to_pandas(self) -> Any: ...
+
+def tune(
+    recordings: Source | Iterable[Source],
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    *,
+    hold_out: Source | Iterable[Source] = (),
+    folds: int | None = None,
+    groups: Sequence[str] = ("splitter", "angular", "scale"),
+    weights: Sequence[float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+    stroke_reserve: float = 0.01,
+    evaluations: int = 3000,
+    seed: int = 1,
+    progress: Show = None,
+    patience: int | None = None,
+    stop: Callable[[str, int, float | None], bool] | None = None,
+    client: Any = None,
+    **options: Any,
+) -> Tuned: ...

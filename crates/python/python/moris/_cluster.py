@@ -1,0 +1,126 @@
+"""Work on a Dask cluster: tasks that any worker can do again, and errors that say what to do.
+
+A task needs nothing that only one worker has. Its context is a task, too, which the scheduler has done again where the
+worker that held it is lost.
+"""
+
+import hashlib
+import pickle
+import threading
+import time
+
+from ._errors import ClusterError
+from ._optional import need
+
+REPEATS = 5
+"""Times that a task is sent again whose workers were lost until the scheduler gave it up."""
+PATIENCE = 10.0
+"""Time without a scheduler after which it counts as lost [s]."""
+LOOK = 0.2
+"""Time between two looks at the scheduler [s]."""
+MOST_CONTEXTS = 4
+"""Contexts that a process keeps."""
+
+_contexts = {}
+
+
+def _context(key, payload):
+    """The context in a payload, made once in a process."""
+    if key not in _contexts:
+        while len(_contexts) >= MOST_CONTEXTS:
+            _contexts.pop(next(iter(_contexts)), None)
+        make, arguments = pickle.loads(payload)
+        _contexts[key] = make(*arguments)
+    return _contexts[key]
+
+
+def _same(payload):
+    return payload
+
+
+def _work(key, payload, function, arguments):
+    return function(_context(key, payload), *arguments)
+
+
+class Cluster:
+    """The workers of a dask.distributed.Client, with the context make(*arguments) on each that needs it."""
+
+    def __init__(self, client, make, arguments):
+        need("distributed", "a cluster")
+        if not hasattr(client, "scheduler_info"):
+            raise TypeError(f"client must be a dask.distributed.Client, not {type(client).__name__}")
+        if client.asynchronous:
+            raise TypeError("client is asynchronous; make one without asynchronous=True")
+        self._client = client
+        self._missing_since = None
+        payload = pickle.dumps((make, arguments))
+        self._key = hashlib.sha256(payload).hexdigest()
+        self._payload = self._submit(_same, payload, key=f"moris-{self._key}")
+
+    def threads(self):
+        """Number of threads of all workers, 1 at least."""
+        return max(1, sum(self._client.nthreads().values()))
+
+    def submit(self, function, *arguments):
+        """Begins function(context, *arguments) on some worker."""
+        return self._submit(_work, self._key, self._payload, function, arguments, pure=False)
+
+    def result(self, future, cancelled=lambda: False):
+        """The result of a task, or None where `cancelled()` says to wait no longer.
+
+        Raises ClusterError where the scheduler is lost, or the task with its workers again and again; otherwise the task's
+        own exception.
+        """
+        from distributed.client import FutureCancelledError
+        from distributed.comm.core import CommClosedError
+        from distributed.scheduler import KilledWorker
+
+        repeats = 0
+        while self._waited(future, cancelled):
+            try:
+                # It is there: result(timeout=...) of a future that is not may fail with an error of its own.
+                return future.result()
+            except KilledWorker as reason:
+                repeats += 1
+                if repeats > REPEATS:
+                    raise ClusterError(f"a task lost its workers {repeats} times; their logs say why: {reason}") from reason
+                future.retry()
+            except (FutureCancelledError, CommClosedError) as reason:
+                raise _lost(reason) from reason
+            except ModuleNotFoundError as reason:
+                raise ClusterError(f"a worker lacks a package ({reason}); install moris-washout on every worker") from reason
+        return None
+
+    def _waited(self, future, cancelled):
+        """True once the task is done, False where `cancelled()` says to wait no longer."""
+        done = threading.Event()
+        future.add_done_callback(lambda _: done.set())
+        while not done.wait(LOOK):
+            if cancelled():
+                return False
+            if self._is_lost():
+                raise _lost("no answer")
+        return not cancelled()
+
+    def cancel(self, futures):
+        """Cancels tasks, as far as there is still a scheduler."""
+        if self._client.status == "running":
+            self._client.cancel(list(futures), force=True)
+
+    def _submit(self, *arguments, **options):
+        try:
+            return self._client.submit(*arguments, **options)
+        except Exception as reason:
+            raise _lost(reason) from reason
+
+    def _is_lost(self):
+        if self._client.status == "running":
+            self._missing_since = None
+            return False
+        self._missing_since = self._missing_since or time.monotonic()
+        return self._client.status == "closed" or time.monotonic() - self._missing_since > PATIENCE
+
+
+def _lost(reason):
+    why = str(reason) or type(reason).__name__
+    return ClusterError(f"the Dask cluster's scheduler is lost ({why}); start a cluster again and repeat the call")

@@ -1,0 +1,41 @@
+"""Exceptions. Each message names the variable, the value, the reason and the remedy."""
+
+
+class MorisError(ValueError):
+    """Base of the exceptions of this package."""
+
+
+class ParameterError(MorisError):
+    """A rig, a parameter or a combination of them cannot be used.
+
+    parameter: name of the parameter, or None. value: its value, or None. suggestions: names that look like a wrong one.
+    """
+
+    def __init__(self, message, parameter=None, value=None, suggestions=()):
+        super().__init__(message, parameter, value, tuple(suggestions))
+        self.parameter = parameter
+        self.value = value
+        self.suggestions = tuple(suggestions)
+
+    def __str__(self):
+        return self.args[0]
+
+
+class RecordingError(MorisError):
+    """A recording or an array of samples cannot be used."""
+
+
+class BoundError(MorisError):
+    """No bound can be computed of a recording."""
+
+
+class NoParametersFound(MorisError):
+    """A search found no parameters with which every recording keeps the limits."""
+
+
+class ClusterError(RuntimeError):
+    """The Dask cluster was lost, or ended a worker too often. `partial` holds what was done until then."""
+
+    def __init__(self, message, partial=None):
+        super().__init__(message)
+        self.partial = partial

@@ -1,0 +1,51 @@
+"""The measures of a simulation."""
+
+from html import escape
+from typing import NamedTuple, Optional
+
+
+class Measure(NamedTuple):
+    """One measure of cue quality."""
+
+    subject: str
+    """`specific force x`, `sensed angular velocity y`, `platform`, ..."""
+    name: str
+    """`RMS error`, `false cues`, ..."""
+    value: Optional[float]
+    """In `unit`; None where the measure is not defined for this ride."""
+    unit: str
+    definition: str
+    source: str
+
+
+class Measures(dict):
+    """Measures by subject and name, each a number: `measures["specific force x RMS error"]` [m/s2].
+
+    rows: the measures in order, each with its unit, definition and source.
+    """
+
+    def __init__(self, rows):
+        self.rows = tuple(Measure(*row) for row in rows)
+        super().__init__((f"{row.subject} {row.name}", row.value) for row in self.rows)
+
+    def __missing__(self, name):
+        from ._variables import near_misses
+
+        raise KeyError(f"there is no measure {name}; {near_misses(name, self)}")
+
+    def __reduce__(self):
+        return type(self), (self.rows,)
+
+    def to_pandas(self):
+        """The measures as a pandas.DataFrame, a row each."""
+        from ._optional import pandas
+
+        return pandas().DataFrame(self.rows, columns=Measure._fields)
+
+    def _repr_html_(self):
+        cells = "".join(
+            f"<tr title='{escape(row.definition)}'><td>{escape(row.subject)}</td><td>{escape(row.name)}</td>"
+            f"<td>{'–' if row.value is None else f'{row.value:.4g}'}</td><td>{escape(row.unit)}</td></tr>"
+            for row in self.rows
+        )
+        return f"<table><tr><th>subject</th><th>measure</th><th>value</th><th>unit</th></tr>{cells}</table>"

@@ -1,0 +1,83 @@
+"""Pictures with matplotlib."""
+
+import numpy as np
+
+from ._optional import need
+
+STANDARD_GRAVITY = 9.80665
+FORCES = ("surge", "sway", "heave")
+RATES = ("roll rate", "pitch rate", "yaw rate")
+
+
+def _figure(figure, size):
+    if figure is not None:
+        return figure
+    need("matplotlib", "a plot")
+    from matplotlib import pyplot
+
+    return pyplot.figure(figsize=size, layout="constrained")
+
+
+def plot(simulation, figure=None):
+    """Felt over desired motion, channel by channel, the actuators' lengths, and when limits were active."""
+    figure = _figure(figure, (11, 7))
+    axes = figure.subplots(3, 3, sharex=True)
+    force, rate = simulation.desired
+    felt_force, felt_rate = simulation["rider.specificForce"], simulation["rider.angularVelocity"]
+    rest = (0.0, 0.0, STANDARD_GRAVITY)
+    for k in range(3):
+        _channel(axes[0, k], simulation.time, force[:, k] - rest[k], felt_force[:, k] - rest[k], f"{FORCES[k]} [m/s²]")
+        _channel(axes[1, k], simulation.time, np.degrees(rate[:, k]), np.degrees(felt_rate[:, k]), f"{RATES[k]} [°/s]")
+    axes[0, 0].legend(loc="upper right", fontsize="small")
+    _lines(axes[2, 0], simulation.time, simulation["actuator.length"], "actuators' lengths [m]")
+    _lines(axes[2, 1], simulation.time, np.degrees(simulation["platform.orientation"]), "roll, pitch, yaw [°]")
+    _limits(axes[2, 2], simulation)
+    for axis in axes[2]:
+        axis.set_xlabel("time [s]")
+    figure.suptitle(simulation.name)
+    return figure
+
+
+def _channel(axis, time, desired, felt, title):
+    axis.plot(time, desired, color="0.6", linewidth=1.2, label="desired")
+    axis.plot(time, felt, color="C0", linewidth=1.0, label="felt")
+    axis.set_title(title, fontsize="medium")
+    axis.grid(alpha=0.3)
+
+
+def _lines(axis, time, values, title):
+    axis.plot(time, values, linewidth=0.9)
+    axis.set_title(title, fontsize="medium")
+    axis.grid(alpha=0.3)
+
+
+def _limits(axis, simulation):
+    flags = {"tilt": "status.tiltLimited", "safety units": "status.safetyActive", "actuator guard": "status.actuatorLimited"}
+    for height, name in enumerate(flags.values()):
+        active = simulation[name]
+        axis.fill_between(simulation.time, height - 0.3, height + 0.3, where=active, color="C3", step="pre", linewidth=0)
+    axis.set_yticks(range(3), list(flags), fontsize="small")
+    axis.set_ylim(-0.6, 2.6)
+    axis.set_title("limits active", fontsize="medium")
+    axis.grid(alpha=0.3)
+
+
+def plot_response(response, figure=None):
+    """Modulus and phase of the direct channels over frequency, with the test's amplitudes and for small signals."""
+    figure = _figure(figure, (11, 5))
+    axes = figure.subplots(2, 6, sharex=True, sharey="row")
+    for k, name in enumerate(response.channels):
+        for ratios, style, label in ((response.small, "C1--", "small signals"), (response.ratios, "C0o-", "test")):
+            direct = ratios[k, :, k]
+            axes[0, k].loglog(response.frequencies, np.abs(direct), style, markersize=3, label=label)
+            axes[1, k].semilogx(response.frequencies, np.degrees(np.angle(direct)), style, markersize=3)
+        axes[0, k].set_title(name, fontsize="medium")
+        axes[1, k].set_xlabel("rad/s")
+        for axis in axes[:, k]:
+            axis.grid(alpha=0.3)
+    axes[0, 0].set_ylabel("modulus")
+    axes[0, 0].set_ylim(1e-3, 3)
+    axes[1, 0].set_ylabel("phase [°]")
+    axes[0, 0].legend(fontsize="small")
+    figure.suptitle("Felt over desired motion")
+    return figure

@@ -1,0 +1,229 @@
+"""Recordings: DataFrames, dicts of arrays, and files."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from . import _moris
+from ._errors import RecordingError
+from ._optional import need
+
+OPTIONS = (
+    "columns",
+    "time_unit",
+    "force_unit",
+    "rate_unit",
+    "angle_unit",
+    "speed_unit",
+    "gravity",
+    "axes",
+    "rate_frame",
+    "resample",
+    "fade_in",
+)
+
+
+class Recording:
+    """A recorded ride, in the washout's frames and units and at equal steps.
+
+    source: a pandas.DataFrame, a dict of arrays of shape (N,), or the path of a file: CSV (also .csv.gz), Parquet, Excel,
+        MATLAB (.mat) or MDF (.mf4). The columns are time, ax, ay, az (specific force) and wx, wy, wz (angular velocity) at
+        the rider's head, and, where there are any, roll, pitch, yaw, speed and lean. Units in the brackets of a name are
+        read: "ax [g]". A DataFrame whose index is called time needs no such column.
+    name: of the recording; by default the file's, without extension.
+    columns: dict of names that are not these: {"ax": "accel_x"}.
+    time_unit: "s", "ms", "us", "ns". force_unit: "m/s2", "g", "mg". rate_unit: "rad/s", "deg/s".
+    angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn".
+    gravity: "included" as an accelerometer reads it, or "removed".
+    axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
+    resample: samples a second, to interpolate a recording whose steps are unequal.
+    fade_in: seconds over which a recording that begins in motion is faded in from rest.
+
+    Raises RecordingError where columns are missing or the units or axes are implausible, with the remedy.
+    """
+
+    def __init__(self, source, name=None, **options):
+        unknown = [option for option in options if option not in OPTIONS]
+        if unknown:
+            raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(OPTIONS)}")
+        options = {option: value for option, value in options.items() if value is not None}
+        try:
+            if isinstance(source, _moris.Recording):
+                self._native = source
+            else:
+                self._native = _read(source, name, options)
+        except RecordingError as error:
+            raise RecordingError(_in_python(str(error))) from None
+
+    @property
+    def name(self):
+        """Name of the recording."""
+        return self._native.name
+
+    @property
+    def step(self):
+        """Time between samples [s]."""
+        return self._native.step
+
+    @property
+    def duration(self):
+        """Time from the first sample to the last [s]."""
+        return self._native.duration
+
+    @property
+    def warnings(self):
+        """Warnings, in sentences."""
+        return [_in_python(warning) for warning in self._native.warnings]
+
+    @property
+    def inputs(self):
+        """The washout's inputs at each sample, by the names of the FMU's variables: Outputs."""
+        from ._outputs import Outputs
+
+        return Outputs(*self._native.samples())
+
+    def to_pandas(self):
+        """The inputs as a pandas.DataFrame with the time [s] as its index."""
+        return self.inputs.to_pandas()
+
+    def __repr__(self):
+        return f"Recording({self.name!r}, {self.duration:g} s at {1 / self.step:g} Hz)"
+
+
+def recording_of(source, options):
+    """The recording itself, or one read with these options."""
+    if isinstance(source, Recording):
+        given = [option for option, value in options.items() if value is not None]
+        if given:
+            raise TypeError(f"{given[0]} is for sources that are still to be read; give it to moris.Recording")
+        return source
+    return Recording(source, **options)
+
+
+def recordings_of(sources, options):
+    """A list of recordings, of one source or of several; those that are not read yet are read with these options."""
+    if isinstance(sources, (Recording, str, Path, dict)) or hasattr(sources, "columns"):
+        sources = [sources]
+    return [source if isinstance(source, Recording) else Recording(source, **options) for source in sources]
+
+
+def _read(source, name, options):
+    if isinstance(source, (str, Path)):
+        path = Path(source)
+        reader = READERS.get(path.suffix.lower())
+        if reader is None:
+            return _moris.Recording.read(path, options)
+        if not path.exists():
+            raise RecordingError(f"cannot read {path}: there is no such file")
+        return _of_columns(name or path.stem, reader(path), options)
+    if hasattr(source, "columns") and hasattr(source, "index"):
+        source = _columns_of_frame(source)
+    if not hasattr(source, "items"):
+        raise TypeError(f"a recording is a DataFrame, a dict of arrays or a path, not {type(source).__name__}")
+    return _of_columns(name or "recording", source, options)
+
+
+def _of_columns(name, columns, options):
+    # A column of text is one that is not used: its numbers are missing, and only that of a column in use matters.
+    return _moris.Recording.of_columns(name, [(str(key), _numbers(values)) for key, values in columns.items()], options)
+
+
+def _numbers(values):
+    values = np.asarray(values)
+    if values.dtype.kind in "mM":
+        values = (values - values[0]) / np.timedelta64(1, "s") if values.dtype.kind == "M" else values / np.timedelta64(1, "s")
+    try:
+        return np.asarray(values, dtype=float).reshape(-1)
+    except (TypeError, ValueError):
+        return np.full(len(values), np.nan)
+
+
+def _columns_of_frame(frame):
+    columns = {name: frame[name].to_numpy() for name in frame.columns}
+    index = frame.index
+    if str(index.name).lower().startswith("time") and not any(str(name).lower().startswith("time") for name in columns):
+        columns = {str(index.name): index.to_numpy(), **columns}
+    return columns
+
+
+def _parquet(path):
+    need("pyarrow", "a Parquet file")
+    return _columns_of_frame(need("pandas", "a Parquet file").read_parquet(path))
+
+
+def _excel(path):
+    if path.suffix.lower() == ".xls":
+        need("xlrd", "an old Excel workbook")
+    else:
+        need("openpyxl", "an Excel workbook")
+    return _columns_of_frame(need("pandas", "an Excel workbook").read_excel(path))
+
+
+def _matlab(path):
+    io = need("scipy.io", "a MATLAB file")
+    try:
+        values = io.loadmat(path, squeeze_me=True, struct_as_record=True)
+    except NotImplementedError:
+        raise RecordingError(f"{path} is a MATLAB 7.3 file; save it with save(..., '-v7') in MATLAB") from None
+    columns = {}
+    for name, value in values.items():
+        if name.startswith("__"):
+            continue
+        value = np.asarray(value)
+        if value.dtype.names:  # a struct of signals
+            columns.update({field: np.atleast_1d(value[field].item()) for field in value.dtype.names})
+        else:
+            columns[name] = np.atleast_1d(value)
+    longest = max((len(value) for value in columns.values() if value.ndim == 1), default=0)
+    return {name: value for name, value in columns.items() if value.ndim == 1 and len(value) == longest}
+
+
+def _mdf(path):
+    mdf = need("asammdf", "an MDF measurement").MDF(path)
+    try:
+        # Channels of several rates are brought onto the times of the fastest, linearly.
+        frame = mdf.to_dataframe(time_from_zero=False, use_interpolation=True)
+        units = {}
+        for name in frame.columns:
+            group, index = mdf.whereis(name)[0] if mdf.whereis(name) else (None, None)
+            units[name] = mdf.get_channel_unit(name, group=group, index=index) if group is not None else ""
+    finally:
+        mdf.close()
+    columns = {"time [s]": frame.index.to_numpy()}
+    for name in frame.columns:
+        title = f"{name} [{units[name]}]" if units[name] and "[" not in name else name
+        columns[title] = frame[name].to_numpy()
+    return columns
+
+
+READERS = {
+    ".parquet": _parquet,
+    ".xlsx": _excel,
+    ".xlsm": _excel,
+    ".xls": _excel,
+    ".mat": _matlab,
+    ".mf4": _mdf,
+    ".mdf": _mdf,
+}
+
+
+def _in_python(message):
+    """The message with the command's options written as the arguments of `Recording`."""
+    names = {option.replace("_", "-"): option for option in OPTIONS}
+
+    def columns(match):
+        pairs = (pair.split("=", 1) for pair in match[1].split(","))
+        return "columns={" + ", ".join(f'"{key}": "{name}"' for key, name in pairs) + "}"
+
+    def option(match):
+        word = match[2]
+        if match[1] not in names:
+            return match[0]
+        if not word:
+            return names[match[1]]
+        return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'
+
+    message = re.sub(r"--columns ((?:\w+=\w+)(?:,\w+=\w+)*)", columns, message)
+    words = "included|removed|forward-[a-z-]+|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|\\d+"
+    return re.sub(rf"--([a-z]+(?:-[a-z]+)*)(?: ({words})(?![\w/]))?", option, message)

@@ -1,0 +1,129 @@
+"""Simulations of recordings, and the bound."""
+
+from html import escape
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from . import _moris
+from ._measures import Measures
+from ._outputs import Outputs
+from ._recording import recording_of
+
+STANDARD_GRAVITY = 9.80665
+AXES = {"x": "surge", "y": "sway", "z": "heave"}
+
+
+class Bound(NamedTuple):
+    """The least RMS error of specific force on an axis that any controller with full preview could reach."""
+
+    rms_error: float
+    """[m/s2]"""
+    desired_rms: float
+    """RMS of the desired specific force as a deviation from rest [m/s2]: the error of a platform that stands still."""
+    felt: np.ndarray
+    """Felt specific force of the best trajectory, as a deviation from rest, (N,) [m/s2]."""
+
+
+class Simulation(Outputs):
+    """A simulated recording: every input and output at each sample, and the measures.
+
+    time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
+    recording: the Recording. measures: Measures. findings: sentences, the most important first.
+    parameters: dict of all parameters. fits: False where a safety unit or an actuator's limit was active.
+    """
+
+    def __init__(self, native, recording):
+        super().__init__(*native.samples())
+        self._native = native
+        self.recording = recording
+        self.measures = Measures(native.measures)
+        self.findings = native.findings
+        self.parameters = native.parameters
+        self.fits = native.fits
+        self.name = f"{recording.name}, {native.parameters_name} on {native.rig_name}"
+
+    @property
+    def desired(self):
+        """Desired specific force and angular velocity in head axes: two arrays of shape (N, 3) [m/s2], [rad/s]."""
+        return self["vehicle.specificForce"], self._native.desired_rates()
+
+    def plot(self, figure=None):
+        """Draws felt over desired specific force and angular velocity, and the actuators; returns the matplotlib figure."""
+        from ._plot import plot
+
+        return plot(self, figure)
+
+    def report(self, path, compare=()):
+        """Writes the report, one HTML page without external files.
+
+        path: of the page. compare: other simulations of the same recording, shown beside this one. Returns the path.
+        """
+        path = Path(path)
+        if path.suffix.lower() not in (".html", ".htm"):
+            raise ValueError(f"path is {path}, but a report is a page: name it with .html")
+        page = self._native.html([other._native for other in compare])
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(page, encoding="utf-8")
+        return path
+
+    def __repr__(self):
+        return f"Simulation({self.name!r}: {len(self.time)} samples, {'fits' if self.fits else 'does not fit'} the rig)"
+
+    def _repr_html_(self):
+        findings = "".join(f"<li>{escape(finding)}</li>" for finding in self.findings)
+        return f"<b>{escape(self.name)}</b><ul>{findings}</ul>{_picture(self)}{self.measures._repr_html_()}"
+
+
+def _picture(simulation):
+    """The plot as an image in HTML; nothing where there is no matplotlib."""
+    import base64
+    import io
+
+    try:
+        from matplotlib.figure import Figure
+    except ImportError:
+        return ""
+    image = io.BytesIO()
+    simulation.plot(Figure(figsize=(9, 6), layout="constrained")).savefig(image, format="png", dpi=80)
+    return f'<img alt="felt over desired motion" src="data:image/png;base64,{base64.b64encode(image.getvalue()).decode()}">'
+
+
+def simulate(recording, rig=None, parameters=None, strategy=None, *, bound=False, **options):
+    """Simulates a recording from rest at neutral, the inputs going linearly from sample to sample.
+
+    recording: a Recording, or what one is made of: a DataFrame, a dict of arrays or a path; `options` are those of
+        Recording. rig, parameters, strategy: as for Washout.
+    bound: compute the least error that any controller could reach, too; it takes some seconds.
+
+    Returns a Simulation. Raises RecordingError, ParameterError or BoundError.
+    """
+    recording = recording_of(recording, options)
+    return Simulation(_moris.Simulation(recording._native, rig, parameters, strategy, bound), recording)
+
+
+def bound(recording, rig=None, parameters=None, **options):
+    """The least RMS error of specific force that any controller with full preview could reach on this rig.
+
+    Returns a dict from "surge", "sway" and "heave" to Bound, without the axes on which nothing is desired. Computed for an
+    upright rider. docs/measures.md has the definition. Raises BoundError where the recording is too short.
+    """
+    recording = recording_of(recording, options)
+    bounds = _moris.bound(recording._native, rig, parameters)
+    return {axis: Bound(*found) for axis, found in zip(AXES.values(), bounds) if found is not None}
+
+
+def parameters(rig=None, parameters=None, strategy=None):
+    """Every parameter by name, a dict: the defaults, with a rig, presets, files and dicts laid over them."""
+    return _moris.parameter_values(rig, parameters, strategy)
+
+
+def write_parameters(path, parameters, rig=None, heading="Written by moris"):
+    """Writes a parameter file for `cargo build-fmu --parameters` and the workbench: the values that are not the rig's own.
+
+    path: of the file. parameters: as for Washout. rig: the rig on which they are used. Returns the path.
+    """
+    path = Path(path)
+    path.write_text(_moris.parameter_file(heading, rig, parameters), encoding="utf-8")
+    return path

@@ -1,0 +1,226 @@
+"""Sweeps: many parameter sets on many recordings, reduced as they come."""
+
+import itertools
+import os
+from collections import deque
+
+import numpy as np
+
+from . import _moris
+from ._cluster import Cluster
+from ._errors import ClusterError
+from ._progress import Progress
+from ._recording import Recording, recordings_of
+from ._variables import near_misses
+
+MEASURES = {f"{subject} {name}": unit for subject, name, unit in _moris.sweep_measures()}
+"""The measures of a sweep by name, each with its unit."""
+
+_COLUMNS = {name: column for column, name in enumerate(MEASURES)}
+
+AHEAD = 4
+"""Chunks on their way for each thread of a cluster."""
+
+
+class Result:
+    """The measures of one parameter set on all recordings.
+
+    index: place of the set, from 0. parameters: the set as it was given. error: None, or why it cannot be used.
+    result["specific force x RMS error"]: the measure of each recording, (R,), NaN where it is not defined.
+    values: all measures, (R, number of MEASURES).
+    """
+
+    __slots__ = ("error", "index", "parameters", "values")
+
+    def __init__(self, index, parameters, values, error):
+        self.index = index
+        self.parameters = parameters
+        self.values = values
+        self.error = error
+
+    def __getitem__(self, name):
+        if name not in _COLUMNS:
+            raise KeyError(f"there is no measure {name}; {near_misses(name, _COLUMNS)}")
+        return self.values[:, _COLUMNS[name]]
+
+    def __repr__(self):
+        return f"Result({self.index}, {self.parameters!r}{'' if self.error is None else f', error={self.error!r}'})"
+
+
+class Sweep:
+    """What came of a sweep.
+
+    value: of the reduction; without one, the list of Results. done: parameter sets in it. complete: False if it was ended
+    before. recordings: the recordings' names.
+    """
+
+    def __init__(self, value, done, complete, recordings):
+        self.value = value
+        self.done = done
+        self.complete = complete
+        self.recordings = recordings
+
+    def to_pandas(self):
+        """The measures as a pandas.DataFrame, a row for each set and recording: for sweeps without a reduction."""
+        from ._optional import pandas
+
+        frames = []
+        for result in self.value:
+            frame = pandas().DataFrame(result.values, columns=list(MEASURES))
+            frame.insert(0, "recording", self.recordings)
+            frame.insert(0, "set", result.index)
+            frames.append(frame)
+        return pandas().concat(frames, ignore_index=True)
+
+    def __repr__(self):
+        return f"Sweep({self.done} parameter sets{'' if self.complete else ', ended before it was complete'})"
+
+
+def best(count, cost):
+    """A reduction to the `count` results of the least cost.
+
+    cost: function of a Result to a number; NaN and results with an error are left out.
+    """
+
+    def reduce(kept, result):
+        price = float("nan") if result.error else float(cost(result))
+        if np.isnan(price):
+            return kept or []
+        kept = [*(kept or []), (price, result)]
+        kept.sort(key=lambda pair: (pair[0], pair[1].index))
+        return kept[:count]
+
+    return reduce
+
+
+def sweep(
+    recordings,
+    parameter_sets,
+    reduce=None,
+    *,
+    initial=None,
+    rig=None,
+    base=None,
+    strategy=None,
+    client=None,
+    chunk=None,
+    progress=None,
+    cancel=None,
+    **options,
+):
+    """Simulates every recording with every parameter set, and reduces the measures as they come.
+
+    recordings: one or several, each a Recording or what one is made of. parameter_sets: any iterable of sets, each as for
+        Washout; it is read as far as needed, so that a generator of 1e5 sets takes no memory.
+    reduce: reduce(accumulated, result) -> accumulated, called with each Result in the order of the sets, first with
+        `initial`; None collects the Results in a list. moris.best(10, cost) keeps the best.
+    rig, base, strategy: what every set is laid over.
+    client: a dask.distributed.Client, whose workers then simulate; without it, the cores of this machine do. The results
+        are the same to the bit.
+    chunk: sets in a task; by default chosen by the recordings' length.
+    progress: as for Progress: True, False, None or a function of (done, total, text).
+    cancel: a threading.Event. Setting it, and Ctrl-C, end the sweep and keep what is done.
+
+    Returns a Sweep. A set that cannot be used has a Result with an error. Raises ClusterError where the cluster is lost; its
+    `partial` is the Sweep until then.
+    """
+    rides = recordings_of(recordings, options)
+    if not rides:
+        raise ValueError("recordings is empty; give one at least")
+    total = len(parameter_sets) if hasattr(parameter_sets, "__len__") else None
+    chunk = chunk or _chunk(rides)
+    context = _Context([ride._native for ride in rides], rig, base, strategy)
+    cancelled = cancel.is_set if cancel is not None else lambda: False
+    bar = Progress(progress, total, "sweep", "set")
+    made = Sweep(initial if reduce else [], 0, False, [ride.name for ride in rides])
+    run = _here(context, _chunks(parameter_sets, chunk, client), cancelled)
+    if client is not None:
+        run = _on_cluster(client, context, _chunks(parameter_sets, chunk, client), cancelled)
+    try:
+        for sets, (values, errors) in run:
+            for parameters, measures, error in zip(sets, values, errors):
+                result = Result(made.done, parameters, measures, error)
+                if reduce:
+                    made.value = reduce(made.value, result)
+                else:
+                    made.value.append(result)
+                made.done += 1
+            bar.to(made.done, "sweep")
+        made.complete = not cancelled()
+    except KeyboardInterrupt:
+        pass
+    except ClusterError as error:
+        error.partial = made
+        raise
+    finally:
+        run.close()
+        bar.close()
+    return made
+
+
+class _Context:
+    """What every task needs; pickled once for each worker."""
+
+    def __init__(self, recordings, rig, base, strategy):
+        self.recordings = recordings
+        self.rig = rig
+        self.base = base
+        self.strategy = strategy
+
+    def measures(self, sets, threads):
+        sets = [[part for part in (self.base, parameters) if part is not None] for parameters in sets]
+        return _moris.sweep_chunk(self.recordings, self.rig, sets, self.strategy, threads)
+
+
+def _task(context, sets):
+    return context.measures(sets, 1)
+
+
+def _make(*arguments):
+    return _Context(*arguments)
+
+
+def _chunk(rides):
+    """As many sets as take some tenths of a second on a core."""
+    samples = sum(ride.duration / ride.step for ride in rides)
+    return max(1, min(256, round(1e5 / samples)))
+
+
+def _chunks(parameter_sets, chunk, client):
+    # All cores of this machine share a chunk; a worker has one of its own.
+    size = chunk if client is not None else chunk * (os.cpu_count() or 1)
+    sets = iter(parameter_sets)
+    while part := list(itertools.islice(sets, size)):
+        yield part
+
+
+def _here(context, chunks, cancelled):
+    for sets in chunks:
+        if cancelled():
+            return
+        yield sets, context.measures(sets, 0)
+
+
+def _on_cluster(client, context, chunks, cancelled):
+    """Chunks with their measures, in order. As many are on their way as keep every thread busy, and no more."""
+    cluster = Cluster(client, _make, (context.recordings, context.rig, context.base, context.strategy))
+    ahead = AHEAD * cluster.threads()
+    underway = deque()
+    try:
+        while not cancelled():
+            for sets in itertools.islice(chunks, ahead - len(underway)):
+                underway.append((sets, cluster.submit(_task, sets)))
+            if not underway:
+                return
+            sets, future = underway[0]
+            measures = cluster.result(future, cancelled)
+            if measures is None:
+                return
+            underway.popleft()
+            yield sets, measures
+    finally:
+        if underway:
+            cluster.cancel(future for _, future in underway)
+
+
+__all__ = ["MEASURES", "Recording", "Result", "Sweep", "best", "sweep"]

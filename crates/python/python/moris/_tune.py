@@ -1,0 +1,142 @@
+"""Tuning: the workbench's search for better parameters."""
+
+from . import _moris
+from ._cluster import Cluster
+from ._progress import Progress
+from ._recording import recordings_of
+from ._simulation import write_parameters
+
+FADE_IN = 1.0
+"""Time over which recordings are faded in from rest unless another is given [s]."""
+
+
+class Tuned:
+    """Tuned parameters and what they come to.
+
+    parameters: dict of all parameters. changed: those that the search has changed.
+    summary: the whole result as Markdown. verdict: its first sentence. is_worse: True where the tuned parameters are worse
+        on a recording by more than 5 %, or in the mean over those that they were not tuned on.
+    errors: for each recording a dict with `before`, `tuned` and `unseen`: the sensed error, 0 perfect and 1 a platform at
+        rest; None where there is none. interrupted: True if the search was ended early.
+    """
+
+    def __init__(self, before, parameters, summary, verdict, is_worse, interrupted, errors, rig):
+        self.parameters = parameters
+        self.changed = {name: value for name, value in parameters.items() if before[name] != value}
+        self.summary = summary
+        self.verdict = verdict
+        self.is_worse = is_worse
+        self.interrupted = interrupted
+        self.errors = {name: {"before": old, "tuned": new, "unseen": unseen} for name, old, new, unseen in errors}
+        self._rig = rig
+
+    def save(self, path):
+        """Writes the parameter file, for the workbench and for `cargo build-fmu --parameters`; returns the path."""
+        return write_parameters(path, self.parameters, self._rig, heading=self.verdict)
+
+    def to_pandas(self):
+        """The errors as a pandas.DataFrame, a row for each recording."""
+        from ._optional import pandas
+
+        return pandas().DataFrame.from_dict(self.errors, orient="index")
+
+    def __repr__(self):
+        return f"Tuned({len(self.changed)} parameters changed; {self.verdict})"
+
+    def _repr_markdown_(self):
+        return self.summary
+
+
+def tune(
+    recordings,
+    rig=None,
+    parameters=None,
+    strategy=None,
+    *,
+    hold_out=(),
+    folds=None,
+    groups=("splitter", "angular", "scale"),
+    weights=(1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+    stroke_reserve=0.01,
+    evaluations=3000,
+    seed=1,
+    progress=None,
+    patience=None,
+    stop=None,
+    client=None,
+    **options,
+):
+    """Searches for parameters with a small sensed error on all recordings, such that no limit of the platform is active.
+
+    recordings: to tune on. hold_out: recordings to try the result on only. folds: without them, the number of groups of
+        recordings that are left out in turn; by default each recording by itself, and 0 leaves none out.
+    rig, parameters, strategy: as for Washout; the search starts from these parameters.
+    groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt".
+    weights: of the errors of specific force x, y, z and angular velocity x, y, z. stroke_reserve: of each actuator [m].
+    evaluations: parameter sets of each search after its coarse scan. seed: of the random numbers.
+    progress: True, False, None or a function of (done, total, text).
+    patience: evaluations without a smaller error after which a search ends. stop: function of (search, evaluations, error)
+        that returns True to end them all. Both, and Ctrl-C, keep the best so far.
+    client: a dask.distributed.Client, whose workers then evaluate. The result is the same to the bit.
+
+    Recordings are faded in from rest over 1 s unless `fade_in` says otherwise. docs/tuning-by-search.md has the objective.
+    Returns Tuned. Raises NoParametersFound where none keep the limits.
+    """
+    options = {"fade_in": FADE_IN, **{name: value for name, value in options.items() if value is not None}}
+    tuned_on = recordings_of(recordings, options)
+    held_out = recordings_of(hold_out, options)
+    rides = tuned_on + held_out
+    if not tuned_on:
+        raise ValueError("recordings is empty; give one at least")
+    names = [ride.name for ride in rides]
+    double = next((name for name in names if names.count(name) > 1), None)
+    if double is not None:
+        raise ValueError(f"two recordings are called {double}; give each a name of its own: moris.Recording(..., name=...)")
+    if evaluations < 1:
+        raise ValueError(f"evaluations is {evaluations}, but must be 1 at least")
+    folds = 0 if held_out else len(tuned_on) if folds is None else folds
+    arguments = (
+        [ride._native for ride in rides], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,
+    )  # fmt: skip
+    tuning = _moris.Tuning(*arguments)
+    cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)
+    searches = 1 + (min(folds, len(tuned_on)) if len(tuned_on) > 1 else 0)
+    bar = Progress(progress, searches * evaluations, "tuning", "set")
+    try:
+        found = tuning.run(
+            evaluations,
+            seed,
+            folds,
+            patience,
+            _Observer(bar, evaluations, stop),
+            None if cluster is None else lambda *given: cluster.result(cluster.submit(_costs, *given)),
+            0 if cluster is None else max(16, 2 * cluster.threads()),
+        )
+    finally:
+        bar.close()
+    before = _moris.parameter_values(rig, parameters, strategy)
+    return Tuned(before, *found, rig)
+
+
+def _costs(tuning, names, values):
+    return tuning.costs(names, values)
+
+
+class _Observer:
+    """Shows progress, and asks `stop` when to end."""
+
+    def __init__(self, bar, evaluations, stop):
+        self._bar = bar
+        self._evaluations = evaluations
+        self._stop = stop
+        self._searches = []
+
+    def __call__(self, search, tried, error):
+        if search not in self._searches:
+            self._searches.append(search)
+        done = self._searches.index(search) * self._evaluations + min(tried, self._evaluations)
+        self._bar.to(done, f"{search}: {'none fits yet' if error is None else f'error {error:.4f}'}")
+        return self._stop is None or not self._stop(search, tried, error)
+
+
+__all__ = ["Tuned", "tune"]

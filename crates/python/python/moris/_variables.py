@@ -1,0 +1,41 @@
+"""The table of the washout's variables."""
+
+import difflib
+from typing import NamedTuple, Optional, Tuple, Union
+
+from . import _moris
+
+
+class Variable(NamedTuple):
+    """A variable of the washout, as in the FMU."""
+
+    name: str
+    causality: str
+    """`input`, `output` or `parameter`."""
+    kind: str
+    """`real`, `integer`, `boolean` or `enumeration`."""
+    unit: str
+    """SI unit; empty for none."""
+    min: float
+    max: float
+    start: Optional[Union[float, bool, str]]
+    """Value by default; None for outputs."""
+    items: Tuple[str, ...]
+    """Items of an enumeration."""
+    description: str
+    vector: str
+    """Name of the vector that it is an element of, its own for none: `platform.position` for `platform.position.x`."""
+
+
+VARIABLES = {row[0]: Variable(*row[:7], tuple(row[7]), *row[8:]) for row in _moris.variable_rows()}
+
+
+def variables(causality=None):
+    """The variables as a dict from name to Variable; of one causality where it is given."""
+    return {name: row for name, row in VARIABLES.items() if causality in (None, row.causality)}
+
+
+def near_misses(name, names):
+    """The end of a message about a wrong name: those that look most like it."""
+    found = difflib.get_close_matches(name, list(names))
+    return f"did you mean {' or '.join(found)}?" if found else f"there are {', '.join(names)}"

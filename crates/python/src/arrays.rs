@@ -1,0 +1,121 @@
+//! Arrays from Python: converted to 64-bit floats, their shapes checked.
+
+use moris_washout::Input;
+use moris_washout::interface::RollPitchYaw;
+use moris_washout::nalgebra::Vector3;
+use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+
+use crate::error;
+
+/// Steps of time that differ by less than this count as equal \[fraction of a step\].
+const EQUAL: f64 = 1e-6;
+
+/// The times of samples.
+pub enum Time {
+    /// At equal steps \[s\].
+    Equal(f64),
+    /// The step after each sample \[s\].
+    Steps(Vec<f64>),
+}
+
+impl Time {
+    /// The times of an array that increases from sample to sample.
+    fn of(py: Python, times: &[f64]) -> PyResult<Self> {
+        let refused = |message: String| error::recording(py, message);
+        if times.len() < 2 {
+            return Err(refused(format!("time has {} samples; at least 2 are needed", times.len())));
+        }
+        let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        if let Some(k) = steps.iter().position(|step| step.is_nan() || *step <= 0.0 || step.is_infinite()) {
+            let (before, after) = (times[k], times[k + 1]);
+            return Err(refused(format!("time[{}] is {after} s after {before} s; time must increase", k + 1)));
+        }
+        let mean = (times[times.len() - 1] - times[0]) / steps.len() as f64;
+        let is_equal = |step: f64| {
+            times.iter().enumerate().all(|(k, time)| (time - times[0] - k as f64 * step).abs() <= EQUAL * step)
+        };
+        // Times are mostly multiples of a step with few decimals: 0.01 and not 0.010000000000000002.
+        let short = format!("{mean:.12e}").parse().unwrap_or(mean);
+        Ok([short, mean].into_iter().find(|step| is_equal(*step)).map_or(Time::Steps(steps), Time::Equal))
+    }
+
+    /// The step after sample `k` \[s\].
+    pub fn step(&self, k: usize) -> f64 {
+        match self {
+            Time::Equal(step) => *step,
+            Time::Steps(steps) => steps[k],
+        }
+    }
+}
+
+/// The input arrays of a run, one for each field of [`Input`].
+pub struct Arrays<'a, 'py> {
+    pub specific_force: &'a Bound<'py, PyAny>,
+    pub angular_velocity: Option<&'a Bound<'py, PyAny>>,
+    pub orientation: Option<&'a Bound<'py, PyAny>>,
+    pub speed: Option<&'a Bound<'py, PyAny>>,
+    pub lean: Option<&'a Bound<'py, PyAny>>,
+    pub engaged: Option<&'a Bound<'py, PyAny>>,
+}
+
+/// The samples' times and inputs.
+///
+/// # Errors
+/// `RecordingError`: an array has another shape, or time does not increase.
+pub fn samples(time: &Bound<PyAny>, arrays: &Arrays) -> PyResult<(Vec<f64>, Time, Vec<Input>)> {
+    let times = values(time, "time", None, None)?;
+    let steps = Time::of(time.py(), &times)?;
+    let count = times.len();
+    let vectors =
+        |array: Option<&Bound<PyAny>>, name| array.map(|array| values(array, name, Some(count), Some(3))).transpose();
+    let scalars =
+        |array: Option<&Bound<PyAny>>, name| array.map(|array| values(array, name, Some(count), None)).transpose();
+    let force = values(arrays.specific_force, "specific_force", Some(count), Some(3))?;
+    let rate = vectors(arrays.angular_velocity, "angular_velocity")?;
+    let angles = vectors(arrays.orientation, "orientation")?;
+    let speed = scalars(arrays.speed, "speed")?;
+    let lean = scalars(arrays.lean, "lean")?;
+    let engaged = scalars(arrays.engaged, "engaged")?;
+    let vector = |array: &[f64], k: usize| Vector3::from_column_slice(&array[3 * k..3 * k + 3]);
+    let mut inputs = vec![Input::default(); count];
+    for (k, input) in inputs.iter_mut().enumerate() {
+        input.specific_force = vector(&force, k);
+        if let Some(rate) = &rate {
+            input.angular_velocity = vector(rate, k);
+        }
+        if let Some(angles) = &angles {
+            input.orientation = RollPitchYaw::from_vector(vector(angles, k));
+        }
+        input.speed = speed.as_ref().map_or(input.speed, |speed| speed[k]);
+        input.lean = lean.as_ref().map_or(input.lean, |lean| lean[k]);
+        input.engaged = engaged.as_ref().map_or(input.engaged, |engaged| engaged[k] != 0.0);
+    }
+    Ok((times, steps, inputs))
+}
+
+/// The values of an array of shape (`rows`,) or (`rows`, `columns`), row by row.
+///
+/// # Errors
+/// `RecordingError`: no array of numbers, or of another shape.
+pub fn values(array: &Bound<PyAny>, name: &str, rows: Option<usize>, columns: Option<usize>) -> PyResult<Vec<f64>> {
+    let py = array.py();
+    let numpy = py.import("numpy")?;
+    let converted = numpy.call_method1("ascontiguousarray", (array, numpy.getattr("float64")?));
+    let array = converted.map_err(|reason| error::recording(py, format!("{name} is no array of numbers: {reason}")))?;
+    let array = array.cast::<PyArrayDyn<f64>>()?;
+    let shape = array.shape();
+    let fits = match columns {
+        None => shape.len() == 1,
+        Some(columns) => shape.len() == 2 && shape[1] == columns,
+    };
+    if !fits || rows.is_some_and(|rows| shape[0] != rows) {
+        let rows = rows.map_or("N".to_owned(), |rows| rows.to_string());
+        let wanted = columns.map_or_else(|| format!("({rows},)"), |columns| format!("({rows}, {columns})"));
+        let transposed = columns.is_some_and(|columns| shape.len() == 2 && shape[0] == columns && shape[1] != columns);
+        let remedy = if transposed { "; transpose it: a row a sample" } else { "" };
+        let message = format!("{name} has the shape {shape:?}, but must have {wanted}{remedy}");
+        return Err(error::recording(py, message.replace('[', "(").replace(']', ")")));
+    }
+    Ok(array.try_readonly()?.as_slice()?.to_vec())
+}

@@ -1,0 +1,61 @@
+//! Errors as the exceptions of `moris`.
+
+use std::fmt::Display;
+
+use moris_interface::Refusal;
+use moris_setup::{Error, NamedValues};
+use pyo3::prelude::*;
+
+/// An exception of `moris._errors` with these arguments.
+fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+    let made = py.import("moris._errors").and_then(|module| module.getattr(class)?.call1(arguments));
+    made.map_or_else(|error| error, PyErr::from_value)
+}
+
+/// Parameters that cannot be used together, with the value of the one that is refused.
+pub fn refused(py: Python, refusal: &Refusal, values: &NamedValues) -> PyErr {
+    let Refusal { variable, reason } = refusal;
+    let value = values.iter().find(|(name, _)| name == variable).map(|(_, value)| *value);
+    exception(py, "ParameterError", (format!("{variable} {reason}"), variable, value))
+}
+
+/// A rig or parameters that cannot be used.
+pub fn setup(py: Python, error: &Error, values: &NamedValues) -> PyErr {
+    match error {
+        Error::Refused(refusal) => refused(py, refusal, values),
+        Error::UnknownName { what, name, nearest, .. } => {
+            let remedy = match nearest.as_slice() {
+                [] if *what == "parameter" => "moris.parameters() lists them".to_owned(),
+                [] => "docs/workbench.md lists the keys of a rig".to_owned(),
+                near => format!("did you mean {}?", near.join(" or ")),
+            };
+            let message = format!("there is no {what} {name}; {remedy}");
+            exception(py, "ParameterError", (message, name, None::<f64>, nearest.clone()))
+        }
+        Error::WrongValue { name, reason, .. } => exception(py, "ParameterError", (format!("{name} {reason}"), name)),
+        Error::NoSuchSet { name, nearest } => {
+            exception(py, "ParameterError", (error.to_string(), name, None::<f64>, nearest.clone()))
+        }
+        Error::Read { .. } | Error::Toml { .. } => exception(py, "ParameterError", (error.to_string(),)),
+    }
+}
+
+/// A recording or an argument that cannot be used.
+pub fn recording(py: Python, message: String) -> PyErr {
+    exception(py, "RecordingError", (message,))
+}
+
+/// A bound that cannot be computed.
+pub fn bound(py: Python, reason: &dyn Display) -> PyErr {
+    exception(py, "BoundError", (format!("cannot compute the bound: {reason}"),))
+}
+
+/// A search that found no parameters that keep the limits.
+pub fn nothing_found(py: Python, reason: &dyn Display) -> PyErr {
+    exception(py, "NoParametersFound", (reason.to_string(),))
+}
+
+/// Parameters of which no kind of message is known.
+pub fn parameter(py: Python, message: String) -> PyErr {
+    exception(py, "ParameterError", (message,))
+}

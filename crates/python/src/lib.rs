@@ -1,0 +1,43 @@
+//! The compiled half of the Python package `moris`; the other half is in `python/moris`.
+//!
+//! [`washout`] is the class `Washout`, [`output`] what its step returns. [`setup`] reads rigs and
+//! parameters, [`arrays`] numpy's arrays, [`variables`] finds variables by name, [`table`] lists
+//! them. [`error`] makes the exceptions.
+
+mod arrays;
+mod error;
+mod output;
+mod recording;
+mod response;
+mod setup;
+mod simulation;
+mod survey;
+mod sweep;
+mod table;
+mod tune;
+mod variables;
+mod washout;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _moris {
+    #[pymodule_export]
+    use crate::output::PyOutput;
+    #[pymodule_export]
+    use crate::recording::PyRecording;
+    #[pymodule_export]
+    use crate::response::frequency_response;
+    #[pymodule_export]
+    use crate::simulation::{PySimulation, bound, parameter_file, parameter_values};
+    #[pymodule_export]
+    use crate::survey::survey;
+    #[pymodule_export]
+    use crate::sweep::{sweep_chunk, sweep_measures};
+    #[pymodule_export]
+    use crate::table::variable_rows;
+    #[pymodule_export]
+    use crate::tune::PyTuning;
+    #[pymodule_export]
+    use crate::washout::PyWashout;
+}

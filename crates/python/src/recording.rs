@@ -1,0 +1,136 @@
+//! Recordings: read by the workbench's import code.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use moris::ride::{ConventionOptions, Conventions, Ride};
+use moris_batch::Manoeuvre;
+use moris_interface::{Group, Writer, slot_count};
+use moris_washout::Input;
+use moris_washout::interface::AngularVelocityFrame;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use toml::{Table, Value};
+
+use crate::arrays::values;
+use crate::error;
+use crate::setup::table;
+
+/// A recording in the washout's frames and units.
+#[pyclass(frozen, module = "moris._moris", name = "Recording")]
+pub struct PyRecording {
+    pub ride: Arc<Ride>,
+}
+
+/// A recording's fields, as they are pickled.
+type State = (String, f64, Vec<Input>, f64, AngularVelocityFrame, bool, Vec<String>);
+
+#[pymethods]
+impl PyRecording {
+    /// Reads a CSV file.
+    #[staticmethod]
+    fn read(py: Python, file: PathBuf, options: &Bound<PyDict>) -> PyResult<Self> {
+        let conventions = conventions(options)?;
+        let ride = py.detach(|| Ride::read(&file, &conventions));
+        Self::of(py, ride.map_err(|error| error.to_string()))
+    }
+
+    /// Reads columns, pairs of name and array.
+    #[staticmethod]
+    fn of_columns(
+        py: Python,
+        name: &str,
+        columns: Vec<(String, Bound<PyAny>)>,
+        options: &Bound<PyDict>,
+    ) -> PyResult<Self> {
+        let conventions = conventions(options)?;
+        let column = |(title, array): (String, Bound<PyAny>)| {
+            let values = values(&array, &title, None, None)?;
+            Ok((title, values))
+        };
+        let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
+        let ride = py.detach(|| Ride::of_columns(name, &columns, &conventions));
+        Self::of(py, ride.map_err(|error| error.to_string()))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        &self.ride.name
+    }
+
+    #[getter]
+    fn step(&self) -> f64 {
+        self.ride.step()
+    }
+
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.ride.manoeuvre.duration()
+    }
+
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.ride.remarks.clone()
+    }
+
+    /// The samples' times, their inputs row by row, and the names of the inputs.
+    #[allow(clippy::type_complexity)]
+    fn samples<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>)> {
+        const COUNT: usize = slot_count(Input::ROWS);
+        let inputs = self.ride.inputs();
+        let mut rows = vec![0.0; inputs.len() * COUNT];
+        for (input, row) in inputs.iter().zip(rows.chunks_exact_mut(COUNT)) {
+            input.write(&mut Writer::new(row));
+        }
+        let names = crate::variables::Variables::of(Input::ROWS).names;
+        let rows = PyArray1::from_vec(py, rows).reshape([inputs.len(), COUNT])?;
+        Ok((PyArray1::from_vec(py, self.ride.times().collect()), rows, names))
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let Ride { name, manoeuvre, start, angular_velocity_frame, has_orientation, remarks } = &*self.ride;
+        let inputs = manoeuvre.inputs();
+        let state = (name, manoeuvre.step(), inputs, start, angular_velocity_frame, has_orientation, remarks);
+        let bytes = postcard::to_allocvec(&state).map_err(|reason| error::recording(py, reason.to_string()))?;
+        Ok((py.get_type::<PyRecording>().getattr("_from_state")?, (PyBytes::new(py, &bytes),)))
+    }
+
+    #[staticmethod]
+    fn _from_state(py: Python, state: &[u8]) -> PyResult<Self> {
+        let refused = |_| error::recording(py, "the pickled recording is of another version of moris".to_owned());
+        let state: State = postcard::from_bytes(state).map_err(refused)?;
+        let (name, step, inputs, start, angular_velocity_frame, has_orientation, remarks) = state;
+        let manoeuvre = Manoeuvre::new(step, inputs);
+        let ride = Ride { name, manoeuvre, start, angular_velocity_frame, has_orientation, remarks };
+        Ok(PyRecording { ride: Arc::new(ride) })
+    }
+}
+
+impl PyRecording {
+    fn of(py: Python, ride: Result<Ride, String>) -> PyResult<Self> {
+        let ride = ride.map_err(|message| error::recording(py, message))?;
+        Ok(PyRecording { ride: Arc::new(ride) })
+    }
+}
+
+/// Names, units and axes by the options' names, with underscores for hyphens.
+fn conventions(options: &Bound<PyDict>) -> PyResult<Conventions> {
+    let py = options.py();
+    let given: Table = table(options)?.into_iter().map(|(name, value)| (name.replace('_', "-"), real(value))).collect();
+    let refused = |message: String| error::recording(py, message);
+    let options: ConventionOptions =
+        toml::from_str(&given.to_string()).map_err(|error| refused(error.message().to_owned()))?;
+    options.load().map_err(|error| refused(error.to_string()))
+}
+
+/// Whole numbers as reals: all numbers among the options are.
+fn real(value: Value) -> Value {
+    match value {
+        Value::Integer(number) => Value::Float(number as f64),
+        other => other,
+    }
+}

@@ -1,0 +1,66 @@
+//! The frequency response.
+
+use moris::respond::channel::{ALL, CHANNELS};
+use moris::respond::excitation::{Amplitudes, frequencies};
+use moris::respond::{Measured, Response};
+use numpy::{Complex64, PyArray1, PyArray2, PyArray3, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::{error, setup};
+
+/// Names of the channels, frequencies \[rad/s\], and the responses with the test's amplitudes
+/// and to small signals.
+type FrequencyResponse<'py> = (Vec<&'static str>, Bound<'py, PyArray1<f64>>, Responses<'py>, Responses<'py>);
+
+/// Ratios (inputs, frequencies, outputs) in SI units, distortion of the same shape, fractions of
+/// time limited (inputs, frequencies, 3), and whether each has settled (inputs, frequencies).
+type Responses<'py> =
+    (Bound<'py, PyArray3<Complex64>>, Bound<'py, PyArray3<f64>>, Bound<'py, PyArray3<f64>>, Bound<'py, PyArray2<bool>>);
+
+/// Measures the frequency response.
+///
+/// # Errors
+/// `ParameterError`: the parameters cannot be used; `ValueError`: an amplitude is not positive.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)]
+pub fn frequency_response<'py>(
+    py: Python<'py>,
+    rig: Option<&Bound<PyAny>>,
+    parameters: Option<&Bound<PyAny>>,
+    strategy: Option<&str>,
+    force: f64,
+    rate: f64,
+    gravity_turns: bool,
+) -> PyResult<FrequencyResponse<'py>> {
+    let setup = setup::load(py, rig, parameters, strategy)?;
+    for (name, value) in [("force", force), ("rate", rate)] {
+        if !(value.is_finite() && value > 0.0) {
+            return Err(PyValueError::new_err(format!("{name} is {value}, but must be a positive number")));
+        }
+    }
+    let default = Amplitudes::default();
+    let amplitudes = Amplitudes { force, ..default.scaled(rate / default.rate) };
+    let measured = py
+        .detach(|| Measured::of(&setup.parameters, amplitudes, gravity_turns, || ()))
+        .map_err(|reason| error::parameter(py, reason.to_string()))?;
+    let names = ALL.iter().map(|channel| channel.name()).collect();
+    let frequencies = PyArray1::from_slice(py, &frequencies());
+    Ok((names, frequencies, arrays(py, &measured.test)?, arrays(py, &measured.small)?))
+}
+
+fn arrays<'py>(py: Python<'py>, responses: &[Response]) -> PyResult<Responses<'py>> {
+    let count = frequencies().len();
+    let shape = |last: usize| [CHANNELS, count, last];
+    let ratios = responses.iter().flat_map(|response| response.ratios);
+    let ratios = ratios.map(|ratio| Complex64::new(ratio.re, ratio.im)).collect();
+    let distortion = responses.iter().flat_map(|response| response.distortion).collect();
+    let limited = responses.iter().flat_map(|response| response.limited).collect();
+    let settled = responses.iter().map(|response| response.settled).collect();
+    Ok((
+        PyArray1::from_vec(py, ratios).reshape(shape(CHANNELS))?,
+        PyArray1::from_vec(py, distortion).reshape(shape(CHANNELS))?,
+        PyArray1::from_vec(py, limited).reshape(shape(3))?,
+        PyArray1::from_vec(py, settled).reshape([CHANNELS, count])?,
+    ))
+}

@@ -1,0 +1,189 @@
+//! Simulations of recordings, their measures and bounds.
+
+use std::sync::Arc;
+
+use moris::ride::Ride;
+use moris::run::{AxisBound, Outcome, Recording, bounds, findings, fits_the_rig, page};
+use moris_interface::{Group, Writer, slot_count};
+use moris_measures::{Axes, Row, bound_rows};
+use moris_setup::{Setup, all};
+use moris_washout::{Input, Output};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error;
+use crate::recording::PyRecording;
+use crate::setup;
+use crate::variables::Variables;
+use crate::washout::parameter_dict;
+
+/// A measure as Python gets it: subject, name, value, unit, definition, source.
+type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &'static str);
+
+/// A simulated recording.
+#[pyclass(frozen, module = "moris._moris", name = "Simulation")]
+pub struct PySimulation {
+    ride: Arc<Ride>,
+    outcome: Outcome,
+}
+
+#[pymethods]
+impl PySimulation {
+    /// Simulates a recording and measures it.
+    #[new]
+    fn new(
+        py: Python,
+        recording: &PyRecording,
+        rig: Option<&Bound<PyAny>>,
+        parameters: Option<&Bound<PyAny>>,
+        strategy: Option<&str>,
+        bound: bool,
+    ) -> PyResult<Self> {
+        let setup = setup::load(py, rig, parameters, strategy)?;
+        let ride = Arc::clone(&recording.ride);
+        let outcome = py.detach(|| Outcome::of(&ride, &setup, || ()));
+        let mut outcome = outcome.map_err(|reason| error::parameter(py, reason.to_string()))?;
+        if bound {
+            outcome.bounds =
+                py.detach(|| bounds::bounds(&outcome.recording)).map_err(|reason| error::bound(py, &reason))?;
+        }
+        Ok(PySimulation { ride, outcome })
+    }
+
+    #[getter]
+    fn rig_name(&self) -> &str {
+        &self.outcome.setup.rig_name
+    }
+
+    #[getter]
+    fn parameters_name(&self) -> &str {
+        &self.outcome.setup.parameters_name
+    }
+
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        parameter_dict(py, &self.outcome.setup.parameters)
+    }
+
+    #[getter]
+    fn fits(&self) -> bool {
+        fits_the_rig(&self.outcome)
+    }
+
+    #[getter]
+    fn findings(&self) -> Vec<String> {
+        findings::of(&self.outcome).into_iter().map(|finding| finding.text).collect()
+    }
+
+    /// The samples' times, their inputs and outputs row by row, and the names of the columns.
+    #[allow(clippy::type_complexity)]
+    fn samples<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>)> {
+        const INPUTS: usize = slot_count(Input::ROWS);
+        const COUNT: usize = INPUTS + slot_count(Output::ROWS);
+        let Recording { inputs, outputs, .. } = &self.outcome.recording;
+        let mut rows = vec![0.0; outputs.len() * COUNT];
+        for ((input, output), row) in inputs.iter().zip(outputs).zip(rows.chunks_exact_mut(COUNT)) {
+            input.write(&mut Writer::new(&mut row[..INPUTS]));
+            output.write(&mut Writer::new(&mut row[INPUTS..]));
+        }
+        let names = [Input::ROWS, Output::ROWS].into_iter().flat_map(|rows| Variables::of(rows).names).collect();
+        let rows = PyArray1::from_vec(py, rows).reshape([outputs.len(), COUNT])?;
+        Ok((PyArray1::from_vec(py, self.outcome.recording.times()), rows, names))
+    }
+
+    /// Angular velocity that the vehicle's rider feels, in head axes.
+    fn desired_rates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rates = self.outcome.recording.desired_rates();
+        let flat = rates.iter().flat_map(|rate| [rate.x, rate.y, rate.z]).collect();
+        PyArray1::from_vec(py, flat).reshape([rates.len(), 3])
+    }
+
+    /// The measures, and the bound's where it was computed.
+    #[getter]
+    fn measures(&self) -> Vec<Measure> {
+        let Outcome { measures, bounds, .. } = &self.outcome;
+        let on_axis = |axis: usize| {
+            let bound = bounds[axis].as_ref()?;
+            let felt = measures.force[axis]?.rms_error;
+            Some(bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
+        };
+        let bounds = (0..3).filter_map(on_axis).flatten();
+        measures.rows().into_iter().chain(bounds).map(measure).collect()
+    }
+
+    /// The report's page, with other simulations of the same recording beside this one.
+    fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> PyResult<String> {
+        let outcomes: Vec<Outcome> =
+            std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
+        moris_report::html(&page::report(&self.ride, &outcomes))
+            .map_err(|reason| error::recording(py, format!("the report does not fit together: {reason}")))
+    }
+}
+
+fn measure(row: Row) -> Measure {
+    (row.subject, row.name, row.value, row.unit, row.definition, row.source)
+}
+
+/// The bound on surge, sway and heave: least RMS error, RMS of what is desired, and the felt
+/// specific force of the best trajectory; none on an axis on which nothing is desired.
+///
+/// # Errors
+/// `BoundError`: the recording is too short, or the solver fails.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub fn bound<'py>(
+    py: Python<'py>,
+    recording: &PyRecording,
+    rig: Option<&Bound<PyAny>>,
+    parameters: Option<&Bound<PyAny>>,
+) -> PyResult<Vec<Option<(f64, f64, Bound<'py, PyArray1<f64>>)>>> {
+    let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
+    let ride = &recording.ride;
+    let parameters = ride.parameters(&parameters);
+    let run = Recording { step: ride.step(), parameters, inputs: ride.inputs().to_vec(), outputs: Vec::new() };
+    let bounds: Axes<Option<AxisBound>> =
+        py.detach(|| bounds::bounds(&run)).map_err(|reason| error::bound(py, &reason))?;
+    let times = run.times();
+    let of = |bound: &Option<AxisBound>| {
+        let AxisBound { bound: best, .. } = bound.as_ref()?;
+        let felt = times.iter().map(|time| best.trajectory.felt(*time)).collect();
+        Some((best.rms_error, bound.as_ref()?.desired_rms(), PyArray1::from_vec(py, felt)))
+    };
+    Ok(bounds.iter().map(of).collect())
+}
+
+/// Every parameter by name, of a rig, presets and files put together.
+///
+/// # Errors
+/// `ParameterError`: a name or a value cannot be used.
+#[pyfunction]
+pub fn parameter_values<'py>(
+    py: Python<'py>,
+    rig: Option<&Bound<PyAny>>,
+    parameters: Option<&Bound<PyAny>>,
+    strategy: Option<&str>,
+) -> PyResult<Bound<'py, PyDict>> {
+    parameter_dict(py, &setup::load(py, rig, parameters, strategy)?.parameters)
+}
+
+/// The text of a parameter file with these values over a rig's.
+///
+/// # Errors
+/// As [`parameter_values`].
+#[pyfunction]
+pub fn parameter_file(
+    py: Python,
+    heading: &str,
+    rig: Option<&Bound<PyAny>>,
+    parameters: Option<&Bound<PyAny>>,
+) -> PyResult<String> {
+    let setup = setup::load(py, rig, parameters, None)?;
+    let rig_alone = all(&setup::load(py, rig, None, None)?.parameters);
+    let differing = all(&setup.parameters).into_iter().zip(rig_alone).filter(|(mine, rigs)| mine.1 != rigs.1);
+    let values: Vec<_> = differing.map(|(mine, _)| mine).collect();
+    Ok(moris_setup::parameter_file::write(heading, &values, moris_washout::Parameters::ROWS))
+}

@@ -1,0 +1,46 @@
+//! The survey of a rig.
+
+use moris::rig::picture;
+use moris::rig::survey::{Singularities, Survey};
+use moris_setup::NamedValues;
+use moris_setup::rig_file;
+use pyo3::prelude::*;
+
+use crate::error;
+use crate::setup::rig_of;
+
+/// The rig that the washout has by default.
+const DEFAULT_RIG: &str = include_str!("../../moris/rigs/default.toml");
+
+/// An axis: name, reach [m or rad], speed [m/s or rad/s], acceleration [m/s2 or rad/s2].
+type AxisAlone = (&'static str, f64, f64, f64, f64);
+
+/// Properties of a rig: its name, the axes alone, volumes of the workspace with standard errors,
+/// smallest singular value and worst condition number, or leg lengths at a singularity, and it
+/// all as text and picture.
+type Properties = (String, Vec<AxisAlone>, [(f64, f64); 2], Option<(f64, f64)>, Option<[f64; 6]>, String, String);
+
+/// Surveys a rig.
+///
+/// # Errors
+/// `ParameterError`: the rig cannot be used.
+#[pyfunction]
+pub fn survey(py: Python, rig: Option<&Bound<PyAny>>, samples: u32) -> PyResult<Properties> {
+    let file = match rig {
+        Some(rig) => rig_of(rig)?,
+        None => {
+            rig_file::read(DEFAULT_RIG, "default rig").map_err(|error| error::setup(py, &error, &NamedValues::new()))?
+        }
+    };
+    let survey =
+        py.detach(|| Survey::of(&file, samples)).map_err(|refusal| error::refused(py, &refusal, &file.values()))?;
+    let axes = survey.axes.iter();
+    let axes = axes.map(|axis| (axis.axis.name(), axis.range.min, axis.range.max, axis.speed, axis.acceleration));
+    let (condition, singular_at) = match survey.singularities {
+        Singularities::None(found) => (Some((found.smallest_singular_value, found.worst_condition)), None),
+        Singularities::At(lengths) => (None, Some(lengths)),
+    };
+    let volumes = [survey.workspace.level, survey.workspace.tilted].map(|volume| (volume.size, volume.standard_error));
+    let axes = axes.collect();
+    Ok((survey.name.clone(), axes, volumes, condition, singular_at, survey.to_string(), picture::svg(&survey)))
+}

@@ -1,0 +1,111 @@
+//! Many parameter sets on many recordings: the part that runs without Python.
+
+use std::sync::{Arc, LazyLock};
+
+use moris::ride::Ride;
+use moris::run::{Recording, measured};
+use moris_measures::{Limited, Measures, Platform, Run};
+use moris_setup::Setup;
+use numpy::{PyArray1, PyArray3, PyArrayMethods};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::recording::PyRecording;
+use crate::setup;
+
+/// The measures of a sweep, each a subject, a name and a unit: all that there are, on every axis.
+static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock::new(|| {
+    // Any run has them in which something is desired on every axis.
+    let count = 8;
+    let force: Vec<[f64; 3]> = (0..count).map(|k| [f64::from(k); 3]).collect();
+    let still = vec![[0.0; 3]; force.len()];
+    let run = Run {
+        step: 0.1,
+        desired_force: &force,
+        felt_force: &still,
+        desired_rate: &force,
+        felt_rate: &still,
+        platform: Platform {
+            legs: &vec![[1.0; 6]; force.len()],
+            stroke: [0.5, 1.5],
+            displacement: &still,
+            tilt_rate: &vec![[0.0; 2]; force.len()],
+            limited: &vec![Limited::default(); force.len()],
+        },
+    };
+    let measures = Measures::of(&run).expect("the run has equal series of numbers");
+    measures.rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect()
+});
+
+/// The measures of a sweep: subject, name and unit.
+#[pyfunction]
+pub fn sweep_measures() -> Vec<(String, &'static str, &'static str)> {
+    MEASURES.clone()
+}
+
+/// Simulates recordings with parameter sets and measures them.
+///
+/// Returns the measures (sets, recordings, measures), NaN where one is not defined, and for
+/// each set the message of its error or None. `threads` = 1 stays on this thread, any other
+/// number uses all cores.
+///
+/// # Errors
+/// `TypeError`: a set is of no type that parameters have.
+#[pyfunction]
+#[allow(clippy::type_complexity)]
+pub fn sweep_chunk<'py>(
+    py: Python<'py>,
+    recordings: Vec<PyRef<PyRecording>>,
+    rig: Option<&Bound<PyAny>>,
+    sets: Vec<Bound<PyAny>>,
+    strategy: Option<&str>,
+    threads: usize,
+) -> PyResult<(Bound<'py, PyArray3<f64>>, Vec<Option<String>>)> {
+    let refused = py.import("moris._errors")?.getattr("ParameterError")?;
+    let mut errors = Vec::with_capacity(sets.len());
+    let mut setups = Vec::with_capacity(sets.len());
+    for set in &sets {
+        match setup::load(py, rig, Some(set), strategy) {
+            Ok(setup) => (setups.push(Some(setup)), errors.push(None)),
+            Err(error) if error.is_instance(py, &refused) => {
+                (setups.push(None), errors.push(Some(error.value(py).to_string())))
+            }
+            Err(error) => return Err(error),
+        };
+    }
+    let rides: Vec<Arc<Ride>> = recordings.iter().map(|recording| Arc::clone(&recording.ride)).collect();
+    let count = rides.len() * MEASURES.len();
+    let mut rows = vec![f64::NAN; sets.len() * count];
+    py.detach(|| {
+        let pairs = setups.iter().flat_map(|setup| rides.iter().map(move |ride| (setup.as_ref(), &**ride)));
+        let tasks: Vec<_> = pairs.zip(rows.chunks_exact_mut(MEASURES.len())).collect();
+        let act = |((setup, ride), row): ((Option<&Setup>, &Ride), &mut [f64])| {
+            if let Some(setup) = setup {
+                measure(setup, ride, row);
+            }
+        };
+        if threads == 1 {
+            tasks.into_iter().for_each(act);
+        } else {
+            tasks.into_par_iter().for_each(act);
+        }
+    });
+    let rows = PyArray1::from_vec(py, rows).reshape([sets.len(), rides.len(), MEASURES.len()])?;
+    Ok((rows, errors))
+}
+
+/// Writes the measures of a simulation into a row; those that are not defined stay what they are.
+fn measure(setup: &Setup, ride: &Ride, row: &mut [f64]) {
+    let parameters = ride.parameters(&setup.parameters);
+    // The setup is checked, and a recording has samples: neither fails.
+    let Ok(recording) = Recording::of(ride, &parameters, || ()) else { return };
+    let Ok(measures) = measured::measures(&recording) else { return };
+    let mut places = MEASURES.iter().zip(row).peekable();
+    for found in measures.rows() {
+        // The rows come in the order of the list, which has all of them.
+        let place = places.find(|((subject, name, _), _)| *subject == found.subject && *name == found.name);
+        if let (Some((_, value)), Some(measure)) = (place, found.value) {
+            *value = measure;
+        }
+    }
+}

@@ -1,0 +1,73 @@
+//! The table of variables.
+
+use moris_interface::{Causality, Group, Kind, Row};
+use moris_washout::{Input, Output, Parameters};
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+
+use crate::variables::{Variables, slots};
+
+/// A variable as Python gets it: name, causality, kind, unit, least and greatest value, start
+/// value, items, description, name of the vector that it is an element of.
+type Variable<'py> = (
+    String,
+    &'static str,
+    &'static str,
+    &'static str,
+    f64,
+    f64,
+    Bound<'py, PyAny>,
+    Vec<&'static str>,
+    &'static str,
+    String,
+);
+
+/// Inputs, outputs and parameters, each a tuple.
+///
+/// # Errors
+/// Python is out of memory.
+#[pyfunction]
+pub fn variable_rows(py: Python) -> PyResult<Vec<Variable>> {
+    let mut rows = of(py, &Input::default())?;
+    rows.extend(of(py, &Output::default())?);
+    rows.extend(of(py, &Parameters::default())?);
+    Ok(rows)
+}
+
+fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>> {
+    let variables = Variables::of(G::ROWS);
+    let values = slots(start);
+    let mut rows = Vec::new();
+    for row in G::ROWS {
+        for _ in 0..row.slots() {
+            let slot = rows.len();
+            let (least, greatest) = row.bounds();
+            let start = match row.causality {
+                Causality::Output => py.None().into_bound_py_any(py)?,
+                _ => variables.scalar(py, slot, values[slot])?,
+            };
+            let name = variables.names[slot].clone();
+            let (kind, unit, items) = kind(row);
+            rows.push((name, causality(row), kind, unit, least, greatest, start, items, row.text(), row.array_name()));
+        }
+    }
+    Ok(rows)
+}
+
+fn causality(row: &Row) -> &'static str {
+    match row.causality {
+        Causality::Input => "input",
+        Causality::Output => "output",
+        Causality::Parameter => "parameter",
+        _ => "independent",
+    }
+}
+
+fn kind(row: &Row) -> (&'static str, &'static str, Vec<&'static str>) {
+    match row.kind {
+        Kind::Real(unit) => ("real", unit.name, Vec::new()),
+        Kind::Integer => ("integer", "", Vec::new()),
+        Kind::Boolean => ("boolean", "", Vec::new()),
+        Kind::Enumeration(enumeration) => ("enumeration", "", enumeration.items.iter().map(|item| item.name).collect()),
+    }
+}

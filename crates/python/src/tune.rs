@@ -1,0 +1,253 @@
+//! Tuning: the workbench's search, with progress and evaluations that may go to Python.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::thread;
+use std::time::Duration;
+
+use moris::tune::cost::{Constraints, Cost, Judge};
+use moris::tune::search::{Budget, Evaluate, evaluate_here};
+use moris::tune::space::{Group, Space};
+use moris::tune::summary::{self, RideResult};
+use moris::tune::tuner::{NothingFound, Tuner};
+use moris::tune::{folds, results};
+use moris_setup::{NamedValues, Setup, all, overlaid};
+use moris_washout::Parameters;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::error;
+use crate::recording::PyRecording;
+use crate::setup;
+use crate::washout::parameter_dict;
+
+/// Time between two looks at progress and signals.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Result of a tuning: parameters, sets tried, summary, the first line, is it worse, was it
+/// interrupted, and for each recording its name and errors before, tuned and unseen.
+type Tuned<'py> = (Bound<'py, PyDict>, String, String, bool, bool, Vec<(String, f64, Option<f64>, Option<f64>)>);
+
+/// Progress of a search: its name, the sets tried, and the least error.
+type Progress = (String, usize, Option<f64>);
+
+/// The fixed part of a tuning.
+#[pyclass(frozen, module = "moris._moris", name = "Tuning")]
+pub struct PyTuning {
+    before: Setup,
+    judges: Vec<Judge>,
+    held_out: usize,
+    groups: Vec<Group>,
+}
+
+/// A number of error channels and what they come to, as it is sent between machines.
+type Sent = ([f64; 6], f64, f64);
+
+#[pymethods]
+impl PyTuning {
+    /// Prepares the search over `recordings`, of which the last `held_out` are not tuned on.
+    #[new]
+    #[allow(clippy::too_many_arguments)]
+    fn new(
+        py: Python,
+        recordings: Vec<PyRef<PyRecording>>,
+        held_out: usize,
+        rig: Option<&Bound<PyAny>>,
+        parameters: Option<&Bound<PyAny>>,
+        strategy: Option<&str>,
+        groups: Vec<String>,
+        weights: [f64; 6],
+        stroke_reserve: f64,
+    ) -> PyResult<Self> {
+        let before = setup::load(py, rig, parameters, strategy)?;
+        if !weights.iter().all(|weight| (0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
+            return Err(PyValueError::new_err(format!(
+                "weights are {weights:?}, but must be six numbers, none below 0 and not all 0"
+            )));
+        }
+        if !(stroke_reserve.is_finite() && stroke_reserve >= 0.0) {
+            return Err(PyValueError::new_err(format!(
+                "stroke_reserve is {stroke_reserve} m, but must not be below 0"
+            )));
+        }
+        let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
+        let constraints = Constraints { stroke_reserve };
+        let judge = |recording: &PyRef<PyRecording>| {
+            let judge = Judge::new((*recording.ride).clone(), &before.parameters, &weights, constraints);
+            judge.map_err(|refusal| error::refused(py, &refusal, &all(&before.parameters)))
+        };
+        let judges = recordings.iter().map(judge).collect::<PyResult<_>>()?;
+        Ok(PyTuning { before, judges, held_out, groups })
+    }
+
+    /// The costs of the recordings of these names with these parameters, or None if the
+    /// parameters cannot be used.
+    fn costs(&self, py: Python, names: Vec<String>, values: NamedValues) -> Option<Vec<Sent>> {
+        let parameters = overlaid(&self.before.parameters, &values);
+        let named = |name: &String| self.judges.iter().find(|judge| judge.name() == name);
+        let judges: Vec<&Judge> = names.iter().filter_map(named).collect();
+        let cost = |judge: &&Judge| judge.coarse_cost(&parameters).ok();
+        let costs: Option<Vec<Cost>> = py.detach(|| judges.iter().map(cost).collect());
+        Some(costs?.into_iter().map(|cost| (cost.channels, cost.error, cost.violated)).collect())
+    }
+
+    /// Searches. `observe(name, tried, error)` returns False to end it with the best so far.
+    /// `patience` ends a search after so many sets without a smaller error.
+    /// `evaluate(names, values)` computes costs elsewhere, `parallel` of them at a time; without it
+    /// they are computed here.
+    #[allow(clippy::too_many_arguments)]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        evaluations: usize,
+        seed: u64,
+        folds: usize,
+        patience: Option<usize>,
+        observe: &Bound<PyAny>,
+        evaluate: Option<Py<PyAny>>,
+        parallel: usize,
+    ) -> PyResult<Tuned<'py>> {
+        let interrupted = Arc::new(AtomicBool::new(false));
+        let progress: Mutex<Option<Progress>> = Mutex::new(None);
+        let failure: Mutex<Option<PyErr>> = Mutex::new(None);
+        let elsewhere = evaluate.map(|function| remote(function, &interrupted, &failure));
+        let least_of: Mutex<(f64, usize)> = Mutex::new((f64::INFINITY, 0));
+        let note = |name: &str, tried: usize, least: Option<f64>| {
+            *lock(&progress) = Some((name.to_owned(), tried, least));
+            let mut best = lock(&least_of);
+            // A search that begins counts from the start again.
+            if tried < best.1 || least.is_some_and(|least| least < best.0) {
+                *best = (least.unwrap_or(f64::INFINITY), tried);
+            }
+            best.0.is_infinite() || patience.is_none_or(|patience| tried - best.1 < patience)
+        };
+        let observe: Py<PyAny> = observe.clone().unbind();
+        let search = || {
+            let tuner = Tuner {
+                setup: &self.before,
+                space: Space::new(&self.before.parameters, &self.groups),
+                budget: Budget { evaluations, seed },
+                evaluate: elsewhere.as_deref().unwrap_or(&evaluate_here),
+                observe: &note,
+                interrupted: Arc::clone(&interrupted),
+                bar: indicatif::ProgressBar::hidden(),
+            };
+            self.tune(&tuner, folds)
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(parallel).build();
+        let pool = pool.map_err(|reason| PyValueError::new_err(format!("no threads for the search: {reason}")))?;
+        let mut keyboard = false;
+        let done = py.detach(|| {
+            thread::scope(|scope| {
+                let searching = scope.spawn(|| pool.install(search));
+                while !searching.is_finished() {
+                    thread::park_timeout(LOOK);
+                    let looked = Python::attach(|py| look(py, &observe, lock(&progress).take()));
+                    match looked {
+                        Ok(true) => (),
+                        Ok(false) => interrupted.store(true, Ordering::Relaxed),
+                        Err(error) => {
+                            // Ctrl-C ends the search and keeps the best so far; any other error is the caller's.
+                            keyboard |= Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py));
+                            if !keyboard {
+                                lock(&failure).get_or_insert(error);
+                            }
+                            interrupted.store(true, Ordering::Relaxed);
+                        }
+                    }
+                }
+                searching.join()
+            })
+        });
+        if let Some(error) = lock(&failure).take() {
+            return Err(error);
+        }
+        let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
+        let (tuned, results) = done.map_err(|reason| {
+            if reason.is::<NothingFound>() {
+                error::nothing_found(py, &reason)
+            } else {
+                error::parameter(py, reason.to_string())
+            }
+        })?;
+        let was_interrupted = interrupted.load(Ordering::Relaxed);
+        let text = summary::text(&self.before, &tuned, &results, was_interrupted);
+        let errors = results.iter().map(|result| {
+            let error = |cost: Option<Cost>| cost.map(|cost| cost.error);
+            (result.name.clone(), result.before.error, error(result.tuned), error(result.unseen))
+        });
+        Ok((
+            parameter_dict(py, &tuned.parameters)?,
+            text,
+            summary::first_line(&results),
+            summary::is_worse(&results),
+            was_interrupted,
+            errors.collect(),
+        ))
+    }
+}
+
+impl PyTuning {
+    fn tune(&self, tuner: &Tuner, groups: usize) -> Result<(Setup, Vec<RideResult>), Reason> {
+        let (tuned_on, held_out) = self.judges.split_at(self.judges.len() - self.held_out);
+        let tuned_on: Vec<&Judge> = tuned_on.iter().collect();
+        let held_out: Vec<&Judge> = held_out.iter().collect();
+        let tuned = tuner.tune(&tuned_on, "all rides")?;
+        let mut results = results(tuner, &tuned_on, &held_out, &tuned)?;
+        for fold in folds::folds(tuned_on.len(), groups) {
+            tuner.leave_out(&tuned_on, &fold, &mut results)?;
+        }
+        Ok((tuned, results))
+    }
+}
+
+/// The workbench's error.
+type Reason = anyhow::Error;
+
+/// Evaluations by a function of Python. Its first exception ends the search.
+fn remote<'a>(
+    function: Py<PyAny>,
+    interrupted: &'a AtomicBool,
+    failure: &'a Mutex<Option<PyErr>>,
+) -> Box<Evaluate<'a>> {
+    Box::new(move |judges: &[&Judge], parameters: &Parameters| {
+        let names: Vec<&str> = judges.iter().map(|judge| judge.name()).collect();
+        let sent = Python::attach(|py| -> PyResult<Option<Vec<Sent>>> {
+            function.call1(py, (names, all(parameters)))?.extract(py)
+        });
+        match sent {
+            Ok(Some(costs)) => {
+                Ok(costs.into_iter().map(|(channels, error, violated)| Cost { channels, error, violated }).collect())
+            }
+            Ok(None) => Err(anyhow::anyhow!("the parameters cannot be used")),
+            Err(error) => {
+                lock(failure).get_or_insert(error);
+                interrupted.store(true, Ordering::Relaxed);
+                Err(anyhow::anyhow!("the evaluation failed"))
+            }
+        }
+    })
+}
+
+/// Tells Python of progress and asks for signals; false if the search is to end.
+fn look(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult<bool> {
+    py.check_signals()?;
+    match progress {
+        Some(progress) => observe.call1(py, progress)?.is_truthy(py),
+        None => Ok(true),
+    }
+}
+
+fn group(name: &str) -> PyResult<Group> {
+    <Group as clap::ValueEnum>::from_str(name, true).map_err(|_| {
+        let names = <Group as clap::ValueEnum>::value_variants();
+        let names: Vec<String> = names.iter().map(|group| format!("{group:?}").to_lowercase()).collect();
+        PyValueError::new_err(format!("there is no group {name}; there are {}", names.join(", ")))
+    })
+}
+
+/// The contents of a lock, also after a panic elsewhere.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+}

@@ -1,0 +1,262 @@
+//! The class `Washout`.
+
+use moris_interface::{Group, Writer, guid};
+use moris_setup::all;
+use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
+use moris_washout::nalgebra::Vector3;
+use moris_washout::{Input, MOST_INTERNAL_STEPS, Washout};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyTuple};
+
+use crate::arrays::{Arrays, samples};
+use crate::output::{COUNT, PyOutput, VARIABLES};
+use crate::variables::{Variables, slots};
+use crate::{error, setup};
+
+/// The washout filter on its platform: from the motion of a vehicle's rider to the
+/// motion of a platform.
+///
+/// Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z. SI units throughout.
+///
+/// rig: path of a rig file, or a dict with its keys; None is the default rig. parameters: name of a
+/// preset, path of a parameter file, dict of values by the names of the FMU's variables, or a list
+/// of these, of which later ones override earlier ones. strategy: "classical", "adaptive",
+/// "optimal" or "predictive"; None is the parameters'.
+///
+/// Raises ParameterError for a name or a value that cannot be used.
+#[pyclass(module = "moris", name = "Washout", eq)]
+#[derive(Clone, PartialEq)]
+pub struct PyWashout {
+    washout: Washout,
+    /// False before the first step, at which the input's lean and engagement are taken as they are.
+    started: bool,
+}
+
+#[pymethods]
+impl PyWashout {
+    #[new]
+    #[pyo3(signature = (rig=None, parameters=None, strategy=None))]
+    fn new(
+        py: Python,
+        rig: Option<&Bound<PyAny>>,
+        parameters: Option<&Bound<PyAny>>,
+        strategy: Option<&str>,
+    ) -> PyResult<Self> {
+        let setup = setup::load(py, rig, parameters, strategy)?;
+        let washout =
+            Washout::new(&setup.parameters).map_err(|refusal| error::refused(py, &refusal, &all(&setup.parameters)))?;
+        Ok(PyWashout { washout, started: false })
+    }
+
+    /// Advances by `dt` seconds with one sample of input, and returns the outputs
+    /// at the end of the step.
+    ///
+    /// dt: length of the step [s]. specific_force: x, y, z at the rider's head, in head axes
+    /// [m/s2]; (0, 0, 9.80665) at rest. angular_velocity: x, y, z of the vehicle [rad/s], in the
+    /// axes that `angularVelocityFrame` says. orientation: roll, pitch, yaw of the vehicle [rad];
+    /// positive pitch is nose down. speed: forward [m/s]. lean: of the rider's torso, to the right
+    /// [rad]. engaged: False returns the platform to neutral.
+    ///
+    /// Within the step the input goes from the last one to this one, or is held, as
+    /// `input.reconstruction` says. Any input is safe: what is not a number counts as at rest.
+    #[pyo3(signature = (dt, specific_force=None, angular_velocity=None, orientation=None, speed=0.0, lean=0.0, engaged=true))]
+    #[allow(clippy::too_many_arguments)]
+    fn step(
+        &mut self,
+        dt: f64,
+        specific_force: Option<&Bound<PyAny>>,
+        angular_velocity: Option<&Bound<PyAny>>,
+        orientation: Option<&Bound<PyAny>>,
+        speed: f64,
+        lean: f64,
+        engaged: bool,
+    ) -> PyResult<PyOutput> {
+        self.check_step(dt)?;
+        let force = vector(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?;
+        let rate = vector(angular_velocity, "angular_velocity", [0.0; 3])?;
+        let angles = vector(orientation, "orientation", [0.0; 3])?;
+        let input = Input {
+            specific_force: force,
+            angular_velocity: rate,
+            orientation: RollPitchYaw::from_vector(angles),
+            speed,
+            lean,
+            engaged,
+        };
+        self.start(&input);
+        self.washout.step(&input, dt);
+        Ok(PyOutput::from(&self.washout.output()))
+    }
+
+    /// Steps through arrays of N samples, and returns the outputs at each: Outputs
+    /// with arrays of N rows.
+    ///
+    /// time: (N,) [s], increasing. specific_force: (N, 3) [m/s2]. angular_velocity: (N, 3) [rad/s].
+    /// orientation: (N, 3), roll, pitch, yaw [rad]. speed: (N,) [m/s]. lean: (N,) [rad]. engaged:
+    /// (N,) bool. inputs: "slopes" goes linearly from sample to sample, as a host that gives input
+    /// derivatives; "values" gives each sample at the start of its step, as a host that gives none.
+    ///
+    /// The first row is the output before the first step. A further call goes on from there, its
+    /// first sample being the last of the call before. Other threads of Python run meanwhile.
+    /// Raises RecordingError for arrays that do not fit together.
+    #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, inputs="slopes"))]
+    #[allow(clippy::too_many_arguments)]
+    fn run<'py>(
+        &mut self,
+        py: Python<'py>,
+        time: &Bound<'py, PyAny>,
+        specific_force: &Bound<'py, PyAny>,
+        angular_velocity: Option<&Bound<'py, PyAny>>,
+        orientation: Option<&Bound<'py, PyAny>>,
+        speed: Option<&Bound<'py, PyAny>>,
+        lean: Option<&Bound<'py, PyAny>>,
+        engaged: Option<&Bound<'py, PyAny>>,
+        inputs: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let slopes = match inputs {
+            "slopes" => true,
+            "values" => false,
+            _ => {
+                return Err(PyValueError::new_err(format!(
+                    "inputs is {inputs:?}, but must be \"slopes\" or \"values\""
+                )));
+            }
+        };
+        let arrays = Arrays { specific_force, angular_velocity, orientation, speed, lean, engaged };
+        let (times, time, samples) = samples(time, &arrays)?;
+        for k in 1..samples.len() {
+            self.check_step(time.step(k - 1))?;
+        }
+        let rows = py.detach(|| {
+            let mut rows = vec![0.0; samples.len() * COUNT];
+            let mut next = rows.chunks_exact_mut(COUNT);
+            let mut write = |washout: &Washout| {
+                if let Some(row) = next.next() {
+                    washout.output().write(&mut Writer::new(row));
+                }
+            };
+            self.start(&samples[0]);
+            write(&self.washout);
+            for (k, pair) in samples.windows(2).enumerate() {
+                if slopes {
+                    self.washout.step_between(&pair[0], &pair[1], time.step(k));
+                } else {
+                    self.washout.step(&pair[0], time.step(k));
+                }
+                write(&self.washout);
+            }
+            rows
+        });
+        let count = samples.len();
+        let rows = PyArray1::from_vec(py, rows).reshape([count, COUNT])?;
+        let times = PyArray1::from_vec(py, times);
+        py.import("moris._outputs")?.getattr("Outputs")?.call1((times, rows, VARIABLES.names.clone()))
+    }
+
+    /// Changes parameters in motion. The platform does not jump; what the new
+    /// parameters change fades in.
+    ///
+    /// parameters: as for the constructor. Raises ParameterError for a name or a value that cannot
+    /// be used, or a fixed parameter that would change; nothing has changed then.
+    fn retune(&mut self, py: Python, parameters: &Bound<PyAny>) -> PyResult<()> {
+        let changed = moris_setup::overlaid(self.washout.parameters(), &setup::values(parameters)?);
+        self.washout.retune(&changed).map_err(|refusal| error::refused(py, &refusal, &all(&changed)))
+    }
+
+    /// The outputs now.
+    #[getter]
+    fn output(&self) -> PyOutput {
+        PyOutput::from(&self.washout.output())
+    }
+
+    /// Every parameter by name, a dict. Enumerations are the names of their items.
+    #[getter]
+    fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        parameter_dict(py, self.washout.parameters())
+    }
+
+    fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        VARIABLES.value(py, name, &slots(&self.washout.output()))
+    }
+
+    /// A washout in the same state.
+    fn copy(&self) -> Self {
+        self.clone()
+    }
+
+    fn __copy__(&self) -> Self {
+        self.clone()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<PyAny>) -> Self {
+        self.clone()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let body = postcard::to_allocvec(&(guid::<Washout>(), self.started, &self.washout))
+            .map_err(|reason| PyValueError::new_err(format!("the state cannot be written: {reason}")))?;
+        Ok((py.get_type::<PyWashout>().getattr("_from_state")?, (PyBytes::new(py, &body),)))
+    }
+
+    #[staticmethod]
+    fn _from_state(state: &[u8]) -> PyResult<Self> {
+        let refused = |reason: &str| PyValueError::new_err(format!("the state of a washout is refused: {reason}"));
+        let (version, body) = postcard::take_from_bytes::<String>(state).map_err(|_| refused("it is damaged"))?;
+        if version != guid::<Washout>() {
+            return Err(refused("another version of moris wrote it; write it again with this one"));
+        }
+        let (started, washout) = postcard::from_bytes(body).map_err(|_| refused("it is damaged"))?;
+        Ok(PyWashout { washout, started })
+    }
+
+    fn __repr__(&self) -> String {
+        let parameters = self.washout.parameters();
+        format!("Washout(strategy={:?}, started={})", parameters.structure.strategy, self.started)
+    }
+}
+
+impl PyWashout {
+    fn start(&mut self, input: &Input) {
+        if !self.started {
+            // The washout is cloned once: it is built anew from itself.
+            self.washout = self.washout.clone().starting_with(input);
+            self.started = true;
+        }
+    }
+
+    fn check_step(&self, dt: f64) -> PyResult<()> {
+        let longest = MOST_INTERNAL_STEPS * self.washout.parameters().structure.max_step;
+        if dt > 0.0 && dt <= longest {
+            return Ok(());
+        }
+        Err(PyValueError::new_err(format!("dt is {dt} s, but must be above 0 and not above {longest} s")))
+    }
+}
+
+/// The vector of a sequence of three numbers.
+fn vector(object: Option<&Bound<PyAny>>, name: &str, default: [f64; 3]) -> PyResult<Vector3<f64>> {
+    let Some(object) = object else { return Ok(Vector3::from(default)) };
+    if let Ok(tuple) = object.cast::<PyTuple>()
+        && tuple.len() == 3
+    {
+        let item = |k| tuple.get_borrowed_item(k)?.extract::<f64>();
+        return Ok(Vector3::new(item(0)?, item(1)?, item(2)?));
+    }
+    let wrong = |_| PyTypeError::new_err(format!("{name} is {object}, but must be three numbers"));
+    object.extract::<[f64; 3]>().map(Vector3::from).map_err(wrong)
+}
+
+/// Parameters as a dict by name.
+///
+/// # Errors
+/// Python is out of memory.
+pub fn parameter_dict<'py, G: Group>(py: Python<'py>, parameters: &G) -> PyResult<Bound<'py, PyDict>> {
+    let variables = Variables::of(G::ROWS);
+    let dict = PyDict::new(py);
+    for (slot, value) in slots(parameters).into_iter().enumerate() {
+        dict.set_item(&variables.names[slot], variables.scalar(py, slot, value)?)?;
+    }
+    Ok(dict)
+}

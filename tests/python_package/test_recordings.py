@@ -1,0 +1,171 @@
+"""Recordings from DataFrames, dicts and files, by the workbench's import code."""
+
+import pickle
+import subprocess
+
+import numpy as np
+import pandas
+import pytest
+from conftest import ROOT, STANDARD_GRAVITY, gentle
+
+import moris
+
+NAMES = ["time", "ax", "ay", "az", "wx", "wy", "wz"]
+
+
+def inputs(recording):
+    return recording.inputs.values
+
+
+@pytest.fixture
+def frame(ride):
+    return pandas.DataFrame(ride)
+
+
+@pytest.fixture
+def expected(ride):
+    return inputs(moris.Recording(ride))
+
+
+def test_a_dict_a_frame_and_a_csv_file_are_the_same_recording(ride, frame, expected, tmp_path):
+    frame.to_csv(tmp_path / "ride.csv", index=False)
+    frame.to_csv(tmp_path / "packed.csv.gz", index=False)
+    read = [
+        moris.Recording(frame),
+        moris.Recording(frame.set_index("time")),
+        moris.Recording(tmp_path / "ride.csv"),
+        moris.Recording(str(tmp_path / "packed.csv.gz")),
+    ]
+    for recording in read:
+        assert np.array_equal(inputs(recording), expected)
+    assert [recording.name for recording in read] == ["recording", "recording", "ride", "packed"]
+    columns = moris.Recording(ride).inputs
+    assert np.array_equal(columns["vehicle.specificForce"], np.column_stack([ride["ax"], ride["ay"], ride["az"]]))
+    assert np.array_equal(columns["vehicle.angularVelocity.z"], ride["wz"])
+    assert np.allclose(columns.time, ride["time"], rtol=0, atol=1e-12)
+
+
+def test_parquet_excel_matlab_and_mdf_files(ride, frame, expected, tmp_path):
+    import scipy.io
+
+    frame.to_parquet(tmp_path / "ride.parquet")
+    frame.to_excel(tmp_path / "ride.xlsx", index=False)
+    scipy.io.savemat(tmp_path / "ride.mat", {**ride, "fs": 100.0})
+    scipy.io.savemat(tmp_path / "struct.mat", {"ride": ride})
+    for name in ("ride.parquet", "ride.xlsx", "ride.mat", "struct.mat"):
+        recording = moris.Recording(tmp_path / name)
+        assert np.allclose(inputs(recording), expected, rtol=1e-14, atol=1e-15), name
+        assert recording.name == name.split(".")[0]
+
+
+def test_an_mdf_file_has_units_and_several_rates(ride, expected, tmp_path):
+    asammdf = pytest.importorskip("asammdf")
+    mdf = asammdf.MDF()
+    fast = [asammdf.Signal(ride[name], ride["time"], name=name, unit="m/s2") for name in NAMES[1:4]]
+    slow = [asammdf.Signal(np.degrees(ride[name])[::2], ride["time"][::2], name=name, unit="deg/s") for name in NAMES[4:]]
+    mdf.append(fast)
+    mdf.append(slow)
+    mdf.save(tmp_path / "ride.mf4")
+    mdf.close()
+    recording = moris.Recording(tmp_path / "ride.mf4")
+    found = inputs(recording)
+    assert np.allclose(found[:, :3], expected[:, :3], rtol=0, atol=1e-12)
+    # Every other sample of the rates is interpolated.
+    assert np.allclose(found[::2, 3:6], expected[::2, 3:6], rtol=0, atol=1e-12)
+    assert np.allclose(found[:-1, 3:6], expected[:-1, 3:6], rtol=0, atol=1e-4)
+
+
+def test_units_and_axes_are_converted(ride, expected):
+    given = {"t [ms]": 1e3 * ride["time"], "ax": ride["ax"] / STANDARD_GRAVITY, "ay": -ride["ay"] / STANDARD_GRAVITY}
+    given["az"] = -ride["az"] / STANDARD_GRAVITY
+    given.update({"gx": np.degrees(ride["wx"]), "gy": -np.degrees(ride["wy"]), "gz": -np.degrees(ride["wz"])})
+    recording = moris.Recording(
+        given,
+        columns={"time": "t", "wx": "gx", "wy": "gy", "wz": "gz"},
+        force_unit="g",
+        rate_unit="deg/s",
+        axes="forward-right-down",
+    )
+    assert np.allclose(inputs(recording), expected, rtol=1e-13, atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("change", "options", "message"),
+    [
+        ({"wz": None}, {}, 'there is no column wz; there are time, ax, .*columns={"wz": "NAME"}'),
+        ({"az": lambda az: az / STANDARD_GRAVITY}, {}, 'which is gravity in g, not in m/s2: use force_unit="g"'),
+        ({"az": lambda az: -az}, {}, 'so z points down: use axes="forward-right-down"'),
+        ({"az": lambda az: az - STANDARD_GRAVITY}, {}, 'so gravity has been taken out: use gravity="removed"'),
+        ({"time": lambda t: t + 0.005 * (t > 5)}, {}, "do not come at equal steps.*resample=100 interpolates"),
+        ({"ay": lambda ay: np.where(ay > 0.3, np.nan, ay)}, {}, "column ay: is NaN; cut this part off"),
+        ({}, {"force_unit": "G"}, "unknown variant `G`, expected one of `m/s2`, `g`, `mg`"),
+        ({}, {"resample": 0.1}, "resample is 0.1, but must be from 1 to 100000"),
+        ({"ax": lambda ax: ax[:-1]}, {}, "values, others have"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_the_argument_that_helps(ride, change, options, message):
+    for name, act in change.items():
+        ride[name] = None if act is None else act(ride[name])
+    ride = {name: values for name, values in ride.items() if values is not None}
+    with pytest.raises(moris.RecordingError, match=message):
+        moris.Recording(ride, **options)
+
+
+def test_no_message_names_an_option_of_the_command():
+    """Every option that a message of the import code may name is an argument here."""
+    from moris._recording import OPTIONS, _in_python
+
+    for option in OPTIONS:
+        flag = option.replace("_", "-")
+        assert _in_python(f"use --{flag}.") == f"use {option}."
+    text = 'correct it with --columns ax=NAME,ay=NAME, --force-unit m/s2 or "--time-unit"'
+    assert _in_python(text) == 'correct it with columns={"ax": "NAME", "ay": "NAME"}, force_unit="m/s2" or "time_unit"'
+
+
+def test_what_is_no_recording_is_refused(tmp_path):
+    with pytest.raises(TypeError, match="a recording is a DataFrame, a dict of arrays or a path, not int"):
+        moris.Recording(7)
+    with pytest.raises(TypeError, match="there is no option forse_unit"):
+        moris.Recording({}, forse_unit="g")
+    for name in ("no.csv", "no.parquet", "no.mf4"):
+        with pytest.raises(moris.RecordingError, match="cannot read .*no"):
+            moris.Recording(tmp_path / name)
+
+
+def test_a_missing_package_is_named_with_the_line_that_installs_it(monkeypatch, tmp_path):
+    import builtins
+
+    real = builtins.__import__
+    monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
+    (tmp_path / "ride.parquet").write_bytes(b"PAR1")
+    with pytest.raises(ImportError, match="a Parquet file needs the package pyarrow: pip install pyarrow"):
+        moris.Recording(tmp_path / "ride.parquet")
+    assert builtins.__import__ is real
+
+
+def test_a_recording_is_pickled_with_everything(ride):
+    recording = moris.Recording({**ride, "roll": 0.0 * ride["time"], "pitch": 0.1 * np.sin(ride["time"])}, name="mine", rate_frame="world")
+    again = pickle.loads(pickle.dumps(recording))
+    assert (again.name, again.step, again.warnings) == (recording.name, recording.step, recording.warnings)
+    assert np.array_equal(inputs(again), inputs(recording))
+    assert np.array_equal(moris.simulate(again).values, moris.simulate(recording).values)
+
+
+def test_the_command_reads_the_same(ride, frame, tmp_path):
+    """`moris simulate` and `moris.simulate` give the same measures."""
+    import json
+
+    frame.to_csv(tmp_path / "ride.csv", index=False)
+    command = ["cargo", "moris", "simulate", str(tmp_path / "ride.csv"), "--json", "--no-bound", "--report", str(tmp_path / "report")]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode in (0, 3), done.stderr
+    expected = json.loads(done.stdout)[0]["results"][0]
+    simulation = moris.simulate(tmp_path / "ride.csv")
+    assert simulation.fits == expected["fits"] and simulation.findings == expected["findings"]
+    assert [(row.subject, row.name, row.value) for row in simulation.measures.rows] == [
+        (row["subject"], row["name"], row["value"]) for row in expected["measures"]
+    ]
+
+
+def test_several_lengths_of_ride_have_their_own_duration():
+    assert moris.Recording(gentle(7.0)).duration == pytest.approx(7.0, abs=1e-12)

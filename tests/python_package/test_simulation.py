@@ -1,0 +1,166 @@
+"""Simulations, bounds, frequency responses and surveys."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import ROOT, STANDARD_GRAVITY
+
+import moris
+
+
+@pytest.fixture
+def simulation(ride):
+    return moris.simulate(ride)
+
+
+def test_a_simulation_is_a_run_of_the_washout(ride, simulation):
+    force = np.column_stack([ride["ax"], ride["ay"], ride["az"]])
+    rate = np.column_stack([ride["wx"], ride["wy"], ride["wz"]])
+    run = moris.Washout(parameters={"angularVelocityFrame": "body"}).run(ride["time"], force, rate)
+    for name in run:
+        assert np.array_equal(simulation[name], run[name]), name
+    assert np.array_equal(simulation["vehicle.specificForce"], force)
+
+
+def test_measures_are_those_of_the_series(simulation):
+    desired, felt = simulation["vehicle.specificForce"], simulation["rider.specificForce"]
+    for k, axis in enumerate("xyz"):
+        error = felt[:, k] - desired[:, k]
+        assert simulation.measures[f"specific force {axis} RMS error"] == pytest.approx(np.sqrt(np.mean(error**2)), rel=1e-12)
+        assert simulation.measures[f"specific force {axis} peak error"] == pytest.approx(np.abs(error).max(), rel=1e-12)
+        correlation = np.corrcoef(desired[:, k], felt[:, k])[0, 1]
+        assert simulation.measures[f"specific force {axis} correlation"] == pytest.approx(correlation, rel=1e-9)
+    margin = simulation["status.strokeMargin"].min()
+    assert simulation.measures["platform smallest stroke margin"] == pytest.approx(margin, rel=1e-12)
+    frame = simulation.measures.to_pandas()
+    assert len(frame) == len(simulation.measures) and frame["definition"].str.len().min() > 10
+    with pytest.raises(KeyError, match="did you mean specific force x RMS error"):
+        simulation.measures["specific force x RMS eror"]
+
+
+def test_a_frame_has_every_input_and_output(simulation):
+    frame = simulation.to_pandas()
+    assert frame.shape == (len(simulation.time), len(simulation))
+    assert np.array_equal(frame["actuator[3].length"], simulation["actuator.length"][:, 2])
+    assert {"vehicle.speed", "status.safetyActive"} < set(frame.columns)
+
+
+def test_a_report_is_a_page_that_compares(simulation, ride, tmp_path):
+    other = moris.simulate(ride, parameters="paper")
+    page = simulation.report(tmp_path / "new" / "ride.html", compare=[other])
+    text = page.read_text(encoding="utf-8")
+    assert text.startswith("<!doctype html>") and "paper" in text
+    with pytest.raises(ValueError, match="name it with .html"):
+        simulation.report(tmp_path / "ride.pdf")
+
+
+def test_a_notebook_shows_findings_picture_and_measures(simulation, tmp_path):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    page = simulation._repr_html_()
+    assert "data:image/png;base64," in page and "RMS error" in page and simulation.findings[0][:20] in page
+    figure = simulation.plot()
+    lines = figure.axes[0].get_lines()
+    assert np.array_equal(lines[1].get_ydata(), simulation["rider.specificForce.x"])
+    figure.savefig(tmp_path / "plot.png")
+
+
+def test_the_bound_is_below_the_error_and_above_nothing(ride):
+    found = moris.bound(ride)
+    simulation = moris.simulate(ride, bound=True)
+    assert set(found) <= {"surge", "sway", "heave"} and "surge" in found
+    for axis, name in zip("xyz", ("surge", "sway", "heave")):
+        if name not in found:
+            continue
+        bound = found[name]
+        rest = STANDARD_GRAVITY if axis == "z" else 0.0
+        desired = simulation[f"vehicle.specificForce.{axis}"] - rest
+        assert bound.desired_rms == pytest.approx(np.sqrt(np.mean(desired**2)), rel=1e-12)
+        assert bound.rms_error <= simulation.measures[f"specific force {axis} RMS error"] + 1e-9
+        # The best trajectory attains the bound, but for the solver's tolerance and the samples between its intervals.
+        attained = np.sqrt(np.mean((bound.felt - desired) ** 2))
+        assert bound.rms_error <= attained + 1e-4 and attained < bound.rms_error + 0.05
+        assert any("bound" in row.name for row in simulation.measures.rows)
+    with pytest.raises(moris.BoundError, match="cannot compute the bound"):
+        moris.bound({name: values[:2] for name, values in ride.items()})
+
+
+def test_the_response_to_small_signals_is_the_filters_own():
+    """Nothing but the angular channel's high-pass acts on yaw, times its scale; its order says which poles it has."""
+    values = {"angular.yaw.omega1": 0.7, "angular.yaw.zeta1": 0.8, "angular.yaw.omega2": 0.4, "angular.yaw.zeta2": 1.1}
+    values.update({"scale.angularVelocity.z": 0.5, "input.rateCutoff": 0.0})
+    response = moris.frequency_response(parameters=values)
+    s = 1j * response.frequencies
+    order = moris.parameters()["angular.order"]
+    first = s**2 / (s**2 + 2 * 0.8 * 0.7 * s + 0.7**2)
+    second = {4: s**2 / (s**2 + 2 * 1.1 * 0.4 * s + 0.4**2), 3: s / (s + 0.4), 2: 1.0}[order]
+    yaw = response.channels.index("yaw rate")
+    found = response.small[yaw, :, yaw]
+    assert np.allclose(found, 0.5 * first * second, rtol=0, atol=2e-3)
+    assert response.settled[yaw].all() and (response.limited[yaw] == 0).all()
+    frame = response.to_pandas()
+    assert len(frame) == 6 * 12 * 6
+    assert np.array_equal(frame["modulus"], np.abs(response.ratios).ravel())
+    assert response.plot() is not None
+    with pytest.raises(ValueError, match="force is 0"):
+        moris.frequency_response(force=0.0)
+
+
+def test_a_survey_reaches_as_far_as_the_legs():
+    survey = moris.survey(samples=20_000)
+    values = moris.parameters()
+    base, platform = (np.array([[values[f"rig.{part}[{leg}].{axis}"] for axis in "xyz"] for leg in range(1, 7)]) for part in ("base", "platform"))
+    # Straight up, a leg whose joints are d apart in plan has the length sqrt(d^2 + z^2).
+    apart = np.linalg.norm((platform - base)[:, :2], axis=1)
+    highest = np.sqrt(values["actuator.maxLength"] ** 2 - apart**2).min() - values["rig.neutralHeight"]
+    assert survey.reach["heave"].max == pytest.approx(highest, abs=1e-6)
+    assert survey.singular_at is None and survey.worst_condition < 4
+    assert 0 < survey.tilted_volume < survey.volume < 2
+    assert survey._repr_svg_().startswith("<svg") and "smallest singular value" in str(survey)
+
+
+def test_a_singular_rig_is_surveyed_and_refused():
+    circle = [0, 60, 120, 180, 240, 300]
+    rig = {
+        "name": "hexagons",
+        "neutralHeight": 1.2,
+        "base": {"radius": 1.0, "degrees": circle},
+        "platform": {"radius": 1.0, "degrees": circle},
+        "actuator": {"minLength": 1.0, "maxLength": 1.6, "velocityLimit": 1.0, "accelerationLimit": 15.0},
+    }
+    survey = moris.survey(rig, samples=1000)
+    assert len(survey.singular_at) == 6 and survey.worst_condition is None
+    with pytest.raises(moris.ParameterError, match="singular inside the stroke"):
+        moris.Washout(rig=rig)
+
+
+def test_parameters_are_written_as_the_workbench_reads_them(tmp_path):
+    file = moris.write_parameters(tmp_path / "mine.toml", ["car", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
+    assert moris.parameters(parameters=file) == moris.parameters(parameters=["car", {"tilt.rateLimit": 0.031, "compensation": "gravity"}])
+
+
+def test_a_built_fmu_has_the_parameters_as_start_values(tmp_path):
+    from fmpy import read_model_description
+
+    file = moris.build_fmu(parameters=["car", {"tilt.rateLimit": 0.031}], output=tmp_path, source=ROOT)
+    start = {variable.name: variable.start for variable in read_model_description(str(file)).modelVariables}
+    values = moris.parameters(parameters=["car", {"tilt.rateLimit": 0.031}])
+    assert float(start["tilt.rateLimit"]) == 0.031
+    assert float(start["splitter.x.omega1"]) == values["splitter.x.omega1"]
+
+
+def test_a_build_without_sources_or_toolchain_says_what_to_do(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(moris.BuildError, match="give their directory as source="):
+        moris.build_fmu()
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(moris.BuildError, match="https://rustup.rs"):
+        moris.build_fmu(source=ROOT)
+
+
+def test_the_stubs_are_those_of_the_package():
+    done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "moris"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr

@@ -1,0 +1,181 @@
+"""Sweeps: on threads and on Dask, to the bit, with workers that are killed and schedulers that are lost."""
+
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+
+import moris
+
+pytest.importorskip("distributed")
+from distributed import Client, LocalCluster  # noqa: E402
+
+
+def parameter_sets(count=24):
+    return [{"splitter.x.omega1": 1.0 + 0.1 * k, "scale.specificForce.y": 0.3 + 0.02 * k} for k in range(count)]
+
+
+@pytest.fixture(scope="module")
+def recordings(rides):
+    return [moris.Recording(columns, name=name, fade_in=1.0) for name, columns in rides]
+
+
+@pytest.fixture(scope="module")
+def here(recordings):
+    return moris.sweep(recordings, parameter_sets(), progress=False)
+
+
+def cluster(workers):
+    return LocalCluster(n_workers=workers, threads_per_worker=1, processes=True, dashboard_address=None, memory_limit=0)
+
+
+def values(sweep):
+    return np.array([result.values for result in sweep.value])
+
+
+def assert_same(found, expected):
+    assert np.array_equal(values(found), values(expected), equal_nan=True)
+    assert [result.index for result in found.value] == [result.index for result in expected.value]
+
+
+def test_a_sweep_has_the_measures_of_single_simulations(here, recordings):
+    assert here.complete and here.done == 24 and here.recordings == ["ride 0", "ride 1", "ride 2"]
+    for result in here.value[::7]:
+        for place, recording in enumerate(recordings):
+            measures = moris.simulate(recording, parameters=result.parameters).measures
+            for name in moris.MEASURES:
+                expected = measures.get(name)
+                assert np.array_equal(result[name][place], np.nan if expected is None else expected, equal_nan=True), name
+    assert len({float(result["specific force x RMS error"][0]) for result in here.value}) > 20
+    frame = here.to_pandas()
+    assert len(frame) == 24 * 3 and frame.loc[3, "recording"] == "ride 0"
+    with pytest.raises(KeyError, match="did you mean platform stroke used"):
+        here.value[0]["platform stroke usd"]
+
+
+@pytest.mark.parametrize("chunk", [1, 5, 100])
+def test_the_size_of_chunks_and_the_number_of_threads_change_nothing(here, recordings, chunk):
+    assert_same(moris.sweep(recordings, parameter_sets(), chunk=chunk), here)
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+def test_workers_give_the_same_to_the_bit(here, recordings, workers):
+    with cluster(workers) as made, Client(made) as client:
+        assert_same(moris.sweep(recordings, parameter_sets(), client=client, chunk=2), here)
+
+
+def test_a_killed_worker_costs_time_and_nothing_else(here, recordings):
+    with cluster(2) as made, Client(made) as client:
+        killed = []
+
+        def progress(done, total, text):
+            if not killed:
+                pid = next(iter(client.run(os.getpid).values()))
+                os.kill(pid, signal.SIGKILL)
+                killed.append((pid, done))
+
+        found = moris.sweep(recordings, parameter_sets(), client=client, chunk=1, progress=progress)
+        assert killed and killed[0][1] < 24
+        assert killed[0][0] not in client.run(os.getpid).values()
+    assert found.complete
+    assert_same(found, here)
+
+
+def test_results_are_reduced_in_order_as_they_come(recordings):
+    seen = []
+    most = [0]
+    drawn = [0]
+
+    def sets():
+        for parameters in parameter_sets(60):
+            drawn[0] += 1
+            yield parameters
+
+    def reduce(total, result):
+        seen.append(result.index)
+        most[0] = max(most[0], drawn[0] - len(seen))
+        return total + result["specific force x RMS error"].sum()
+
+    with cluster(2) as made, Client(made) as client:
+        found = moris.sweep(recordings[:1], sets(), reduce, initial=0.0, client=client, chunk=1)
+    assert seen == list(range(60)) and found.done == 60
+    # Only what is on its way has been drawn from the generator: memory does not grow with the number of sets.
+    assert most[0] <= 4 * 2 + 1
+    assert found.value == moris.sweep(recordings[:1], parameter_sets(60), reduce, initial=0.0).value
+
+
+def test_the_best_are_kept(here, recordings):
+    def cost(result):
+        return result["specific force x RMS error"].mean()
+
+    found = moris.sweep(recordings, parameter_sets(), moris.best(3, cost)).value
+    expected = sorted(here.value, key=cost)[:3]
+    assert [result.index for _, result in found] == [result.index for result in expected]
+    assert [price for price, _ in found] == [cost(result) for result in expected]
+
+
+def test_a_set_that_cannot_be_used_has_its_error_and_the_others_their_results(recordings):
+    sets = [{"tilt.rateLimit": 0.03}, {"tilt.rateLimit": -1.0}, {"tilt.ratelimt": 1.0}, {"tilt.rateLimit": 0.04}]
+    found = moris.sweep(recordings[:1], sets).value
+    assert [result.error is None for result in found] == [True, False, False, True]
+    assert "is -1, but must be from" in found[1].error and "did you mean tilt.rateLimit" in found[2].error
+    assert np.isnan(found[1].values).all() and np.isfinite(found[3]["specific force x RMS error"]).all()
+    assert [index for _, index in ((p, r.index) for p, r in moris.sweep(recordings[:1], sets, moris.best(9, lambda r: 1.0)).value)] == [0, 3]
+
+
+@pytest.mark.parametrize("on_a_cluster", [False, True])
+def test_what_is_cancelled_keeps_what_is_done(here, recordings, on_a_cluster):
+    def swept(client):
+        cancel = threading.Event()
+
+        def progress(done, total, text):
+            if done >= 4:
+                cancel.set()
+
+        return moris.sweep(recordings, parameter_sets(), client=client, chunk=2, progress=progress, cancel=cancel)
+
+    if on_a_cluster:
+        with cluster(1) as made, Client(made) as client:
+            found = swept(client)
+            assert client.submit(sum, [1, 2]).result() == 3
+    else:
+        found = swept(None)
+    assert not found.complete and 4 <= found.done < 24
+    assert np.array_equal(values(found), values(here)[: found.done], equal_nan=True)
+
+
+def test_ctrl_c_keeps_what_is_done(recordings):
+    def progress(done, total, text):
+        signal.raise_signal(signal.SIGINT)
+
+    found = moris.sweep(recordings, parameter_sets(), chunk=1, progress=progress)
+    assert not found.complete and 0 < found.done < 24
+
+
+def test_a_lost_scheduler_is_a_clear_error_with_what_was_done(recordings, monkeypatch):
+    monkeypatch.setattr("moris._cluster.PATIENCE", 1.0)
+    made = cluster(1)
+    client = Client(made)
+    try:
+
+        def progress(done, total, text):
+            if done >= 4:
+                made.close()
+
+        with pytest.raises(moris.ClusterError, match="scheduler is lost .*start a cluster again") as caught:
+            moris.sweep(recordings, parameter_sets(400), client=client, chunk=2, progress=progress)
+        assert 4 <= caught.value.partial.done < 400 and not caught.value.partial.complete
+        with pytest.raises(moris.ClusterError, match="scheduler is lost"):
+            moris.sweep(recordings, parameter_sets(), client=client)
+    finally:
+        client.close()
+        made.close()
+
+
+def test_no_client_is_a_type_error(recordings):
+    with pytest.raises(TypeError, match="client must be a dask.distributed.Client, not str"):
+        moris.sweep(recordings, parameter_sets(), client="tcp://somewhere:8786")
+    with pytest.raises(ValueError, match="recordings is empty"):
+        moris.sweep([], parameter_sets())
