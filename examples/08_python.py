@@ -1,35 +1,38 @@
-"""Simulates a computed recording with two parameter sets in Python, and sweeps a break frequency.
+"""Simulates a recording with two presets in Python, and sweeps a break frequency.
 
     python3 examples/08_python.py
 
-Needs the package (`pip install .[plot]`). Draws `target/examples/08_python.svg`.
+Needs the package: `pip install .` in the repository. Draws `target/examples/08_python.svg`.
 """
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
 import moris
+from picture import BLUE, GREY, ORANGE, draw
 from recording import main as write_recording
 
-DIRECTORY = Path("target/examples")
+DIRECTORY = Path("target/examples/08_python")
 SURGE = "specific force x RMS error"
 
-write_recording(DIRECTORY / "08_python.csv")
-recording = moris.Recording(DIRECTORY / "08_python.csv", name="computed ride")
+write_recording(DIRECTORY / "ride.csv")
+recording = moris.Recording(DIRECTORY / "ride.csv")
 
-for name in ("default", "paper"):
-    simulation = moris.simulate(recording, parameters=name)
-    print(f"{name:8} surge error {simulation.measures[SURGE]:.3f} m/s², {'fits' if simulation.fits else 'does not fit'}")
+simulations = {name: moris.simulate(recording, parameters=name) for name in ("motorcycle", "paper")}
+for name, simulation in simulations.items():
+    fits = "fits the rig" if simulation.fits else "does not fit the rig"
+    print(f"{name}: RMS error of surge {simulation.measures[SURGE]:.3f} m/s², {fits}")
 
 frequencies = [1.0, 2.0, 3.0, 4.0, 5.0]
 sets = [{"splitter.x.omega1": frequency} for frequency in frequencies]
-for frequency, result in zip(frequencies, moris.sweep(recording, sets, progress=False).value):
-    print(f"break frequency {frequency:.0f} rad/s: surge error {result[SURGE][0]:.3f} m/s²")
+for result in moris.sweep(recording, sets, base="motorcycle", progress=False).value:
+    print(f"break frequency {frequencies[result.index]:.0f} rad/s: RMS error of surge {result[SURGE][0]:.3f} m/s²")
 
-matplotlib.rcParams.update({"svg.hashsalt": "moris", "svg.fonttype": "none"})
-picture = DIRECTORY / "08_python.svg"
-figure = moris.simulate(recording).plot()
-figure.savefig(picture, metadata={"Date": None})
-print(f"wrote {picture}")
+one, other = simulations.values()
+draw("target/examples/08_python.svg", "One recording with two presets", one.time, [
+    (f"specific force,\n{name} [m/s²]", [
+        ("desired", one[f"vehicle.specificForce.{axis}"], GREY),
+        ("felt, motorcycle", one[f"rider.specificForce.{axis}"], BLUE),
+        ("felt, paper", other[f"rider.specificForce.{axis}"], ORANGE),
+    ])
+    for name, axis in (("surge", "x"), ("sway", "y"))
+])

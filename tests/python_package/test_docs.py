@@ -1,4 +1,4 @@
-"""Every snippet of docs/python.md, the example and the notebook, run as they are printed."""
+"""Every snippet of docs/python.md and the notebook, run as they are printed."""
 
 import os
 import re
@@ -92,14 +92,6 @@ def test_the_kubernetes_snippet_finds_a_scheduler_at_its_port(tmp_path):
     with LocalCluster(n_workers=1, threads_per_worker=1, scheduler_port=8786, dashboard_address=None):
         code = prelude() + snippets_with("localhost:8786")[0] + "print(swept.done, swept.complete)\n"
         assert run(tmp_path, guarded(code)).split()[-2:] == ["36", "True"]
-
-
-def test_the_example_prints_and_draws(tmp_path):
-    shutil.copytree(ROOT / "examples", tmp_path / "examples", ignore=shutil.ignore_patterns("target"))
-    done = subprocess.run([sys.executable, "examples/08_python.py"], cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr
-    assert "fits" in done.stdout and done.stdout.count("surge error") == 7
-    assert (tmp_path / "target" / "examples" / "08_python.svg").stat().st_size > 10_000
 
 
 def test_the_notebook_runs_from_a_recording_to_an_fmu(tmp_path):
