@@ -59,7 +59,7 @@ def test_the_snippets_run_one_after_the_other(tmp_path):
 def test_comments_tell_the_values():
     names = {}
     exec(SETUP + snippets_with("outputs = moris.Washout()")[0] + snippets_with("simulation.fits")[0], names)
-    assert len(names["output"]["actuator.length"]) == 6 and names["output"]["status.tiltLimited"] is False
+    assert len(names["output"]["actuator.length"]) == 6 and names["output"]["status.tiltLimited"] is True
     assert names["outputs"]["actuator.length"].shape == (2001, 6)
     assert names["simulation"]["platform.position"].shape == (2001, 3) and names["simulation"].fits is True
 
