@@ -14,7 +14,7 @@ NAMES = ["time", "ax", "ay", "az", "wx", "wy", "wz"]
 
 
 def inputs(recording):
-    return recording.inputs.values
+    return recording.inputs.array
 
 
 @pytest.fixture
@@ -148,7 +148,7 @@ def test_a_recording_is_pickled_with_everything(ride):
     again = pickle.loads(pickle.dumps(recording))
     assert (again.name, again.step, again.warnings) == (recording.name, recording.step, recording.warnings)
     assert np.array_equal(inputs(again), inputs(recording))
-    assert np.array_equal(moris.simulate(again).values, moris.simulate(recording).values)
+    assert np.array_equal(moris.simulate(again).array, moris.simulate(recording).array)
 
 
 def test_the_command_reads_the_same(ride, frame, tmp_path):

@@ -118,8 +118,8 @@ def test_a_run_goes_on_where_the_last_one_ended():
     washout = moris.Washout()
     first = washout.run(t[:301], force[:301], rate[:301])
     second = washout.run(t[300:], force[300:], rate[300:])
-    assert np.array_equal(np.vstack([first.values, second.values[1:]]), whole.values)
-    assert np.array_equal(second.values[0], first.values[-1])
+    assert np.array_equal(np.vstack([first.array, second.array[1:]]), whole.array)
+    assert np.array_equal(second.array[0], first.array[-1])
 
 
 @pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, lambda w: pickle.loads(pickle.dumps(w)), lambda w: w.copy()])
@@ -132,7 +132,7 @@ def test_a_copied_state_goes_on_to_the_bit_and_apart(duplicate, strategy):
     assert twin == original
     ahead = original.run(t[250:], force[250:], rate[250:])
     assert twin != original
-    assert np.array_equal(twin.run(t[250:], force[250:], rate[250:]).values, ahead.values)
+    assert np.array_equal(twin.run(t[250:], force[250:], rate[250:]).array, ahead.array)
 
 
 def test_a_damaged_state_is_refused():
@@ -144,9 +144,9 @@ def test_a_damaged_state_is_refused():
 
 def test_equal_steps_are_equal_to_the_bit_however_time_was_computed():
     _, force, rate, *_ = samples(500)
-    exact = moris.Washout().run([0.0, *(0.001 * k for k in range(1, 500))], force, rate).values
+    exact = moris.Washout().run([0.0, *(0.001 * k for k in range(1, 500))], force, rate).array
     for time in (np.arange(500) * 0.001, np.cumsum(np.full(500, 0.001)), np.linspace(7.0, 7.499, 500)):
-        assert np.array_equal(moris.Washout().run(time, force, rate).values, exact)
+        assert np.array_equal(moris.Washout().run(time, force, rate).array, exact)
 
 
 def test_unequal_steps_are_taken_as_they_are():

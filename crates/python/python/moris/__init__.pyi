@@ -2,18 +2,18 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from threading import Event
-from typing import Any, Literal, NamedTuple, Union
+from typing import Any, Literal, NamedTuple, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Floats = NDArray[np.float64]
-Rig = Union[str, PathLike[str], Mapping[str, Any]]
-ParameterSet = Union[str, PathLike[str], Mapping[str, Any], Sequence["ParameterSet"]]
-Strategy = Literal["classical", "adaptive", "optimal", "predictive"]
-Value = Union[float, bool, str]
-Source = Union["Recording", str, PathLike[str], Mapping[str, ArrayLike], Any]
-Show = Union[bool, None, Callable[[int, Union[int, None], str], Any]]
+_Floats = NDArray[np.float64]
+_Rig = Union[str, PathLike[str], Mapping[str, Any]]
+_ParameterSet = Union[str, PathLike[str], Mapping[str, Any], Sequence["_ParameterSet"]]
+_Strategy = Literal["classical", "adaptive", "optimal", "predictive"]
+_Value = Union[float, bool, str]
+_Source = Union["Recording", str, PathLike[str], Mapping[str, ArrayLike], Any]
+_Show = Union[bool, None, Callable[[int, Union[int, None], str], Any]]
 
 __all__ = [
     "AxisReach",
@@ -58,10 +58,10 @@ class MorisError(ValueError): ...
 
 class ParameterError(MorisError):
     parameter: str | None
-    value: Value | None
+    value: _Value | None
     suggestions: tuple[str, ...]
     def __init__(
-        self, message: str, parameter: str | None = None, value: Value | None = None, suggestions: Iterable[str] = ()
+        self, message: str, parameter: str | None = None, value: _Value | None = None, suggestions: Iterable[str] = ()
     ) -> None: ...
 
 class RecordingError(MorisError): ...
@@ -73,6 +73,7 @@ class ClusterError(RuntimeError):
     partial: Sweep | None
     def __init__(self, message: str, partial: Sweep | None = None) -> None: ...
 
+@final
 class Output:
     def __getitem__(self, name: str, /) -> Any: ...
     def __len__(self) -> int: ...
@@ -82,14 +83,15 @@ class Output:
     def values(self) -> list[Any]: ...
     def items(self) -> list[tuple[str, Any]]: ...
 
+@final
 class Washout:
-    def __new__(cls, rig: Rig | None = None, parameters: ParameterSet | None = None, strategy: Strategy | None = None) -> Washout: ...
+    def __new__(cls, rig: _Rig | None = None, parameters: _ParameterSet | None = None, strategy: _Strategy | None = None) -> Washout: ...
     def step(
         self,
         dt: float,
-        specific_force: Sequence[float] | Floats | None = None,
-        angular_velocity: Sequence[float] | Floats | None = None,
-        orientation: Sequence[float] | Floats | None = None,
+        specific_force: Sequence[float] | _Floats | None = None,
+        angular_velocity: Sequence[float] | _Floats | None = None,
+        orientation: Sequence[float] | _Floats | None = None,
         speed: float = 0.0,
         lean: float = 0.0,
         engaged: bool = True,
@@ -106,7 +108,7 @@ class Washout:
         *,
         inputs: Literal["slopes", "values"] = "slopes",
     ) -> Outputs: ...
-    def retune(self, parameters: ParameterSet) -> None: ...
+    def retune(self, parameters: _ParameterSet) -> None: ...
     def copy(self) -> Washout: ...
     def __copy__(self) -> Washout: ...
     def __deepcopy__(self, _memo: Any, /) -> Washout: ...
@@ -115,13 +117,13 @@ class Washout:
     @property
     def output(self) -> Output: ...
     @property
-    def parameters(self) -> dict[str, Value]: ...
+    def parameters(self) -> dict[str, _Value]: ...
 
 class Outputs(Mapping[str, NDArray[Any]]):
-    time: Floats
-    values: Floats  # type: ignore[assignment]
+    time: _Floats
+    array: _Floats
     names: tuple[str, ...]
-    def __init__(self, time: Floats, values: Floats, names: Iterable[str]) -> None: ...
+    def __init__(self, time: _Floats, array: _Floats, names: Iterable[str]) -> None: ...
     def __getitem__(self, name: str) -> NDArray[Any]: ...
     def __iter__(self) -> Iterator[str]: ...
     def __len__(self) -> int: ...
@@ -134,7 +136,7 @@ class Variable(NamedTuple):
     unit: str
     min: float
     max: float
-    start: Value | None
+    start: _Value | None
     items: tuple[str, ...]
     description: str
     vector: str
@@ -144,7 +146,7 @@ def variables(causality: Literal["input", "output", "parameter"] | None = None) 
 class Recording:
     def __init__(
         self,
-        source: Source,
+        source: _Source,
         name: str | None = None,
         **options: Any,
     ) -> None: ...
@@ -170,6 +172,7 @@ class Measure(NamedTuple):
 
 class Measures(dict[str, Union[float, None]]):
     rows: tuple[Measure, ...]
+    def __missing__(self, name: str) -> float | None: ...
     def __init__(self, rows: Iterable[tuple[str, str, float | None, str, str, str]]) -> None: ...
     def to_pandas(self) -> Any: ...
 
@@ -177,55 +180,55 @@ class Simulation(Outputs):
     recording: Recording
     measures: Measures
     findings: list[str]
-    parameters: dict[str, Value]
+    parameters: dict[str, _Value]
     fits: bool
     name: str
     def __init__(self, native: Any, recording: Recording) -> None: ...
     @property
-    def desired(self) -> tuple[Floats, Floats]: ...
+    def desired(self) -> tuple[_Floats, _Floats]: ...
     def plot(self, figure: Any = None) -> Any: ...
     def report(self, path: str | PathLike[str], compare: Iterable[Simulation] = ()) -> Path: ...
 
 class Bound(NamedTuple):
     rms_error: float
     desired_rms: float
-    felt: Floats
+    felt: _Floats
 
 def simulate(
-    recording: Source,
-    rig: Rig | None = None,
-    parameters: ParameterSet | None = None,
-    strategy: Strategy | None = None,
+    recording: _Source,
+    rig: _Rig | None = None,
+    parameters: _ParameterSet | None = None,
+    strategy: _Strategy | None = None,
     *,
     bound: bool = False,
     **options: Any,
 ) -> Simulation: ...
 def bound(
-    recording: Source, rig: Rig | None = None, parameters: ParameterSet | None = None, **options: Any
+    recording: _Source, rig: _Rig | None = None, parameters: _ParameterSet | None = None, **options: Any
 ) -> dict[str, Bound]: ...
 def parameters(
-    rig: Rig | None = None, parameters: ParameterSet | None = None, strategy: Strategy | None = None
-) -> dict[str, Value]: ...
+    rig: _Rig | None = None, parameters: _ParameterSet | None = None, strategy: _Strategy | None = None
+) -> dict[str, _Value]: ...
 def write_parameters(
-    path: str | PathLike[str], parameters: ParameterSet, rig: Rig | None = None, heading: str = "Written by moris"
+    path: str | PathLike[str], parameters: _ParameterSet, rig: _Rig | None = None, heading: str = "Written by moris"
 ) -> Path: ...
 
 class FrequencyResponse:
     channels: tuple[str, ...]
-    frequencies: Floats
+    frequencies: _Floats
     ratios: NDArray[np.complex128]
     small: NDArray[np.complex128]
-    distortion: Floats
-    limited: Floats
+    distortion: _Floats
+    limited: _Floats
     settled: NDArray[np.bool_]
-    def __init__(self, channels: Iterable[str], frequencies: Floats, test: Any, small: Any) -> None: ...
+    def __init__(self, channels: Iterable[str], frequencies: _Floats, test: Any, small: Any) -> None: ...
     def to_pandas(self) -> Any: ...
     def plot(self, figure: Any = None) -> Any: ...
 
 def frequency_response(
-    rig: Rig | None = None,
-    parameters: ParameterSet | None = None,
-    strategy: Strategy | None = None,
+    rig: _Rig | None = None,
+    parameters: _ParameterSet | None = None,
+    strategy: _Strategy | None = None,
     *,
     force: float = 1.0,
     rate: float | None = None,
@@ -250,11 +253,11 @@ class Survey:
         self, name: Any, axes: Any, volumes: Any, condition: Any, singular_at: Any, text: Any, picture: Any
     ) -> None: ...
 
-def survey(rig: Rig | None = None, samples: int = 1_000_000) -> Survey: ...
+def survey(rig: _Rig | None = None, samples: int = 1_000_000) -> Survey: ...
 def build_fmu(
-    rig: Rig | None = None,
-    parameters: ParameterSet | None = None,
-    strategy: Strategy | None = None,
+    rig: _Rig | None = None,
+    parameters: _ParameterSet | None = None,
+    strategy: _Strategy | None = None,
     *,
     output: str | PathLike[str] = ".",
     fmi: Literal[2, 3] = 2,
@@ -265,10 +268,10 @@ def build_fmu(
 class Result:
     index: int
     parameters: Any
-    values: Floats
+    values: _Floats
     error: str | None
-    def __init__(self, index: int, parameters: Any, values: Floats, error: str | None) -> None: ...
-    def __getitem__(self, name: str) -> Floats: ...
+    def __init__(self, index: int, parameters: Any, values: _Floats, error: str | None) -> None: ...
+    def __getitem__(self, name: str) -> _Floats: ...
 
 class Sweep:
     value: Any
@@ -280,24 +283,24 @@ class Sweep:
 
 def best(count: int, cost: Callable[[Result], float]) -> Callable[[Any, Result], list[tuple[float, Result]]]: ...
 def sweep(
-    recordings: Source | Iterable[Source],
-    parameter_sets: Iterable[ParameterSet],
+    recordings: _Source | Iterable[_Source],
+    parameter_sets: Iterable[_ParameterSet],
     reduce: Callable[[Any, Result], Any] | None = None,
     *,
     initial: Any = None,
-    rig: Rig | None = None,
-    base: ParameterSet | None = None,
-    strategy: Strategy | None = None,
+    rig: _Rig | None = None,
+    base: _ParameterSet | None = None,
+    strategy: _Strategy | None = None,
     client: Any = None,
     chunk: int | None = None,
-    progress: Show = None,
+    progress: _Show = None,
     cancel: Event | None = None,
     **options: Any,
 ) -> Sweep: ...
 
 class Tuned:
-    parameters: dict[str, Value]
-    changed: dict[str, Value]
+    parameters: dict[str, _Value]
+    changed: dict[str, _Value]
     summary: str
     verdict: str
     is_worse: bool
@@ -318,19 +321,19 @@ class Tuned:
     def to_pandas(self) -> Any: ...
 
 def tune(
-    recordings: Source | Iterable[Source],
-    rig: Rig | None = None,
-    parameters: ParameterSet | None = None,
-    strategy: Strategy | None = None,
+    recordings: _Source | Iterable[_Source],
+    rig: _Rig | None = None,
+    parameters: _ParameterSet | None = None,
+    strategy: _Strategy | None = None,
     *,
-    hold_out: Source | Iterable[Source] = (),
+    hold_out: _Source | Iterable[_Source] = (),
     folds: int | None = None,
     groups: Sequence[str] = ("splitter", "angular", "scale"),
     weights: Sequence[float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
     stroke_reserve: float = 0.01,
     evaluations: int = 3000,
     seed: int = 1,
-    progress: Show = None,
+    progress: _Show = None,
     patience: int | None = None,
     stop: Callable[[str, int, float | None], bool] | None = None,
     client: Any = None,

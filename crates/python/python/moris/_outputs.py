@@ -14,12 +14,12 @@ class Outputs(Mapping):
     each element, under the name without index or component: `outputs["actuator.length"]` has the shape (N, 6),
     `outputs["platform.position"]` the shape (N, 3). Flags are arrays of bool. Units are SI.
 
-    time: (N,) [s]. values: (N, number of variables), all columns as floats. names: of the columns.
+    time: (N,) [s]. array: (N, number of variables), all columns as floats. names: of the columns.
     """
 
-    def __init__(self, time, values, names):
+    def __init__(self, time, array, names):
         self.time = time
-        self.values = values
+        self.array = array
         self.names = tuple(names)
         self._columns = {}
         for column, name in enumerate(self.names):
@@ -32,7 +32,7 @@ class Outputs(Mapping):
         if name not in self._columns:
             raise KeyError(f"there is no variable {name}; {near_misses(name, self._columns)}")
         columns = self._columns[name]
-        series = self.values[:, columns[0] : columns[-1] + 1]
+        series = self.array[:, columns[0] : columns[-1] + 1]
         if name in self.names:
             series = series[:, 0]
         kind = VARIABLES[self.names[columns[0]]].kind
