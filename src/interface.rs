@@ -31,6 +31,31 @@ interface! {
     }
 }
 
+/// Number of elements of a preview.
+pub const PREVIEW_SAMPLES: usize = 20;
+
+interface! {
+    /// Force that is to come, for the predictive strategy: from a recording, a script or a planned path.
+    pub struct Preview: Input, Continuous {
+        /// Number of elements of vehicle.preview.specificForce in use; 0 without a preview.
+        "vehicle.preview.count" count: i32 { 0 ..= 20 } = 0;
+        /// Time from one element of the preview to the next; the first is as far ahead of the present inputs.
+        "vehicle.preview.step" step: f64 [S] { 1e-2 ..= 10.0 } = 0.2;
+        /// Specific force to come along the head's x, as vehicle.specificForce.x will be.
+        "vehicle.preview.specificForce.x[#]" surge: [f64; PREVIEW_SAMPLES] [M_PER_S2] { -1e4 ..= 1e4 } = [0.0; PREVIEW_SAMPLES];
+        /// Specific force to come along the head's y, as vehicle.specificForce.y will be.
+        "vehicle.preview.specificForce.y[#]" sway: [f64; PREVIEW_SAMPLES] [M_PER_S2] { -1e4 ..= 1e4 } = [0.0; PREVIEW_SAMPLES];
+    }
+}
+
+interface_tree! {
+    /// All inputs.
+    pub struct Inputs {
+        vehicle: Input,
+        preview: Preview,
+    }
+}
+
 interface! {
     /// Commands to the platform and its actuators, and the motion felt by the rider.
     pub struct Output: Output, Continuous {

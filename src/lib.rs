@@ -33,7 +33,7 @@ mod washout;
 
 pub use nalgebra;
 
-pub use interface::{Input, Output, Parameters, Rig};
+pub use interface::{Input, Output, Parameters, Preview, Rig};
 pub use moris_interface::Refusal;
 pub use validate::check;
 pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, SHORTEST_STEP, Washout};

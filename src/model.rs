@@ -2,21 +2,21 @@
 
 use moris_interface::{Group, Identity, Model, Refusal, Time, interface_tree};
 
-use crate::interface::{Input, Output, Parameters};
+use crate::interface::{Inputs, Output, Parameters};
 use crate::washout::{MOST_INTERNAL_STEPS, Washout};
 
 interface_tree! {
     /// All variables.
     pub struct Variables {
         time: Time,
-        input: Input,
+        input: Inputs,
         output: Output,
         parameters: Parameters,
     }
 }
 
 impl Model for Washout {
-    type Input = Input;
+    type Input = Inputs;
     type Output = Output;
     type Parameters = Parameters;
     const IDENTITY: Identity = Identity {
@@ -41,8 +41,8 @@ impl Model for Washout {
         step_size: 0.001,
     };
 
-    fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
-        Ok(Washout::new(parameters)?.starting_with(input))
+    fn new(parameters: &Parameters, inputs: &Inputs) -> Result<Self, Refusal> {
+        Ok(Washout::new(parameters)?.starting_with(&inputs.vehicle))
     }
 
     fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
@@ -53,12 +53,14 @@ impl Model for Washout {
         MOST_INTERNAL_STEPS * self.parameters().structure.max_step
     }
 
-    fn step(&mut self, input: &Input, step: f64) {
-        Washout::step(self, input, step);
+    fn step(&mut self, inputs: &Inputs, step: f64) {
+        self.preview(&inputs.preview);
+        Washout::step(self, &inputs.vehicle, step);
     }
 
-    fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
-        Washout::step_between(self, start, end, step);
+    fn step_between(&mut self, start: &Inputs, end: &Inputs, step: f64) {
+        self.preview(&start.preview);
+        Washout::step_between(self, &start.vehicle, &end.vehicle, step);
     }
 
     fn output(&self) -> Output {

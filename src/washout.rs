@@ -6,14 +6,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::cueing::angular::AngularChannel;
 use crate::cueing::compensation::compensated;
-use crate::cueing::conditioning::{Cue, InputFilter, cue, forward_acceleration};
+use crate::cueing::conditioning::{Cue, InputFilter, courses, cue, forward_acceleration};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::coordinated::Circumstances;
-use crate::interface::{Input, Output, Parameters, Preaction, Reconstruction, StrategyKind};
+use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction, StrategyKind};
 use crate::motion::Motions;
 use crate::motion::extremes::{max, min};
 use crate::motion::orientation::Turning;
@@ -138,6 +138,37 @@ impl Washout {
         self
     }
 
+    /// Gives the specific force that is to come, as of the next step's start: element k is the one
+    /// that the input will have k times [`Preview::step`] later, k from 1. Only the predictive
+    /// strategy makes use of it. It holds until the next one, and ends with its last element.
+    ///
+    /// Any preview is safe. A wrong one costs fidelity until its errors show, and no limit.
+    ///
+    /// ```
+    /// use moris_washout::{Input, Preview, Washout, presets};
+    ///
+    /// let mut washout = Washout::new(&presets::parameters(presets::PREDICTIVE))?;
+    /// // Braking at 3 m/s2 begins in 1 s.
+    /// let surge = std::array::from_fn(|k| if k < 5 { 0.0 } else { -3.0 });
+    /// for _ in 0..50 {
+    ///     washout.preview(&Preview { count: 20, surge, ..Preview::default() });
+    ///     washout.step(&Input::default(), 0.01);
+    /// }
+    /// assert!(washout.output().tilt_pitch > 0.01); // The nose goes down ahead of it.
+    /// # Ok::<(), moris_washout::Refusal>(())
+    /// ```
+    #[inline]
+    pub fn preview(&mut self, preview: &Preview) {
+        let Parameters { conditioning, structure, .. } = &self.parameters;
+        if let Some(predictive) = self.strategy.predictive_mut() {
+            let mut courses = courses(preview, &self.last.input, conditioning, structure.gravity, self.last.head.lean);
+            for course in &mut courses {
+                course.values.iter_mut().for_each(|value| *value *= self.engagement);
+            }
+            predictive.preview(&courses);
+        }
+    }
+
     /// Advances by `step` seconds with this input, of which no slopes are known: it is held
     /// (zero-order hold), or reached at the step's end from the last step's, as the parameter
     /// `input.reconstruction` says.
@@ -169,6 +200,9 @@ impl Washout {
             self.last = Sample::new(start, &self.parameters);
         }
         self.last.input.engaged = end.engaged;
+        if let Some(predictive) = self.strategy.predictive_mut() {
+            predictive.put_off_preview(step);
+        }
         self.step_to(&end, step);
     }
 

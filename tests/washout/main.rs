@@ -18,6 +18,7 @@ mod kinematics;
 mod limits_in_flight;
 mod paper_runs;
 mod preaction;
+mod preview;
 mod reconstruction;
 mod refusals;
 mod retuning;

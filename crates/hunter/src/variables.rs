@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 
 use anyhow::{Context, Result};
-use moris_interface::{Causality, Identity, Kind, Model, Row, SlotModel, Variability};
-use moris_washout::Washout;
+use moris_interface::{Causality, Group, Identity, Kind, Model, Row, SlotModel, Variability};
+use moris_washout::{Preview, Washout};
 
 use crate::episode::Values;
 
 /// The washout's interface.
 pub const IDENTITY: Identity = Washout::IDENTITY;
-/// Number of real inputs: all but `engaged`.
+/// Number of real inputs: all but `engaged` and the preview, which a target makes of the others.
 pub const REAL_INPUTS: usize = 11;
 
 /// Where a variable is in the model's slots, by its name.
@@ -78,7 +78,10 @@ impl Variables {
 
     /// The name of each input, the real ones first, and its start value.
     pub fn inputs(&self) -> Vec<(String, f64)> {
-        let inputs = (0..IDENTITY.slots.len()).filter(|&slot| IDENTITY.row(slot).causality == Causality::Input);
+        let inputs = (0..IDENTITY.slots.len()).filter(|&slot| {
+            let row = IDENTITY.row(slot);
+            row.causality == Causality::Input && !Preview::ROWS.contains(row)
+        });
         let (booleans, reals): (Vec<_>, Vec<_>) = inputs.partition(|&slot| IDENTITY.row(slot).kind == Kind::Boolean);
         reals.into_iter().chain(booleans).map(|slot| (IDENTITY.variable_name(slot), self.start[slot])).collect()
     }

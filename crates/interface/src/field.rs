@@ -37,8 +37,8 @@ pub trait Field: Copy {
     }
 }
 
-/// Slots of the largest field: six vectors.
-const LARGEST_FIELD: usize = 18;
+/// Slots of the largest field.
+const LARGEST_FIELD: usize = 20;
 
 impl Field for f64 {
     fn read(slots: &[f64]) -> Self {
@@ -79,8 +79,8 @@ impl Field for Vector3<f64> {
     }
 }
 
-impl Field for [f64; 6] {
-    const COUNT: usize = 6;
+impl<const N: usize> Field for [f64; N] {
+    const COUNT: usize = N;
     fn read(slots: &[f64]) -> Self {
         std::array::from_fn(|i| slots[i])
     }

@@ -136,6 +136,14 @@ impl Coordinated {
         }
     }
 
+    /// The predictive strategy, which alone makes use of a preview.
+    pub fn predictive_mut(&mut self) -> Option<&mut Predictive> {
+        match &mut self.law {
+            Law::Predictive(predictive) => Some(predictive),
+            Law::Adaptive(_) | Law::Optimal(_) => None,
+        }
+    }
+
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
     pub fn advance_tilt(&mut self, circumstances: &Circumstances, step: f64) {
         let Circumstances { parameters, guard, engagement, .. } = *circumstances;
@@ -157,7 +165,8 @@ impl Coordinated {
                     circumstances.time_to_stop,
                     step,
                 );
-                predictive.observe(references, step);
+                let beside = [0, 1].map(|k: usize| references[k] - circumstances.force[k]);
+                predictive.observe(references, beside, step);
                 decisions
             }
         };

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 
 use self::classical::Classical;
 use self::coordinated::Coordinated;
-use self::predictive::Plan;
+use self::predictive::{Plan, Predictive};
 use crate::cueing::gravitational::Tilt;
 use crate::interface::{Parameters, StrategyKind};
 use crate::motion::braking_law::Motion;
@@ -98,6 +98,14 @@ impl Strategy {
         match self {
             Strategy::Classical(_) => None,
             Strategy::Coordinated(coordinated) => coordinated.plan(),
+        }
+    }
+
+    /// The predictive strategy, which alone makes use of a preview.
+    pub fn predictive_mut(&mut self) -> Option<&mut Predictive> {
+        match self {
+            Strategy::Classical(_) => None,
+            Strategy::Coordinated(coordinated) => coordinated.predictive_mut(),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use moris_interface::{Group, Reader, SlotModel};
-use moris_washout::{Input, Output, Washout};
+use moris_washout::{Input, Output, Preview, Washout};
 
 use super::{Inputs, Target};
 use crate::episode::Scope;
@@ -43,6 +43,7 @@ impl Target for CrateTarget {
     #[inline]
     fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()> {
         let washout = self.washout();
+        washout.preview(&preview(start));
         match end {
             None => washout.step(&input(start), step),
             Some(end) => washout.step_between(&input(start), &input(end), step),
@@ -75,6 +76,19 @@ fn input(inputs: &Inputs) -> Input {
     slots[..REAL_INPUTS].copy_from_slice(&inputs.reals);
     slots[REAL_INPUTS] = f64::from(inputs.engaged);
     Input::read(&mut Reader::new(&slots))
+}
+
+/// A preview that has nothing to do with what comes: the inputs in another order, now and then.
+#[inline]
+fn preview(inputs: &Inputs) -> Preview {
+    let reals = &inputs.reals;
+    let element = |k: usize| reals[k % REAL_INPUTS] * reals[(k / 3) % REAL_INPUTS];
+    Preview {
+        count: reals[0].to_bits() as i32 % 30,
+        step: reals[1],
+        surge: std::array::from_fn(element),
+        sway: std::array::from_fn(|k| element(k + 5)),
+    }
 }
 
 /// The outputs that the oracle knows.

@@ -2,9 +2,10 @@
 //! slopes of the inputs.
 
 use anyhow::{Result, bail};
-use moris_washout::{Input, Output, Parameters, Washout};
+use moris_washout::{Input, Output, Parameters, Preview, Washout};
 
 use crate::ride::Ride;
+use crate::ride::preview::Previewer;
 use crate::run::Recording;
 
 /// Input within a step, as given by the host.
@@ -24,6 +25,8 @@ pub struct Host {
     pub step: Option<f64>,
     /// Input within a step, as given by the host.
     pub inputs: Inputs,
+    /// Length of the preview that the host gives \[s\]; 0: none.
+    pub preview: f64,
 }
 
 /// Tolerance of the ratio of two steps against a whole number.
@@ -47,8 +50,11 @@ impl Host {
             inputs: vec![last],
             outputs: vec![washout.output()],
         };
+        let previewer = Previewer::new(ride.inputs(), ride.step(), self.preview);
         for input in inputs {
-            let output = self.between_samples(&mut washout, &last, input, &steps);
+            let start = (recording.inputs.len() - 1) as f64 * recording.step;
+            let preview = |k: usize| previewer.at(start + k as f64 * steps.step);
+            let output = self.between_samples(&mut washout, &last, input, preview, &steps);
             recording.inputs.push(*input);
             recording.outputs.push(output);
             last = *input;
@@ -58,10 +64,20 @@ impl Host {
 
     /// The output at the end of the steps between two inputs; its flags say what
     /// acted in any of them.
-    fn between_samples(&self, washout: &mut Washout, from: &Input, to: &Input, steps: &Steps) -> Output {
+    fn between_samples(
+        &self,
+        washout: &mut Washout,
+        from: &Input,
+        to: &Input,
+        preview: impl Fn(usize) -> Preview,
+        steps: &Steps,
+    ) -> Output {
         let mut flags = [false; 3];
         for k in 0..steps.divisions {
             let at = |k: usize| from.towards(to, k as f64 / steps.divisions as f64);
+            if self.preview > 0.0 {
+                washout.preview(&preview(k));
+            }
             match self.inputs {
                 Inputs::Slopes => washout.step_between(&at(k), &at(k + 1), steps.step),
                 Inputs::Values => washout.step(&at(k), steps.step),

@@ -17,6 +17,7 @@ use anyhow::{Context, Result, bail};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
+use crate::ride::preview::LONGEST_PREVIEW;
 use crate::ride::{ConventionOptions, Ride};
 use crate::run::{bounds, measured};
 use crate::setup_options::SetupOptions;
@@ -47,6 +48,10 @@ pub struct Options {
     /// Input within a step, as given by the host
     #[arg(long, value_enum, default_value_t)]
     inputs: Inputs,
+
+    /// Preview of the recording's force, in s, at most 4; for the predictive strategy
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = preview)]
+    preview: f64,
 
     /// Compute the bound, the least error that any controller could reach; it
     /// takes some seconds a ride
@@ -115,7 +120,7 @@ impl MeasuredRide {
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
     let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
-    let host = Host { step: options.step, inputs: options.inputs };
+    let host = Host { step: options.step, inputs: options.inputs, preview: options.preview };
     let measure = |file: &PathBuf| {
         let ride = Ride::read(file, &conventions)?;
         MeasuredRide::of(&ride, &setup.parameters, &host, options.bound).with_context(|| ride.name.clone())
@@ -156,4 +161,11 @@ fn step(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|step: &f64| (1e-6..=1.0).contains(step))
         .ok_or_else(|| "a time from 1e-6 to 1 s is needed, such as 0.001".to_owned())
+}
+
+fn preview(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|seconds: &f64| (0.0..=LONGEST_PREVIEW).contains(seconds))
+        .ok_or_else(|| format!("a time from 0 to {LONGEST_PREVIEW} s is needed, such as 1"))
 }

@@ -37,9 +37,10 @@ fn host_text(host: &Host) -> String {
         Inputs::Slopes => "with slopes",
         Inputs::Values => "without slopes",
     };
+    let preview = if host.preview > 0.0 { format!(", preview of {} s", host.preview) } else { String::new() };
     match host.step {
-        Some(step) => format!("host steps of {} ms {inputs}", (1e9 * step).round() / 1e6),
-        None => format!("host steps as recorded, {inputs}"),
+        Some(step) => format!("host steps of {} ms {inputs}{preview}", (1e9 * step).round() / 1e6),
+        None => format!("host steps as recorded, {inputs}{preview}"),
     }
 }
 

@@ -24,6 +24,7 @@ mod convert;
 mod error;
 pub mod header;
 pub mod plausibility;
+pub mod preview;
 pub mod sampling;
 mod source;
 pub mod table;

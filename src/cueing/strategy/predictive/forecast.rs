@@ -7,11 +7,16 @@
 //! with weights by the size of their latest errors.
 //!
 //! Only the past enters: an error is used once the time that was forecast is over.
+//!
+//! Where the reference is [previewed](super::preview), the preview takes the mixture's place, with
+//! the mixture as of the preview's end behind it. The two are weighted by their latest errors as
+//! the experts are, so that a wrong preview loses its weight.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLES, end_samples};
+use super::preview::{Ahead, Course, Previewed};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 
@@ -21,6 +26,8 @@ const TIME_CONSTANTS: [f64; LOW_PASSES] = [0.06, 0.2, 0.6, 2.0, 6.0, 0.1, 0.3];
 const LOW_PASSES: usize = 7;
 /// The low-pass that stands for the slow part of the reference.
 const SLOW: usize = 2;
+/// The low-pass that leaves out vibration alone.
+const QUICK: usize = 0;
 /// The two low-passes for a trend.
 const TREND: [usize; 2] = [5, 6];
 /// Number of features of the fit: the reference and its first five low-passes.
@@ -36,7 +43,7 @@ const MEMORY: usize = FORECAST_SAMPLES + 1;
 /// Decay of the expert that holds the reference \[1/s\].
 const HOLD_DECAY: f64 = 0.02;
 /// Decay of the slow and the fast part for the expert that lets them fade \[1/s\].
-const FADE_DECAY: [f64; 2] = [0.1, 3.0];
+pub(super) const FADE_DECAY: [f64; 2] = [0.1, 3.0];
 /// Time over which a trend goes on \[s\].
 const TREND_TIME: f64 = 1.5;
 /// The prior of the fit counts as much as so much time \[s\].
@@ -48,6 +55,14 @@ const RIDGE: f64 = 3e-3;
 const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
 /// The least squared error that an expert is taken to have \[(m/s2)^2\].
 const LEAST_ERROR: f64 = 1e-4;
+/// The squared error that a forecast without preview is taken to have before any is known \[(m/s2)^2\].
+const DOUBT: f64 = 0.005;
+/// Time constants with which the squared errors beside a preview follow larger and smaller ones \[s\].
+const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
+/// A preview counts as much as the forecast without it where its squared errors are smaller by this.
+const CAUTION: f64 = 1.6;
+/// The first block that is as long as the elements of a preview usually are apart.
+const RESOLVED: usize = 3;
 /// Samples from one fit to the next.
 const FIT_EVERY: u32 = 5;
 
@@ -95,7 +110,13 @@ pub struct Forecaster {
     until_fit: u32,
     /// Mean squared error of each expert on each target.
     errors: SMatrix<f64, EXPERTS, TARGETS>,
+    /// The forecast without the preview.
     forecast: Forecast,
+    course: Course,
+    /// The part of the reference that is the angular channel's \[m/s2\].
+    beside: f64,
+    /// Mean squared errors of the means forecast without the preview and by it.
+    preview_errors: [SVector<f64, BLOCKS>; 2],
 }
 
 /// Data stored of an instant.
@@ -106,6 +127,8 @@ struct Sample {
     integral: f64,
     /// The fit's forecast.
     fitted: Targets,
+    /// The means that were forecast without the preview and by it, if there was one.
+    expected: Option<[SVector<f64, BLOCKS>; 2]>,
 }
 
 impl Forecast {
@@ -113,17 +136,31 @@ impl Forecast {
     /// and its fast part fade.
     pub fn over(&self, horizon: Horizon) -> Self {
         let (ends, durations) = (horizon.ends(), horizon.durations());
-        let (own_ends, own_durations) = (Horizon::Near.ends(), Horizon::Near.durations());
-        let faded = |time: f64, part: usize| libm::exp(-FADE_DECAY[part] * (time - FORECAST).max(0.0));
-        let means = SVector::from_fn(|k, _| {
-            let (start, end) = (ends[k] - durations[k], ends[k]);
-            let common = |j: usize| (end.min(own_ends[j]) - start.max(own_ends[j] - own_durations[j])).max(0.0);
-            let inside: f64 = (0..BLOCKS).map(|j| common(j) * self.means[j]).sum();
-            let beyond = |part: usize| self.end[part] * (faded(start, part) - faded(end, part)) / FADE_DECAY[part];
-            (inside + beyond(0) + beyond(1)) / durations[k]
-        });
-        let last = ends[BLOCKS - 1];
-        Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(last, part)) }
+        let means =
+            SVector::from_fn(|k, _| (self.integral(ends[k]) - self.integral(ends[k] - durations[k])) / durations[k]);
+        let faded = |part: usize| libm::exp(-FADE_DECAY[part] * (ends[BLOCKS - 1] - FORECAST).max(0.0));
+        Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(part)) }
+    }
+
+    /// Integral of the reference from now to a time \[m/s\]. Beyond the forecast's end, its slow and
+    /// its fast part fade.
+    pub fn integral(&self, time: f64) -> f64 {
+        let blocks = Horizon::Near.ends().into_iter().zip(Horizon::Near.durations());
+        let within = |(end, duration): (f64, f64)| (time - (end - duration)).clamp(0.0, duration);
+        let inside: f64 = self.means.iter().zip(blocks).map(|(mean, block)| mean * within(block)).sum();
+        let beyond = (time - FORECAST).max(0.0);
+        let tail = |part: usize| self.end[part] * (1.0 - libm::exp(-FADE_DECAY[part] * beyond)) / FADE_DECAY[part];
+        inside + tail(0) + tail(1)
+    }
+
+    /// Between this forecast and another one: `trust` is the weight of the other's means, and that
+    /// of the last of them also the weight of its end.
+    fn towards(&self, other: &Forecast, trust: &SVector<f64, BLOCKS>) -> Self {
+        let last = trust[BLOCKS - 1];
+        Forecast {
+            means: self.means + trust.component_mul(&(other.means - self.means)),
+            end: [0, 1].map(|part: usize| self.end[part] + last * (other.end[part] - self.end[part])),
+        }
     }
 }
 
@@ -249,6 +286,9 @@ impl Forecaster {
             until_fit: 0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
+            course: Course::default(),
+            beside: 0.0,
+            preview_errors: [SVector::repeat(DOUBT), SVector::repeat(LEAST_ERROR)],
         }
     }
 
@@ -259,14 +299,76 @@ impl Forecaster {
             self.decays = SVector::from(TIME_CONSTANTS).map(|time| 1.0 - libm::exp(-step / time));
         }
         self.value = value;
+        self.course.advance(step);
         self.low_passes += self.decays.component_mul(&self.low_passes.map(|low| value - low));
         self.low_passes.apply(|low| *low = at_rest_if_tiny(*low));
         self.integral += value * step;
     }
 
-    /// The latest forecast.
+    /// The latest forecast without the preview.
     pub fn forecast(&self) -> &Forecast {
         &self.forecast
+    }
+
+    /// Gives the course that the cue will take; one without values takes it away.
+    pub fn preview(&mut self, course: &Course) {
+        self.course = *course;
+    }
+
+    /// Puts off a preview that has just been given by `lag` seconds.
+    pub fn put_off_preview(&mut self, lag: f64) {
+        self.course.put_off(lag);
+    }
+
+    /// Time to the end of the preview \[s\].
+    pub fn preview_length(&self) -> f64 {
+        self.course.length()
+    }
+
+    /// The part of the reference that is the angular channel's \[m/s2\].
+    pub fn set_beside(&mut self, beside: f64) {
+        self.beside = beside;
+    }
+
+    /// The forecast over the blocks of a horizon, by the preview where there is one.
+    pub fn over(&self, horizon: Horizon, tables: &Tables, kind: ForecastKind) -> Forecast {
+        let learned = if horizon == Horizon::Near { self.forecast } else { self.forecast.over(horizon) };
+        match self.previewed(tables, kind) {
+            Some(previewed) => learned.towards(&previewed.over(horizon), &self.trust(horizon)),
+            None => learned,
+        }
+    }
+
+    /// The reference by the preview, and from the preview's end on by the forecast as of then.
+    fn previewed(&self, tables: &Tables, kind: ForecastKind) -> Option<Previewed> {
+        let past = (TIME_CONSTANTS[QUICK], self.low_passes[QUICK]);
+        let ahead = Ahead::new(&self.course, past, self.beside)?;
+        let mut end = Sample { value: ahead.last(), ..Sample::default() };
+        for (low, (now, time)) in end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)) {
+            *low = ahead.low_pass(*now, time, ahead.length());
+        }
+        let fitted = self.fitted * end.features();
+        let after = self.expected(&end, &fitted, tables, kind);
+        Some(Previewed { ahead, after, slow: self.low_passes[SLOW], slow_time: TIME_CONSTANTS[SLOW] })
+    }
+
+    /// The weight of the preview in each block of a horizon, from 0 to 1.
+    ///
+    /// It goes by the ratio of its error to that of the forecast without it. What is expected of
+    /// near blocks is compared first, and a preview that is worse there is not better later: the
+    /// ratio in a block is the largest up to there. The first blocks are left out, which are
+    /// shorter than what a preview resolves.
+    fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
+        let [learned, previewed] = &self.preview_errors;
+        let ratios = previewed.component_div(learned);
+        let own_ends = Horizon::Near.ends();
+        let ends = horizon.ends();
+        SVector::from_fn(|k, _| {
+            let block = own_ends.iter().position(|end| *end >= ends[k]).unwrap_or(BLOCKS - 1);
+            let first = block.min(RESOLVED);
+            let ratio = CAUTION * ratios.rows(first, block + 1 - first).max();
+            1.0 / (1.0 + ratio * ratio * ratio)
+        })
     }
 
     /// The forecast for a reference that stays what it is until the vehicle stops, and
@@ -282,27 +384,27 @@ impl Forecaster {
     /// Learns from what has come, and forecasts anew. To be called once every [`SAMPLE`].
     pub fn sample(&mut self, tables: &Tables, kind: ForecastKind, memory: &Memory) {
         self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
-        let mut now = Sample {
-            value: self.value,
-            low_passes: self.low_passes,
-            integral: self.integral,
-            fitted: Targets::zeros(),
-        };
+        let mut now =
+            Sample { value: self.value, low_passes: self.low_passes, integral: self.integral, ..Sample::default() };
         self.remember(&now);
         self.compare(tables, memory);
         self.learn(tables, memory);
         now.fitted = self.fitted * now.features();
+        self.forecast = self.expected(&now, &now.fitted, tables, kind);
+        now.expected =
+            self.previewed(tables, kind).map(|course| [self.forecast.means, course.over(Horizon::Near).means]);
         self.remember(&now);
-        let [hold, trend, fade] = now.fixed_forecasts(tables);
+    }
+
+    /// What the experts expect after an instant; `fitted` is the fit's forecast.
+    fn expected(&self, then: &Sample, fitted: &Targets, tables: &Tables, kind: ForecastKind) -> Forecast {
+        let [hold, trend, fade] = then.fixed_forecasts(tables);
         let targets = match kind {
             ForecastKind::Hold => hold,
             ForecastKind::Decay => fade,
-            ForecastKind::Learned => self.mixture(&[hold, trend, fade, now.fitted]),
+            ForecastKind::Learned => self.mixture(&[hold, trend, fade, *fitted]),
         };
-        self.forecast = Forecast {
-            means: targets.fixed_rows::<BLOCKS>(0).into_owned(),
-            end: [targets[BLOCKS], targets[BLOCKS + 1]],
-        };
+        Forecast { means: targets.fixed_rows::<BLOCKS>(0).into_owned(), end: [targets[BLOCKS], targets[BLOCKS + 1]] }
     }
 
     fn remember(&mut self, now: &Sample) {
@@ -325,6 +427,7 @@ impl Forecaster {
     /// Takes down the errors of what was forecast for the times that have just become known.
     fn compare(&mut self, tables: &Tables, memory: &Memory) {
         let keep = libm::exp(-SAMPLE / memory.selection);
+        let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
         let end_samples = end_samples();
         let now = self.ago(0);
         for target in 0..TARGETS {
@@ -340,6 +443,13 @@ impl Forecaster {
                 let error = forecast[target] - truth;
                 let mean = &mut self.errors[(expert, target)];
                 *mean = keep * *mean + (1.0 - keep) * (LEAST_ERROR + error * error);
+            }
+            if let (Some(expected), block @ 0..BLOCKS) = (then.expected, target) {
+                for (errors, means) in self.preview_errors.iter_mut().zip(expected) {
+                    let squared = LEAST_ERROR + (means[block] - truth).powi(2);
+                    let keep = if squared > errors[block] { keep_rising } else { keep_falling };
+                    errors[block] = keep * errors[block] + (1.0 - keep) * squared;
+                }
             }
         }
     }

@@ -28,7 +28,7 @@ impl Horizon {
     pub const fn durations(self) -> [f64; BLOCKS] {
         match self {
             Horizon::Near => [0.04, 0.06, 0.1, 0.18, 0.28, 0.44, 0.72, 1.18],
-            Horizon::Far => [0.04, 0.06, 0.12, 0.28, 0.6, 1.1, 1.7, 2.1],
+            Horizon::Far => [0.1, 0.2, 0.3, 0.4, 0.6, 0.9, 1.4, 2.1],
         }
     }
 

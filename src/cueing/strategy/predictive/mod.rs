@@ -13,6 +13,7 @@ pub mod dual_active_set;
 pub mod forecast;
 pub mod horizon;
 pub mod legs;
+pub mod preview;
 pub mod program;
 
 use nalgebra::SVector;
@@ -22,6 +23,7 @@ use self::dual_active_set::{DualActiveSet, Rows, Status};
 use self::forecast::{Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, SAMPLE};
 use self::legs::{Surroundings, leg_rows};
+use self::preview::Course;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, ROWS};
 use super::regulator::{AxisModel, Regulator, Weights};
 use super::{AxisState, Decision};
@@ -30,6 +32,8 @@ use crate::interface::{ForecastKind, PredictiveParameters};
 /// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
 const ITERATIONS_PER_STEP: f64 = 8.0;
 const PACE: f64 = 0.001;
+/// A preview longer than this is worth the far horizon \[s\].
+const LONG_PREVIEW: f64 = 2.0;
 /// A plan that takes more iterations is given up.
 const MAX_ITERATIONS: u32 = 120;
 /// Differences of time below this are rounding \[s\].
@@ -173,8 +177,26 @@ impl Predictive {
         decisions
     }
 
-    /// Lets `step` seconds pass in which the references of surge and sway are these.
-    pub fn observe(&mut self, references: [f64; 2], step: f64) {
+    /// Gives the courses that the cue will take in surge and sway.
+    pub fn preview(&mut self, courses: &[Course; 2]) {
+        for (forecaster, course) in self.forecasters.iter_mut().zip(courses) {
+            forecaster.preview(course);
+        }
+    }
+
+    /// Puts off courses that have just been given by `lag` seconds.
+    pub fn put_off_preview(&mut self, lag: f64) {
+        for forecaster in &mut self.forecasters {
+            forecaster.put_off_preview(lag);
+        }
+    }
+
+    /// Lets `step` seconds pass in which the references of surge and sway are these, of which the
+    /// angular channel is the part `beside`.
+    pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], step: f64) {
+        for (forecaster, beside) in self.forecasters.iter_mut().zip(beside) {
+            forecaster.set_beside(beside);
+        }
         let mut left = step;
         loop {
             let chunk = if left <= self.until_sample + INSTANT { left } else { self.until_sample };
@@ -200,7 +222,9 @@ impl Predictive {
     fn begin(&mut self, states: &[AxisState; 2], surroundings: &Surroundings, time_to_stop: f64) {
         self.due = false;
         self.begun = 0.0;
-        let horizon = if time_to_stop.is_finite() { Horizon::Far } else { Horizon::Near };
+        let preview = self.forecasters.iter().fold(0.0_f64, |most, axis| most.max(axis.preview_length()));
+        let far = preview > LONG_PREVIEW || time_to_stop.is_finite();
+        let horizon = if far { Horizon::Far } else { Horizon::Near };
         if horizon != self.horizon {
             self.horizon = horizon;
             program::set_axis_normals(&mut self.rows, self.programs.over(horizon));
@@ -209,11 +233,11 @@ impl Predictive {
         let mut gradient = SVector::<f64, CONTROLS>::zeros();
         for (k, axis) in program.axes.iter().enumerate() {
             let forecaster = &self.forecasters[k];
-            let forecast = match horizon {
-                Horizon::Near => *forecaster.forecast(),
-                // A stop takes the reference of surge away.
-                Horizon::Far if k == 0 => forecaster.until_stop(time_to_stop, horizon),
-                Horizon::Far => forecaster.forecast().over(horizon),
+            // A stop takes the reference of surge away; a preview knows of it.
+            let forecast = if k == 0 && time_to_stop.is_finite() && preview == 0.0 {
+                forecaster.until_stop(time_to_stop, horizon)
+            } else {
+                forecaster.over(horizon, &self.tables, self.tuning.forecast)
             };
             let data = program::data(&states[k], &forecast);
             self.free[k] = axis.free_nodes(&data);
@@ -320,7 +344,7 @@ mod tests {
         let mut decisions = None;
         for _ in 0..steps {
             decisions = predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, 0.001);
-            predictive.observe([reference; 2], 0.001);
+            predictive.observe([reference; 2], [0.0; 2], 0.001);
         }
         decisions
     }

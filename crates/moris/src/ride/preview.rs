@@ -1,0 +1,107 @@
+//! A recording's own future, as the washout's preview.
+
+use moris_washout::interface::PREVIEW_SAMPLES;
+use moris_washout::{Input, Preview};
+
+/// The preview of a recording at any of its times.
+#[derive(Clone, Debug)]
+pub struct Previewer {
+    /// Time between the recording's samples \[s\].
+    step: f64,
+    /// Specific force along x and y at each sample, averaged as [`Previewer::new`] says \[m/s2\].
+    forces: [Vec<f64>; 2],
+    /// Elements of the preview.
+    count: usize,
+}
+
+/// Time from one element to the next \[s\].
+pub const PREVIEW_STEP: f64 = 0.2;
+/// The longest preview \[s\].
+pub const LONGEST_PREVIEW: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64;
+/// Tolerance of a count of elements.
+const ROUNDING: f64 = 1e-9;
+
+impl Previewer {
+    /// A preview of so many seconds, at most [`LONGEST_PREVIEW`].
+    ///
+    /// An element is the mean of the force around its time, weighted by a triangle whose feet are
+    /// the elements beside it: what is faster than the elements does not appear as something slow.
+    pub fn new(inputs: &[Input], step: f64, seconds: f64) -> Self {
+        let count = ((seconds / PREVIEW_STEP + ROUNDING) as usize).min(PREVIEW_SAMPLES);
+        let reach = (PREVIEW_STEP / step).round() as usize;
+        let force = |axis: usize| inputs.iter().map(|input| input.specific_force[axis]).collect::<Vec<_>>();
+        Previewer { step, forces: [0, 1].map(|axis| averaged(&force(axis), reach)), count }
+    }
+
+    /// The preview at a time \[s\]; it ends with the recording.
+    pub fn at(&self, time: f64) -> Preview {
+        let last = (self.forces[0].len() - 1) as f64 * self.step;
+        let left = ((last - time) / PREVIEW_STEP + ROUNDING).max(0.0) as usize;
+        let element = |axis: usize, k: usize| {
+            let position = (time + (k + 1) as f64 * PREVIEW_STEP) / self.step;
+            self.forces[axis].get(position.round() as usize).copied().unwrap_or(0.0)
+        };
+        Preview {
+            count: self.count.min(left) as i32,
+            step: PREVIEW_STEP,
+            surge: std::array::from_fn(|k| element(0, k)),
+            sway: std::array::from_fn(|k| element(1, k)),
+        }
+    }
+}
+
+/// Mean around each value, weighted by a triangle that ends at `reach` values on either side.
+fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
+    let reach = reach.max(1);
+    // Twice a running mean over `reach` values is a triangle.
+    let ahead = running_mean(values, reach);
+    let mut backwards = ahead;
+    backwards.reverse();
+    let mut averaged = running_mean(&backwards, reach);
+    averaged.reverse();
+    averaged
+}
+
+/// Mean of each value and those after it, `reach` of them in all; fewer at the end.
+fn running_mean(values: &[f64], reach: usize) -> Vec<f64> {
+    let mut means = vec![0.0; values.len()];
+    let mut sum = 0.0;
+    for k in (0..values.len()).rev() {
+        sum += values[k];
+        if k + reach < values.len() {
+            sum -= values[k + reach];
+        }
+        means[k] = sum / reach.min(values.len() - k) as f64;
+    }
+    means
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ramp(count: usize) -> Vec<Input> {
+        let mut input = Input::default();
+        (0..count)
+            .map(|k| {
+                input.specific_force.x = 0.01 * k as f64;
+                input.specific_force.y = if k % 2 == 0 { 1.0 } else { -1.0 };
+                input
+            })
+            .collect()
+    }
+
+    #[test]
+    fn elements_are_the_forces_of_their_times() {
+        let previewer = Previewer::new(&ramp(1001), 0.01, 1.0);
+        let preview = previewer.at(2.0);
+        assert_eq!((preview.count, preview.step), (5, 0.2));
+        for k in 0..5 {
+            assert!((preview.surge[k] - 2.0 - 0.2 * (k + 1) as f64).abs() < 1e-9, "{}", preview.surge[k]);
+            assert!(preview.sway[k].abs() < 0.01, "vibration is averaged out: {}", preview.sway[k]);
+        }
+        assert_eq!(previewer.at(9.6).count, 2, "the recording ends at 10 s");
+        assert_eq!(previewer.at(10.0).count, 0);
+        assert_eq!(Previewer::new(&ramp(1001), 0.01, 9.0).at(0.0).count, 20);
+    }
+}

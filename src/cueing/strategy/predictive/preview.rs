@@ -1,0 +1,239 @@
+//! A previewed reference: as it comes, in place of a forecast.
+
+use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
+
+use super::forecast::{FADE_DECAY, Forecast};
+use super::horizon::{BLOCKS, FORECAST, Horizon};
+use crate::interface::PREVIEW_SAMPLES;
+
+/// Time constant with which the angular channel's part of the reference is expected to fade \[s\].
+const BESIDE_TIME: f64 = 1.0;
+/// Differences of time below this are rounding \[s\].
+const INSTANT: f64 = 1e-9;
+
+/// The cue of one axis at points of time to come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Course {
+    /// Time from one value to the next; the first is one such time after the course was given \[s\].
+    pub step: f64,
+    /// Number of values in use.
+    pub count: usize,
+    /// \[m/s2\]
+    pub values: [f64; PREVIEW_SAMPLES],
+    /// Time since the course was given \[s\]; below 0 where the reference lags behind it.
+    pub age: f64,
+    /// True once time has passed since.
+    pub begun: bool,
+}
+
+impl Course {
+    /// Lets `step` seconds pass.
+    pub fn advance(&mut self, step: f64) {
+        self.age += step;
+        self.begun = true;
+    }
+
+    /// Puts off a course that has just been given by the time for which its reference lags \[s\].
+    pub fn put_off(&mut self, lag: f64) {
+        if !self.begun {
+            self.age = -lag;
+        }
+    }
+
+    /// Time from now to the last value; 0 once it is past \[s\].
+    pub fn length(&self) -> f64 {
+        (self.step * self.count as f64 - self.age).max(0.0)
+    }
+}
+
+/// The effective reference from now to the end of a course: linear between its corners.
+#[derive(Clone, Copy, Debug)]
+pub struct Ahead {
+    times: [f64; PREVIEW_SAMPLES + 1],
+    values: [f64; PREVIEW_SAMPLES + 1],
+    /// Number of corners, two at least.
+    count: usize,
+}
+
+impl Ahead {
+    /// The course from now on. The angular channel is the part `beside` of the effective reference
+    /// \[m/s2\]. None if the course is over.
+    ///
+    /// Now the reference is on the line from `low`, what it was about `lag` seconds ago without its
+    /// vibration, to the course's next value.
+    pub fn new(course: &Course, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
+        let mut ahead = Ahead { times: [0.0; PREVIEW_SAMPLES + 1], values: [0.0; PREVIEW_SAMPLES + 1], count: 1 };
+        for (k, value) in course.values.iter().take(course.count).enumerate() {
+            let time = (k + 1) as f64 * course.step - course.age;
+            if time > INSTANT {
+                ahead.times[ahead.count] = time;
+                ahead.values[ahead.count] = value + beside * libm::exp(-time / BESIDE_TIME);
+                ahead.count += 1;
+            }
+        }
+        ahead.values[0] = low + (ahead.values[1] - low) * lag / (lag + ahead.times[1]);
+        (ahead.count > 1).then_some(ahead)
+    }
+
+    /// Time from now to the end \[s\].
+    pub fn length(&self) -> f64 {
+        self.times[self.count - 1]
+    }
+
+    /// The reference at the end \[m/s2\].
+    pub fn last(&self) -> f64 {
+        self.values[self.count - 1]
+    }
+
+    /// The pieces up to a time: duration, and the reference at the beginning and at the end.
+    fn pieces(&self, until: f64) -> impl Iterator<Item = (f64, f64, f64)> {
+        (1..self.count).map_while(move |k| {
+            let (start, end) = (self.times[k - 1], self.times[k]);
+            let (from, to) = (self.values[k - 1], self.values[k]);
+            let fraction = ((until - start) / (end - start)).min(1.0);
+            (fraction > 0.0).then_some((fraction * (end - start), from, from + fraction * (to - from)))
+        })
+    }
+
+    /// Integral of the reference from now to a time \[m/s\]; nothing is added after the end.
+    fn integral(&self, until: f64) -> f64 {
+        self.pieces(until).map(|(duration, from, to)| 0.5 * duration * (from + to)).sum()
+    }
+
+    /// The reference at a time up to the end \[m/s2\].
+    fn value(&self, time: f64) -> f64 {
+        self.pieces(time).last().map_or(self.values[0], |(.., to)| to)
+    }
+
+    /// A first-order low-pass of the reference, `low` now, at a time up to the end.
+    pub fn low_pass(&self, low: f64, time_constant: f64, until: f64) -> f64 {
+        self.pieces(until).fold(low, |low, (duration, from, to)| {
+            let lag = (to - from) / duration * time_constant;
+            to - lag + (low - from + lag) * libm::exp(-duration / time_constant)
+        })
+    }
+}
+
+/// A reference as previewed, and from the preview's end on as forecast there.
+#[derive(Clone, Copy, Debug)]
+pub struct Previewed {
+    pub ahead: Ahead,
+    /// The forecast as of the preview's end.
+    pub after: Forecast,
+    /// The slow part of the reference now \[m/s2\], and its time constant \[s\].
+    pub slow: f64,
+    pub slow_time: f64,
+}
+
+impl Previewed {
+    /// The reference's means over the blocks of a horizon, and its slow and its fast part at the end.
+    pub fn over(&self, horizon: Horizon) -> Forecast {
+        let (ends, durations) = (horizon.ends(), horizon.durations());
+        let length = self.ahead.length();
+        let integral = |time: f64| self.ahead.integral(time) + self.after.integral((time - length).max(0.0));
+        let means = SVector::from_fn(|k, _| (integral(ends[k]) - integral(ends[k] - durations[k])) / durations[k]);
+        Forecast { means, end: self.parts(ends[BLOCKS - 1]) }
+    }
+
+    /// The slow and the fast part of the reference at a time.
+    fn parts(&self, time: f64) -> [f64; 2] {
+        let length = self.ahead.length();
+        let mut slow = self.ahead.low_pass(self.slow, self.slow_time, time.min(length));
+        if time <= length {
+            return [slow, self.ahead.value(time) - slow];
+        }
+        if time >= length + FORECAST {
+            let fading = time - length - FORECAST;
+            return [0, 1].map(|part: usize| self.after.end[part] * libm::exp(-FADE_DECAY[part] * fading));
+        }
+        let mut value = self.ahead.last();
+        let mut left = time - length;
+        for (mean, duration) in self.after.means.iter().zip(Horizon::Near.durations()) {
+            if left > 0.0 {
+                slow = mean + (slow - mean) * libm::exp(-duration.min(left) / self.slow_time);
+                value = *mean;
+            }
+            left -= duration;
+        }
+        [slow, value - slow]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One and a half seconds of a course that was given 0.1 s ago.
+    fn course() -> Course {
+        let mut values = [0.0; PREVIEW_SAMPLES];
+        values[..8].copy_from_slice(&[1.0, 2.0, -1.0, 0.5, 0.5, 3.0, 0.0, -2.0]);
+        Course { step: 0.2, count: 8, values, age: 0.1, begun: true }
+    }
+
+    /// The reference of [`course`], which is 0.5 now.
+    fn reference(time: f64) -> f64 {
+        let corners = [
+            (0.0, 0.5),
+            (0.1, 1.0),
+            (0.3, 2.0),
+            (0.5, -1.0),
+            (0.7, 0.5),
+            (0.9, 0.5),
+            (1.1, 3.0),
+            (1.3, 0.0),
+            (1.5, -2.0),
+        ];
+        let k = (1..corners.len()).find(|&k| time <= corners[k].0).unwrap_or(corners.len() - 1);
+        let ((start, from), (end, to)) = (corners[k - 1], corners[k]);
+        from + (to - from) * (time - start) / (end - start)
+    }
+
+    #[test]
+    fn a_course_is_linear_between_its_values_and_starts_from_the_present_one() {
+        let ahead = Ahead::new(&course(), (0.0, 0.5), 0.0).unwrap();
+        assert!((ahead.length() - 1.5).abs() < 1e-12 && ahead.last() == -2.0);
+        let (mut integral, mut low) = (0.0, 0.2);
+        let step = 1e-5;
+        for k in 0..150_000 {
+            let middle = reference((f64::from(k) + 0.5) * step);
+            integral += middle * step;
+            low += (middle - low) * (1.0 - (-step / 0.3_f64).exp());
+            if (k + 1) % 10_000 == 0 {
+                let time = f64::from(k + 1) * step;
+                assert!((ahead.integral(time) - integral).abs() < 1e-8);
+                assert!((ahead.value(time) - reference(time)).abs() < 1e-9);
+                assert!((ahead.low_pass(0.2, 0.3, time) - low).abs() < 1e-7);
+            }
+        }
+        assert!((ahead.integral(9.0) - integral).abs() < 1e-8, "nothing comes after the end");
+    }
+
+    #[test]
+    fn a_course_that_is_over_is_none() {
+        assert!(Ahead::new(&Course { age: 1.6, ..course() }, (0.0, 0.5), 0.0).is_none());
+        assert!(Ahead::new(&Course::default(), (0.0, 0.5), 0.0).is_none());
+        assert_eq!(Course { age: 1.7, ..course() }.length(), 0.0);
+    }
+
+    #[test]
+    fn blocks_hold_the_preview_s_integral_and_then_the_forecast_s() {
+        let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
+        let ahead = Ahead::new(&course(), (0.0, 0.5), 0.0).unwrap();
+        let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
+        for horizon in [Horizon::Near, Horizon::Far] {
+            let forecast = previewed.over(horizon);
+            let total = forecast.means.dot(&SVector::from(horizon.durations()));
+            let end = horizon.ends()[BLOCKS - 1];
+            assert!((total - ahead.integral(1.5) - after.integral(end - 1.5)).abs() < 1e-12);
+            let first = 0.5 + 0.5 * (reference(horizon.durations()[0]) - 0.5);
+            assert!((forecast.means[0] - first).abs() < 1e-12);
+        }
+        let [slow, fast] = previewed.parts(6.0);
+        assert!((slow - 0.4 * (-0.1 * 1.5_f64).exp()).abs() < 1e-12);
+        assert!((fast + 0.2 * (-3.0 * 1.5_f64).exp()).abs() < 1e-12);
+        let [slow, fast] = previewed.parts(0.8);
+        assert!((slow + fast - reference(0.8)).abs() < 1e-12);
+        assert!((slow - ahead.low_pass(0.2, 0.6, 0.8)).abs() < 1e-12);
+    }
+}
