@@ -35,7 +35,8 @@ interface! {
 pub const PREVIEW_SAMPLES: usize = 20;
 
 interface! {
-    /// Force that is to come, for the predictive strategy: from a recording, a script or a planned path.
+    /// Force that is to come, for the predictive strategy: from a recording, a
+    /// script or a planned path.
     pub struct Preview: Input, Continuous {
         /// Number of elements of vehicle.preview.specificForce in use; 0 without a preview.
         "vehicle.preview.count" count: i32 { 0 ..= 20 } = 0;

@@ -31,7 +31,8 @@ fn predictive() -> Washout {
     ])
 }
 
-/// RMS error of the felt force along x and y \[m/s2\] on a run with these previews. No limit breaks.
+/// RMS error of the felt force along x and y \[m/s2\] on a run with these
+/// previews. No limit breaks.
 fn errors(duration: f64, input: &dyn Fn(f64) -> Input, mut preview: impl FnMut(f64) -> Preview) -> [f64; 2] {
     let mut washout = predictive();
     let mut watch = Watch::new(washout.parameters(), &washout.output());

@@ -12,7 +12,7 @@ pub trait SlotModel: Model {
     /// with the other values.
     fn start_slots(slots: &mut [f64]) {
         Time::START.write(&mut Writer::new(slots));
-        Self::Input::START.write(&mut Writer::new(&mut slots[input::<Self>()..]));
+        Self::Input::START.write(&mut Writer::new(&mut slots[INPUT..]));
         Self::Parameters::START.write(&mut Writer::new(&mut slots[parameters::<Self>()..]));
         if let Ok(model) = Self::new(&Self::Parameters::START, &Self::Input::START) {
             model.write_outputs(slots);
@@ -24,7 +24,7 @@ pub trait SlotModel: Model {
     /// # Errors
     /// As [`Model::new`].
     fn from_slots(slots: &[f64]) -> Result<Self, Refusal> {
-        Self::new(&Self::parameters_in(slots), &read(slots, input::<Self>()))
+        Self::new(&Self::parameters_in(slots), &read(slots, INPUT))
     }
 
     /// The parameters in `slots`.
@@ -43,11 +43,11 @@ pub trait SlotModel: Model {
     /// Advances by `step` seconds from the inputs in `slots`. `derivatives` has a slot for each of
     /// `slots`, with the inputs' time derivatives, zero where the host gives none.
     fn step_slots(&mut self, slots: &[f64], derivatives: Option<&[f64]>, step: f64) {
-        let start = read(slots, input::<Self>());
+        let start = read(slots, INPUT);
         match derivatives {
             None => self.step(&start, step),
             Some(derivatives) => {
-                let end = Self::input_after(&start, &read(derivatives, input::<Self>()), step);
+                let end = Self::input_after(&start, &read(derivatives, INPUT), step);
                 self.step_between(&start, &end, step);
             }
         }
@@ -67,11 +67,9 @@ pub trait SlotModel: Model {
 impl<M: Model> SlotModel for M {}
 
 /// The slots at which the groups begin.
-const fn input<M: Model>() -> usize {
-    const { slot_count(Time::ROWS) }
-}
+const INPUT: usize = slot_count(Time::ROWS);
 const fn output<M: Model>() -> usize {
-    const { slot_count(Time::ROWS) + slot_count(M::Input::ROWS) }
+    const { INPUT + slot_count(M::Input::ROWS) }
 }
 const fn parameters<M: Model>() -> usize {
     const { output::<M>() + slot_count(M::Output::ROWS) }

@@ -55,11 +55,14 @@ const RIDGE: f64 = 3e-3;
 const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
 /// The least squared error that an expert is taken to have \[(m/s2)^2\].
 const LEAST_ERROR: f64 = 1e-4;
-/// The squared error that a forecast without preview is taken to have before any is known \[(m/s2)^2\].
+/// The squared error that a forecast without preview is taken to have before any
+/// is known \[(m/s2)^2\].
 const DOUBT: f64 = 0.005;
-/// Time constants with which the squared errors beside a preview follow larger and smaller ones \[s\].
+/// Time constants with which the squared errors beside a preview follow larger
+/// and smaller ones \[s\].
 const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
-/// A preview counts as much as the forecast without it where its squared errors are smaller by this.
+/// A preview counts as much as the forecast without it where its squared errors are smaller by
+/// this.
 const CAUTION: f64 = 1.6;
 /// The first block that is as long as the elements of a preview usually are apart.
 const RESOLVED: usize = 3;
@@ -142,8 +145,8 @@ impl Forecast {
         Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(part)) }
     }
 
-    /// Integral of the reference from now to a time \[m/s\]. Beyond the forecast's end, its slow and
-    /// its fast part fade.
+    /// Integral of the reference from now to a time \[m/s\]. Beyond the forecast's end, its slow
+    /// and its fast part fade.
     pub fn integral(&self, time: f64) -> f64 {
         let blocks = Horizon::Near.ends().into_iter().zip(Horizon::Near.durations());
         let within = |(end, duration): (f64, f64)| (time - (end - duration)).clamp(0.0, duration);

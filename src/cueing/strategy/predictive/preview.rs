@@ -15,7 +15,8 @@ const INSTANT: f64 = 1e-9;
 /// The cue of one axis at points of time to come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Course {
-    /// Time from one value to the next; the first is one such time after the course was given \[s\].
+    /// Time from one value to the next; the first is one such time after the
+    /// course was given \[s\].
     pub step: f64,
     /// Number of values in use.
     pub count: usize,
@@ -127,7 +128,8 @@ pub struct Previewed {
 }
 
 impl Previewed {
-    /// The reference's means over the blocks of a horizon, and its slow and its fast part at the end.
+    /// The reference's means over the blocks of a horizon, and its slow and its
+    /// fast part at the end.
     pub fn over(&self, horizon: Horizon) -> Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
         let length = self.ahead.length();
