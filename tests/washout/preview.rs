@@ -1,6 +1,8 @@
 //! A preview of the force: what a right one gains, and what a wrong one costs.
 
-use moris_washout::{Input, Preview, Washout, interface::PREVIEW_SAMPLES};
+use moris_interface::{Model, SlotModel};
+use moris_washout::interface::PREVIEW_SAMPLES;
+use moris_washout::{Input, Preview, Washout};
 
 use crate::common::limits::Watch;
 use crate::common::manoeuvres::*;
@@ -70,7 +72,7 @@ fn runs() -> [Run; 3] {
 #[test]
 fn a_preview_brings_the_errors_near_the_bound() {
     // Errors along x and y at most, with 1 s and with 4 s; the bound on the last run is 0.18 m/s2.
-    let most = [[[0.27, 0.01], [0.06, 0.02]], [[0.01, 0.06], [0.01, 0.02]], [[0.62, 0.01], [0.30, 0.01]]];
+    let most = [[[0.27, 0.01], [0.06, 0.02]], [[0.02, 0.06], [0.01, 0.02]], [[0.62, 0.01], [0.30, 0.01]]];
     for ((duration, input), most) in runs().iter().zip(most) {
         for (seconds, most) in [1.0, 4.0].into_iter().zip(most) {
             let error = errors(*duration, input, |time| preview(seconds, time, |time| force(input, time)));
@@ -97,8 +99,8 @@ fn a_wrong_preview_costs_little_and_no_limit() {
         let without = errors(*duration, input, |_| Preview::default());
         let costs_little = |name: &str, with: [f64; 2]| {
             for axis in 0..2 {
-                // Where next to nothing is wrong without a preview, 0.1 m/s2 may be with it.
-                assert!(with[axis] <= 1.3 * without[axis] + 0.1, "{name}, axis {axis}: {with:?}, {without:?}");
+                // Where next to nothing is wrong without a preview, 0.12 m/s2 may be with it.
+                assert!(with[axis] <= 1.3 * without[axis] + 0.12, "{name}, axis {axis}: {with:?}, {without:?}");
             }
         };
         for (name, wrong) in &wrong {
@@ -191,4 +193,31 @@ fn the_other_strategies_take_no_notice_of_a_preview() {
         assert!(with == without, "strategy {strategy}");
     }
     assert_eq!(Preview::default().surge.len(), PREVIEW_SAMPLES);
+}
+
+#[test]
+fn a_host_gives_the_preview_among_the_inputs() {
+    let (_, input) = &runs()[0];
+    let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
+    Washout::start_slots(&mut slots);
+    let slot = |name: &str| Washout::IDENTITY.slot(name).unwrap();
+    slots[slot("strategy")] = 4.0;
+    let mut hosted = Washout::from_slots(&slots).unwrap();
+    let mut own = hosted.clone();
+    let mut without = hosted.clone();
+    for k in 0..300 {
+        let now = f64::from(k) * STEP;
+        let preview = preview(4.0, now + 5.0, |time| force(input, time));
+        slots[slot("vehicle.preview.count")] = f64::from(preview.count);
+        for element in 0..PREVIEW_SAMPLES {
+            slots[slot(&format!("vehicle.preview.specificForce.x[{}]", element + 1))] = preview.surge[element];
+            slots[slot(&format!("vehicle.preview.specificForce.y[{}]", element + 1))] = preview.sway[element];
+        }
+        hosted.step_slots(&slots, None, STEP);
+        own.preview(&preview);
+        own.step(&Input::default(), STEP);
+        without.step(&Input::default(), STEP);
+    }
+    assert!(hosted == own);
+    assert!(hosted.motion() != without.motion());
 }
