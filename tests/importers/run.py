@@ -127,7 +127,7 @@ def omsimulator():
     prefix = Path(os.environ.get("OMSIMULATOR", CACHE / "OMSimulator"))
     library = next(iter(sorted(prefix.glob("**/libOMSimulator.so"))), None)
     if library is None:
-        raise Missing("it has to be built from its sources; set OMSIMULATOR to where it is installed")
+        raise Missing("build it from its sources, as docs/importers.md says, and set OMSIMULATOR to where it is installed")
     return [library]
 
 
@@ -190,6 +190,9 @@ def last_error(text):
     return (errors or lines or ["it does not say why"])[-1][:140]
 
 
+HEADER = "| importer | FMI 2.0 | FMI 3.0 | SSP |\n|---|---|---|---|"
+
+
 def row(importer, results):
     """The importer's row in the table: in each column whether all was right, and the number of models of a version."""
     cells = []
@@ -205,18 +208,24 @@ def row(importer, results):
     return f"| [{importer.title}]({importer.home}) {importer.version} | {' | '.join(cells)} |"
 
 
-def try_out(importer, fmu, required, whole):
-    """Installs and runs an importer; prints its lines; returns whether nothing has failed, nor lacks that is required.
+@dataclass
+class Outcome:
+    importer: Importer
+    results: list
+    # Why it was not run; none if it was.
+    missing: str | None = None
+    failed: bool = False
 
-    With the whole set of FMUs, the table's row for the importer has to be right, too.
-    """
+
+def try_out(importer, fmus):
+    """Installs and runs an importer, and prints a line for each thing tried."""
     try:
         arguments = importer.install()
         if importer.script is None:
             raise Missing("it installs here, but there is no script for it yet")
     except Missing as reason:
         show(importer, "-", "-", f"missing ({reason})")
-        return not required
+        return Outcome(importer, [], missing=str(reason))
     work = CACHE / "work" / importer.script.removesuffix(".py")
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
@@ -224,14 +233,14 @@ def try_out(importer, fmu, required, whole):
     if sys.platform == "linux":
         # Where the wheel of tbb, which ecospy needs, puts its library.
         environment["LD_LIBRARY_PATH"] = str(VENV / "lib")
-    command = [PYTHON, HERE / importer.script, fmu, work, *arguments]
+    command = [PYTHON, HERE / importer.script, fmus, work, *arguments]
     try:
         done = subprocess.run(
             [str(part) for part in command], env=environment, cwd=work, capture_output=True, text=True, timeout=PATIENCE
         )
     except subprocess.TimeoutExpired:
         show(importer, "-", "-", f"FAILED (not done after {PATIENCE} s)")
-        return False
+        return Outcome(importer, [], failed=True)
     (work / "log.txt").write_text(done.stdout + done.stderr)
     results = [json.loads(line) for line in done.stdout.splitlines() if line.startswith('{"what"')]
     for result in results:
@@ -239,12 +248,28 @@ def try_out(importer, fmu, required, whole):
     if done.returncode != 0 or not results:
         ended = f"killed by {signal.Signals(-done.returncode).name}" if done.returncode < 0 else last_error(done.stderr)
         show(importer, "-", "-", f"FAILED ({ended}; see {work / 'log.txt'})")
-        return False
-    passed = all(result["verdict"] == "ok" for result in results)
-    if passed and whole and (line := row(importer, results)) not in TABLE.read_text():
+        return Outcome(importer, results, failed=True)
+    return Outcome(importer, results, failed=any(result["verdict"] != "ok" for result in results))
+
+
+def print_table(outcomes):
+    """Prints the table of docs/importers.md as it came out here; returns whether the page agrees with it."""
+    said = TABLE.read_text()
+    wrong = []
+    print(f"\n{HEADER}")
+    for outcome in outcomes:
+        if not outcome.results:
+            continue
+        line = row(outcome.importer, outcome.results)
+        print(line)
+        if line not in said:
+            wrong.append(line)
+    for outcome in outcomes:
+        if outcome.missing:
+            print(f"Not run: {outcome.importer.title or outcome.importer.name}: {outcome.missing}")
+    for line in wrong:
         print(f"FAILED: {TABLE.name} does not say: {line}")
-        return False
-    return passed
+    return not wrong
 
 
 def show(importer, what, difference, verdict):
@@ -268,10 +293,11 @@ def main():
         venv.create(VENV, with_pip=True)
     print(f"{'importer':30}{'what was run':52}{'difference':>10}  verdict")
     chosen = [importer for importer in IMPORTERS if not arguments.only or importer.name in arguments.only]
+    outcomes = [try_out(importer, fmus) for importer in chosen]
     # The table is that of Linux: some importers have no binaries for other systems.
-    whole = sys.platform == "linux"
-    passed = [try_out(importer, fmus, arguments.require and importer.in_registry, whole) for importer in chosen]
-    sys.exit(0 if all(passed) else 1)
+    agrees = sys.platform != "linux" or print_table(outcomes)
+    lacks = arguments.require and any(outcome.missing and outcome.importer.in_registry for outcome in outcomes)
+    sys.exit(1 if lacks or not agrees or any(outcome.failed for outcome in outcomes) else 0)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Runs the FMU's libraries for other platforms, Windows' under Wine and Arm's under qemu, against that for Linux.
+"""Runs the libraries of all FMUs for other platforms, Windows' under Wine and Arm's under qemu, against those for Linux.
 
     python3 tests/platforms/run.py [--require] [--install]
 
-Each library makes the reference ride that is in the FMU, stepped by the host in host.c, and gives the numbers of the library
-for linux64 to 1e-12. Where a program is not installed, the platform is reported as missing; with --require that is an error.
-With --install everything needed is installed first (apt, rustup and pip; for Debian and Ubuntu).
+Each library, of all three models and of FMI 2.0 and 3.0, makes the reference ride that is in its FMU. The host in host.c
+steps it. The numbers have to be those of the library for linux64, to 1e-12. Where a program is not installed, the platform is
+reported as missing; with --require that is an error. With --install everything needed is installed first (apt, rustup and
+pip; for Debian and Ubuntu).
 """
 
 import argparse
@@ -15,6 +16,7 @@ import shutil
 import subprocess
 import sys
 import venv
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,7 +27,9 @@ from ride import TOLERANCE, Ride  # noqa: E402
 
 WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "platforms"
 VENV = WORK / "venv"
-MODEL = "MorisWashout"
+MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
+# The option of build-fmu, and how the files of that version end.
+VERSIONS = {"2": ".fmu", "3": ".fmi3.fmu"}
 # How far a library may be from that for linux64, in SI units.
 AGREEMENT = 1e-12
 ARM_LIBRARIES = Path("/usr/aarch64-linux-gnu")
@@ -42,11 +46,32 @@ class Missing(Exception):
 @dataclass
 class Platform:
     name: str
-    library: str
-    # For whom zig compiles the host.
-    target: str
+    # Its directory in an FMU of FMI 3.0; in one of FMI 2.0 it is the name.
+    tuple: str
+    # How its libraries end.
+    ending: str
+    # Returns the compiler for the host.
+    compiler: callable
     # Returns what runs a program of that platform here, and its name for people.
     emulator: callable
+
+
+def zig_for(target):
+    def compiler():
+        zig = next((zig for zig in (["zig"], ["python3", "-m", "ziglang"]) if runs([*zig, "version"])), None)
+        if zig is None:
+            raise Missing("zig: pip install ziglang")
+        return [*zig, "cc", "-target", target]
+
+    return compiler
+
+
+def mingw():
+    # zig would compile the whole C library for Windows first.
+    program = shutil.which("x86_64-w64-mingw32-gcc")
+    if not program:
+        raise Missing("GCC for Windows: apt-get install gcc-mingw-w64-x86-64")
+    return [program]
 
 
 def itself():
@@ -74,10 +99,10 @@ def version(program):
     return done.stdout.splitlines()[0]
 
 
-LINUX = Platform("linux64", f"{MODEL}.so", "x86_64-linux-gnu.2.17", itself)
+LINUX = Platform("linux64", "x86_64-linux", ".so", zig_for("x86_64-linux-gnu.2.17"), itself)
 OTHERS = [
-    Platform("win64", f"{MODEL}.dll", "x86_64-windows-gnu", wine),
-    Platform("aarch64-linux", f"{MODEL}.so", "aarch64-linux-gnu.2.17", qemu),
+    Platform("win64", "x86_64-windows", ".dll", mingw, wine),
+    Platform("aarch64-linux", "aarch64-linux", ".so", zig_for("aarch64-linux-gnu.2.17"), qemu),
 ]
 
 
@@ -106,31 +131,34 @@ def install():
     check_call([VENV / "bin" / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP])
 
 
-def build_library(chosen):
-    """Builds the FMU for a platform; returns it and the place of its library, unpacked."""
+def build_fmus(chosen):
+    """Builds the FMUs of all models and versions for a platform; returns their directory."""
     directory = WORK / chosen.name
-    print(f"building the FMU for {chosen.name} ...", flush=True)
-    done = call(["cargo", "build-fmu", "--model", MODEL, "--platform", chosen.name, "--output", directory])
-    if done.returncode != 0:
-        reason = done.stderr.strip().splitlines()[-1].removeprefix("error: ")
-        if "is not installed" in reason:
-            raise Missing(reason)
-        raise AssertionError(f"{chosen.name} cannot be built:\n{done.stdout}{done.stderr}")
-    fmu = directory / f"{MODEL}.fmu"
-    shutil.unpack_archive(fmu, directory / "unpacked", "zip")
-    return fmu, directory / "unpacked" / "binaries" / chosen.name / chosen.library
+    for version in VERSIONS:
+        print(f"building the FMUs for {chosen.name}, FMI {version} ...", flush=True)
+        done = call(["cargo", "build-fmu", "--fmi", version, "--platform", chosen.name, "--output", directory])
+        if done.returncode != 0:
+            reason = done.stderr.strip().splitlines()[-1].removeprefix("error: ")
+            if "is not installed" in reason:
+                raise Missing(reason)
+            raise AssertionError(f"{chosen.name} cannot be built:\n{done.stdout}{done.stderr}")
+    return directory
+
+
+def unpack_library(chosen, model, fmu, version):
+    """Takes the library out of an FMU."""
+    binaries = f"binaries/{chosen.name if version == '2' else chosen.tuple}"
+    with zipfile.ZipFile(fmu) as archive:
+        return archive.extract(f"{binaries}/{model}{chosen.ending}", fmu.with_suffix(""))
 
 
 def build_host(chosen):
-    """Compiles host.c for a platform, which zig can do for all of them."""
+    """Compiles host.c for a platform."""
     program = WORK / chosen.name / ("host.exe" if chosen.name.startswith("win") else "host")
     source = HERE / "host.c"
     if not program.exists() or program.stat().st_mtime < source.stat().st_mtime:
-        compiler = next((zig for zig in (["zig"], ["python3", "-m", "ziglang"]) if runs([*zig, "version"])), None)
-        if compiler is None:
-            raise Missing("zig: pip install ziglang")
         flags = ["-std=c99", "-O1", "-Wall", "-Wextra", "-Werror"]
-        done = call([*compiler, "cc", "-target", chosen.target, *flags, "-o", program, source])
+        done = call([*chosen.compiler(), *flags, "-o", program, source])
         assert done.returncode == 0, f"host.c does not compile for {chosen.name}:\n{done.stderr}"
     return program
 
@@ -142,47 +170,73 @@ def runs(command):
         return False
 
 
-def ride_on(chosen):
-    """Makes the ride on a platform; returns it, its answers after each step, and by what it was run."""
-    emulator, name = chosen.emulator()
-    fmu, library = build_library(chosen)
+@dataclass
+class Answers:
+    """What a library answered to its reference ride: a row of outputs for each step."""
+
+    ride: Ride
+    rows: list
+
+
+def ride_on(chosen, emulator):
+    """Makes the ride of each FMU on a platform; returns the answers by model and version."""
+    directory, host = build_fmus(chosen), build_host(chosen)
+    return {
+        (model, version): ride_with(chosen, [*emulator, host], model, directory / f"{model}{ending}", version)
+        for model in MODELS
+        for version, ending in VERSIONS.items()
+    }
+
+
+def ride_with(chosen, host, model, fmu, version):
     ride = Ride(fmu)
     inputs, outputs = ([ride.references[name] for name in names] for names in (ride.inputs, ride.outputs))
     lines = [(len(inputs), *inputs), (len(outputs), *outputs), (ride.step, ride.steps)]
     lines += [ride.input(k) for k in range(ride.steps)]
     text = "".join(" ".join(map(repr, line)) + "\n" for line in lines)
-    done = call([*emulator, build_host(chosen), library, ride.guid], input=text)
-    assert done.returncode == 0, f"{chosen.name} under {name} ended with {done.returncode}:\n{done.stderr}"
-    answers = [list(map(float, line.split())) for line in done.stdout.splitlines()]
-    assert len(answers) == ride.steps, f"{chosen.name} gave {len(answers)} answers to {ride.steps} steps"
-    return ride, answers, name
+    done = call([*host, unpack_library(chosen, model, fmu, version), version, ride.guid], input=text)
+    what = f"{model}, FMI {ride.fmi}, on {chosen.name}"
+    assert done.returncode == 0, f"{what} ended with {done.returncode}:\n{done.stderr}"
+    rows = [list(map(float, line.split())) for line in done.stdout.splitlines()]
+    assert len(rows) == ride.steps, f"{what} gave {len(rows)} answers to {ride.steps} steps"
+    return Answers(ride, rows)
 
 
-def report(name, by, largest, limit, of_what):
+def report(name, by, answers, largest, limit, of_what):
     passed = largest <= limit
-    print(f"{name:15}{by:22}{largest:.1e} from {of_what:24}{'ok' if passed else f'FAILED (more than {limit:.0e})'}", flush=True)
+    what = f"{answers.ride.model}, FMI {answers.ride.fmi}"
+    verdict = "ok" if passed else f"FAILED (more than {limit:.0e})"
+    print(f"{name:15}{by:14}{what:26}{largest:.1e} from {of_what:22}{verdict}", flush=True)
     return passed
+
+
+def largest_difference(rows, expected):
+    return max(abs(a - b) for row, wanted in zip(rows, expected, strict=True) for a, b in zip(row, wanted, strict=True))
 
 
 def compare():
     """Runs every platform; returns whether none has failed, and whether none is missing."""
     passed, complete = True, True
     try:
-        ride, expected, by = ride_on(LINUX)
+        emulator, by = LINUX.emulator()
+        expected = ride_on(LINUX, emulator)
     except Missing as reason:
         print(f"{LINUX.name:15}missing ({reason})")
         return True, False
-    largest = ride.difference({k + 1: row for k, row in enumerate(expected)})
-    passed &= report(LINUX.name, by, largest, TOLERANCE, "the reference output")
+    for answers in expected.values():
+        largest = answers.ride.difference({k + 1: row for k, row in enumerate(answers.rows)})
+        passed &= report(LINUX.name, by, answers, largest, TOLERANCE, "the reference output")
     for other in OTHERS:
         try:
-            _, answers, by = ride_on(other)
+            emulator, by = other.emulator()
+            rides = ride_on(other, emulator)
         except Missing as reason:
             print(f"{other.name:15}missing ({reason})", flush=True)
             complete = False
             continue
-        largest = max(abs(a - b) for row, wanted in zip(answers, expected) for a, b in zip(row, wanted, strict=True))
-        passed &= report(other.name, by, largest, AGREEMENT, "linux64")
+        for key, answers in rides.items():
+            largest = largest_difference(answers.rows, expected[key].rows)
+            passed &= report(other.name, by, answers, largest, AGREEMENT, "linux64")
     return passed, complete
 
 
