@@ -154,3 +154,21 @@ fn gravity_is_no_cue() {
     assert!(output.status.success() && text.contains("0 channels"), "{text}");
     assert!(!text.contains("surge  "), "nothing desired and nothing felt has no row: {text}");
 }
+
+#[test]
+fn a_preview_of_the_recording_lowers_the_errors_of_the_predictive_strategy() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(&directory.path().join("ride.csv"));
+    let error = |preview: &str| {
+        let (output, text) =
+            measure(directory.path(), &["ride.csv", "--parameters", "predictive", "--preview", preview]);
+        assert!(output.status.success(), "{text}");
+        assert_eq!(text.contains("preview of 2 s"), preview == "2", "{text}");
+        cells(&text, "surge")[3].parse::<f64>().unwrap()
+    };
+    let (without, with) = (error("0"), error("2"));
+    assert!(with < 0.7 * without, "{with}, {without}");
+    let (output, _) = measure(directory.path(), &["ride.csv", "--preview", "5"]);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("a time from 0 to 4 s is needed"), "{message}");
+}
