@@ -49,7 +49,7 @@ def main():
     run("cargo", "build-ssp")
     run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--", "--quiet")
-    run(python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".")
+    run(python(), "-m", "pip", "install", "--verbose", "--disable-pip-version-check", ".")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(python(), "-m", "pytest", "--quiet", "tests/python_package")
     run(sys.executable, "tests/importers/run.py", *(["--require"] if arguments.require else []))
