@@ -28,9 +28,11 @@
 
 mod fit;
 mod manoeuvre;
+mod replay;
 
 pub use fit::Fit;
 pub use manoeuvre::Manoeuvre;
+pub use replay::Replay;
 
 use moris_washout::{Input, Output, Parameters, Refusal, Washout};
 use rayon::prelude::*;
@@ -56,10 +58,7 @@ pub struct Simulation<O> {
 /// The parameters cannot be used: which, and why.
 pub fn simulate<O: Observer>(manoeuvre: &Manoeuvre, parameters: &Parameters, mut observer: O) -> Result<O, Refusal> {
     let mut washout = Washout::new(parameters)?;
-    for pair in manoeuvre.inputs().windows(2) {
-        washout.step_between(&pair[0], &pair[1], manoeuvre.step());
-        observer.observe(&pair[1], &washout.output());
-    }
+    Replay::new(manoeuvre).run(&mut washout, |input, output| observer.observe(input, output));
     Ok(observer)
 }
 

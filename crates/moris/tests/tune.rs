@@ -51,7 +51,7 @@ fn judge(ride: Ride, constraints: Constraints) -> Judge {
 }
 
 fn recording(judge: &Judge, parameters: &Parameters) -> Recording {
-    Recording::of(judge.ride(), &judge.ride().parameters(parameters), || ()).unwrap()
+    Recording::of(&judge.ride().replay(), &judge.ride().parameters(parameters), || ()).unwrap()
 }
 
 #[test]

@@ -98,7 +98,7 @@ pub fn sweep_chunk<'py>(
 fn measure(setup: &Setup, ride: &Ride, row: &mut [f64]) {
     let parameters = ride.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
-    let Ok(recording) = Recording::of(ride, &parameters, || ()) else { return };
+    let Ok(recording) = Recording::of(&ride.replay(), &parameters, || ()) else { return };
     let Ok(measures) = measured::measures(&recording) else { return };
     let mut places = MEASURES.iter().zip(row).peekable();
     for found in measures.rows() {

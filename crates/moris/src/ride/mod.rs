@@ -32,7 +32,7 @@ pub mod units;
 
 use std::path::Path;
 
-use moris_batch::Manoeuvre;
+use moris_batch::{Manoeuvre, Replay};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
@@ -118,6 +118,11 @@ impl Ride {
     /// Time between samples \[s\].
     pub fn step(&self) -> f64 {
         self.manoeuvre.step()
+    }
+
+    /// Its replay with a communication step a sample.
+    pub fn replay(&self) -> Replay<'_> {
+        Replay::new(&self.manoeuvre)
     }
 
     /// The time of each sample, the first at 0 \[s\].

@@ -93,7 +93,7 @@ impl Outcome {
     /// The parameters cannot be used.
     pub fn of(ride: &Ride, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
         let parameters = ride.parameters(&setup.parameters);
-        let recording = Recording::of(ride, &parameters, progress)?;
+        let recording = Recording::of(&ride.replay(), &parameters, progress)?;
         let measures = measured::measures(&recording)?;
         let bounds = [const { None }; 3];
         Ok(Outcome { setup: Setup { parameters, ..setup.clone() }, recording, measures, bounds })

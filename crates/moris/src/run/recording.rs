@@ -1,13 +1,12 @@
 //! Inputs and outputs of the washout in a simulation.
 
+use moris_batch::Replay;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::Pose;
 use moris_washout::platform::head::Head;
 use moris_washout::{Input, Output, Parameters, Refusal, Washout};
-
-use crate::ride::Ride;
 
 /// Every input and output of a ride.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,22 +22,33 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Rides from rest at neutral, the inputs going linearly from sample to sample.
-    /// `progress` is told after each.
+    /// Replays a manoeuvre from rest at neutral. `progress` is called at each observation.
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.
-    pub fn of(ride: &Ride, parameters: &Parameters, mut progress: impl FnMut()) -> Result<Self, Refusal> {
-        let inputs = ride.inputs();
+    pub fn of(replay: &Replay, parameters: &Parameters, progress: impl FnMut()) -> Result<Self, Refusal> {
+        Recording::prepared(replay, parameters, |_, _| (), progress)
+    }
+
+    /// As [`Recording::of`]; `prepare` is called before each step with the time at its start \[s\].
+    ///
+    /// # Errors
+    /// The parameters cannot be used: which, and why.
+    pub fn prepared(
+        replay: &Replay,
+        parameters: &Parameters,
+        prepare: impl FnMut(&mut Washout, f64),
+        mut progress: impl FnMut(),
+    ) -> Result<Self, Refusal> {
+        let inputs: Vec<Input> = replay.inputs().copied().collect();
         let mut washout = Washout::new(parameters)?.starting_with(&inputs[0]);
         let mut outputs = vec![washout.output()];
         progress();
-        for pair in inputs.windows(2) {
-            washout.step_between(&pair[0], &pair[1], ride.step());
-            outputs.push(washout.output());
+        replay.run_prepared(&mut washout, prepare, |_, output| {
+            outputs.push(*output);
             progress();
-        }
-        Ok(Recording { step: ride.step(), parameters: *parameters, inputs: inputs.to_vec(), outputs })
+        });
+        Ok(Recording { step: replay.step(), parameters: *parameters, inputs, outputs })
     }
 
     /// The time of each sample \[s\].

@@ -118,20 +118,16 @@ impl Judge {
     /// # Errors
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, Refusal> {
-        let inputs = self.ride.inputs();
         let mut washout = self.coarse.clone();
         let mut parameters = self.ride.parameters(parameters);
         let Parameters { structure, rig, .. } = washout.parameters();
         (parameters.structure, parameters.rig) = (*structure, *rig);
         parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
         washout.retune(&parameters)?;
-        let mut washout = washout.starting_with(&inputs[0]);
+        let mut washout = washout.starting_with(&self.ride.inputs()[0]);
         let mut tally = Tally::new(self);
         tally.add(&washout.output());
-        for pair in inputs.windows(2) {
-            washout.step_between(&pair[0], &pair[1], self.ride.step());
-            tally.add(&washout.output());
-        }
+        self.ride.replay().run(&mut washout, |_, output| tally.add(output));
         Ok(tally.cost())
     }
 

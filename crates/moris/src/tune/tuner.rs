@@ -188,5 +188,5 @@ fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 /// The parameters cannot be used.
 pub fn full_cost(judge: &Judge, setup: &Setup) -> Result<Cost> {
     let parameters = judge.ride().parameters(&setup.parameters);
-    Ok(judge.cost(&Recording::of(judge.ride(), &parameters, || ())?))
+    Ok(judge.cost(&Recording::of(&judge.ride().replay(), &parameters, || ())?))
 }

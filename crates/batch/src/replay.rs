@@ -1,0 +1,141 @@
+//! A manoeuvre replayed in a host's communication steps.
+
+use moris_washout::{Input, Output, Washout};
+
+use crate::Manoeuvre;
+
+/// Tolerance of the ratio of two steps against a whole number.
+const ROUNDING: f64 = 1e-6;
+
+/// Communication steps with which a manoeuvre is replayed. Between its samples it is linear.
+#[derive(Clone, Copy, Debug)]
+pub struct Replay<'a> {
+    manoeuvre: &'a Manoeuvre,
+    /// Samples from one observation to the next.
+    samples: usize,
+    /// Communication steps from one observation to the next.
+    divisions: usize,
+    /// True if the washout gets each step's slopes; else it gets the values at the step's start.
+    slopes: bool,
+}
+
+impl<'a> Replay<'a> {
+    /// A step a sample, through which the inputs go linearly.
+    pub fn new(manoeuvre: &'a Manoeuvre) -> Self {
+        Replay { manoeuvre, samples: 1, divisions: 1, slopes: true }
+    }
+
+    /// Steps of this length \[s\], with the inputs' slopes or without. None if neither of the step
+    /// and the time between samples is a multiple of the other.
+    pub fn in_steps(manoeuvre: &'a Manoeuvre, step: f64, slopes: bool) -> Option<Self> {
+        let whole = |ratio: f64| {
+            let count = ratio.round();
+            (count >= 1.0 && (ratio - count).abs() <= ROUNDING * count).then_some(count as usize)
+        };
+        let sample = manoeuvre.step();
+        match (whole(sample / step), whole(step / sample)) {
+            (Some(divisions), _) => Some(Replay { manoeuvre, samples: 1, divisions, slopes }),
+            (None, Some(samples)) => Some(Replay { manoeuvre, samples, divisions: 1, slopes }),
+            (None, None) => None,
+        }
+    }
+
+    /// Time between observations \[s\].
+    pub fn step(&self) -> f64 {
+        self.samples as f64 * self.manoeuvre.step()
+    }
+
+    /// The inputs at the observations; the first is that before the first step.
+    pub fn inputs(&self) -> impl Iterator<Item = &'a Input> + use<'a> {
+        self.manoeuvre.inputs().iter().step_by(self.samples)
+    }
+
+    /// Replays the manoeuvre. `observe` receives the input and the output at the end of each step,
+    /// or of each sample where steps are shorter. An output's flags are then those of all steps
+    /// since the output before.
+    pub fn run(&self, washout: &mut Washout, observe: impl FnMut(&Input, &Output)) {
+        self.run_prepared(washout, |_, _| (), observe);
+    }
+
+    /// As [`Replay::run`]; `prepare` is called before each step with the time at its start \[s\].
+    pub fn run_prepared(
+        &self,
+        washout: &mut Washout,
+        mut prepare: impl FnMut(&mut Washout, f64),
+        mut observe: impl FnMut(&Input, &Output),
+    ) {
+        let step = self.step() / self.divisions as f64;
+        for (index, (from, to)) in self.inputs().zip(self.inputs().skip(1)).enumerate() {
+            let start = index as f64 * self.step();
+            let at = |k: usize| match k {
+                0 => *from,
+                k if k == self.divisions => *to,
+                k => from.towards(to, k as f64 / self.divisions as f64),
+            };
+            prepare(washout, start);
+            let mut output = self.advance(washout, &at(0), &at(1), step);
+            for k in 1..self.divisions {
+                let before = output;
+                prepare(washout, start + k as f64 * step);
+                output = self.advance(washout, &at(k), &at(k + 1), step);
+                output.tilt_limited |= before.tilt_limited;
+                output.safety_active |= before.safety_active;
+                output.actuator_limited |= before.actuator_limited;
+            }
+            observe(to, &output);
+        }
+    }
+
+    fn advance(&self, washout: &mut Washout, start: &Input, end: &Input, step: f64) -> Output {
+        if self.slopes {
+            washout.step_between(start, end, step)
+        } else {
+            washout.step(start, step)
+        }
+        washout.output()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_washout::Parameters;
+
+    use super::*;
+
+    fn swing() -> Manoeuvre {
+        Manoeuvre::sampled(0.01, 1.0, |time| {
+            let mut input = Input::default();
+            input.specific_force.x = (5.0 * time).sin();
+            input
+        })
+    }
+
+    fn outputs(replay: &Replay) -> Vec<Output> {
+        let mut washout = Washout::new(&Parameters::default()).unwrap();
+        let mut outputs = Vec::new();
+        replay.run(&mut washout, |_, output| outputs.push(*output));
+        outputs
+    }
+
+    #[test]
+    fn steps_that_fit_are_taken_and_others_rejected() {
+        let manoeuvre = swing();
+        assert_eq!(outputs(&Replay::in_steps(&manoeuvre, 0.002, true).unwrap()).len(), 100);
+        assert_eq!(outputs(&Replay::in_steps(&manoeuvre, 0.05, true).unwrap()).len(), 20);
+        assert!(Replay::in_steps(&manoeuvre, 0.007, true).is_none());
+    }
+
+    #[test]
+    fn divided_steps_with_slopes_end_where_whole_ones_do() {
+        let manoeuvre = swing();
+        let whole = outputs(&Replay::new(&manoeuvre));
+        let divided = outputs(&Replay::in_steps(&manoeuvre, 0.001, true).unwrap());
+        for (whole, divided) in whole.iter().zip(&divided) {
+            // The internal steps are the same, so that only the inputs' rounding differs.
+            assert!((whole.position - divided.position).norm() < 1e-12);
+        }
+        let held = outputs(&Replay::in_steps(&manoeuvre, 0.001, false).unwrap());
+        let lag = (held[99].felt_specific_force - divided[99].felt_specific_force).norm();
+        assert!(1e-6 < lag && lag < 0.1, "{lag}");
+    }
+}
