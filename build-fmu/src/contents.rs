@@ -25,10 +25,10 @@ pub fn contents(model: &Model, start: &Start, fmi: FmiVersion, libraries: Vec<(P
     // The tables' columns are scalar variables.
     if fmi.choose_names(true, false) {
         let input = Stimuli::new(model.reference_input);
-        let output = (model.made.reference_output)(&input, start.slots());
+        let output = (model.functions.reference_output)(&input, start.slots());
         contents.extend(reference::files(model.name, &input, output));
     }
-    if !start.is_the_model_s_own() {
+    if !start.is_own() {
         contents.insert("documentation/start-values.toml".to_owned(), start.file(model).into_bytes());
     }
     for (platform, bytes) in libraries {

@@ -21,7 +21,7 @@ const STYLE: &str = include_str!("../documentation/style.css");
 /// `documentation/index.html`: the model's sections, then its tables of variables.
 pub fn page(model: &Model, start: &Start, fmi: FmiVersion) -> String {
     let variables = model.variables(fmi, start);
-    let description = (model.made.description)(start.slots());
+    let description = (model.functions.description)(start.slots());
     let token = match fmi {
         FmiVersion::Fmi2 => description.guid.clone(),
         FmiVersion::Fmi3(layout) => layout.token(&description.guid),

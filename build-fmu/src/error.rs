@@ -44,7 +44,7 @@ pub enum Error {
     /// A rig or parameter file cannot be used.
     #[error("{0}")]
     Setup(#[from] moris_setup::Error),
-    /// The archive cannot be made.
+    /// The archive cannot be written.
     #[error("cannot pack the archive: {0}")]
     Archive(#[from] zip::result::ZipError),
     /// The FMU cannot be written.

@@ -70,7 +70,7 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
     let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
     for (model, start) in models.iter().zip(&starts) {
-        if !start.is_the_model_s_own() {
+        if !start.is_own() {
             println!("{}: {} embedded start values", model.name, start.count());
         }
         let report = |line: &str| println!("{line}");
@@ -114,7 +114,7 @@ fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Err
     }
     if takes_parameters(arguments, model) {
         for set in &arguments.parameters {
-            values.extend(load_set(set, model.made.identity.rows)?);
+            values.extend(load_set(set, model.functions.identity.rows)?);
         }
     }
     Ok(values)

@@ -1,8 +1,7 @@
 //! Start values of an FMU: the model's own, or embedded ones in their place.
 
 use moris_interface::{Causality, write_start_values};
-use moris_setup::{NamedValues, contradiction, overlaid, parameter_file, values_of};
-use moris_washout::Parameters;
+use moris_setup::{NamedValues, parameter_file};
 
 use crate::{Error, Model};
 
@@ -10,7 +9,7 @@ use crate::{Error, Model};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Those that stand in place of the model's own, by slot, in the order of the slots.
-    others: Vec<(usize, f64)>,
+    overrides: Vec<(usize, f64)>,
     /// All of them.
     slots: Vec<f64>,
 }
@@ -18,7 +17,7 @@ pub struct Start {
 impl Start {
     /// The model's own.
     pub fn own(model: &Model) -> Self {
-        Start { others: Vec::new(), slots: (model.made.start)(&[]) }
+        Start { overrides: Vec::new(), slots: (model.functions.start)(&[]) }
     }
 
     /// The model's own with these laid over them; what the model has no parameter of that name for
@@ -27,8 +26,8 @@ impl Start {
     /// # Errors
     /// The model cannot start with them, or they contradict each other.
     pub fn with(model: &Model, values: &NamedValues) -> Result<Self, Error> {
-        let identity = &model.made.identity;
-        let own = (model.made.start)(&[]);
+        let identity = &model.functions.identity;
+        let own = (model.functions.start)(&[]);
         let mut slots = own.clone();
         for (name, value) in values {
             if let Some(slot) = identity.slot(name).filter(|&slot| identity.row(slot).causality == Causality::Parameter)
@@ -36,28 +35,23 @@ impl Start {
                 slots[slot] = *value;
             }
         }
-        for (name, value) in (model.following)(&slots) {
+        for (name, value) in (model.derived_start_values)(&slots) {
             slots[identity.slot(&name).expect("what follows is the model's")] = value;
         }
         let is_set = |slot: usize| matches!(identity.row(slot).causality, Causality::Parameter | Causality::Input);
-        let others: Vec<(usize, f64)> = (0..slots.len())
+        let overrides: Vec<(usize, f64)> = (0..slots.len())
             .filter(|&slot| is_set(slot) && slots[slot] != own[slot])
             .map(|slot| (slot, slots[slot]))
             .collect();
-        let start = Start { slots: (model.made.start)(&others), others };
+        let start = Start { slots: (model.functions.start)(&overrides), overrides };
         start.check(model)?;
         Ok(start)
     }
 
     fn check(&self, model: &Model) -> Result<(), Error> {
         let refused = |refusal| Error::Start { model: model.name, refusal };
-        (model.made.check)(&self.slots).map_err(refused)?;
-        let identity = &model.made.identity;
-        if !self.is_the_model_s_own() && identity.slot("safety.x.positionLimit").is_some() {
-            let parameters = overlaid(&Parameters::default(), &values_of(identity, &self.slots));
-            contradiction(&parameters).map_err(refused)?;
-        }
-        Ok(())
+        (model.functions.check)(&self.slots).map_err(refused)?;
+        if self.is_own() { Ok(()) } else { (model.consistency)(&self.slots).map_err(refused) }
     }
 
     /// The start value of each slot.
@@ -67,24 +61,24 @@ impl Start {
 
     /// Number of values that replace the model's own.
     pub fn count(&self) -> usize {
-        self.others.len()
+        self.overrides.len()
     }
 
     /// True if no value replaces the model's own.
-    pub fn is_the_model_s_own(&self) -> bool {
-        self.others.is_empty()
+    pub fn is_own(&self) -> bool {
+        self.overrides.is_empty()
     }
 
-    /// The others in the form in which the library takes them in when it is compiled.
+    /// The overrides in the form in which the library takes them in when it is compiled.
     pub fn text(&self) -> Option<String> {
-        (!self.is_the_model_s_own()).then(|| write_start_values(&self.others))
+        (!self.is_own()).then(|| write_start_values(&self.overrides))
     }
 
-    /// The others as a parameter file.
+    /// The overrides as a parameter file.
     pub fn file(&self, model: &Model) -> String {
-        let identity = &model.made.identity;
+        let identity = &model.functions.identity;
         let named: NamedValues =
-            self.others.iter().map(|&(slot, value)| (identity.variable_name(slot), value)).collect();
+            self.overrides.iter().map(|&(slot, value)| (identity.variable_name(slot), value)).collect();
         parameter_file::write("Start values in place of the model's own", &named, identity.rows)
     }
 }

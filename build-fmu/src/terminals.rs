@@ -72,7 +72,7 @@ struct Member {
 /// # Panics
 /// A terminal names a row that the model does not have. Terminals belong to the sources.
 pub fn xml(model: &Model, fmi: FmiVersion) -> String {
-    let identity = &model.made.identity;
+    let identity = &model.functions.identity;
     let element = |terminal: &Terminal| TerminalElement {
         name: terminal.name,
         matching_rule: "plug",

@@ -30,7 +30,7 @@ fn documentation(model: &Model, fmi: FmiVersion) -> String {
 
 /// The names of a model's variables.
 fn variable_names(model: &Model, fmi: FmiVersion) -> Vec<String> {
-    let identity = model.made.identity;
+    let identity = model.functions.identity;
     match fmi {
         FmiVersion::Fmi2 | FmiVersion::Fmi3(Layout::Scalars) => {
             (0..identity.slots.len()).map(|slot| identity.variable_name(slot)).collect()
@@ -112,7 +112,7 @@ fn names_agree() {
         assert_eq!(description.model_name, model.name);
         assert_eq!(description.co_simulation.model_identifier, model.name);
         for layout in [Layout::Scalars, Layout::Arrays] {
-            let description = (model.made.fmi3_description)(Start::own(model).slots(), layout);
+            let description = (model.functions.fmi3_description)(Start::own(model).slots(), layout);
             assert_eq!(description.model_name, model.name);
             assert_eq!(description.co_simulation.model_identifier, model.name);
         }
@@ -172,7 +172,7 @@ fn check_page(model: &Model, page: &str) {
 fn the_documentation_of_arrays_has_their_names() {
     for model in MODELS {
         let page = documentation(model, FmiVersion::Fmi3(Layout::Arrays)).replace("<wbr>", "").replace('\u{a0}', " ");
-        for row in model.made.identity.rows {
+        for row in model.functions.identity.rows {
             if row.causality != moris_interface::Causality::Independent {
                 assert!(page.contains(&format!("<td><code>{}</code>", row.array_name())), "{}", row.name);
             }

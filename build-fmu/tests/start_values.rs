@@ -17,7 +17,7 @@ fn rig(name: &str) -> RigFile {
 /// A rig that is not the default and parameters that are not, in this order.
 fn values() -> NamedValues {
     let mut values = rig("narrow.toml").values();
-    values.extend(load_set("small-motions", WASHOUT.made.identity.rows).unwrap());
+    values.extend(load_set("small-motions", WASHOUT.functions.identity.rows).unwrap());
     values
 }
 
@@ -31,7 +31,7 @@ fn refusal(values: &NamedValues) -> String {
 }
 
 fn start_of(model: &Model, start: &Start, name: &str) -> f64 {
-    start.slots()[model.made.identity.slot(name).unwrap()]
+    start.slots()[model.functions.identity.slot(name).unwrap()]
 }
 
 #[test]

@@ -2,11 +2,13 @@
 //! reader that knows nothing of how it was written, and against the description for FMI 2.0,
 //! which has its own rules.
 
+mod document;
 mod small_model;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
+use document::{child, elements, has_enumerations, type_definitions, variables};
 use moris_interface::{Causality, Identity, Kind, Model, Row, SlotModel};
 use moris_model_description::fmi2::describe;
 use moris_model_description::fmi3::{self, Layout};
@@ -331,27 +333,4 @@ fn a_changed_variable_is_one_changed_line() {
         assert!(variables.clone().all(|line| line.ends_with("</Float64>") || line.ends_with("/>")));
         assert_eq!(variables.count(), places(&Small::IDENTITY, layout).len());
     }
-}
-
-/// True if the model has an enumeration; only then are there types to define.
-fn has_enumerations<M: Model>() -> bool {
-    M::IDENTITY.rows.iter().any(|row| matches!(row.kind, Kind::Enumeration(_)))
-}
-
-/// The definitions of types; none where there is no such part.
-fn type_definitions<'a, 'input: 'a>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
-    let part = elements(document.root_element()).find(|part| part.has_tag_name("TypeDefinitions"));
-    part.into_iter().flat_map(elements).collect()
-}
-
-fn elements<'a, 'input: 'a>(node: Node<'a, 'input>) -> impl Iterator<Item = Node<'a, 'input>> {
-    node.children().filter(Node::is_element)
-}
-
-fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Node<'a, 'input> {
-    elements(node).find(|child| child.has_tag_name(name)).unwrap_or_else(|| panic!("no {name}"))
-}
-
-fn variables<'a, 'input>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
-    elements(child(document.root_element(), "ModelVariables")).collect()
 }

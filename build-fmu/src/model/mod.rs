@@ -34,10 +34,12 @@ pub struct Model {
     /// A line that says what the model is: the documentation's title.
     pub title: &'static str,
     /// Functions derived from the model's table of variables and its step.
-    pub made: Made,
+    pub functions: ModelFns,
     /// Start values of inputs that follow from those of parameters, by name, given all start
     /// values.
-    pub following: fn(start: &[f64]) -> NamedValues,
+    pub derived_start_values: fn(start: &[f64]) -> NamedValues,
+    /// Checks start values against each other, where they are not the model's own.
+    pub consistency: fn(start: &[f64]) -> Result<(), Refusal>,
     /// The documentation's hand-written sections, in order; the variables follow them.
     pub sections: &'static [Section],
     /// Texts of the sections that depend on the version. Further places are `fmi`, the version's
@@ -77,7 +79,7 @@ impl Wording {
 }
 
 /// Functions derived from a model. `start` has the start value of each slot.
-pub struct Made {
+pub struct ModelFns {
     /// Who it is and what its variables are.
     pub identity: Identity,
     /// The start values with others, by slot, laid over the model's own.
@@ -96,10 +98,10 @@ pub struct Made {
     pub reference_output: fn(input: &Stimuli, start: &[f64]) -> String,
 }
 
-impl Made {
+impl ModelFns {
     /// From the model of this type.
     const fn from<M: Interface>() -> Self {
-        Made {
+        ModelFns {
             identity: M::IDENTITY,
             start: start_values::<M>,
             check: |start| M::from_slots(start).map(drop),
@@ -156,19 +158,19 @@ impl Model {
 
     /// True for a model with a platform's joints.
     pub fn has_rig(&self) -> bool {
-        self.made.identity.slot("rig.neutralHeight").is_some()
+        self.functions.identity.slot("rig.neutralHeight").is_some()
     }
 
     /// The model description of FMI 2.0 with the model's own start values.
     pub fn description(&self) -> fmi2::ModelDescription {
-        (self.made.description)(Start::own(self).slots())
+        (self.functions.description)(Start::own(self).slots())
     }
 
     /// The text of `modelDescription.xml`.
     pub fn model_description(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
-            FmiVersion::Fmi2 => to_xml(&(self.made.description)(start.slots())),
-            FmiVersion::Fmi3(layout) => to_xml(&(self.made.fmi3_description)(start.slots(), layout)),
+            FmiVersion::Fmi2 => to_xml(&(self.functions.description)(start.slots())),
+            FmiVersion::Fmi3(layout) => to_xml(&(self.functions.fmi3_description)(start.slots(), layout)),
         }
     }
 
@@ -181,8 +183,8 @@ impl Model {
     /// The documentation's tables of variables.
     pub fn variables(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
-            FmiVersion::Fmi2 => (self.made.variables)(start.slots()),
-            FmiVersion::Fmi3(layout) => (self.made.fmi3_variables)(start.slots(), layout),
+            FmiVersion::Fmi2 => (self.functions.variables)(start.slots()),
+            FmiVersion::Fmi3(layout) => (self.functions.fmi3_variables)(start.slots(), layout),
         }
     }
 }

@@ -4,7 +4,7 @@ use moris_motorcycle::Motorcycle;
 
 use moris_setup::NamedValues;
 
-use super::{Made, Model, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
+use super::{Model, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -14,8 +14,9 @@ pub const MOTORCYCLE: Model = Model {
     packages: ["moris-motorcycle-fmi2", "moris-motorcycle-fmi3"],
     libraries: ["Motorcycle", "Motorcycle_fmi3"],
     title: "Motorcycle: a vehicle and its rider",
-    made: Made::from::<Motorcycle>(),
-    following: |_| NamedValues::new(),
+    functions: ModelFns::from::<Motorcycle>(),
+    derived_start_values: |_| NamedValues::new(),
+    consistency: |_| Ok(()),
     sections: &[
         Section {
             anchor: "what",

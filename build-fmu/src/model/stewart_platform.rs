@@ -5,7 +5,7 @@ use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
-use super::{ACTUATORS, Made, Model, POSE, POSE_MEMBERS, RIDER, Wording, terminal};
+use super::{ACTUATORS, Model, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -15,8 +15,9 @@ pub const STEWART_PLATFORM: Model = Model {
     packages: ["moris-stewart-platform-fmi2", "moris-stewart-platform-fmi3"],
     libraries: ["StewartPlatform", "StewartPlatform_fmi3"],
     title: "Stewart platform: a motion base with dynamics",
-    made: Made::from::<StewartPlatform>(),
-    following: commands_at_neutral,
+    functions: ModelFns::from::<StewartPlatform>(),
+    derived_start_values: commands_at_neutral,
+    consistency: |_| Ok(()),
     sections: &[
         Section {
             anchor: "what",
@@ -72,6 +73,6 @@ pub const STEWART_PLATFORM: Model = Model {
 
 /// The platform starts at neutral, and is told to be there.
 fn commands_at_neutral(start: &[f64]) -> NamedValues {
-    let rig = overlaid(&Rig::default(), &values_of(&STEWART_PLATFORM.made.identity, start));
+    let rig = overlaid(&Rig::default(), &values_of(&STEWART_PLATFORM.functions.identity, start));
     (1..).zip(neutral_lengths(&rig)).map(|(leg, length)| (format!("command[{leg}].length"), length)).collect()
 }

@@ -1,10 +1,10 @@
 //! The washout filter with the platform's kinematics.
 
+use moris_interface::SlotModel;
+use moris_setup::{NamedValues, contradiction};
 use moris_washout::Washout;
 
-use moris_setup::NamedValues;
-
-use super::{ACTUATORS, Made, Model, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
+use super::{ACTUATORS, Model, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
@@ -14,8 +14,9 @@ pub const WASHOUT: Model = Model {
     packages: ["moris-washout-fmi2", "moris-washout-fmi3"],
     libraries: ["MorisWashout", "MorisWashout_fmi3"],
     title: "MORIS washout: motion cueing for a motorcycle simulator",
-    made: Made::from::<Washout>(),
-    following: |_| NamedValues::new(),
+    functions: ModelFns::from::<Washout>(),
+    derived_start_values: |_| NamedValues::new(),
+    consistency: |start| contradiction(&Washout::parameters_in(start)),
     sections: &[
         Section {
             anchor: "what",

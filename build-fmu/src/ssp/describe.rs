@@ -106,7 +106,7 @@ fn bound_to(name: &str) -> schema::ParameterBindings {
 fn own_connectors(system: &System) -> schema::Connectors {
     let own = |kind: schema::ConnectorKind| {
         move |port: &Port| {
-            let identity = system.component(port.component).model.made.identity;
+            let identity = system.component(port.component).model.functions.identity;
             schema::Connector { name: port.name.to_owned(), ..connector(&identity, port.variable, kind) }
         }
     };
@@ -138,7 +138,7 @@ fn component(
     inputs: &[Port],
     outputs: &[Port],
 ) -> schema::Component {
-    let identity = component.model.made.identity;
+    let identity = component.model.functions.identity;
     let is_port =
         |ports: &[Port], name: &str| ports.iter().any(|port| port.component == component.name && port.variable == name);
     let has_input = |name: &str| {
@@ -215,7 +215,7 @@ fn wires(inputs: &[Port], connections: &[Connection], outputs: &[Port]) -> Vec<s
 /// Every unit that the components' variables have, once.
 fn units(system: &System) -> schema::Units {
     let mut units: Vec<schema::Unit> = Vec::new();
-    for row in system.components.iter().flat_map(|component| component.model.made.identity.rows) {
+    for row in system.components.iter().flat_map(|component| component.model.functions.identity.rows) {
         if let Kind::Real(unit) = row.kind
             && !unit.name.is_empty()
             && units.iter().all(|known| known.name != unit.name)

@@ -20,7 +20,8 @@ pub fn read(system: &System) -> Result<ByComponent, Error> {
     let mut by_component = ByComponent::new();
     for (name, values) in &tables {
         let component = system.components.iter().find(|component| component.name == name);
-        let identity = component.ok_or_else(|| error(format!("there is no component {name}")))?.model.made.identity;
+        let identity =
+            component.ok_or_else(|| error(format!("there is no component {name}")))?.model.functions.identity;
         let values = values.as_table().ok_or_else(|| error(format!("{name} must be a table of parameters")))?;
         let mut parameters = Vec::new();
         for (variable, value) in values {

@@ -135,8 +135,9 @@ fn simulator_connections() -> Vec<Connection> {
         from: (from, output),
         to: (to, input),
     };
-    let delivered = names(&MOTORCYCLE.made.identity, Causality::Output);
-    let taken = names(&WASHOUT.made.identity, Causality::Input).into_iter().filter(|name| delivered.contains(name));
+    let delivered = names(&MOTORCYCLE.functions.identity, Causality::Output);
+    let taken =
+        names(&WASHOUT.functions.identity, Causality::Input).into_iter().filter(|name| delivered.contains(name));
     let mut connections: Vec<Connection> =
         taken.map(|name| connect(("motorcycle", name.clone()), ("washout", name))).collect();
     for quantity in ["length", "velocity"] {

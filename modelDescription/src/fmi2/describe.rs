@@ -3,23 +3,15 @@
 use moris_fmi::LOG_CATEGORIES;
 use moris_interface::{Causality, Identity, Kind, Model, guid_of, start_values};
 
-use crate::common::units::{RealAttributes, Unit};
-use crate::fmi2::model_description::{
-    Category, CoSimulation, DefaultExperiment, LogCategories, ModelDescription, ModelVariables, TypeDefinitions,
-    UnitDefinitions,
-};
-use crate::fmi2::model_structure::{ModelStructure, Unknowns};
-use crate::fmi2::scalar_variable::{Initial, ScalarVariable, Values};
-use crate::fmi2::type_definitions::SimpleType;
-
-/// Whom the FMU is from and who may use it.
-const AUTHOR: &str = "MORIS washout contributors";
-const COPYRIGHT: &str = "Copyright (c) MORIS washout contributors";
-const LICENSE: &str = "MIT OR Apache-2.0";
-const GENERATION_TOOL: &str = concat!("MORIS washout model-description ", env!("CARGO_PKG_VERSION"));
-
-/// The date of the interface, not of the build: the same sources give the same file.
-const GENERATION_DATE_AND_TIME: &str = "2026-01-01T00:00:00Z";
+use super::model_description::{CoSimulation, ModelDescription, ModelVariables, TypeDefinitions};
+use super::model_structure::{ModelStructure, Unknowns};
+use super::scalar_variable::{ScalarVariable, Values};
+use super::type_definitions::SimpleType;
+use crate::common::attributes::Initial;
+use crate::common::enumerations::enumerations;
+use crate::common::origin;
+use crate::common::parts::{LogCategories, UnitDefinitions};
+use crate::common::units::RealAttributes;
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
 pub fn describe<M: Model>() -> ModelDescription {
@@ -38,22 +30,18 @@ pub fn describe_with<M: Model>(start: &[f64]) -> ModelDescription {
         model_name: identity.name.to_owned(),
         guid: guid_of::<M>(start),
         description: identity.text.to_owned(),
-        author: AUTHOR.to_owned(),
+        author: origin::AUTHOR.to_owned(),
         version: identity.version.to_owned(),
-        copyright: COPYRIGHT.to_owned(),
-        license: LICENSE.to_owned(),
-        generation_tool: GENERATION_TOOL.to_owned(),
-        generation_date_and_time: GENERATION_DATE_AND_TIME.to_owned(),
-        variable_naming_convention: "structured".to_owned(),
+        copyright: origin::COPYRIGHT.to_owned(),
+        license: origin::LICENSE.to_owned(),
+        generation_tool: origin::GENERATION_TOOL.to_owned(),
+        generation_date_and_time: origin::GENERATION_DATE_AND_TIME.to_owned(),
+        variable_naming_convention: origin::VARIABLE_NAMING_CONVENTION.to_owned(),
         co_simulation: co_simulation(&identity),
-        unit_definitions: unit_definitions(&identity),
+        unit_definitions: UnitDefinitions::of(&identity),
         type_definitions: type_definitions(&identity),
-        log_categories: log_categories(),
-        default_experiment: DefaultExperiment {
-            start_time: 0.0,
-            stop_time: identity.stop_time,
-            step_size: identity.step_size,
-        },
+        log_categories: LogCategories::of(LOG_CATEGORIES.iter().copied()),
+        default_experiment: (&identity).into(),
         model_variables: ModelVariables {
             variables: (identity.listed_slots().into_iter())
                 .map(|slot| scalar_variable(&identity, slot, start[slot]))
@@ -78,39 +66,10 @@ fn co_simulation(identity: &Identity) -> CoSimulation {
     }
 }
 
-/// Every unit that a row has, once, in the order in which they appear; with the unit for display
-/// that any of these rows has.
-fn unit_definitions(identity: &Identity) -> Option<UnitDefinitions> {
-    let mut units: Vec<Unit> = Vec::new();
-    for row in identity.rows {
-        let Kind::Real(unit) = row.kind else { continue };
-        let unit = Unit::from(unit);
-        match units.iter_mut().find(|known| known.name == unit.name) {
-            Some(known) => known.display_unit = known.display_unit.take().or(unit.display_unit),
-            None if unit.name.is_empty() => {}
-            None => units.push(unit),
-        }
-    }
-    (!units.is_empty()).then_some(UnitDefinitions { units })
-}
-
-/// Every enumeration that a row has, once, in the order in which they appear.
+/// The enumerations; none without any.
 fn type_definitions(identity: &Identity) -> Option<TypeDefinitions> {
-    let mut types: Vec<SimpleType> = Vec::new();
-    for row in identity.rows {
-        if let Kind::Enumeration(enumeration) = row.kind
-            && types.iter().all(|known| known.name != enumeration.name)
-        {
-            types.push(enumeration.into());
-        }
-    }
+    let types: Vec<SimpleType> = enumerations(identity).into_iter().map(SimpleType::from).collect();
     (!types.is_empty()).then_some(TypeDefinitions { types })
-}
-
-fn log_categories() -> LogCategories {
-    let category =
-        |&(name, description): &(&str, &str)| Category { name: name.to_owned(), description: description.to_owned() };
-    LogCategories { categories: LOG_CATEGORIES.iter().map(category).collect() }
 }
 
 fn scalar_variable(identity: &Identity, slot: usize, start: f64) -> ScalarVariable {

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::common::units::Unit;
-use crate::fmi2::model_structure::ModelStructure;
-use crate::fmi2::scalar_variable::ScalarVariable;
-use crate::fmi2::type_definitions::SimpleType;
+use super::model_structure::ModelStructure;
+use super::scalar_variable::ScalarVariable;
+use super::type_definitions::SimpleType;
+use crate::common::parts::{DefaultExperiment, LogCategories, UnitDefinitions};
 
 /// `fmiModelDescription`: the order of the fields is the order that the schema prescribes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -81,45 +81,11 @@ pub struct CoSimulation {
     pub provides_directional_derivative: bool,
 }
 
-/// `UnitDefinitions`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct UnitDefinitions {
-    #[serde(rename = "Unit")]
-    pub units: Vec<Unit>,
-}
-
 /// `TypeDefinitions`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TypeDefinitions {
     #[serde(rename = "SimpleType")]
     pub types: Vec<SimpleType>,
-}
-
-/// `LogCategories`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LogCategories {
-    #[serde(rename = "Category")]
-    pub categories: Vec<Category>,
-}
-
-/// A kind of message that a host can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Category {
-    #[serde(rename = "@name")]
-    pub name: String,
-    #[serde(rename = "@description")]
-    pub description: String,
-}
-
-/// `DefaultExperiment`: what a host runs when its user says nothing; times in seconds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DefaultExperiment {
-    #[serde(rename = "@startTime")]
-    pub start_time: f64,
-    #[serde(rename = "@stopTime")]
-    pub stop_time: f64,
-    #[serde(rename = "@stepSize")]
-    pub step_size: f64,
 }
 
 /// `ModelVariables`: a variable's index is its place in this list, from 1.

@@ -1,14 +1,17 @@
 //! From a model's rows to its description.
 
 use moris_fmi::fmi3::{LOG_CATEGORIES, Layout};
-use moris_interface::{Causality, Identity, Kind, Model, Row, start_values};
+use moris_interface::{Causality, Identity, Kind, Model, Row, guid_of, start_values};
 
-use super::model_description::{CoSimulation, EnumerationType, ModelDescription, ModelVariables, TypeDefinitions};
+use super::model_description::{CoSimulation, ModelDescription, ModelVariables, TypeDefinitions};
 use super::model_structure::{ModelStructure, Unknown};
+use super::type_definitions::EnumerationType;
 use super::variable::{Dimension, TypedVariable, Variable};
+use crate::common::attributes::Initial;
+use crate::common::enumerations::enumerations;
+use crate::common::origin;
+use crate::common::parts::{LogCategories, UnitDefinitions};
 use crate::common::units::RealAttributes;
-use crate::fmi2::model_description::{Category, LogCategories};
-use crate::fmi2::scalar_variable::Initial;
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
 pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
@@ -22,27 +25,23 @@ pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
 /// variable's first slot.
 pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> ModelDescription {
     let identity = M::IDENTITY;
-    // Who made the FMU and the units are as in FMI 2.0.
-    let fmi2 = crate::fmi2::describe_with::<M>(start);
     ModelDescription {
         fmi_version: "3.0".to_owned(),
-        model_name: fmi2.model_name,
-        instantiation_token: layout.token(&fmi2.guid),
-        description: fmi2.description,
-        author: fmi2.author,
-        version: fmi2.version,
-        copyright: fmi2.copyright,
-        license: fmi2.license,
-        generation_tool: fmi2.generation_tool,
-        generation_date_and_time: fmi2.generation_date_and_time,
-        variable_naming_convention: fmi2.variable_naming_convention,
+        model_name: identity.name.to_owned(),
+        instantiation_token: layout.token(&guid_of::<M>(start)),
+        description: identity.text.to_owned(),
+        author: origin::AUTHOR.to_owned(),
+        version: identity.version.to_owned(),
+        copyright: origin::COPYRIGHT.to_owned(),
+        license: origin::LICENSE.to_owned(),
+        generation_tool: origin::GENERATION_TOOL.to_owned(),
+        generation_date_and_time: origin::GENERATION_DATE_AND_TIME.to_owned(),
+        variable_naming_convention: origin::VARIABLE_NAMING_CONVENTION.to_owned(),
         co_simulation: co_simulation(&identity),
-        unit_definitions: fmi2.unit_definitions,
-        type_definitions: fmi2.type_definitions.map(|definitions| TypeDefinitions {
-            types: definitions.types.into_iter().map(EnumerationType::from).collect(),
-        }),
-        log_categories: log_categories(),
-        default_experiment: fmi2.default_experiment,
+        unit_definitions: UnitDefinitions::of(&identity),
+        type_definitions: type_definitions(&identity),
+        log_categories: LogCategories::of(LOG_CATEGORIES.iter().map(|(category, text)| (category.name(), *text))),
+        default_experiment: (&identity).into(),
         model_variables: ModelVariables { variables: variables(&identity, start, layout) },
         model_structure: model_structure(&identity, layout),
     }
@@ -66,18 +65,10 @@ fn co_simulation(identity: &Identity) -> CoSimulation {
     }
 }
 
-impl From<crate::fmi2::type_definitions::SimpleType> for EnumerationType {
-    fn from(simple: crate::fmi2::type_definitions::SimpleType) -> Self {
-        EnumerationType { name: simple.name, description: simple.description, items: simple.enumeration.items }
-    }
-}
-
-fn log_categories() -> LogCategories {
-    let category = |&(category, description): &(moris_fmi::LogCategory, &str)| Category {
-        name: category.name().to_owned(),
-        description: description.to_owned(),
-    };
-    LogCategories { categories: LOG_CATEGORIES.iter().map(category).collect() }
+/// The enumerations; none without any.
+fn type_definitions(identity: &Identity) -> Option<TypeDefinitions> {
+    let types: Vec<EnumerationType> = enumerations(identity).into_iter().map(EnumerationType::from).collect();
+    (!types.is_empty()).then_some(TypeDefinitions { types })
 }
 
 /// A variable of the description: one or all of a row's slots.

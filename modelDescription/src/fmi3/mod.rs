@@ -1,12 +1,12 @@
 //! The schema of FMI 3.0, as far as a co-simulation FMU of ours uses it, and its
 //! description of a model.
 //!
-//! A row of the interface with several values is as many scalars or one array: see [`Layout`]. What
-//! is as in FMI 2.0 is taken from there.
+//! A row of the interface with several values is as many scalars or one array: see [`Layout`].
 
 mod describe;
 pub mod model_description;
 pub mod model_structure;
+pub mod type_definitions;
 pub mod variable;
 mod variables_html;
 

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::model_structure::ModelStructure;
+use super::type_definitions::EnumerationType;
 use super::variable::TypedVariable;
-use crate::fmi2::model_description::{DefaultExperiment, LogCategories, UnitDefinitions};
-use crate::fmi2::type_definitions::Item;
+use crate::common::parts::{DefaultExperiment, LogCategories, UnitDefinitions};
 
 /// `fmiModelDescription`: the order of the fields is the order that the schema prescribes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -90,17 +90,6 @@ pub struct CoSimulation {
 pub struct TypeDefinitions {
     #[serde(rename = "EnumerationType")]
     pub types: Vec<EnumerationType>,
-}
-
-/// `EnumerationType`
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct EnumerationType {
-    #[serde(rename = "@name")]
-    pub name: String,
-    #[serde(rename = "@description")]
-    pub description: String,
-    #[serde(rename = "Item")]
-    pub items: Vec<Item>,
 }
 
 /// `ModelVariables`

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::fmi2::scalar_variable::{Causality, Initial, Variability};
+use crate::common::attributes::{Causality, Initial, Variability};
 
 /// A variable; the element's name is its type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,10 +4,11 @@ use moris_interface::{Kind, Model, Row};
 
 use super::Layout;
 use super::describe::dimensions;
-use crate::fmi2::variables_html::{Notation, breakable, html, name_html as scalar_name_html};
+use crate::common::variables_html::{Notation, breakable, html, name_html as scalar_name_html};
 
-/// The tables of a model's variables as HTML, as [`crate::fmi2::variables_html`] makes them, with
-/// the names and types of FMI 3.0.
+/// The tables of a model's variables as HTML: one table for the inputs, the outputs, the
+/// tunable and the fixed parameters, with the names and types of FMI 3.0. `start` has the
+/// start value of each slot.
 pub fn variables_html<M: Model>(start: &[f64], layout: Layout) -> String {
     let notation = match layout {
         Layout::Scalars => Notation { name: scalar_name_html, type_name: |row| element_type_name(row.kind).to_owned() },

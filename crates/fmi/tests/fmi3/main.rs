@@ -1,7 +1,7 @@
 //! The C functions of FMI 3.0, tested as a host sees them: the shared library of a small model with
 //! vectors, whose behaviour is known in closed form, is loaded and called.
 //!
-//! What all versions of FMI share is tested through the functions of FMI 2.0, in `tests/abi`.
+//! What all versions of FMI share is tested through the functions of FMI 2.0, in `tests/fmi2`.
 
 mod calling_sequence;
 mod creation;

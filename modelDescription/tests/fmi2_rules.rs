@@ -1,10 +1,12 @@
 //! Requirements of FMI 2.0 on a model description, and errors that no validator reports, checked on
 //! the text of the file with an XML reader that knows nothing of how it was written.
 
+mod document;
 mod small_model;
 
 use std::collections::{BTreeSet, HashMap};
 
+use document::{child, elements, has_enumerations, type_definitions, variables};
 use moris_interface::{Causality, Kind, Model, SlotModel};
 use moris_model_description::{fmi2::describe, to_xml};
 use moris_motorcycle::Motorcycle;
@@ -302,29 +304,6 @@ fn angles_and_their_rates_are_shown_in_degrees_and_break_frequencies_are_not() {
     assert_eq!(display("tilt.rateLimit"), Some("deg/s"));
     assert_eq!(display("tilt.accelerationLimit"), Some("deg/s2"));
     assert_eq!(display("splitter.x.omega1"), None);
-}
-
-/// True if the model has an enumeration; only then are there types to define.
-fn has_enumerations<M: Model>() -> bool {
-    M::IDENTITY.rows.iter().any(|row| matches!(row.kind, Kind::Enumeration(_)))
-}
-
-/// The definitions of types; none where there is no such part.
-fn type_definitions<'a, 'input: 'a>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
-    let part = elements(document.root_element()).find(|part| part.has_tag_name("TypeDefinitions"));
-    part.into_iter().flat_map(elements).collect()
-}
-
-fn elements<'a, 'input: 'a>(node: Node<'a, 'input>) -> impl Iterator<Item = Node<'a, 'input>> {
-    node.children().filter(Node::is_element)
-}
-
-fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Node<'a, 'input> {
-    elements(node).find(|child| child.has_tag_name(name)).unwrap_or_else(|| panic!("no {name}"))
-}
-
-fn variables<'a, 'input>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
-    elements(child(document.root_element(), "ModelVariables")).collect()
 }
 
 /// The slot that a variable's value reference is.
