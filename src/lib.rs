@@ -35,7 +35,7 @@ pub use nalgebra;
 
 pub use interface::{Input, Output, Parameters, Preview, Rig};
 pub use moris_interface::Refusal;
-pub use validate::check;
+pub use validate::{check, check_rig};
 pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, SHORTEST_STEP, Washout};
 
 // The snippets of this page, as doc tests.

@@ -1,19 +1,11 @@
 //! The washout as a model with variables, for whoever hosts it.
 
-use moris_interface::{Group, Identity, Model, Refusal, Time, interface_tree};
+use moris_interface::{Group, Identity, Model, Refusal, variables};
 
 use crate::interface::{Inputs, Output, Parameters};
 use crate::washout::{MOST_INTERNAL_STEPS, Washout};
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Inputs,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Inputs, Output, Parameters);
 
 impl Model for Washout {
     type Input = Inputs;

@@ -3,7 +3,7 @@
 use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
-use crate::platform::{Geometry, Pose, leg_lengths, stroke_reserve, survey};
+use crate::platform::{Geometry, Pose, check_torso, leg_lengths, stroke_reserve, survey};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
@@ -11,8 +11,9 @@ use crate::platform::{Geometry, Pose, leg_lengths, stroke_reserve, survey};
 /// The first parameter that cannot be used, and why.
 pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
     parameters.check_ranges()?;
-    check_head(parameters)?;
-    check_rig(&parameters.rig, parameters.structure.max_step)
+    let Parameters { structure, rig, .. } = parameters;
+    check_torso(structure.torso_length, structure.head_height, "platform")?;
+    check_rig(rig, structure.max_step)
 }
 
 /// Checks parameters that are to follow others, of which the tunable ones may change. No
@@ -25,21 +26,12 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
     check_fixed::<_, { slot_count(Parameters::ROWS) }>(Parameters::ROWS, from, to)
 }
 
-fn check_head(parameters: &Parameters) -> Result<(), Refusal> {
-    let structure = &parameters.structure;
-    if structure.torso_length > structure.head_height {
-        return refuse(
-            "head.torsoLength",
-            format!(
-                "is {} m, which puts the seat below the platform; it must not exceed head.height, {} m",
-                structure.torso_length, structure.head_height
-            ),
-        );
-    }
-    Ok(())
-}
-
-fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
+/// Checks a rig that is stepped in internal steps of `longest_step` \[s\] at most: the order of the
+/// stroke's ends, the pose at neutral, and that no pose is singular.
+///
+/// # Errors
+/// The first parameter that cannot be used, and why.
+pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
     let Rig { min_length, max_length, .. } = *rig;
     if min_length >= max_length {
         return refuse(

@@ -17,7 +17,7 @@ use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruc
 use crate::motion::Motions;
 use crate::motion::extremes::{max, min};
 use crate::motion::orientation::Turning;
-use crate::platform::head::Head;
+use crate::platform::LocationFrame;
 use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
 use crate::validate::{check, check_change};
 
@@ -61,7 +61,7 @@ pub struct Washout {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Sample {
     input: Input,
-    head: Head,
+    head: LocationFrame,
     cue: Cue,
 }
 
@@ -69,7 +69,7 @@ impl Sample {
     #[inline(always)]
     fn new(input: Input, parameters: &Parameters) -> Self {
         let Parameters { conditioning, structure, .. } = parameters;
-        let head = Head::new(structure, input.lean);
+        let head = LocationFrame::new(structure, input.lean);
         Sample { input, head, cue: cue(&input, conditioning, structure.gravity, head.lean) }
     }
 }

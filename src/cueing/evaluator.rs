@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::cueing::compensation::{centripetal, tangential};
+use crate::platform::LocationFrame;
 use crate::platform::PlatformMotion;
-use crate::platform::head::Head;
 
 /// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in the
 /// axes of the frame there.
@@ -20,7 +20,7 @@ pub struct Felt {
 /// The rider's own leaning is not the platform's doing: his head is taken as at rest
 /// relative to the platform.
 #[inline(always)]
-pub fn felt(platform: &PlatformMotion, head: &Head, gravity: f64) -> Felt {
+pub fn felt(platform: &PlatformMotion, head: &LocationFrame, gravity: f64) -> Felt {
     let rotation = platform.orientation.rotation;
     let arm = rotation * head.point;
     let acceleration = platform.acceleration
@@ -28,7 +28,7 @@ pub fn felt(platform: &PlatformMotion, head: &Head, gravity: f64) -> Felt {
         + centripetal(platform.angular_velocity, arm);
     let specific_force = acceleration + Vector3::new(0.0, 0.0, gravity);
     Felt {
-        specific_force: head.to_head_axes(rotation.tr_mul(&specific_force)),
-        angular_velocity: head.to_head_axes(rotation.tr_mul(&platform.angular_velocity)),
+        specific_force: head.to_location_axes(rotation.tr_mul(&specific_force)),
+        angular_velocity: head.to_location_axes(rotation.tr_mul(&platform.angular_velocity)),
     }
 }

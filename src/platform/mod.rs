@@ -3,10 +3,10 @@
 mod coordinates;
 mod forward;
 mod guard;
-pub mod head;
 mod inverse;
 mod jacobian;
 mod joints;
+mod location;
 mod stop_plan;
 mod survey;
 
@@ -19,6 +19,7 @@ pub use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;
+pub use location::{LocationFrame, check_torso};
 pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;

@@ -5,7 +5,7 @@ use moris_washout::cueing::compensation::{added_gravity, centripetal, tangential
 use moris_washout::cueing::gravitational::Tilt;
 use moris_washout::interface::{RollPitchYaw, StructureParameters};
 use moris_washout::motion::orientation::Orientation;
-use moris_washout::platform::head::Head;
+use moris_washout::platform::LocationFrame;
 use moris_washout::{Input, Washout};
 use nalgebra::Vector3;
 
@@ -38,11 +38,11 @@ fn at_rest_the_specific_force_is_gravity_upward() {
 fn an_upright_head_is_above_the_platforms_origin() {
     // Eq. (4) as printed has y = (h - b) + b sin(lean).
     let structure = StructureParameters::default();
-    assert_eq!(Head::new(&structure, 0.0).point, Vector3::new(0.0, 0.0, 1.2));
+    assert_eq!(LocationFrame::new(&structure, 0.0).point, Vector3::new(0.0, 0.0, 1.2));
     for lean in [-0.5, -0.1, 0.2, 0.6] {
         let [x, y, z] = rotate_x(lean, [0.0, 0.0, structure.torso_length]);
         let seat = structure.head_height - structure.torso_length;
-        let head = Head::new(&structure, lean);
+        let head = LocationFrame::new(&structure, lean);
         assert!((head.point - Vector3::new(x, y, seat + z)).norm() < 1e-15);
         // Leaning to the right moves the head to the right, which is -y.
         assert_eq!(head.point.y < 0.0, lean > 0.0);

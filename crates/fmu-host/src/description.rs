@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use moris_interface::{Identity, Kind};
+
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 
@@ -85,6 +87,20 @@ fn attribute(element: &BytesStart, name: &str) -> Result<String, HostError> {
     let found = element.try_get_attribute(name).map_err(|error| describe(&error))?;
     let found = found.ok_or_else(|| describe(&format!("an element has no attribute '{name}'")))?;
     Ok(found.unescape_value().map_err(|error| describe(&error))?.into_owned())
+}
+
+/// The variables of a model's library by name, for a library without a description.
+pub fn variables_of(identity: &Identity) -> HashMap<String, Variable> {
+    let variable = |slot: usize| {
+        let kind = match identity.row(slot).kind {
+            Kind::Real(_) => VariableKind::Real,
+            Kind::Integer => VariableKind::Integer,
+            Kind::Boolean => VariableKind::Boolean,
+            Kind::Enumeration(_) => VariableKind::Enumeration,
+        };
+        (identity.variable_name(slot), Variable { value_reference: slot as u32, kind })
+    };
+    (0..identity.slots.len()).map(variable).collect()
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ mod messages;
 mod state;
 
 pub use api::{Api, Status};
-pub use description::{Variable, VariableKind};
+pub use description::{Variable, VariableKind, variables_of};
 pub use error::HostError;
 pub use example::example_library;
 pub use fmu::Fmu;

@@ -7,3 +7,4 @@ pub mod standard2;
 /// The calling sequence of FMI 3.0.
 #[path = "../../fmi/tests/fmi3/standard.rs"]
 pub mod standard3;
+pub mod swing;

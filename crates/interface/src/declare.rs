@@ -169,6 +169,50 @@ macro_rules! interface_tree {
     };
 }
 
+/// Declares `Variables`, the tree of a model's groups: time, inputs, outputs and parameters.
+///
+/// ```
+/// use moris_interface::{Group, interface, variables};
+/// interface! {
+///     /// The signal.
+///     pub struct Input: Input, Continuous {
+///         /// A length.
+///         "u" u: f64 = 0.0;
+///     }
+/// }
+/// interface! {
+///     /// The result.
+///     pub struct Output: Output, Continuous {
+///         /// A length.
+///         "y" y: f64 = 0.0;
+///     }
+/// }
+/// interface! {
+///     /// Parameters.
+///     pub struct Parameters: Parameter, Fixed {
+///         /// A ratio.
+///         "gain" gain: f64 = 1.0;
+///     }
+/// }
+/// variables!(Input, Output, Parameters);
+/// let names: Vec<_> = Variables::ROWS.iter().map(|row| row.name).collect();
+/// assert_eq!(names, ["time", "u", "y", "gain"]);
+/// ```
+#[macro_export]
+macro_rules! variables {
+    ($input:ty, $output:ty, $parameters:ty) => {
+        $crate::interface_tree! {
+            /// All variables.
+            pub struct Variables {
+                time: $crate::Time,
+                input: $input,
+                output: $output,
+                parameters: $parameters,
+            }
+        }
+    };
+}
+
 /// Declares an enumeration that a field may have; FMI counts its items from 1.
 #[macro_export]
 macro_rules! enumeration {

@@ -89,7 +89,7 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 ///
 /// ```
 /// use moris_interface::units::M;
-/// use moris_interface::{Group, Identity, Model, Refusal, SlotModel, Time, interface, interface_tree};
+/// use moris_interface::{Group, Identity, Model, Refusal, SlotModel, interface, variables};
 /// use serde::{Deserialize, Serialize};
 ///
 /// interface! {
@@ -113,15 +113,7 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 ///         "gain" gain: f64 { 0.0 ..= 10.0 } = 1.0;
 ///     }
 /// }
-/// interface_tree! {
-///     /// All variables.
-///     pub struct Variables {
-///         time: Time,
-///         input: Input,
-///         output: Output,
-///         parameters: Parameters,
-///     }
-/// }
+/// variables!(Input, Output, Parameters);
 ///
 /// #[derive(Clone, Serialize, Deserialize)]
 /// struct Gain(Parameters, f64);

@@ -1,6 +1,7 @@
 //! Validation of parameters: each alone, and in combination.
 
 use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
+use moris_washout::platform::check_torso;
 
 use nalgebra::{Complex, SVector};
 
@@ -34,15 +35,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
         );
     }
     let rider = &parameters.rider;
-    if rider.torso_length > rider.head_height {
-        return refuse(
-            "head.torsoLength",
-            format!(
-                "is {} m, which puts the seat below the road; it must not exceed head.height, {} m",
-                rider.torso_length, rider.head_height
-            ),
-        );
-    }
+    check_torso(rider.torso_length, rider.head_height, "road")?;
     if rider.torso_mass > parameters.machine.frame_mass {
         return refuse(
             "rider.torsoMass",

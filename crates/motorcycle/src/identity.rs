@@ -1,18 +1,10 @@
 //! The motorcycle's name and variables.
 
-use moris_interface::{Group, Identity, Time, interface_tree};
+use moris_interface::{Group, Identity, variables};
 
 use crate::interface::{Input, Output, Parameters};
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Input,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Input, Output, Parameters);
 
 pub const IDENTITY: Identity = Identity {
     name: "Motorcycle",

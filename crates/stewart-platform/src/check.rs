@@ -1,7 +1,9 @@
 //! Validation of parameters: each alone, and in combination.
 
 use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
+use moris_washout::check_rig;
 use moris_washout::interface::StructureParameters;
+use moris_washout::platform::check_torso;
 use nalgebra::Vector6;
 
 use crate::identity::parameter_rows;
@@ -14,14 +16,9 @@ use crate::interface::{Inertia, Parameters};
 pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
     let Parameters { setting, rig, .. } = parameters;
     parameters.check_ranges()?;
-    // Rig and head are the washout's too, and so are the rules for them.
-    let structure = StructureParameters {
-        head_height: setting.head_height,
-        torso_length: setting.torso_length,
-        gravity: setting.gravity,
-        ..StructureParameters::default()
-    };
-    moris_washout::check(&moris_washout::Parameters { rig: *rig, structure, ..Default::default() })?;
+    check_torso(setting.torso_length, setting.head_height, "platform")?;
+    // The rules for a rig are the washout's, in the washout's internal step.
+    check_rig(rig, StructureParameters::START.max_step)?;
     check_tunable(parameters, at_rest)
 }
 

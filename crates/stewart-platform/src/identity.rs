@@ -1,18 +1,10 @@
 //! The platform's name and variables.
 
-use moris_interface::{Group, Identity, Row, Time, interface_tree, with_tunable};
+use moris_interface::{Group, Identity, Row, variables, with_tunable};
 
 use crate::interface::{Input, Output, Parameters};
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Input,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Input, Output, Parameters);
 
 /// The rows of [`Variables`]. The drives' limits are the rig's; they are fixed for the washout,
 /// which plans by them, and tunable here.

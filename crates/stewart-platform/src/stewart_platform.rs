@@ -2,9 +2,8 @@
 
 use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, Refusal, SHORTEST_STEP, bounds_of};
 use moris_washout::cueing::evaluator::{Felt, felt};
-use moris_washout::interface::StructureParameters;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
-use moris_washout::platform::head::Head;
+use moris_washout::platform::LocationFrame;
 use moris_washout::platform::{Geometry, Legs, PlatformMotion, Pose, motion_of_legs};
 use nalgebra::Vector6;
 use serde::{Deserialize, Serialize};
@@ -351,12 +350,8 @@ impl StewartPlatform {
     /// Specific force and angular velocity at the rider's head for this lean.
     fn felt(&self, motion: &PlatformMotion, lean: f64) -> Felt {
         let setting = &self.parameters.setting;
-        let place = StructureParameters {
-            head_height: setting.head_height,
-            torso_length: setting.torso_length,
-            ..StructureParameters::default()
-        };
-        felt(motion, &Head::new(&place, lean), setting.gravity)
+        let head = LocationFrame::leaning(setting.head_height, setting.torso_length, lean);
+        felt(motion, &head, setting.gravity)
     }
 
     /// The smallest distance of a leg from an end of its stroke \[m\], and its rate \[m/s\].

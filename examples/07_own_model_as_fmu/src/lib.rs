@@ -3,7 +3,7 @@
 #![allow(non_snake_case)] // FMI 2.0 names the library as the model
 
 use moris_interface::units::{M_PER_S2, S};
-use moris_interface::{Group, Identity, Model, Refusal, Time, interface, interface_tree};
+use moris_interface::{Group, Identity, Model, Refusal, interface, variables};
 use serde::{Deserialize, Serialize};
 
 interface! {
@@ -30,15 +30,7 @@ interface! {
     }
 }
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Input,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Input, Output, Parameters);
 
 /// The low-pass: tau y' = u - y.
 #[derive(Clone, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 //! A model with a variable of every kind, for the tests.
 
 use moris_interface::units::{M, RAD_PER_S};
-use moris_interface::{Group, Identity, Model, Refusal, Time, enumeration, interface, interface_tree};
+use moris_interface::{Group, Identity, Model, Refusal, enumeration, interface, interface_tree, variables};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -63,15 +63,7 @@ interface_tree! {
     }
 }
 
-interface_tree! {
-    /// All of it.
-    pub struct All {
-        time: Time,
-        entry: Entry,
-        exit: Exit,
-        parameters: Parameters,
-    }
-}
+variables!(Entry, Exit, Parameters);
 
 /// It does nothing; it is only described.
 #[derive(Clone, Serialize, Deserialize)]
@@ -85,8 +77,8 @@ impl Model for Small {
         name: "Small",
         version: "1.2.3",
         text: "A model for tests.",
-        rows: All::ROWS,
-        slots: All::SLOTS,
+        rows: Variables::ROWS,
+        slots: Variables::SLOTS,
         main_parameters: &["many"],
         stop_time: 2.5,
         step_size: 0.01,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::cueing::gravitational::GravitationalStrategy;
 use crate::cueing::splitter::LowPass;
 use crate::interface::Parameters;
-use crate::platform::head::Head;
+use crate::platform::LocationFrame;
 
 /// The strategy with its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -43,14 +43,14 @@ impl Classical {
         &mut self,
         [start, end]: [Vector3<f64>; 2],
         rotation: &Matrix3<f64>,
-        head: &Head,
+        head: &LocationFrame,
         lean: f64,
         parameters: &Parameters,
         step: f64,
     ) {
         let Parameters { tilt, structure, .. } = parameters;
         let low_frequency = self.low_pass.advance(start, end, step);
-        let low_frequency = head.to_head_axes(rotation.tr_mul(&low_frequency));
+        let low_frequency = head.to_location_axes(rotation.tr_mul(&low_frequency));
         self.gravitational.advance(low_frequency, structure.gravity, lean, tilt, structure.max_step, step);
     }
 }

@@ -30,7 +30,7 @@ use crate::interface::{Parameters, StrategyKind};
 use crate::motion::Motions;
 use crate::motion::braking_law::{Limits, Motion};
 use crate::motion::orientation::Turning;
-use crate::platform::head::Head;
+use crate::platform::LocationFrame;
 use crate::platform::{ActuatorGuard, Geometry};
 
 /// Travel and tilt of surge and sway, and the law that decides on them.
@@ -60,7 +60,7 @@ enum Law {
 pub struct Circumstances<'a> {
     pub parameters: &'a Parameters,
     pub guard: &'a ActuatorGuard,
-    pub head: &'a Head,
+    pub head: &'a LocationFrame,
     /// The cue at the step's end, in head axes \[m/s2\].
     pub force: Vector3<f64>,
     /// Roll, pitch and yaw beside the tilt, at the step's end.
@@ -276,7 +276,7 @@ impl Circumstances<'_> {
 /// Surge and sway as the strategies see them.
 fn models(parameters: &Parameters) -> [AxisModel; 2] {
     let Parameters { tilt, safety, structure, .. } = parameters;
-    let head_height = Head::new(structure, 0.0).point.z;
+    let head_height = LocationFrame::new(structure, 0.0).point.z;
     [0, 1].map(|k: usize| AxisModel {
         head_height,
         gravity: structure.gravity,

@@ -1,6 +1,6 @@
 //! As many inputs and outputs as a washout has at a step, and nothing between them.
 
-use moris_interface::{Group, Identity, Model, Refusal, Time, interface, interface_tree};
+use moris_interface::{Group, Identity, Model, Refusal, interface, variables};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -34,15 +34,7 @@ interface! {
     }
 }
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Input,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Input, Output, Parameters);
 
 /// Nothing, as a model.
 #[derive(Clone, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 //! refuses, and with traps.
 
 use moris_interface::{
-    Group, Identity, Model, Refusal, Time, enumeration, interface, interface_tree, refuse, units::S,
+    Group, Identity, Model, Refusal, enumeration, interface, interface_tree, refuse, units::S, variables,
 };
 use serde::{Deserialize, Serialize};
 
@@ -104,15 +104,7 @@ interface_tree! {
     }
 }
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Input,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Input, Output, Parameters);
 
 /// A first-order lag.
 #[derive(Clone, Debug, Serialize, Deserialize)]

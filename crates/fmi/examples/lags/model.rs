@@ -2,7 +2,7 @@
 //! that are refused, and a trap.
 
 use moris_interface::{
-    Group, Identity, Model, Refusal, Time, enumeration, interface, interface_tree, refuse, units::S,
+    Group, Identity, Model, Refusal, enumeration, interface, interface_tree, refuse, units::S, variables,
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -77,15 +77,7 @@ interface_tree! {
     }
 }
 
-interface_tree! {
-    /// All variables.
-    pub struct Variables {
-        time: Time,
-        input: Input,
-        output: Output,
-        parameters: Parameters,
-    }
-}
+variables!(Input, Output, Parameters);
 
 /// Counts from 1, row by row.
 const WEIGHTS: [Vector3<f64>; 6] = [

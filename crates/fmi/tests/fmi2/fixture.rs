@@ -1,11 +1,10 @@
 //! The small model's library, and instances of it in every state.
 
-use std::collections::HashMap;
 use std::ffi::CString;
 use std::path::PathBuf;
 
-use moris_fmu_host::{Fmu, Instance, Message, Status, Variable, VariableKind};
-use moris_interface::{Identity, Kind, Model};
+use moris_fmu_host::{Fmu, Instance, Message, Status, variables_of};
+use moris_interface::{Identity, Model};
 
 use crate::model::FirstOrder;
 
@@ -21,17 +20,7 @@ pub fn guid() -> String {
 }
 
 pub fn open() -> Fmu {
-    let variable = |slot: usize| {
-        let kind = match IDENTITY.row(slot).kind {
-            Kind::Real(_) => VariableKind::Real,
-            Kind::Integer => VariableKind::Integer,
-            Kind::Boolean => VariableKind::Boolean,
-            Kind::Enumeration(_) => VariableKind::Enumeration,
-        };
-        (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
-    };
-    let variables: HashMap<_, _> = (0..IDENTITY.slots.len()).map(variable).collect();
-    Fmu::with_variables(&library(), &guid(), variables).unwrap()
+    Fmu::with_variables(&library(), &guid(), variables_of(&IDENTITY)).unwrap()
 }
 
 /// The value reference of the variable of this name.

@@ -6,9 +6,9 @@ use std::ptr::{null, null_mut};
 
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::fmi3::{self, Api, Library};
+use moris_fmu_tests::swing;
 use moris_interface::{Identity, Kind, Model, SlotModel};
-use moris_washout::interface::RollPitchYaw;
-use moris_washout::{Input, Parameters, Washout};
+use moris_washout::{Parameters, Washout};
 
 const IDENTITY: Identity = Washout::IDENTITY;
 
@@ -116,13 +116,6 @@ fn every_variable_can_be_read_and_has_its_start_value() {
     assert_eq!(bits(&instance.all_values()), bits(&start), "outputs during initialization are those after it");
 }
 
-/// A ride that shakes every axis: specific force, angular velocity, orientation, speed, lean.
-fn input(time: f64) -> [f64; 11] {
-    let mut input = std::array::from_fn(|k| (0.3 + 0.1 * k as f64) * ((1.0 + 0.7 * k as f64) * time).sin());
-    input[2] += 9.80665;
-    input
-}
-
 #[test]
 fn a_ride_is_the_same_bit_for_bit_as_in_rust() {
     let mut washout = Washout::new(&Parameters::default()).unwrap();
@@ -136,18 +129,10 @@ fn a_ride_is_the_same_bit_for_bit_as_in_rust() {
         .collect();
     for step in 0..3000 {
         let time = f64::from(step) * 1e-3;
-        let u = input(time);
+        let u = swing::values(time);
         instance.set(&references, &u);
         instance.step(time, 1e-3);
-        let rust_input = Input {
-            specific_force: [u[0], u[1], u[2]].into(),
-            angular_velocity: [u[3], u[4], u[5]].into(),
-            orientation: RollPitchYaw::new(u[6], u[7], u[8]),
-            speed: u[9],
-            lean: u[10],
-            engaged: true,
-        };
-        washout.step(&rust_input, 1e-3);
+        washout.step(&swing::input(&u), 1e-3);
     }
     let output = washout.output();
     let row = |name: &str| bits(&instance.row(IDENTITY.slot(name).unwrap()));

@@ -1,10 +1,9 @@
 //! The washout through the C functions of its shared library, as a host of FMI 2.0 calls them.
 
-use std::collections::HashMap;
 use std::path::Path;
 
 use anyhow::{Result, ensure};
-use moris_fmu_host::{Fmu, Instance, State, Status, Variable, VariableKind};
+use moris_fmu_host::{Fmu, Instance, State, Status, variables_of};
 use moris_interface::{Causality, Kind, Variability};
 use moris_washout::Washout;
 
@@ -48,7 +47,7 @@ impl FmuTarget {
         let fmu = if file.extension().is_some_and(|extension| extension == "fmu") {
             Fmu::open(file)?
         } else {
-            Fmu::with_variables(file, &moris_interface::guid::<Washout>(), by_name())?
+            Fmu::with_variables(file, &moris_interface::guid::<Washout>(), variables_of(&IDENTITY))?
         };
         let reference = |name: &str| Ok::<_, anyhow::Error>(variables.slot(name)? as u32);
         let inputs = variables.inputs();
@@ -233,18 +232,4 @@ impl Target for FmuTarget {
         self.time = time;
         Ok(())
     }
-}
-
-/// The library's variables, as the model has them.
-fn by_name() -> HashMap<String, Variable> {
-    let variable = |slot: usize| {
-        let kind = match IDENTITY.row(slot).kind {
-            Kind::Real(_) => VariableKind::Real,
-            Kind::Integer => VariableKind::Integer,
-            Kind::Boolean => VariableKind::Boolean,
-            Kind::Enumeration(_) => VariableKind::Enumeration,
-        };
-        (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
-    };
-    (0..IDENTITY.slots.len()).map(variable).collect()
 }

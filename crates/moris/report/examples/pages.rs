@@ -7,9 +7,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_report::{
-    Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight, html,
-};
+use moris_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Run, Value, Weight, html};
 use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 
@@ -69,7 +67,7 @@ fn two_runs() -> Report {
             ),
         ],
         provenance: vec![("ride".into(), "computed".into()), ("step".into(), "0.001 s, every tenth shown".into())],
-        rig: rig(&shipped),
+        rig: (&shipped).into(),
         runs: vec![
             ridden("default", &shipped, 60.0, 10),
             ridden("soft", &soft, 60.0, 10),
@@ -106,7 +104,7 @@ fn hostile() -> Report {
         subtitle: HOSTILE.into(),
         findings: vec![finding(Weight::Warning, HOSTILE)],
         provenance: vec![(HOSTILE.into(), HOSTILE.into())],
-        rig: rig(&Parameters::default()),
+        rig: (&Parameters::default()).into(),
         runs: vec![run.clone(), run],
         selected: 1,
     }
@@ -117,21 +115,9 @@ fn long() -> Report {
     let parameters = Parameters::default();
     Report {
         title: "Two minutes at 1 kHz".into(),
-        rig: rig(&parameters),
+        rig: (&parameters).into(),
         runs: vec![ridden("default", &parameters, 120.0, 1)],
         ..Report::default()
-    }
-}
-
-fn rig(parameters: &Parameters) -> Rig {
-    let Parameters { rig, structure, .. } = parameters;
-    Rig {
-        base: rig.base.map(Into::into),
-        platform: rig.platform.map(Into::into),
-        neutral_height: rig.neutral_height,
-        stroke: [rig.min_length, rig.max_length],
-        head_height: structure.head_height,
-        torso_length: structure.torso_length,
     }
 }
 

@@ -3,6 +3,7 @@
 //! All quantities are in SI units and in the frames of the washout: x forward, y left, z up;
 //! positive pitch is nose down. Every series of a [`Run`] has one value for each of its times.
 
+use moris_washout::Parameters;
 use serde::Serialize;
 
 use crate::encode::{f32_series, f64_series, flags};
@@ -61,6 +62,20 @@ pub struct Rig {
     pub head_height: f64,
     /// Length of the torso, about whose lower end the rider leans \[m\].
     pub torso_length: f64,
+}
+
+impl From<&Parameters> for Rig {
+    fn from(parameters: &Parameters) -> Self {
+        let Parameters { structure, rig, .. } = parameters;
+        Rig {
+            base: rig.base.map(Into::into),
+            platform: rig.platform.map(Into::into),
+            neutral_height: rig.neutral_height,
+            stroke: [rig.min_length, rig.max_length],
+            head_height: structure.head_height,
+            torso_length: structure.torso_length,
+        }
+    }
 }
 
 /// One ride with one set of parameters.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use moris_washout::interface::Parameters;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::head::Head;
+use moris_washout::platform::LocationFrame;
 
 use super::svg::Window;
 
@@ -23,7 +23,7 @@ pub fn view(parameters: &Parameters) -> String {
     let rig = &parameters.rig;
     let raised = |joint: &Vector3<f64>| joint + Vector3::new(0.0, 0.0, rig.neutral_height);
     let platform = rig.platform.map(|joint| raised(&joint));
-    let head = raised(&Head::new(&parameters.structure, 0.0).point);
+    let head = raised(&LocationFrame::new(&parameters.structure, 0.0).point);
     let seat = head - Vector3::new(0.0, 0.0, parameters.structure.torso_length);
     let radius = rig.base.iter().map(Vector3::norm).fold(0.0, f64::max);
     let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW * radius * axis);

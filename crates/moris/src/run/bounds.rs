@@ -63,7 +63,7 @@ pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound>
 fn limits(parameters: &Parameters, axis: usize) -> AxisLimits {
     let Parameters { safety, tilt, structure, rig, .. } = parameters;
     let reach = single_axis_range(rig, [Axis::Surge, Axis::Sway, Axis::Heave][axis]);
-    let head = moris_washout::platform::head::Head::new(structure, 0.0).point;
+    let head = moris_washout::platform::LocationFrame::new(structure, 0.0).point;
     AxisLimits {
         min: reach.min.max(-safety.position_limit[axis]),
         max: reach.max.min(safety.position_limit[axis]),

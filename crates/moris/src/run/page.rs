@@ -1,7 +1,7 @@
 //! The report's data.
 
 use moris_measures::Row;
-use moris_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
+use moris_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Run, Weight};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, Parameters};
@@ -27,7 +27,7 @@ pub fn report(ride: &Ride, outcomes: &[Outcome]) -> Report {
             ("Gravity".to_owned(), gravity(ride).to_owned()),
             ("Made by".to_owned(), format!("moris {}", env!("CARGO_PKG_VERSION"))),
         ],
-        rig: rig(&first.setup.parameters),
+        rig: (&first.setup.parameters).into(),
         runs: outcomes.iter().map(run).collect(),
         selected: 0,
     }
@@ -39,18 +39,6 @@ fn gravity(ride: &Ride) -> &'static str {
         "removed as gravityRemoval says, by the recorded orientation"
     } else {
         "no orientation recorded: what is cued is what differs from (0, 0, g), the force felt at rest"
-    }
-}
-
-fn rig(parameters: &Parameters) -> Rig {
-    let Parameters { structure, rig, .. } = parameters;
-    Rig {
-        base: rig.base.map(Into::into),
-        platform: rig.platform.map(Into::into),
-        neutral_height: rig.neutral_height,
-        stroke: [rig.min_length, rig.max_length],
-        head_height: structure.head_height,
-        torso_length: structure.torso_length,
     }
 }
 

@@ -4,8 +4,8 @@ use moris_batch::Replay;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::LocationFrame;
 use moris_washout::platform::Pose;
-use moris_washout::platform::head::Head;
 use moris_washout::{Input, Output, Parameters, Refusal, Washout};
 
 /// Every input and output of a ride.
@@ -65,7 +65,8 @@ impl Recording {
                 Orientation::new(input.orientation).rotation.transpose() * input.angular_velocity
             }
         };
-        let in_head = |input: &Input| Head::new(&self.parameters.structure, input.lean).to_head_axes(in_body(input));
+        let in_head =
+            |input: &Input| LocationFrame::new(&self.parameters.structure, input.lean).to_location_axes(in_body(input));
         self.inputs.iter().map(in_head).collect()
     }
 

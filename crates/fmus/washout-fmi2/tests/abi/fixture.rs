@@ -1,10 +1,10 @@
 //! The washout's library, instances of it, and a ride.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
-use moris_fmu_host::{Fmu, Instance, Variable, VariableKind};
-use moris_interface::{Identity, Kind, Model};
+use moris_fmu_host::{Fmu, Instance, variables_of};
+pub use moris_fmu_tests::swing::values as input;
+use moris_interface::{Identity, Model};
 use moris_washout::Washout;
 
 pub const IDENTITY: Identity = Washout::IDENTITY;
@@ -19,17 +19,7 @@ pub fn open() -> Fmu {
 }
 
 pub fn open_library(path: &Path) -> Fmu {
-    let variable = |slot: usize| {
-        let kind = match IDENTITY.row(slot).kind {
-            Kind::Real(_) => VariableKind::Real,
-            Kind::Integer => VariableKind::Integer,
-            Kind::Boolean => VariableKind::Boolean,
-            Kind::Enumeration(_) => VariableKind::Enumeration,
-        };
-        (IDENTITY.variable_name(slot), Variable { value_reference: slot as u32, kind })
-    };
-    let variables: HashMap<_, _> = (0..IDENTITY.slots.len()).map(variable).collect();
-    Fmu::with_variables(path, &moris_interface::guid::<Washout>(), variables).unwrap()
+    Fmu::with_variables(path, &moris_interface::guid::<Washout>(), variables_of(&IDENTITY)).unwrap()
 }
 
 pub fn initialized(parameters: &[(&str, f64)]) -> Instance {
@@ -42,13 +32,6 @@ pub fn initialized(parameters: &[(&str, f64)]) -> Instance {
 pub fn real_inputs() -> Vec<u32> {
     let first = IDENTITY.slot("vehicle.specificForce.x").unwrap() as u32;
     (first..first + 11).collect()
-}
-
-/// A ride that shakes every axis.
-pub fn input(time: f64) -> [f64; 11] {
-    let mut input = std::array::from_fn(|k| (0.3 + 0.1 * k as f64) * ((1.0 + 0.7 * k as f64) * time).sin());
-    input[2] += 9.80665;
-    input
 }
 
 pub fn all_values(instance: &mut Instance) -> Vec<u64> {

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use moris_fmu_host::{Api, Status};
+use moris_fmu_tests::swing;
 use moris_interface::SlotModel;
-use moris_washout::interface::RollPitchYaw;
-use moris_washout::{Input, Parameters, Washout};
+use moris_washout::{Parameters, Washout};
 use object::Object;
 
 use crate::fixture::*;
@@ -33,16 +33,7 @@ fn a_ride_is_the_same_bit_for_bit_as_in_rust() {
         let u = input(time);
         assert_eq!(instance.set_real(&references, &u), Status::Ok);
         instance.step(time, 1e-3).unwrap();
-
-        let rust_input = Input {
-            specific_force: [u[0], u[1], u[2]].into(),
-            angular_velocity: [u[3], u[4], u[5]].into(),
-            orientation: RollPitchYaw::new(u[6], u[7], u[8]),
-            speed: u[9],
-            lean: u[10],
-            engaged: true,
-        };
-        washout.step(&rust_input, 1e-3);
+        washout.step(&swing::input(&u), 1e-3);
     }
     let output = washout.output();
     let expected = [

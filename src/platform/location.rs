@@ -1,6 +1,7 @@
 //! Where the washout location is on the platform: the rider's head with his lean, eq.
 //! (4), or another point.
 
+use moris_interface::{Refusal, refuse};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +9,7 @@ use crate::interface::{StructureParameters, WashoutLocation};
 
 /// The washout location and the axes of the frame there, seen from the platform.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Head {
+pub struct LocationFrame {
     /// The location in the platform frame \[m\].
     pub point: Vector3<f64>,
     /// Roll of the frame at the location relative to the platform: the rider's lean, or 0 where
@@ -18,7 +19,7 @@ pub struct Head {
     cos_lean: f64,
 }
 
-impl Head {
+impl LocationFrame {
     /// The washout location with the rider leaning by `lean` \[rad\].
     ///
     /// Eq. (4) as corrected: p_h^P = (0, -b sin(lean), (h - b) + b cos(lean)), so that an upright
@@ -26,20 +27,23 @@ impl Head {
     /// locations are points of the platform.
     pub fn new(structure: &StructureParameters, lean: f64) -> Self {
         match structure.washout_location {
-            WashoutLocation::Head => Head::leaning(structure.head_height, structure.torso_length, lean),
-            WashoutLocation::Platform => Head::fixed(Vector3::zeros()),
-            WashoutLocation::Custom => Head::fixed(structure.washout_point),
+            WashoutLocation::Head => LocationFrame::leaning(structure.head_height, structure.torso_length, lean),
+            WashoutLocation::Platform => LocationFrame::fixed(Vector3::zeros()),
+            WashoutLocation::Custom => LocationFrame::fixed(structure.washout_point),
         }
     }
 
-    fn leaning(height: f64, torso: f64, lean: f64) -> Self {
+    /// The head of a rider who leans by `lean` \[rad\] about the seat, `torso` below the upright
+    /// head at `height` \[m\].
+    pub fn leaning(height: f64, torso: f64, lean: f64) -> Self {
         let (sin_lean, cos_lean) = libm::sincos(lean);
         let point = Vector3::new(0.0, -torso * sin_lean, height - torso + torso * cos_lean);
-        Head { point, lean, sin_lean, cos_lean }
+        LocationFrame { point, lean, sin_lean, cos_lean }
     }
 
-    fn fixed(point: Vector3<f64>) -> Self {
-        Head { point, lean: 0.0, sin_lean: 0.0, cos_lean: 1.0 }
+    /// A point of the platform.
+    pub fn fixed(point: Vector3<f64>) -> Self {
+        LocationFrame { point, lean: 0.0, sin_lean: 0.0, cos_lean: 1.0 }
     }
 
     /// A vector in the axes of the frame at the location, R_H^P v with R_H^P = Rx(lean),
@@ -48,8 +52,25 @@ impl Head {
         Vector3::new(v.x, self.cos_lean * v.y - self.sin_lean * v.z, self.sin_lean * v.y + self.cos_lean * v.z)
     }
 
-    /// The inverse of [`Head::to_platform_axes`].
-    pub fn to_head_axes(&self, v: Vector3<f64>) -> Vector3<f64> {
+    /// The inverse of [`LocationFrame::to_platform_axes`].
+    pub fn to_location_axes(&self, v: Vector3<f64>) -> Vector3<f64> {
         Vector3::new(v.x, self.cos_lean * v.y + self.sin_lean * v.z, self.cos_lean * v.z - self.sin_lean * v.y)
     }
+}
+
+/// Checks that the seat, a torso's length below the head \[m\], is not below the ground, whose name
+/// the message gives.
+///
+/// # Errors
+/// The torso is longer than the head is high.
+pub fn check_torso(torso_length: f64, head_height: f64, ground: &str) -> Result<(), Refusal> {
+    if torso_length <= head_height {
+        return Ok(());
+    }
+    refuse(
+        "head.torsoLength",
+        format!(
+            "is {torso_length} m, which puts the seat below the {ground}; it must not exceed head.height, {head_height} m"
+        ),
+    )
 }
