@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use moris_washout::{Input, Parameters, Refusal, Washout, presets};
+use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
 
 #[path = "../tests/washout/common/random.rs"]
 #[allow(dead_code)] // The tests use the rest of it.
@@ -17,7 +17,7 @@ mod random;
 
 use random::Random;
 
-fn main() -> Result<(), Refusal> {
+fn main() -> Result<(), ParameterError> {
     let count: usize = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
     let mut parameters = Parameters::default();
     let ride = match std::env::args().nth(2).as_deref() {

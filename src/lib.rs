@@ -34,7 +34,7 @@ mod washout;
 pub use nalgebra;
 
 pub use interface::{Input, Output, Parameters, Preview, Rig};
-pub use moris_interface::Refusal;
+pub use moris_interface::ParameterError;
 pub use validate::{check, check_rig};
 pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, SHORTEST_STEP, Washout};
 

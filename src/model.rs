@@ -1,6 +1,6 @@
 //! The washout as a model with variables, for whoever hosts it.
 
-use moris_interface::{Group, Identity, Model, Refusal, variables};
+use moris_interface::{Group, Identity, Model, ParameterError, variables};
 
 use crate::interface::{Inputs, Output, Parameters};
 use crate::washout::{MOST_INTERNAL_STEPS, Washout};
@@ -33,11 +33,11 @@ impl Model for Washout {
         step_size: 0.001,
     };
 
-    fn new(parameters: &Parameters, inputs: &Inputs) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, inputs: &Inputs) -> Result<Self, ParameterError> {
         Ok(Washout::new(parameters)?.starting_with(&inputs.vehicle))
     }
 
-    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         Washout::retune(self, parameters)
     }
 

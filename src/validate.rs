@@ -1,6 +1,6 @@
 //! Validation of parameters: each alone, and in combination.
 
-use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
+use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::{Geometry, Pose, check_torso, leg_lengths, stroke_reserve, survey};
@@ -9,7 +9,7 @@ use crate::platform::{Geometry, Pose, check_torso, leg_lengths, stroke_reserve, 
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
-pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
+pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     parameters.check_ranges()?;
     let Parameters { structure, rig, .. } = parameters;
     check_torso(structure.torso_length, structure.head_height, "platform")?;
@@ -21,7 +21,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// The first parameter that cannot be used or must not change, and why.
-pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
+pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), ParameterError> {
     to.check_ranges()?;
     check_fixed::<_, { slot_count(Parameters::ROWS) }>(Parameters::ROWS, from, to)
 }
@@ -31,7 +31,7 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
-pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
+pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
     let Rig { min_length, max_length, .. } = *rig;
     if min_length >= max_length {
         return refuse(
@@ -72,7 +72,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), Refusal> {
 
 /// Rest at neutral is certified only if no leg can leave its stroke from there
 /// between two ends of a step.
-fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), Refusal> {
+fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Result<(), ParameterError> {
     let reserve = stroke_reserve(rig, longest_step);
     let least = neutral.iter().map(|length| (length - rig.min_length).min(rig.max_length - length));
     let room = least.fold(f64::INFINITY, f64::min);

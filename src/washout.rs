@@ -1,6 +1,6 @@
 //! The whole washout, the paper's Fig. 4: an input, an output, one step.
 
-use moris_interface::{Group, Refusal};
+use moris_interface::{Group, ParameterError};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +16,9 @@ use crate::cueing::strategy::coordinated::Circumstances;
 use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction, StrategyKind};
 use crate::motion::Motions;
 use crate::motion::extremes::{max, min};
-use crate::motion::orientation::Turning;
+use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
-use crate::platform::{ActuatorGuard, Coordinates, PlatformMotion};
+use crate::platform::{ActuatorGuard, PlatformCoordinates, PlatformMotion};
 use crate::validate::{check, check_change};
 
 /// The washout filter with its platform.
@@ -36,7 +36,7 @@ use crate::validate::{check, check_change};
 /// assert!((output.felt_specific_force.x - 1.0).abs() < 0.01); // ... and the rider feels it,
 /// assert!(output.orientation.pitch < 0.0); // nose up,
 /// assert!(output.length.iter().all(|length| (1.0..1.6).contains(length))); // within the stroke
-/// # Ok::<(), moris_washout::Refusal>(())
+/// # Ok::<(), moris_washout::ParameterError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Washout {
@@ -54,7 +54,7 @@ pub struct Washout {
     felt: Felt,
     limited: Limited,
     /// Outputs without an exact derivative, one internal step ago.
-    before: Before,
+    before: PreviousStep,
 }
 
 /// An input, the head with its lean, and the cue there.
@@ -84,7 +84,7 @@ struct Limited {
 
 /// The last internal step and what was felt at its beginning.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Before {
+struct PreviousStep {
     step: f64,
     acceleration: Vector3<f64>,
     felt: Felt,
@@ -105,7 +105,7 @@ impl Washout {
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    pub fn new(parameters: &Parameters) -> Result<Self, Refusal> {
+    pub fn new(parameters: &Parameters) -> Result<Self, ParameterError> {
         check(parameters)?;
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
         let guard = ActuatorGuard::new(rig, structure.max_step);
@@ -124,7 +124,7 @@ impl Washout {
             guard,
             felt: at_rest,
             limited: Limited::default(),
-            before: Before { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
+            before: PreviousStep { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
         })
     }
 
@@ -155,7 +155,7 @@ impl Washout {
     ///     washout.step(&Input::default(), 0.01);
     /// }
     /// assert!(washout.output().tilt_pitch > 0.01); // The nose goes down ahead of it.
-    /// # Ok::<(), moris_washout::Refusal>(())
+    /// # Ok::<(), moris_washout::ParameterError>(())
     /// ```
     #[inline]
     pub fn preview(&mut self, preview: &Preview) {
@@ -189,7 +189,7 @@ impl Washout {
     fn hold(&mut self, input: &Input, step: f64) {
         let held = Sample::new(input.sanitized(), &self.parameters);
         self.last = held;
-        self.divided(step, |washout, _, step| washout.internal_step(&held, step));
+        self.substep(step, |washout, _, step| washout.internal_step(&held, step));
     }
 
     /// A step in which the input goes linearly from the last one to `end`.
@@ -218,7 +218,7 @@ impl Washout {
     /// As [`Washout::step_between`], from the last sample.
     fn step_to(&mut self, end: &Input, step: f64) {
         let start = self.last.input;
-        self.divided(step, |washout, fraction, step| {
+        self.substep(step, |washout, fraction, step| {
             let end = Sample::new(start.towards(end, fraction), &washout.parameters);
             washout.internal_step(&end, step);
             washout.last = end;
@@ -227,7 +227,7 @@ impl Washout {
 
     /// Divides a step into internal ones. `advance` does one of them, with the fraction of the
     /// whole at which it ends and its length.
-    fn divided(&mut self, step: f64, mut advance: impl FnMut(&mut Self, f64, f64)) {
+    fn substep(&mut self, step: f64, mut advance: impl FnMut(&mut Self, f64, f64)) {
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited = Limited::default();
@@ -281,7 +281,7 @@ impl Washout {
         let mut angles = beside_tilt;
         angles.add_to_axis(0, &tilt_roll);
         angles.add_to_axis(1, &tilt_pitch);
-        let turning = Turning::new(&angles);
+        let turning = RotationalMotion::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
         let tilt = Tilt { roll: tilt_roll.position, pitch: tilt_pitch.position };
         let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
@@ -296,9 +296,9 @@ impl Washout {
         }
         let linear = self.direct_linear.advance_within_limits(&demand, safety, step);
 
-        let demand = Coordinates { linear: *linear, angles };
+        let demand = PlatformCoordinates { linear: *linear, angles };
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
-        self.before = Before { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
+        self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
         self.guard.advance(&demand, &motion, safety, step);
         self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
@@ -317,9 +317,9 @@ impl Washout {
     /// The cue at the step's start and end as the channels get it: faded while the washout is being
     /// engaged or disengaged, and filtered.
     fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
-        let faded_before = self.engagement;
-        self.engagement = faded(faded_before, engaged, step);
-        let (start, end) = (start.scaled(faded_before), end.scaled(self.engagement));
+        let before = self.engagement;
+        self.engagement = engagement_after(before, engaged, step);
+        let (start, end) = (start.scaled(before), end.scaled(self.engagement));
         self.input_filter.advance(start, end, &self.parameters.conditioning, step)
     }
 
@@ -345,7 +345,7 @@ impl Washout {
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed.
     /// Nothing has changed then.
-    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
         if !self.strategy.retune(parameters) {
             return Err(no_regulator(parameters));
@@ -367,7 +367,7 @@ impl Washout {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let head = &self.last.head;
         let force = self.guard.motion().orientation.rotation * head.to_platform_axes(cue.force);
-        let turning = Turning::new(&self.guard.demand().angles);
+        let turning = RotationalMotion::new(&self.guard.demand().angles);
         let arm = turning.orientation.rotation * head.point;
         let tilt = self.strategy.tilt_angles();
         (force - compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity), cue.rates)
@@ -452,15 +452,15 @@ impl Washout {
 }
 
 /// The engagement after `step` seconds on the way to `engaged`.
-fn faded(engagement: f64, engaged: bool, step: f64) -> f64 {
+fn engagement_after(engagement: f64, engaged: bool, step: f64) -> f64 {
     let change = step / ENGAGE_TIME;
     if engaged { min(engagement + change, 1.0) } else { max(engagement - change, 0.0) }
 }
 
 /// The refusal of a strategy's prices for which there is no regulator in numbers.
-fn no_regulator(parameters: &Parameters) -> Refusal {
+fn no_regulator(parameters: &Parameters) -> ParameterError {
     let prefix = if parameters.structure.strategy == StrategyKind::Predictive { "predictive" } else { "optimal" };
-    Refusal {
+    ParameterError {
         variable: format!("{prefix}.weightPosition"),
         reason:
             "and the strategy's other weights and poles lead to no regulator in numbers; choose them nearer to their \

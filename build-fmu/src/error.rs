@@ -3,10 +3,10 @@
 use std::io;
 use std::path::PathBuf;
 
-use moris_interface::Refusal;
+use moris_interface::ParameterError;
 
 use crate::Platform;
-use crate::library::Flaw;
+use crate::library::LibraryError;
 
 /// Errors of building an FMU, with the remedy.
 #[derive(Debug, thiserror::Error)]
@@ -25,7 +25,7 @@ pub enum Error {
     NoHostPlatform,
     /// The library compiled, but is unfit to ship.
     #[error("the library for {platform} is not fit to be shipped: {flaw}")]
-    Library { platform: Platform, flaw: Flaw },
+    Library { platform: Platform, flaw: LibraryError },
     /// A file that should be there cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },
@@ -34,7 +34,7 @@ pub enum Error {
     Parameters { reason: String },
     /// The model rejects the start values.
     #[error("{model} cannot start with these values: {refusal}")]
-    Start { model: &'static str, refusal: Refusal },
+    Start { model: &'static str, refusal: ParameterError },
     /// The option applies to none of the models.
     #[error("--{option} applies to none of the chosen models ({who}); choose others with --model, or omit it")]
     NotTaken { option: &'static str, who: &'static str },

@@ -26,7 +26,7 @@ pub struct Version(pub Vec<u32>);
 
 /// Why a library must not be shipped.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Flaw {
+pub enum LibraryError {
     /// Not a library for any platform that we know.
     #[error("it cannot be read as a library: {0}")]
     Unreadable(String),
@@ -49,7 +49,7 @@ pub enum Flaw {
 ///
 /// # Errors
 /// The first flaw found.
-pub fn examine(library: &[u8], functions: &[&str], private_paths: &[(PathBuf, &str)]) -> Result<Facts, Flaw> {
+pub fn examine(library: &[u8], functions: &[&str], private_paths: &[(PathBuf, &str)]) -> Result<Facts, LibraryError> {
     let file = object::File::parse(library)?;
     check_exports(&file, functions)?;
     check_paths(library, private_paths)?;
@@ -63,7 +63,7 @@ pub fn examine(library: &[u8], functions: &[&str], private_paths: &[(PathBuf, &s
 }
 
 /// Exactly the functions of FMI, and every one of them.
-fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), Flaw> {
+fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), LibraryError> {
     // On macOS every name of C has an underscore before it.
     let prefix = if matches!(file, object::File::MachO64(_)) { "_" } else { "" };
     let name = |bytes| {
@@ -76,16 +76,16 @@ fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), Flaw> {
     let unknown: Vec<String> = exported.difference(&expected).cloned().collect();
     match (lacking.is_empty(), unknown.is_empty()) {
         (true, true) => Ok(()),
-        (false, _) => Err(Flaw::Lacks(lacking)),
-        (true, false) => Err(Flaw::Exports(unknown)),
+        (false, _) => Err(LibraryError::Lacks(lacking)),
+        (true, false) => Err(LibraryError::Exports(unknown)),
     }
 }
 
-fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), Flaw> {
+fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), LibraryError> {
     for (path, _) in private_paths {
         let needle = path.as_os_str().as_encoded_bytes();
         if library.windows(needle.len()).any(|window| window == needle) {
-            return Err(Flaw::PrivatePath(path.clone()));
+            return Err(LibraryError::PrivatePath(path.clone()));
         }
     }
     Ok(())
@@ -93,13 +93,13 @@ fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), 
 
 /// Properties of Linux libraries: versions of glibc's functions, and a search path, which must be
 /// absent.
-fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), Flaw> {
+fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), LibraryError> {
     let (endian, data, sections) = (elf.endian(), elf.data(), elf.elf_section_table());
     if let Some((entries, link)) = sections.dynamic(endian, data)? {
         let strings = sections.strings(endian, data, link)?;
         for entry in entries {
             match entry.tag32(endian) {
-                Some(DT_RPATH | DT_RUNPATH) => return Err(Flaw::SearchPath),
+                Some(DT_RPATH | DT_RUNPATH) => return Err(LibraryError::SearchPath),
                 Some(DT_NEEDED) => {
                     facts.needs.insert(text(entry.string(endian, strings)?));
                 }
@@ -130,9 +130,9 @@ impl Version {
     }
 }
 
-impl From<object::Error> for Flaw {
+impl From<object::Error> for LibraryError {
     fn from(error: object::Error) -> Self {
-        Flaw::Unreadable(error.to_string())
+        LibraryError::Unreadable(error.to_string())
     }
 }
 
@@ -172,13 +172,13 @@ mod tests {
         let paths = [(PathBuf::from("/home/someone"), "home")];
         assert_eq!(
             check_paths(b"..\0/home/someone/src/lib.rs\0..", &paths),
-            Err(Flaw::PrivatePath(paths[0].0.clone()))
+            Err(LibraryError::PrivatePath(paths[0].0.clone()))
         );
         assert_eq!(check_paths(b"..\0home/src/lib.rs\0..", &paths), Ok(()));
     }
 
     #[test]
     fn what_is_no_library_is_refused() {
-        assert!(matches!(examine(b"#!/bin/sh", &[], &[]), Err(Flaw::Unreadable(_))));
+        assert!(matches!(examine(b"#!/bin/sh", &[], &[]), Err(LibraryError::Unreadable(_))));
     }
 }

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::{env, fs};
 
 use moris_build_fmu::functions::{FMI2_FUNCTIONS, FMI3_FUNCTIONS};
-use moris_build_fmu::library::{Facts, Flaw, examine};
+use moris_build_fmu::library::{Facts, LibraryError, examine};
 
 /// A library that exports these names.
 fn library(test: &str, names: &[&str], more: &str, arguments: &[&str]) -> Vec<u8> {
@@ -40,21 +40,23 @@ fn the_functions_of_the_header_and_nothing_else_are_fit() {
 #[test]
 fn a_function_that_lacks_is_found() {
     let library = library("lacks", &FMI2_FUNCTIONS[1..], "", &[]);
-    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[]), Err(Flaw::Lacks(vec![FMI2_FUNCTIONS[0].to_owned()])));
+    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[]), Err(LibraryError::Lacks(vec![FMI2_FUNCTIONS[0].to_owned()])));
 }
 
 #[test]
 fn an_export_that_is_not_fmis_is_found() {
     let names = [FMI2_FUNCTIONS, &["fmi2Surprise"]].concat();
     let library = library("surprise", &names, "", &[]);
-    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[]), Err(Flaw::Exports(vec!["fmi2Surprise".to_owned()])));
+    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[]), Err(LibraryError::Exports(vec!["fmi2Surprise".to_owned()])));
 }
 
 #[test]
 fn a_library_of_one_version_of_fmi_is_none_of_the_other() {
     let fmi3 = library("fmi3", FMI3_FUNCTIONS, "", &[]);
     assert!(examine(&fmi3, FMI3_FUNCTIONS, &[]).is_ok());
-    assert!(matches!(examine(&fmi3, FMI2_FUNCTIONS, &[]), Err(Flaw::Lacks(lacking)) if lacking == FMI2_FUNCTIONS));
+    assert!(
+        matches!(examine(&fmi3, FMI2_FUNCTIONS, &[]), Err(LibraryError::Lacks(lacking)) if lacking == FMI2_FUNCTIONS)
+    );
 }
 
 #[test]
@@ -62,7 +64,10 @@ fn a_path_of_this_machine_is_found() {
     let private = PathBuf::from("/somebody/at/home");
     let more = "#[used] static PLACE: [u8; 25] = *b\"/somebody/at/home/file.rs\";";
     let library = library("private_path", FMI2_FUNCTIONS, more, &[]);
-    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[(private.clone(), "home")]), Err(Flaw::PrivatePath(private)));
+    assert_eq!(
+        examine(&library, FMI2_FUNCTIONS, &[(private.clone(), "home")]),
+        Err(LibraryError::PrivatePath(private))
+    );
     assert!(examine(&library, FMI2_FUNCTIONS, &[(PathBuf::from("/somebody/else"), "home")]).is_ok());
 }
 
@@ -70,5 +75,5 @@ fn a_path_of_this_machine_is_found() {
 #[test]
 fn a_search_path_is_found() {
     let library = library("search_path", FMI2_FUNCTIONS, "", &["-Clink-arg=-Wl,-rpath,/somewhere"]);
-    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[]), Err(Flaw::SearchPath));
+    assert_eq!(examine(&library, FMI2_FUNCTIONS, &[]), Err(LibraryError::SearchPath));
 }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::cueing::gravitational::Tilt;
 use crate::interface::Compensation;
-use crate::motion::orientation::Turning;
+use crate::motion::orientation::RotationalMotion;
 
 /// alpha x r, the tangential term (the paper leaves it out; it is the larger).
 pub fn tangential(angular_acceleration: Vector3<f64>, arm: Vector3<f64>) -> Vector3<f64> {
@@ -31,12 +31,12 @@ pub fn added_gravity(rotation: &Matrix3<f64>, tilt: &Tilt, gravity: f64) -> Vect
 /// origin, in the base frame.
 pub fn compensated(
     compensation: Compensation,
-    turning: &Turning,
+    turning: &RotationalMotion,
     arm: Vector3<f64>,
     tilt: &Tilt,
     gravity: f64,
 ) -> Vector3<f64> {
-    let Turning { orientation, velocity, acceleration } = turning;
+    let RotationalMotion { orientation, velocity, acceleration } = turning;
     let of_turning = || tangential(*acceleration, arm) + centripetal(*velocity, arm);
     match compensation {
         Compensation::None => Vector3::zeros(),

@@ -116,24 +116,24 @@ impl Orientation {
 
 /// An orientation that changes, with its angular velocity and acceleration in the reference frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turning {
+pub struct RotationalMotion {
     pub orientation: Orientation,
     pub velocity: Vector3<f64>,
     pub acceleration: Vector3<f64>,
 }
 
-impl Turning {
+impl RotationalMotion {
     /// From roll, pitch and yaw as they move.
     pub fn new(angles: &Motions) -> Self {
-        Turning::with_orientation(Orientation::new(RollPitchYaw::from_vector(angles.position)), angles)
+        RotationalMotion::with_orientation(Orientation::new(RollPitchYaw::from_vector(angles.position)), angles)
     }
 
-    /// As [`Turning::new`], where the orientation at these angles is known.
+    /// As [`RotationalMotion::new`], where the orientation at these angles is known.
     #[inline(always)]
     pub fn with_orientation(orientation: Orientation, angles: &Motions) -> Self {
         let rates = RollPitchYaw::from_vector(angles.velocity);
         let accelerations = RollPitchYaw::from_vector(angles.acceleration);
-        Turning {
+        RotationalMotion {
             orientation,
             velocity: orientation.angular_velocity(rates),
             acceleration: orientation.angular_acceleration(rates, accelerations),

@@ -1,7 +1,7 @@
 //! Where the washout location is on the platform: the rider's head with his lean, eq.
 //! (4), or another point.
 
-use moris_interface::{Refusal, refuse};
+use moris_interface::{ParameterError, refuse};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -63,7 +63,7 @@ impl LocationFrame {
 ///
 /// # Errors
 /// The torso is longer than the head is high.
-pub fn check_torso(torso_length: f64, head_height: f64, ground: &str) -> Result<(), Refusal> {
+pub fn check_torso(torso_length: f64, head_height: f64, ground: &str) -> Result<(), ParameterError> {
     if torso_length <= head_height {
         return Ok(());
     }

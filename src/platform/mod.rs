@@ -13,7 +13,7 @@ mod survey;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-pub use coordinates::Coordinates;
+pub use coordinates::PlatformCoordinates;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
 pub use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
@@ -24,7 +24,7 @@ pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;
 use crate::motion::Motions;
-use crate::motion::orientation::{Orientation, RollPitchYaw, Turning};
+use crate::motion::orientation::{Orientation, RollPitchYaw, RotationalMotion};
 
 /// Where the joints are: on the base in the base frame, on the platform in the
 /// platform frame \[m\].
@@ -68,7 +68,7 @@ pub struct PlatformMotion {
 
 impl PlatformMotion {
     /// From surge, sway and heave, and how the platform turns.
-    pub fn new(linear: &Motions, turning: &Turning, neutral_height: f64) -> Self {
+    pub fn new(linear: &Motions, turning: &RotationalMotion, neutral_height: f64) -> Self {
         PlatformMotion {
             position: Vector3::new(linear.position.x, linear.position.y, neutral_height + linear.position.z),
             orientation: turning.orientation,
@@ -81,8 +81,8 @@ impl PlatformMotion {
 
     /// As `motion` is oriented, with the velocities and accelerations of these coordinates,
     /// which have its angles.
-    pub(crate) fn turning(motion: &PlatformMotion, coordinates: &Coordinates) -> Self {
-        let turning = Turning::with_orientation(motion.orientation, &coordinates.angles);
+    pub(crate) fn turning(motion: &PlatformMotion, coordinates: &PlatformCoordinates) -> Self {
+        let turning = RotationalMotion::with_orientation(motion.orientation, &coordinates.angles);
         PlatformMotion {
             position: motion.position,
             orientation: motion.orientation,

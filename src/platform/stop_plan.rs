@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::Coordinates;
+use super::PlatformCoordinates;
 use crate::motion::Motions;
 use crate::motion::braking_law::Motion;
 use crate::motion::extremes::max;
@@ -15,7 +15,7 @@ use crate::motion::extremes::max;
 /// is a stop plan again.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StopPlan {
-    start: Coordinates,
+    start: PlatformCoordinates,
     durations: StopDurations,
     elapsed: f64,
 }
@@ -45,17 +45,17 @@ impl StopDurations {
 impl StopPlan {
     /// The stop from a state in these durations.
     #[inline(always)]
-    pub fn new(start: &Coordinates, durations: StopDurations) -> Self {
+    pub fn new(start: &PlatformCoordinates, durations: StopDurations) -> Self {
         StopPlan { start: *start, durations, elapsed: 0.0 }
     }
 
     /// Rest.
     pub fn rest() -> Self {
-        StopPlan::new(&Coordinates::default(), StopDurations::common(0.0))
+        StopPlan::new(&PlatformCoordinates::default(), StopDurations::common(0.0))
     }
 
     /// The state from which the plan starts.
-    pub fn start(&self) -> &Coordinates {
+    pub fn start(&self) -> &PlatformCoordinates {
         &self.start
     }
 
@@ -71,14 +71,14 @@ impl StopPlan {
     }
 
     /// The state now.
-    pub fn now(&self) -> Coordinates {
+    pub fn now(&self) -> PlatformCoordinates {
         self.at(self.elapsed)
     }
 
     /// The state `time` seconds after the plan's start; accelerations are those that follow.
-    pub fn at(&self, time: f64) -> Coordinates {
+    pub fn at(&self, time: f64) -> PlatformCoordinates {
         let StopPlan { start, durations, .. } = self;
-        Coordinates {
+        PlatformCoordinates {
             linear: Motions::from_axes(|k| stopping(&start.linear.axis(k), durations.linear[k], time)),
             angles: Motions::from_axes(|k| stopping(&start.angles.axis(k), durations.angular, time)),
         }

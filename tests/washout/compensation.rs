@@ -4,7 +4,7 @@ use moris_washout::cueing::compensation::compensated;
 use moris_washout::cueing::gravitational::Tilt;
 use moris_washout::interface::Compensation;
 use moris_washout::motion::Motions;
-use moris_washout::motion::orientation::Turning;
+use moris_washout::motion::orientation::RotationalMotion;
 use nalgebra::Vector3;
 
 use crate::common::G;
@@ -28,7 +28,7 @@ fn by_differences(angles: &Motions) -> Vector3<f64> {
 }
 
 fn compensation(item: Compensation, angles: &Motions) -> Vector3<f64> {
-    let turning = Turning::new(angles);
+    let turning = RotationalMotion::new(angles);
     let arm = turning.orientation.rotation * Vector3::from(ARM);
     let tilt = Tilt { roll: angles.position.x, pitch: angles.position.y };
     compensated(item, &turning, arm, &tilt, G)
@@ -50,7 +50,7 @@ fn centripetal_compensation_lacks_the_tangential_term_alone() {
     let angles = turning(Vector3::new(0.0, 0.0, 0.9), Vector3::new(0.0, 0.0, 2.0));
     let whole = by_differences(&angles);
     let centripetal = compensation(Compensation::Centripetal, &angles);
-    let arm = Turning::new(&angles).orientation.rotation * Vector3::from(ARM);
+    let arm = RotationalMotion::new(&angles).orientation.rotation * Vector3::from(ARM);
     let outward = Vector3::new(arm.x, arm.y, 0.0).normalize();
     assert!((centripetal - outward * outward.dot(&whole)).norm() < 1e-6, "{centripetal}");
     assert!(centripetal.norm() > 0.1 && (whole - centripetal).norm() > 0.1);

@@ -1,11 +1,11 @@
 //! Parameters that cannot be used are refused with the variable's name and the reason.
 
-use moris_interface::{Causality, Kind, Model, Refusal, SlotModel};
+use moris_interface::{Causality, Kind, Model, ParameterError, SlotModel};
 use moris_washout::{Input, Washout, check};
 
 use crate::common::parameters;
 
-fn refusal(changed: &[(&str, f64)]) -> Refusal {
+fn refusal(changed: &[(&str, f64)]) -> ParameterError {
     check(&parameters(changed)).expect_err(&format!("{changed:?} must be refused"))
 }
 

@@ -6,7 +6,7 @@ mod washout;
 
 use std::path::PathBuf;
 
-use moris_interface::{Identity, Model as Interface, Refusal, SlotModel, start_values};
+use moris_interface::{Identity, Model as Interface, ParameterError, SlotModel, start_values};
 use moris_model_description::{fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
@@ -39,7 +39,7 @@ pub struct Model {
     /// values.
     pub derived_start_values: fn(start: &[f64]) -> NamedValues,
     /// Checks start values against each other, where they are not the model's own.
-    pub consistency: fn(start: &[f64]) -> Result<(), Refusal>,
+    pub consistency: fn(start: &[f64]) -> Result<(), ParameterError>,
     /// The documentation's hand-written sections, in order; the variables follow them.
     pub sections: &'static [Section],
     /// Texts of the sections that depend on the version. Further places are `fmi`, the version's
@@ -85,7 +85,7 @@ pub struct ModelFns {
     /// The start values with others, by slot, laid over the model's own.
     pub start: fn(others: &[(usize, f64)]) -> Vec<f64>,
     /// Checks that the model can start with these values.
-    pub check: fn(start: &[f64]) -> Result<(), Refusal>,
+    pub check: fn(start: &[f64]) -> Result<(), ParameterError>,
     /// The model description of FMI 2.0.
     pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
     /// That of FMI 3.0.

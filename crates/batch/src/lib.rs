@@ -34,7 +34,7 @@ pub use fit::Fit;
 pub use manoeuvre::Manoeuvre;
 pub use replay::Replay;
 
-use moris_washout::{Input, Output, Parameters, Refusal, Washout};
+use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 use rayon::prelude::*;
 
 /// Observer of a simulation, step by step.
@@ -49,14 +49,18 @@ pub struct Simulation<O> {
     /// The parameters.
     pub parameters: Parameters,
     /// The observer after the simulation, or the error of the parameters.
-    pub result: Result<O, Refusal>,
+    pub result: Result<O, ParameterError>,
 }
 
 /// Simulates the manoeuvre once with these parameters.
 ///
 /// # Errors
 /// The parameters cannot be used: which, and why.
-pub fn simulate<O: Observer>(manoeuvre: &Manoeuvre, parameters: &Parameters, mut observer: O) -> Result<O, Refusal> {
+pub fn simulate<O: Observer>(
+    manoeuvre: &Manoeuvre,
+    parameters: &Parameters,
+    mut observer: O,
+) -> Result<O, ParameterError> {
     let mut washout = Washout::new(parameters)?;
     Replay::new(manoeuvre).run(&mut washout, |input, output| observer.observe(input, output));
     Ok(observer)

@@ -80,7 +80,7 @@ macro_rules! interface {
                 let mut writer = writer.part(const { $crate::slot_count(Self::ROWS) });
                 $( writer.put(self.$field); )+
             }
-            fn check_ranges(&self) -> Result<(), $crate::Refusal> {
+            fn check_ranges(&self) -> Result<(), $crate::ParameterError> {
                 let mut rows = Self::ROWS.iter();
                 $(
                     let row = rows.next().expect("a struct has a row for each of its fields");
@@ -155,7 +155,7 @@ macro_rules! interface_tree {
             fn write(&self, writer: &mut $crate::Writer) {
                 $( $crate::Group::write(&self.$field, writer); )+
             }
-            fn check_ranges(&self) -> Result<(), $crate::Refusal> {
+            fn check_ranges(&self) -> Result<(), $crate::ParameterError> {
                 $( $crate::Group::check_ranges(&self.$field)?; )+
                 Ok(())
             }

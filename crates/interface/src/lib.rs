@@ -26,7 +26,7 @@ pub use serde;
 
 pub use field::Field;
 pub use guid::{guid, guid_of};
-pub use model::{Identity, MOST_INTERNAL_STEPS, Model, Refusal, SHORTEST_STEP, Time, refuse};
+pub use model::{Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, Time, refuse};
 pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable};
 pub use slot_model::SlotModel;
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
@@ -38,7 +38,7 @@ pub use unit::{BaseUnit, DisplayUnit, Unit, units};
 ///
 /// # Errors
 /// The first fixed variable that differs.
-pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G) -> Result<(), Refusal> {
+pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G) -> Result<(), ParameterError> {
     let slots = |group: &G| {
         let mut slots = [0.0; N];
         group.write(&mut Writer::new(&mut slots));
@@ -79,7 +79,7 @@ pub trait Group: Default + 'static {
     ///
     /// # Errors
     /// The first variable that is not a finite number or outside its range.
-    fn check_ranges(&self) -> Result<(), Refusal>;
+    fn check_ranges(&self) -> Result<(), ParameterError>;
 
     /// The values forced into their ranges: a number outside counts as the nearest end, and what is
     /// not a number as the start value.

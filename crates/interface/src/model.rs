@@ -65,7 +65,7 @@ impl Identity {
 /// Why a set of parameters cannot be used: which variable, its value, and the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{variable}: {reason}")]
-pub struct Refusal {
+pub struct ParameterError {
     pub variable: String,
     pub reason: String,
 }
@@ -74,8 +74,8 @@ pub struct Refusal {
 ///
 /// # Errors
 /// Always.
-pub fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, Refusal> {
-    Err(Refusal { variable: variable.into(), reason: reason.into() })
+pub fn refuse<T>(variable: impl Into<String>, reason: impl Into<String>) -> Result<T, ParameterError> {
+    Err(ParameterError { variable: variable.into(), reason: reason.into() })
 }
 
 /// Shorter steps than this do nothing: a change of the input in so short a time is lost to rounding
@@ -89,7 +89,7 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 ///
 /// ```
 /// use moris_interface::units::M;
-/// use moris_interface::{Group, Identity, Model, Refusal, SlotModel, interface, variables};
+/// use moris_interface::{Group, Identity, Model, ParameterError, SlotModel, interface, variables};
 /// use serde::{Deserialize, Serialize};
 ///
 /// interface! {
@@ -132,10 +132,10 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 ///         stop_time: 1.0,
 ///         step_size: 0.01,
 ///     };
-///     fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+///     fn new(parameters: &Parameters, input: &Input) -> Result<Self, ParameterError> {
 ///         Ok(Gain(*parameters, parameters.gain * input.length))
 ///     }
-///     fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+///     fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
 ///         self.0 = *parameters;
 ///         Ok(())
 ///     }
@@ -159,7 +159,7 @@ pub const MOST_INTERNAL_STEPS: f64 = 1e6;
 /// model.step_slots(&slots, None, 0.01);
 /// model.write_outputs(&mut slots);
 /// assert_eq!(slots, [0.0, 2.0, 6.0, 3.0]);
-/// # Ok::<(), Refusal>(())
+/// # Ok::<(), ParameterError>(())
 /// ```
 pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     type Input: Group;
@@ -171,13 +171,13 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    fn new(parameters: &Self::Parameters, input: &Self::Input) -> Result<Self, Refusal>;
+    fn new(parameters: &Self::Parameters, input: &Self::Input) -> Result<Self, ParameterError>;
 
     /// Changes tunable parameters. On an error nothing has changed.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), Refusal>;
+    fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), ParameterError>;
 
     /// Longest communication step \[s\].
     fn longest_step(&self) -> f64 {

@@ -1,6 +1,6 @@
 //! A row of the interface: one field of a struct, one or several scalar variables.
 
-use crate::{Field, Refusal, Unit};
+use crate::{Field, ParameterError, Unit};
 
 /// Who sets a variable (FMI 2.0, 2.2.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -133,11 +133,11 @@ impl Row {
     /// The error about the first scalar variable of a field that is outside the row's range.
     #[doc(hidden)] // for `interface!`
     #[cold]
-    pub fn refusal<F: Field>(&self, field: F) -> Refusal {
+    pub fn refusal<F: Field>(&self, field: F) -> ParameterError {
         let mut slots = vec![0.0; self.slots()];
         field.write(&mut slots);
         let element = slots.iter().position(|&value| !self.accepts(value)).unwrap_or(0);
-        Refusal { variable: self.variable_name(element), reason: self.reason(slots[element]) }
+        ParameterError { variable: self.variable_name(element), reason: self.reason(slots[element]) }
     }
 
     /// Number of scalar variables in the row.

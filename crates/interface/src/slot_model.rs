@@ -1,6 +1,6 @@
 //! A model as its host sees it: one value a slot.
 
-use crate::{Group, Model, Reader, Refusal, Time, Writer, slot_count};
+use crate::{Group, Model, ParameterError, Reader, Time, Writer, slot_count};
 
 /// A [`Model`] whose inputs, outputs and parameters lie in slots.
 ///
@@ -23,7 +23,7 @@ pub trait SlotModel: Model {
     ///
     /// # Errors
     /// As [`Model::new`].
-    fn from_slots(slots: &[f64]) -> Result<Self, Refusal> {
+    fn from_slots(slots: &[f64]) -> Result<Self, ParameterError> {
         Self::new(&Self::parameters_in(slots), &read(slots, INPUT))
     }
 
@@ -36,7 +36,7 @@ pub trait SlotModel: Model {
     ///
     /// # Errors
     /// As [`Model::retune`].
-    fn retune_from(&mut self, slots: &[f64]) -> Result<(), Refusal> {
+    fn retune_from(&mut self, slots: &[f64]) -> Result<(), ParameterError> {
         self.retune(&Self::parameters_in(slots))
     }
 

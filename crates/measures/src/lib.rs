@@ -30,4 +30,4 @@ pub mod vestibular;
 
 pub use listing::{Row, bound_rows};
 pub use measures::{Axes, Measures};
-pub use run::{Limited, Platform, Run, Unusable};
+pub use run::{Limited, Platform, Run, RunError};

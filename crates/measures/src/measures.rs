@@ -3,8 +3,8 @@
 use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use crate::effort::{Effort, effort};
 use crate::fidelity::{Fidelity, fidelity};
-use crate::run::{Run, Unusable, axis};
-use crate::vestibular::{CANALS, OTOLITHS, Organ, sensed};
+use crate::run::{Run, RunError, axis};
+use crate::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
 
 /// Standard gravity, at which the otoliths are at rest \[m/s2\].
 const STANDARD_GRAVITY: f64 = 9.80665;
@@ -37,7 +37,7 @@ impl Measures {
     ///
     /// # Errors
     /// The run's series do not fit together or hold something that is no number.
-    pub fn of(run: &Run) -> Result<Self, Unusable> {
+    pub fn of(run: &Run) -> Result<Self, RunError> {
         run.check()?;
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
         let force = Channel { organ: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
@@ -58,7 +58,7 @@ impl Measures {
 
 /// Sensed vector signal.
 struct Channel<'a> {
-    organ: &'a Organ,
+    organ: &'a SensorModel,
     rest: [f64; 3],
     thresholds: [f64; 3],
     step: f64,

@@ -48,7 +48,7 @@ pub struct Limited {
 
 /// Why nothing can be measured of a run.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unusable {
+pub enum RunError {
     /// The time between samples is no time.
     #[error("the time between samples is {0} s; it must be above 0")]
     Step(f64),
@@ -84,13 +84,13 @@ impl Run<'_> {
     ///
     /// # Errors
     /// The first thing found that is wrong with the series.
-    pub fn check(&self) -> Result<(), Unusable> {
+    pub fn check(&self) -> Result<(), RunError> {
         if self.step.is_nan() || self.step <= 0.0 {
-            return Err(Unusable::Step(self.step));
+            return Err(RunError::Step(self.step));
         }
         let expected = self.desired_force.len();
         if expected < 2 {
-            return Err(Unusable::TooShort(expected));
+            return Err(RunError::TooShort(expected));
         }
         check_series("desired specific force", self.desired_force, expected)?;
         check_series("felt specific force", self.felt_force, expected)?;
@@ -103,20 +103,20 @@ impl Run<'_> {
     }
 }
 
-fn check_series<const N: usize>(series: &'static str, values: &[[f64; N]], expected: usize) -> Result<(), Unusable> {
+fn check_series<const N: usize>(series: &'static str, values: &[[f64; N]], expected: usize) -> Result<(), RunError> {
     check_length(series, values.len(), expected)?;
     let bad = |value: &f64| !value.is_finite();
     match values.iter().position(|sample| sample.iter().any(bad)) {
         None => Ok(()),
         Some(sample) => {
             let value = values[sample].into_iter().find(|value| !value.is_finite()).unwrap_or(f64::NAN);
-            Err(Unusable::NotFinite { series, sample, value })
+            Err(RunError::NotFinite { series, sample, value })
         }
     }
 }
 
-fn check_length(series: &'static str, found: usize, expected: usize) -> Result<(), Unusable> {
-    if found == expected { Ok(()) } else { Err(Unusable::Length { series, found, expected }) }
+fn check_length(series: &'static str, found: usize, expected: usize) -> Result<(), RunError> {
+    if found == expected { Ok(()) } else { Err(RunError::Length { series, found, expected }) }
 }
 
 /// One axis of a series of vectors.

@@ -18,30 +18,30 @@ use nalgebra::SMatrix;
 
 /// A transfer function (b2 s^2 + b1 s + b0) / (a2 s^2 + a1 s + 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Organ {
+pub struct SensorModel {
     /// b0, b1 \[s\], b2 \[s2\].
     pub numerator: [f64; 3],
     /// a1 \[s\], a2 \[s2\].
     pub denominator: [f64; 2],
 }
 
-impl Organ {
+impl SensorModel {
     /// With the denominator (1 + slow s)(1 + quick s); time constants in s.
     const fn new(numerator: [f64; 3], slow: f64, quick: f64) -> Self {
-        Organ { numerator, denominator: [slow + quick, slow * quick] }
+        SensorModel { numerator, denominator: [slow + quick, slow * quick] }
     }
 }
 
 /// The otoliths: specific force to sensed specific force.
-pub const OTOLITHS: Organ = Organ::new([0.4, 0.4 * 10.0, 0.0], 5.0, 0.016);
+pub const OTOLITHS: SensorModel = SensorModel::new([0.4, 0.4 * 10.0, 0.0], 5.0, 0.016);
 
 /// The semicircular canals: angular velocity to sensed angular velocity.
-pub const CANALS: Organ = Organ::new([0.0, 0.0, 5.73 * 80.0], 80.0, 5.73);
+pub const CANALS: SensorModel = SensorModel::new([0.0, 0.0, 5.73 * 80.0], 80.0, 5.73);
 
 /// Response of an organ to a signal that is sampled every `step` seconds, having been at `rest`
 /// for ever before its first sample. The organ's answer to `rest` itself is left out: what is
 /// sensed is the change from it.
-pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
+pub fn sensed(organ: &SensorModel, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
     let [b0, b1, b2] = organ.numerator;
     let [a1, a2] = organ.denominator;
     let transition = transition(organ, step);
@@ -66,7 +66,7 @@ pub fn sensed(organ: &Organ, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
 
 /// The exact step of the answer and its rate for an input that is linear in time: what each of
 /// answer, rate, the input and its slope adds.
-fn transition(organ: &Organ, step: f64) -> [[f64; 4]; 2] {
+fn transition(organ: &SensorModel, step: f64) -> [[f64; 4]; 2] {
     let [a1, a2] = organ.denominator;
     #[rustfmt::skip]
     let matrix = SMatrix::<f64, 4, 4>::new(

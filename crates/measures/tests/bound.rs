@@ -1,7 +1,7 @@
 //! The bound against closed forms, against motions that keep the limits, and
 //! against its own refinement.
 
-use moris_measures::bound::{AxisLimits, Bound, NoBound, TiltLimits, Trajectory, bound};
+use moris_measures::bound::{AxisLimits, Bound, BoundError, TiltLimits, Trajectory, bound};
 
 const STEP: f64 = 0.01;
 
@@ -237,5 +237,5 @@ fn what_cannot_be_bounded_is_refused_with_the_reason() {
     );
     let limits = AxisLimits { velocity: -1.0, ..SURGE };
     assert_eq!(refusal(&desired, STEP, &limits), "the velocity limit is -1; it must be above 0");
-    assert!(matches!(bound(&desired, STEP, &AxisLimits { min: 0.0, ..SURGE }, 0.02), Err(NoBound::Limit { .. })));
+    assert!(matches!(bound(&desired, STEP, &AxisLimits { min: 0.0, ..SURGE }, 0.02), Err(BoundError::Limit { .. })));
 }

@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use moris::ride::Ride;
 use moris::run::Recording;
-use moris::tune::cost::{Constraints, Judge};
+use moris::tune::cost::{Constraints, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
 use moris_batch::Manoeuvre;
@@ -46,11 +46,11 @@ fn weaving() -> Ride {
     })
 }
 
-fn judge(ride: Ride, constraints: Constraints) -> Judge {
-    Judge::new(ride, &Parameters::default(), &EQUAL, constraints).unwrap()
+fn judge(ride: Ride, constraints: Constraints) -> Objective {
+    Objective::new(ride, &Parameters::default(), &EQUAL, constraints).unwrap()
 }
 
-fn recording(judge: &Judge, parameters: &Parameters) -> Recording {
+fn recording(judge: &Objective, parameters: &Parameters) -> Recording {
     Recording::of(&judge.ride().replay(), &judge.ride().parameters(parameters), || ()).unwrap()
 }
 
@@ -84,7 +84,7 @@ fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
 fn only_channels_with_weight_count() {
     let mut weights = [0.0; 6];
     weights[1] = 2.0;
-    let judge = Judge::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
+    let judge = Objective::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
     let cost = judge.cost(&recording(&judge, &Parameters::default()));
     assert!((cost.error - cost.channels[1] / judge.desired_rms()[1]).abs() < 1e-12);
 }

@@ -1,6 +1,6 @@
 //! Validation of parameters: each alone, and in combination.
 
-use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
+use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 use moris_washout::platform::check_torso;
 
 use nalgebra::{Complex, SVector};
@@ -16,7 +16,7 @@ use crate::suspension::Suspension;
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
-pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
+pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     parameters.check_ranges()?;
     let loads = static_loads(&crate::lateral::bicycle(&parameters.machine), parameters.run.gravity);
     let weight = loads.front + loads.rear;
@@ -52,7 +52,7 @@ pub fn check(parameters: &Parameters) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// The first parameter that cannot be used or must not change, and why.
-pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
+pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), ParameterError> {
     check(to)?;
     check_fixed::<_, { slot_count(Parameters::ROWS) }>(Parameters::ROWS, from, to)
 }
@@ -61,7 +61,7 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), Refusal> {
 ///
 /// # Errors
 /// The speed exceeds [`LARGEST_SPEED`].
-pub fn fastest(parameters: &Parameters, longitudinal: &Longitudinal) -> Result<f64, Refusal> {
+pub fn fastest(parameters: &Parameters, longitudinal: &Longitudinal) -> Result<f64, ParameterError> {
     let top = longitudinal.top_speed(STRONGEST_WIND).max(parameters.run.initial_speed);
     if top > LARGEST_SPEED {
         return refuse(
@@ -84,7 +84,7 @@ pub fn design_rider(
     parameters: &Parameters,
     suspension: &Suspension,
     fastest: f64,
-) -> Result<(Lateral, Rider), Refusal> {
+) -> Result<(Lateral, Rider), ParameterError> {
     let Some(lateral) = Lateral::new(&Design::new(parameters)) else {
         return refuse(
             "frame.inertia.xz",
@@ -121,12 +121,12 @@ pub fn design_rider(
 ///
 /// # Errors
 /// The step is too long.
-pub fn check_step(parameters: &Parameters, suspension: &Suspension) -> Result<(), Refusal> {
+pub fn check_step(parameters: &Parameters, suspension: &Suspension) -> Result<(), ParameterError> {
     check_pole(parameters, suspension.fastest_pole().max(fastest_lag(parameters)))
 }
 
 /// Checks the internal step against the magnitude of a pole \[rad/s\].
-fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), Refusal> {
+fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), ParameterError> {
     let step = parameters.run.max_step;
     if pole * step <= LARGEST_POLE {
         return Ok(());

@@ -38,7 +38,7 @@ pub mod suspension;
 pub mod whipple;
 
 pub use interface::{Input, Output, Parameters};
-pub use moris_interface::{Model, Refusal};
+pub use moris_interface::{Model, ParameterError};
 pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};
 
 // The snippets of this page, as doc tests.

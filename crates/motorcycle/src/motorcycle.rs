@@ -1,6 +1,6 @@
 //! The whole: parameters, state, and a step.
 
-use moris_interface::{Group, Identity, Model, Refusal, SHORTEST_STEP};
+use moris_interface::{Group, Identity, Model, ParameterError, SHORTEST_STEP};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::braking_law::Motion;
 use nalgebra::{Vector2, Vector3};
@@ -58,7 +58,7 @@ impl Model for Motorcycle {
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, input: &Input) -> Result<Self, ParameterError> {
         check(parameters)?;
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
@@ -97,7 +97,7 @@ impl Model for Motorcycle {
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
     /// changed then.
-    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);

@@ -11,7 +11,7 @@
 
 use moris_washout::motion::Motions;
 use moris_washout::motion::braking_law::Motion;
-use moris_washout::motion::orientation::{Orientation, Turning};
+use moris_washout::motion::orientation::{Orientation, RotationalMotion};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -119,7 +119,7 @@ impl Geometry {
 }
 
 /// A point that moves in a frame that turns about the origin: its motion in the reference frame.
-fn carried(frame: &Turning, point: &Point) -> Point {
+fn carried(frame: &RotationalMotion, point: &Point) -> Point {
     let rotation = frame.orientation.rotation;
     let (position, velocity) = (rotation * point.position, rotation * point.velocity);
     let (angular_velocity, angular_acceleration) = (frame.velocity, frame.acceleration);
@@ -146,6 +146,6 @@ impl std::ops::Add for Point {
 }
 
 /// Something that turns by roll, pitch and yaw, as these move.
-fn turning(angles: [Motion; 3]) -> Turning {
-    Turning::new(&Motions::from_axes(|k| angles[k]))
+fn turning(angles: [Motion; 3]) -> RotationalMotion {
+    RotationalMotion::new(&Motions::from_axes(|k| angles[k]))
 }

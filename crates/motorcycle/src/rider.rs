@@ -6,7 +6,7 @@
 //! the beginning for speeds from walking pace to the top speed, and interpolated. Below walking
 //! pace feet and hands replace them ([`crate::lateral::foot_support`]).
 
-use moris_interface::Refusal;
+use moris_interface::ParameterError;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
@@ -77,7 +77,7 @@ impl Rider {
     ///
     /// # Errors
     /// No steering torque stabilises the motorcycle with these parameters.
-    pub fn new(lateral: &Lateral, parameters: &Parameters, fastest: f64) -> Result<Rider, Refusal> {
+    pub fn new(lateral: &Lateral, parameters: &Parameters, fastest: f64) -> Result<Rider, ParameterError> {
         let limits = &parameters.rider;
         let mut rider = Rider {
             gains: SVector::repeat(GainSet::none()),
@@ -90,7 +90,7 @@ impl Rider {
         rider.set_limits(parameters);
         for k in 0..SPEEDS {
             let speed = rider.knot(k);
-            rider.gains[k] = design_gains(lateral, speed, limits).ok_or_else(|| Refusal {
+            rider.gains[k] = design_gains(lateral, speed, limits).ok_or_else(|| ParameterError {
                 variable: "rider.torqueWeight".into(),
                 reason: format!(
                     "is {} N m; no steering torque stabilises this motorcycle at {speed:.1} m/s; change rider.torqueWeight, \

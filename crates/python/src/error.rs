@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use moris_interface::Refusal;
+use moris_interface::ParameterError;
 use moris_setup::{Error, NamedValues};
 use pyo3::prelude::*;
 
@@ -13,8 +13,8 @@ fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCa
 }
 
 /// Parameters that cannot be used together, with the value of the one that is refused.
-pub fn refused(py: Python, refusal: &Refusal, values: &NamedValues) -> PyErr {
-    let Refusal { variable, reason } = refusal;
+pub fn refused(py: Python, refusal: &ParameterError, values: &NamedValues) -> PyErr {
+    let ParameterError { variable, reason } = refusal;
     let value = values.iter().find(|(name, _)| name == variable).map(|(_, value)| *value);
     exception(py, "ParameterError", (format!("{variable} {reason}"), variable, value))
 }

@@ -5,11 +5,11 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use moris::tune::cost::{Constraints, Cost, Judge};
+use moris::tune::cost::{Constraints, Cost, Objective};
 use moris::tune::search::{Budget, Evaluate, evaluate_here};
 use moris::tune::space::{Group, Space};
 use moris::tune::summary::{self, RideResult};
-use moris::tune::tuner::{NothingFound, Tuner};
+use moris::tune::tuner::{NoFeasibleParameters, Tuner};
 use moris::tune::{folds, results};
 use moris_setup::{NamedValues, Setup, all, overlaid};
 use moris_washout::Parameters;
@@ -36,7 +36,7 @@ type Progress = (String, usize, Option<f64>);
 #[pyclass(frozen, module = "moris._moris", name = "Tuning")]
 pub struct PyTuning {
     before: Setup,
-    judges: Vec<Judge>,
+    judges: Vec<Objective>,
     held_out: usize,
     groups: Vec<Group>,
 }
@@ -74,7 +74,7 @@ impl PyTuning {
         let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
         let constraints = Constraints { stroke_reserve };
         let judge = |recording: &PyRef<PyRecording>| {
-            let judge = Judge::new((*recording.ride).clone(), &before.parameters, &weights, constraints);
+            let judge = Objective::new((*recording.ride).clone(), &before.parameters, &weights, constraints);
             judge.map_err(|refusal| error::refused(py, &refusal, &all(&before.parameters)))
         };
         let judges = recordings.iter().map(judge).collect::<PyResult<_>>()?;
@@ -86,8 +86,8 @@ impl PyTuning {
     fn costs(&self, py: Python, names: Vec<String>, values: NamedValues) -> Option<Vec<Sent>> {
         let parameters = overlaid(&self.before.parameters, &values);
         let named = |name: &String| self.judges.iter().find(|judge| judge.name() == name);
-        let judges: Vec<&Judge> = names.iter().filter_map(named).collect();
-        let cost = |judge: &&Judge| judge.coarse_cost(&parameters).ok();
+        let judges: Vec<&Objective> = names.iter().filter_map(named).collect();
+        let cost = |judge: &&Objective| judge.coarse_cost(&parameters).ok();
         let costs: Option<Vec<Cost>> = py.detach(|| judges.iter().map(cost).collect());
         Some(costs?.into_iter().map(|cost| (cost.channels, cost.error, cost.violated)).collect())
     }
@@ -165,7 +165,7 @@ impl PyTuning {
         }
         let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
         let (tuned, results) = done.map_err(|reason| {
-            if reason.is::<NothingFound>() {
+            if reason.is::<NoFeasibleParameters>() {
                 error::nothing_found(py, &reason)
             } else {
                 error::parameter(py, reason.to_string())
@@ -191,8 +191,8 @@ impl PyTuning {
 impl PyTuning {
     fn tune(&self, tuner: &Tuner, groups: usize) -> Result<(Setup, Vec<RideResult>), Reason> {
         let (tuned_on, held_out) = self.judges.split_at(self.judges.len() - self.held_out);
-        let tuned_on: Vec<&Judge> = tuned_on.iter().collect();
-        let held_out: Vec<&Judge> = held_out.iter().collect();
+        let tuned_on: Vec<&Objective> = tuned_on.iter().collect();
+        let held_out: Vec<&Objective> = held_out.iter().collect();
         let tuned = tuner.tune(&tuned_on, "all rides")?;
         let mut results = results(tuner, &tuned_on, &held_out, &tuned)?;
         for fold in folds::folds(tuned_on.len(), groups) {
@@ -211,7 +211,7 @@ fn remote<'a>(
     interrupted: &'a AtomicBool,
     failure: &'a Mutex<Option<PyErr>>,
 ) -> Box<Evaluate<'a>> {
-    Box::new(move |judges: &[&Judge], parameters: &Parameters| {
+    Box::new(move |judges: &[&Objective], parameters: &Parameters| {
         let names: Vec<&str> = judges.iter().map(|judge| judge.name()).collect();
         let sent = Python::attach(|py| -> PyResult<Option<Vec<Sent>>> {
             function.call1(py, (names, all(parameters)))?.extract(py)

@@ -1,7 +1,7 @@
 //! Limits that contradict each other: each can be used, but one of them is not what its author
 //! thinks.
 
-use moris_interface::Refusal;
+use moris_interface::ParameterError;
 use moris_washout::Parameters;
 
 use crate::ranges::{Axis, single_axis_range};
@@ -11,12 +11,12 @@ use crate::ranges::{Axis, single_axis_range};
 ///
 /// # Errors
 /// The first limit beyond the rig's reach.
-pub fn contradiction(parameters: &Parameters) -> Result<(), Refusal> {
+pub fn contradiction(parameters: &Parameters) -> Result<(), ParameterError> {
     let limits = parameters.safety.position_limit;
     for (place, axis) in [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate() {
         let reach = single_axis_range(&parameters.rig, axis).smaller();
         if limits[place] > reach {
-            return Err(Refusal {
+            return Err(ParameterError {
                 variable: format!("safety.{}.positionLimit", ["x", "y", "z"][place]),
                 reason: format!(
                     "is {}, but in {} the rig reaches only {reach:.3} m from neutral; give a smaller limit, or in a rig file \

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use moris_interface::Refusal;
+use moris_interface::ParameterError;
 
 use crate::names::suggestion;
 
@@ -34,5 +34,5 @@ pub enum Error {
     WrongValue { source_name: String, name: String, reason: String },
     /// Each value could be used, but not all together.
     #[error("{0}")]
-    Refused(#[from] Refusal),
+    Refused(#[from] ParameterError),
 }

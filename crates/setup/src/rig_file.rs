@@ -34,7 +34,7 @@
 
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
-use moris_washout::{Refusal, Rig, check};
+use moris_washout::{ParameterError, Rig, check};
 use serde::Deserialize;
 
 use crate::names::nearest;
@@ -257,7 +257,7 @@ impl RigFile {
     /// # Errors
     /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a
     /// value out of its range.
-    pub fn check(&self) -> Result<(), Refusal> {
+    pub fn check(&self) -> Result<(), ParameterError> {
         check(&self.parameters())
     }
 }

@@ -1,6 +1,6 @@
 //! Validation of parameters: each alone, and in combination.
 
-use moris_interface::{Group, Refusal, check_fixed, refuse, slot_count};
+use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 use moris_washout::check_rig;
 use moris_washout::interface::StructureParameters;
 use moris_washout::platform::check_torso;
@@ -13,7 +13,7 @@ use crate::interface::{Inertia, Parameters};
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.
-pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
+pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), ParameterError> {
     let Parameters { setting, rig, .. } = parameters;
     parameters.check_ranges()?;
     check_torso(setting.torso_length, setting.head_height, "platform")?;
@@ -26,13 +26,13 @@ pub fn check(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refu
 ///
 /// # Errors
 /// The first parameter that cannot be used or must not change, and why.
-pub fn check_change(from: &Parameters, to: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
+pub fn check_change(from: &Parameters, to: &Parameters, at_rest: &Vector6<f64>) -> Result<(), ParameterError> {
     to.check_ranges()?;
     check_fixed::<_, { slot_count(Parameters::ROWS) }>(parameter_rows(), from, to)?;
     check_tunable(to, at_rest)
 }
 
-fn check_tunable(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
+fn check_tunable(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), ParameterError> {
     let Parameters { actuators, masses, .. } = parameters;
     check_inertia("platform.inertia", &masses.platform_inertia, true)?;
     check_inertia("rider.inertia", &masses.rider_inertia, false)?;
@@ -41,7 +41,7 @@ fn check_tunable(parameters: &Parameters, at_rest: &Vector6<f64>) -> Result<(), 
 
 /// A body's principal moments are positive, and none is larger than the other two together. A body
 /// that need not be there may also have none at all.
-fn check_inertia(name: &str, inertia: &Inertia, has_extent: bool) -> Result<(), Refusal> {
+fn check_inertia(name: &str, inertia: &Inertia, has_extent: bool) -> Result<(), ParameterError> {
     let moments = inertia.matrix().symmetric_eigenvalues();
     let (least, largest) = (moments.min(), moments.max());
     let slack = 1e-9 * largest;
@@ -60,7 +60,7 @@ fn check_inertia(name: &str, inertia: &Inertia, has_extent: bool) -> Result<(), 
 }
 
 /// The drives must carry the platform at rest.
-fn check_force_limit(limit: f64, at_rest: &Vector6<f64>) -> Result<(), Refusal> {
+fn check_force_limit(limit: f64, at_rest: &Vector6<f64>) -> Result<(), ParameterError> {
     let (leg, needed) = at_rest
         .iter()
         .map(|force| force.abs())

@@ -32,5 +32,5 @@ mod stewart_platform;
 
 pub use check::check;
 pub use interface::{Input, Output, Parameters};
-pub use moris_interface::{Model, Refusal};
+pub use moris_interface::{Model, ParameterError};
 pub use stewart_platform::StewartPlatform;

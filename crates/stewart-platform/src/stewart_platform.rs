@@ -1,6 +1,6 @@
 //! The whole platform: parameters, state and step.
 
-use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, Refusal, SHORTEST_STEP, bounds_of};
+use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, bounds_of};
 use moris_washout::cueing::evaluator::{Felt, felt};
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::platform::LocationFrame;
@@ -33,7 +33,7 @@ use crate::saturation::{Leg, Outcome, solve};
 /// assert!((output.position.z - 1.115).abs() < 1e-3); // the platform rose by a little more,
 /// let carried: f64 = output.force.iter().sum();
 /// assert!(carried > 330.0 * 9.80665); // and the inclined legs carry its weight.
-/// # Ok::<(), moris_stewart_platform::Refusal>(())
+/// # Ok::<(), moris_stewart_platform::ParameterError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StewartPlatform {
@@ -82,7 +82,7 @@ impl Model for StewartPlatform {
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
-    fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, input: &Input) -> Result<Self, ParameterError> {
         let now = Instant { lean: lean_or(input.lean, 0.0), ..Instant::at_rest(parameters) };
         check(parameters, &now.force)?;
         let neutral = neutral_lengths(&parameters.rig);
@@ -104,7 +104,7 @@ impl Model for StewartPlatform {
     /// # Errors
     /// The first parameter that cannot be used, and why; fixed ones cannot be changed. Nothing has
     /// changed then.
-    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters, &Instant::at_rest(parameters).force)?;
         let dead_time = parameters.actuators.dead_time;
         if dead_time != self.parameters.actuators.dead_time {

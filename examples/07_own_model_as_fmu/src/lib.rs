@@ -3,7 +3,7 @@
 #![allow(non_snake_case)] // FMI 2.0 names the library as the model
 
 use moris_interface::units::{M_PER_S2, S};
-use moris_interface::{Group, Identity, Model, Refusal, interface, variables};
+use moris_interface::{Group, Identity, Model, ParameterError, interface, variables};
 use serde::{Deserialize, Serialize};
 
 interface! {
@@ -55,11 +55,11 @@ impl Model for LowPass {
         step_size: 0.01,
     };
 
-    fn new(parameters: &Parameters, input: &Input) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, input: &Input) -> Result<Self, ParameterError> {
         Ok(LowPass { parameters: *parameters, u: input.u, y: input.u })
     }
 
-    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         self.parameters = *parameters;
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! A model with a variable of every kind, for the tests.
 
 use moris_interface::units::{M, RAD_PER_S};
-use moris_interface::{Group, Identity, Model, Refusal, enumeration, interface, interface_tree, variables};
+use moris_interface::{Group, Identity, Model, ParameterError, enumeration, interface, interface_tree, variables};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -84,11 +84,11 @@ impl Model for Small {
         step_size: 0.01,
     };
 
-    fn new(_: &Parameters, _: &Entry) -> Result<Self, Refusal> {
+    fn new(_: &Parameters, _: &Entry) -> Result<Self, ParameterError> {
         Ok(Small)
     }
 
-    fn retune(&mut self, _: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, _: &Parameters) -> Result<(), ParameterError> {
         Ok(())
     }
 

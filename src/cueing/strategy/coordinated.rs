@@ -29,7 +29,7 @@ use crate::cueing::compensation::{centripetal, tangential};
 use crate::interface::{Parameters, StrategyKind};
 use crate::motion::Motions;
 use crate::motion::braking_law::{Limits, Motion};
-use crate::motion::orientation::Turning;
+use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
 use crate::platform::{ActuatorGuard, Geometry};
 
@@ -191,7 +191,13 @@ impl Coordinated {
 
     /// Surge and sway at the end of a step, so that the rider feels the cue less the dropped force;
     /// `turning` is how the platform turns there, and `heave` how it heaves.
-    pub fn travel(&self, circumstances: &Circumstances, turning: &Turning, heave: &Motion, step: f64) -> [Motion; 2] {
+    pub fn travel(
+        &self,
+        circumstances: &Circumstances,
+        turning: &RotationalMotion,
+        heave: &Motion,
+        step: f64,
+    ) -> [Motion; 2] {
         let Circumstances { parameters, guard, head, force, .. } = *circumstances;
         let rotation = &turning.orientation.rotation;
         let arm = rotation * head.point;

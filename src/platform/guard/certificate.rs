@@ -16,7 +16,7 @@ use crate::motion::braking_law::{Limits, ROUNDING, WITH_ROUNDING};
 use crate::motion::extremes::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{Coordinates, Geometry, Legs, PlatformMotion};
+use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion};
 
 /// The fraction of the legs' acceleration that stopping takes; the rest is for what the legs
 /// do because they turn.
@@ -45,7 +45,7 @@ pub struct Machine {
 /// base frame, and its legs.
 #[derive(Clone, Copy)]
 pub struct Candidate<'a> {
-    pub coordinates: &'a Coordinates,
+    pub coordinates: &'a PlatformCoordinates,
     pub motion: &'a PlatformMotion,
     pub legs: &'a Legs,
 }
@@ -53,7 +53,7 @@ pub struct Candidate<'a> {
 /// The state that the platform has.
 #[derive(Clone, Copy)]
 pub struct State<'a> {
-    pub coordinates: &'a Coordinates,
+    pub coordinates: &'a PlatformCoordinates,
     pub motion: &'a PlatformMotion,
     pub speed: Speed,
 }
@@ -67,7 +67,7 @@ pub struct Speed {
 
 impl Speed {
     #[inline(always)]
-    pub fn of(coordinates: &Coordinates) -> Self {
+    pub fn of(coordinates: &PlatformCoordinates) -> Self {
         Speed { linear: coordinates.linear.velocity.norm(), angular: sum_of_magnitudes(&coordinates.angles.velocity) }
     }
 
@@ -176,7 +176,7 @@ impl Machine {
 
     /// The stop from the candidate within the safety limits: all coordinates in one duration that
     /// suits the fastest leg and the safety limits of acceleration, an axis with less room sooner.
-    fn stop_plan(&self, from: &Coordinates, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
+    fn stop_plan(&self, from: &PlatformCoordinates, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motions { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
         let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
@@ -204,8 +204,8 @@ impl Machine {
         let (now, next) = (from.coordinates, to.coordinates);
         let (linear, angles) =
             (Transition::new(&now.linear, &next.linear, step), Transition::new(&now.angles, &next.angles, step));
-        let start = Coordinates { linear: linear.start, angles: angles.start };
-        let end = Coordinates { linear: linear.end, angles: angles.end };
+        let start = PlatformCoordinates { linear: linear.start, angles: angles.start };
+        let end = PlatformCoordinates { linear: linear.end, angles: angles.end };
         let left = leg_motion(&self.geometry, &PlatformMotion::turning(from.motion, &start));
         let right = self.leg_motion_of(&end);
         let (before, after) = (Speed::of(now), Speed::of(next));
@@ -315,7 +315,7 @@ impl Machine {
         keeps
     }
 
-    pub(super) fn leg_motion_of(&self, coordinates: &Coordinates) -> LegMotion {
+    pub(super) fn leg_motion_of(&self, coordinates: &PlatformCoordinates) -> LegMotion {
         leg_motion(&self.geometry, &coordinates.motion(self.neutral_height))
     }
 }
@@ -340,7 +340,12 @@ impl Transition {
 }
 
 /// True if surge, sway and heave keep their safety limits at every instant of the transition.
-pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyParameters, step: f64) -> bool {
+pub fn axes_keep_limits(
+    from: &PlatformCoordinates,
+    to: &PlatformCoordinates,
+    safety: &SafetyParameters,
+    step: f64,
+) -> bool {
     let (now, next) = (&from.linear, &to.linear);
     let Transition { start, gap, .. } = Transition::new(now, next, step);
     let mut keeps = true;
@@ -360,7 +365,7 @@ pub fn axes_keep_limits(from: &Coordinates, to: &Coordinates, safety: &SafetyPar
 
 /// The positions that an axis may have from now on. Beyond the parameter it may come
 /// nearer, not go farther.
-fn reachable(from: &Coordinates, safety: &SafetyParameters, k: usize) -> (f64, f64) {
+fn reachable(from: &PlatformCoordinates, safety: &SafetyParameters, k: usize) -> (f64, f64) {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let (position, limit) = (from.linear.position[k], safety.position_limit[k]);
     let rounding = ROUNDING * max(position.abs(), limit);

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 pub use self::certificate::stroke_reserve;
 use self::certificate::{Candidate, Machine, Speed, State};
 use super::stop_plan::{StopDurations, StopPlan};
-use super::{Coordinates, Legs, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
+use super::{Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
 use crate::motion::extremes::min;
@@ -47,8 +47,8 @@ pub struct ActuatorGuard {
 /// The rest of the state while the platform is kept from its demand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Limited {
-    demand: Coordinates,
-    coordinates: Coordinates,
+    demand: PlatformCoordinates,
+    coordinates: PlatformCoordinates,
     /// Of the legs' lengths, over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
 }
@@ -73,7 +73,13 @@ impl ActuatorGuard {
     /// Advances by `step` seconds, at whose end the platform is to move as `demand` says; `motion`
     /// is the same, in the base frame. `safety` are the limits of surge, sway and heave in force.
     #[inline(always)]
-    pub fn advance(&mut self, demand: &Coordinates, motion: &PlatformMotion, safety: &SafetyParameters, step: f64) {
+    pub fn advance(
+        &mut self,
+        demand: &PlatformCoordinates,
+        motion: &PlatformMotion,
+        safety: &SafetyParameters,
+        step: f64,
+    ) {
         let legs = inverse_kinematics(&self.machine.geometry, motion);
         let candidate = Candidate { coordinates: demand, motion, legs: &legs };
         if self.limited.is_none()
@@ -138,7 +144,7 @@ impl ActuatorGuard {
 
     /// The platform's coordinates.
     #[inline(always)]
-    pub fn coordinates(&self) -> &Coordinates {
+    pub fn coordinates(&self) -> &PlatformCoordinates {
         match &self.limited {
             Some(limited) => &limited.coordinates,
             None => self.plan.start(),
@@ -146,7 +152,7 @@ impl ActuatorGuard {
     }
 
     /// The coordinates that were demanded last.
-    pub fn demand(&self) -> &Coordinates {
+    pub fn demand(&self) -> &PlatformCoordinates {
         match &self.limited {
             Some(limited) => &limited.demand,
             None => self.plan.start(),

@@ -9,14 +9,14 @@ use crate::interface::SafetyParameters;
 use crate::motion::Motions;
 use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, Motion};
 use crate::platform::stop_plan::StopPlan;
-use crate::platform::{Coordinates, Legs, PlatformMotion, inverse_kinematics, jacobian};
+use crate::platform::{Legs, PlatformCoordinates, PlatformMotion, inverse_kinematics, jacobian};
 
 /// Between the plan and the pursuit, the farthest certified candidate is found to a part in 2^6.
 const BISECTIONS: usize = 6;
 
 /// A candidate of its own.
 pub(super) struct Trial {
-    pub(super) coordinates: Coordinates,
+    pub(super) coordinates: PlatformCoordinates,
     motion: PlatformMotion,
     legs: Legs,
 }
@@ -51,14 +51,20 @@ impl ActuatorGuard {
 
     /// The state that the platform gets to if each leg pursues its target under its own limits, and
     /// surge, sway and heave keep theirs. Nothing depends on its being certified.
-    fn pursued(&self, now: &Coordinates, target: &Legs, safety: &SafetyParameters, step: f64) -> Coordinates {
+    fn pursued(
+        &self,
+        now: &PlatformCoordinates,
+        target: &Legs,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> PlatformCoordinates {
         let rates = Vector6::from(self.each_leg_pursued(target, step));
         // The Jacobian where the platform will be, not where it is: the legs have to arrive without a jump.
         let ahead = now.coasted(step).motion(self.machine.neutral_height);
         let twist = jacobian(&self.machine.geometry, &ahead.pose()).lu().solve(&rates).unwrap_or_else(Vector6::zeros);
         let velocity: Vector3<f64> = twist.fixed_rows::<3>(0).into();
         let rates = ahead.orientation.rates(twist.fixed_rows::<3>(3).into()).to_vector();
-        let Coordinates { linear, angles } = now;
+        let PlatformCoordinates { linear, angles } = now;
         // All change less where one may not change so much: the legs would go elsewhere otherwise.
         let change = velocity - linear.velocity;
         let least = Vector3::repeat(f64::MIN_POSITIVE);
@@ -66,7 +72,7 @@ impl ActuatorGuard {
         let velocity = linear.velocity + fraction * change;
         let rates = angles.velocity.lerp(&rates, fraction);
         let longest_step = self.pursuit.longest_step;
-        Coordinates {
+        PlatformCoordinates {
             linear: Motions::from_axes(|k| {
                 Limits::safety(safety, k, longest_step).at_velocity(&linear.axis(k), velocity[k], step)
             }),
@@ -83,7 +89,7 @@ impl ActuatorGuard {
         })
     }
 
-    fn trial(&self, coordinates: Coordinates) -> Trial {
+    fn trial(&self, coordinates: PlatformCoordinates) -> Trial {
         let motion = coordinates.motion(self.machine.neutral_height);
         Trial { coordinates, motion, legs: inverse_kinematics(&self.machine.geometry, &motion) }
     }

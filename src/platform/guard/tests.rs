@@ -41,8 +41,8 @@ fn after(motions: &Motions, time: f64) -> Motions {
     }
 }
 
-fn coordinates_after(start: &Coordinates, time: f64) -> Coordinates {
-    Coordinates { linear: after(&start.linear, time), angles: after(&start.angles, time) }
+fn coordinates_after(start: &PlatformCoordinates, time: f64) -> PlatformCoordinates {
+    PlatformCoordinates { linear: after(&start.linear, time), angles: after(&start.angles, time) }
 }
 
 fn sum(v: &Vector3<f64>) -> f64 {
@@ -69,7 +69,7 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
     let closest = [const { Cell::new(0.0_f64) }; 3];
     search(1_000_000)
         .run(&(pieces, 0..6_usize), |((linear, angles), i)| {
-            let start = Coordinates { linear, angles };
+            let start = PlatformCoordinates { linear, angles };
             let geometry = crate::platform::Geometry::from(&rig);
             let radius = rig.platform.iter().map(|joint| joint.norm()).fold(0.0, f64::max);
             let length = |time: f64| {
@@ -118,7 +118,7 @@ fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
 }
 
 /// True if leg lengths, rates and accelerations keep the machine's limits.
-fn keep(machine: &Machine, coordinates: &Coordinates) -> bool {
+fn keep(machine: &Machine, coordinates: &PlatformCoordinates) -> bool {
     let legs = leg_motion(&machine.geometry, &coordinates.motion(machine.neutral_height));
     const ROUNDING: f64 = 1.0 + 1e-9;
     (0..6).all(|i| {
@@ -145,9 +145,9 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
                 velocity: size * motions.velocity,
                 acceleration: size * motions.acceleration,
             };
-            let start = Coordinates { linear: scaled(&linear), angles: scaled(&angles) };
+            let start = PlatformCoordinates { linear: scaled(&linear), angles: scaled(&angles) };
             let end = coordinates_after(&start, step);
-            let motion = |coordinates: &Coordinates| coordinates.motion(machine.neutral_height);
+            let motion = |coordinates: &PlatformCoordinates| coordinates.motion(machine.neutral_height);
             let (from, to) = (motion(&start), motion(&end));
             let legs = inverse_kinematics(&machine.geometry, &to);
             let state = State { coordinates: &start, motion: &from, speed: Speed::of(&start) };
@@ -199,7 +199,7 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
     let inside = [const { Cell::new(0) }; 4];
     search(30_000)
         .run(&(pieces, -2.5..-1.0_f64), |((linear, angles), duration)| {
-            let start = Coordinates { linear, angles };
+            let start = PlatformCoordinates { linear, angles };
             let duration = 10.0_f64.powf(duration);
             let machine = unlimited();
             let at = |time: f64| machine.leg_motion_of(&coordinates_after(&start, time));
@@ -247,7 +247,7 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
 
 #[test]
 fn a_plan_followed_in_parts_is_the_plan() {
-    let start = Coordinates {
+    let start = PlatformCoordinates {
         linear: Motions { velocity: Vector3::new(0.3, -0.2, 0.0), ..Motions::default() },
         angles: Motions { velocity: Vector3::new(0.0, 0.1, -0.1), ..Motions::default() },
     };

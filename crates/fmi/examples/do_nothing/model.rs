@@ -1,6 +1,6 @@
 //! As many inputs and outputs as a washout has at a step, and nothing between them.
 
-use moris_interface::{Group, Identity, Model, Refusal, interface, variables};
+use moris_interface::{Group, Identity, Model, ParameterError, interface, variables};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -55,11 +55,11 @@ impl Model for DoNothing {
         step_size: 0.001,
     };
 
-    fn new(_: &Parameters, _: &Input) -> Result<Self, Refusal> {
+    fn new(_: &Parameters, _: &Input) -> Result<Self, ParameterError> {
         Ok(DoNothing)
     }
 
-    fn retune(&mut self, _: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, _: &Parameters) -> Result<(), ParameterError> {
         Ok(())
     }
 

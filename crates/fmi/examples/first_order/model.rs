@@ -2,7 +2,7 @@
 //! refuses, and with traps.
 
 use moris_interface::{
-    Group, Identity, Model, Refusal, enumeration, interface, interface_tree, refuse, units::S, variables,
+    Group, Identity, Model, ParameterError, enumeration, interface, interface_tree, refuse, units::S, variables,
 };
 use serde::{Deserialize, Serialize};
 
@@ -115,7 +115,7 @@ pub struct FirstOrder {
     counted: Counted,
 }
 
-fn check(parameters: &Parameters) -> Result<(), Refusal> {
+fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     if parameters.tunable.gain < 0.0 {
         return refuse("gain", "must not be negative");
     }
@@ -140,13 +140,13 @@ impl Model for FirstOrder {
         step_size: 0.1,
     };
 
-    fn new(parameters: &Parameters, _: &Input) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, _: &Input) -> Result<Self, ParameterError> {
         check(parameters)?;
         assert!(parameters.tunable.trap != 1, "trapped in new");
         Ok(FirstOrder { parameters: *parameters, y: parameters.fixed.y0, slope: 0.0, counted: Counted::default() })
     }
 
-    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check(parameters)?;
         assert!(parameters.tunable.trap != 2, "trapped in retune");
         self.parameters = *parameters;

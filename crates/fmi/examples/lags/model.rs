@@ -2,7 +2,7 @@
 //! that are refused, and a trap.
 
 use moris_interface::{
-    Group, Identity, Model, Refusal, enumeration, interface, interface_tree, refuse, units::S, variables,
+    Group, Identity, Model, ParameterError, enumeration, interface, interface_tree, refuse, units::S, variables,
 };
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -99,7 +99,7 @@ pub struct Lags {
     method_used: Method,
 }
 
-fn check(parameters: &Parameters) -> Result<(), Refusal> {
+fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     if parameters.tunable.gain.min() < 0.0 {
         return refuse("gain", "must not be negative");
     }
@@ -130,7 +130,7 @@ impl Model for Lags {
         step_size: 0.1,
     };
 
-    fn new(parameters: &Parameters, _: &Input) -> Result<Self, Refusal> {
+    fn new(parameters: &Parameters, _: &Input) -> Result<Self, ParameterError> {
         check(parameters)?;
         Ok(Lags {
             parameters: *parameters,
@@ -141,7 +141,7 @@ impl Model for Lags {
         })
     }
 
-    fn retune(&mut self, parameters: &Parameters) -> Result<(), Refusal> {
+    fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check(parameters)?;
         self.parameters = *parameters;
         Ok(())

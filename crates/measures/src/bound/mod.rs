@@ -66,7 +66,7 @@ pub struct Bound {
 
 /// Why there is no bound.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoBound {
+pub enum BoundError {
     /// The time between samples is no time.
     #[error("the time between samples is {0} s; it must be above 0")]
     Step(f64),
@@ -110,17 +110,17 @@ pub const INTERVAL: f64 = 0.02;
 ///
 /// # Errors
 /// The ride or the limits cannot be used, or the solver fails.
-pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> Result<Bound, NoBound> {
+pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> Result<Bound, BoundError> {
     check_limits(limits)?;
     if step.is_nan() || step <= 0.0 {
-        return Err(NoBound::Step(step));
+        return Err(BoundError::Step(step));
     }
     if let Some((sample, &value)) = desired.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        return Err(NoBound::NotFinite { sample, value });
+        return Err(BoundError::NotFinite { sample, value });
     }
     let steps = (interval / step).round().max(1.0) as usize;
     if desired.len() <= steps {
-        return Err(NoBound::TooShort { samples: desired.len(), needed: steps + 1 });
+        return Err(BoundError::TooShort { samples: desired.len(), needed: steps + 1 });
     }
     let means: Vec<f64> = desired.windows(steps + 1).step_by(steps).map(mean_of_line).collect();
     let interval = steps as f64 * step;
@@ -138,10 +138,10 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
     })
 }
 
-fn check_limits(limits: &AxisLimits) -> Result<(), NoBound> {
+fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
     let AxisLimits { min, max, velocity, acceleration, tilt } = *limits;
     let limit = |name, value: f64, holds: bool, needed| {
-        if holds && value.is_finite() { Ok(()) } else { Err(NoBound::Limit { name, value, needed }) }
+        if holds && value.is_finite() { Ok(()) } else { Err(BoundError::Limit { name, value, needed }) }
     };
     limit("least position", min, min < 0.0, "below 0")?;
     limit("greatest position", max, max > 0.0, "above 0")?;
@@ -172,17 +172,17 @@ struct Solution {
     z: Vec<f64>,
 }
 
-fn solve(programme: &Programme) -> Result<Solution, NoBound> {
+fn solve(programme: &Programme) -> Result<Solution, BoundError> {
     let settings = DefaultSettings { verbose: false, max_iter: 200, ..DefaultSettings::default() };
     let Programme { quadratic, linear, matrix, right, cones, .. } = programme;
     let mut solver = DefaultSolver::new(quadratic, linear, matrix, right, cones, settings)
-        .map_err(|error| NoBound::Solver(error.to_string()))?;
+        .map_err(|error| BoundError::Solver(error.to_string()))?;
     solver.solve();
     match solver.solution.status {
         // A solution of less accuracy is one all the same: what it is worth is computed afterwards.
         SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
             Ok(Solution { x: solver.solution.x, z: solver.solution.z })
         }
-        status => Err(NoBound::Solver(status.to_string())),
+        status => Err(BoundError::Solver(status.to_string())),
     }
 }

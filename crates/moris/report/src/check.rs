@@ -6,7 +6,7 @@ use crate::data::{Report, Run};
 
 /// Why no page can be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-pub enum Unusable {
+pub enum ReportError {
     #[error("the report has no runs: give it at least one")]
     NoRuns,
     #[error("run {selected} is selected but there are {runs}, counted from 0")]
@@ -23,37 +23,37 @@ pub enum Unusable {
 
 /// # Errors
 /// The first thing that does not fit, and where.
-pub fn check(report: &Report) -> Result<(), Unusable> {
+pub fn check(report: &Report) -> Result<(), ReportError> {
     if report.runs.is_empty() {
-        return Err(Unusable::NoRuns);
+        return Err(ReportError::NoRuns);
     }
     if report.selected >= report.runs.len() {
-        return Err(Unusable::NoSuchRun { selected: report.selected, runs: report.runs.len() });
+        return Err(ReportError::NoSuchRun { selected: report.selected, runs: report.runs.len() });
     }
     let [shortest, longest] = report.rig.stroke;
     if shortest.is_nan() || longest.is_nan() || shortest >= longest {
-        return Err(Unusable::Stroke);
+        return Err(ReportError::Stroke);
     }
     report.runs.iter().try_for_each(check_run)
 }
 
-fn check_run(run: &Run) -> Result<(), Unusable> {
+fn check_run(run: &Run) -> Result<(), ReportError> {
     let name = || run.name.clone();
     if run.times.len() < 2 {
-        return Err(Unusable::TooShort { run: name(), samples: run.times.len() });
+        return Err(ReportError::TooShort { run: name(), samples: run.times.len() });
     }
-    ascending(&run.times).map_err(|index| Unusable::Times { run: name(), index })?;
+    ascending(&run.times).map_err(|index| ReportError::Times { run: name(), index })?;
     for (series, found) in series_of(run) {
         if found != run.times.len() {
-            return Err(Unusable::Length { run: name(), series, found, wanted: run.times.len() });
+            return Err(ReportError::Length { run: name(), series, found, wanted: run.times.len() });
         }
     }
     for chart in &run.charts {
-        ascending(&chart.times).map_err(|index| Unusable::Times { run: name(), index })?;
+        ascending(&chart.times).map_err(|index| ReportError::Times { run: name(), index })?;
         let wanted = if chart.times.is_empty() { run.times.len() } else { chart.times.len() };
         if let Some(line) = chart.lines.iter().find(|line| line.values.len() != wanted) {
             let series = format!("the line \"{}\" of the chart \"{}\"", line.label, chart.title);
-            return Err(Unusable::Length { run: name(), series, found: line.values.len(), wanted });
+            return Err(ReportError::Length { run: name(), series, found: line.values.len(), wanted });
         }
     }
     Ok(())

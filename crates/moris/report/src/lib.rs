@@ -13,7 +13,7 @@ mod encode;
 mod events;
 mod page;
 
-pub use check::{Unusable, check};
+pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight};
 pub use events::{Event, Kind, events};
 pub use page::html;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::check::{Unusable, check};
+use crate::check::{ReportError, check};
 use crate::data::Report;
 use crate::events::{Event, events};
 
@@ -44,7 +44,7 @@ struct Page<'a> {
 ///
 /// # Panics
 /// Never: plain data always serialise.
-pub fn html(report: &Report) -> Result<String, Unusable> {
+pub fn html(report: &Report) -> Result<String, ReportError> {
     check(report)?;
     let page = Page { report, events: report.runs.iter().map(|run| events(run, &report.rig)).collect() };
     // Nothing in the data can end the script element that holds them: a < in JSON stands in a string only.
@@ -142,6 +142,6 @@ mod tests {
     fn what_does_not_fit_makes_no_page() {
         let mut report = smallest();
         report.runs.clear();
-        assert_eq!(html(&report), Err(Unusable::NoRuns));
+        assert_eq!(html(&report), Err(ReportError::NoRuns));
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use moris_washout::nalgebra::Complex;
-use moris_washout::{Parameters, Refusal, Washout};
+use moris_washout::{ParameterError, Parameters, Washout};
 
 use super::channel::{ALL, CHANNELS, Channel, felt};
 use super::excitation::Sine;
@@ -51,12 +51,12 @@ pub fn response(
     frequency: f64,
     amplitude: f64,
     gravity_turns: bool,
-) -> Result<Response, Refusal> {
+) -> Result<Response, ParameterError> {
     let period = TAU / frequency;
     let periods = (SHORTEST_BLOCK / period).ceil();
     let fade = periods * period;
     let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters };
-    let mut walk = Walk::new(sine, periods)?;
+    let mut walk = SteadyStateRun::new(sine, periods)?;
     walk.block(); // It fades in.
     let mut last = walk.block();
     let blocks = ((LONGEST_WAIT / fade) as usize).max(FEWEST_BLOCKS);
@@ -73,7 +73,7 @@ pub fn response(
 }
 
 /// The washout on its way through the sine.
-struct Walk<'a> {
+struct SteadyStateRun<'a> {
     sine: Sine<'a>,
     washout: Washout,
     /// Samples in a block, and the time between them.
@@ -83,12 +83,12 @@ struct Walk<'a> {
     made: usize,
 }
 
-impl<'a> Walk<'a> {
-    fn new(sine: Sine<'a>, periods: f64) -> Result<Self, Refusal> {
+impl<'a> SteadyStateRun<'a> {
+    fn new(sine: Sine<'a>, periods: f64) -> Result<Self, ParameterError> {
         let block = periods * TAU / sine.frequency;
         let samples = (block / LONGEST_STEP).ceil();
         let washout = Washout::new(sine.parameters)?.starting_with(&sine.input(0.0));
-        Ok(Walk { sine, washout, samples: samples as usize, step: block / samples, made: 0 })
+        Ok(SteadyStateRun { sine, washout, samples: samples as usize, step: block / samples, made: 0 })
     }
 
     /// Goes on for a block of whole periods.

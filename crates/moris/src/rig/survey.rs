@@ -6,7 +6,7 @@ use moris_setup::ranges::{Axis, Range, single_axis_range, stroke_margin};
 use moris_setup::rig_file::RigFile;
 use moris_washout::interface::Parameters;
 use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
-use moris_washout::{Refusal, Rig};
+use moris_washout::{ParameterError, Rig};
 
 use super::workspace::{TILT, Volume, Workspace};
 use crate::text_table::TextTable;
@@ -53,7 +53,7 @@ impl Survey {
     /// # Errors
     /// The rig cannot be surveyed: a value is out of its range, or the legs do not reach neutral.
     /// A singular rig can be.
-    pub fn of(file: &RigFile, samples: u32) -> Result<Self, Refusal> {
+    pub fn of(file: &RigFile, samples: u32) -> Result<Self, ParameterError> {
         let parameters = file.parameters();
         let rig = &parameters.rig;
         let singularities = match (file.check(), platform::survey(rig)) {

@@ -1,7 +1,7 @@
 //! The bound on each axis: how well the ride's specific force could be felt at best on this rig.
 
 use moris_measures::Axes;
-use moris_measures::bound::{AxisLimits, Bound, INTERVAL, NoBound, TiltLimits, bound};
+use moris_measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
 use moris_setup::ranges::{Axis, single_axis_range};
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -41,7 +41,7 @@ const MOST_INTERVALS: f64 = 10_000.0;
 ///
 /// # Errors
 /// The ride is too short for a bound, or the solver fails.
-pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound> {
+pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, BoundError> {
     let duration = recording.step * recording.inputs.len() as f64;
     let interval = INTERVAL.max(duration / MOST_INTERVALS);
     let on_axis = |axis: usize| {
@@ -53,7 +53,7 @@ pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, NoBound>
         };
         Ok((bound.desired_rms() >= WORTH_BOUNDING).then_some(bound))
     };
-    let found: Result<Vec<Option<AxisBound>>, NoBound> = (0..3).into_par_iter().map(on_axis).collect();
+    let found: Result<Vec<Option<AxisBound>>, BoundError> = (0..3).into_par_iter().map(on_axis).collect();
     let mut found = found?.into_iter();
     Ok(std::array::from_fn(|_| found.next().flatten()))
 }

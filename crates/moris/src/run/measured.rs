@@ -1,6 +1,6 @@
 //! The measures of a recording.
 
-use moris_measures::{Limited, Measures, Platform, Run, Unusable};
+use moris_measures::{Limited, Measures, Platform, Run, RunError};
 use moris_washout::{Input, Output};
 
 use super::Recording;
@@ -9,7 +9,7 @@ use super::Recording;
 ///
 /// # Errors
 /// It is too short to be measured.
-pub fn measures(recording: &Recording) -> Result<Measures, Unusable> {
+pub fn measures(recording: &Recording) -> Result<Measures, RunError> {
     let inputs = |value: fn(&Input) -> [f64; 3]| recording.inputs.iter().map(value).collect::<Vec<_>>();
     let outputs = |value: fn(&Output) -> [f64; 3]| recording.outputs.iter().map(value).collect::<Vec<_>>();
     let limited = |output: &Output| Limited {

@@ -6,7 +6,7 @@ use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::LocationFrame;
 use moris_washout::platform::Pose;
-use moris_washout::{Input, Output, Parameters, Refusal, Washout};
+use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
 /// Every input and output of a ride.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ impl Recording {
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.
-    pub fn of(replay: &Replay, parameters: &Parameters, progress: impl FnMut()) -> Result<Self, Refusal> {
+    pub fn of(replay: &Replay, parameters: &Parameters, progress: impl FnMut()) -> Result<Self, ParameterError> {
         Recording::prepared(replay, parameters, |_, _| (), progress)
     }
 
@@ -39,7 +39,7 @@ impl Recording {
         parameters: &Parameters,
         prepare: impl FnMut(&mut Washout, f64),
         mut progress: impl FnMut(),
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, ParameterError> {
         let inputs: Vec<Input> = replay.inputs().copied().collect();
         let mut washout = Washout::new(parameters)?.starting_with(&inputs[0]);
         let mut outputs = vec![washout.output()];

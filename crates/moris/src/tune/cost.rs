@@ -15,7 +15,7 @@ use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
 use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::{Output, Parameters, Refusal, Washout};
+use moris_washout::{Output, ParameterError, Parameters, Washout};
 
 use crate::ride::Ride;
 use crate::run::Recording;
@@ -51,7 +51,7 @@ impl Cost {
 
 /// A ride that parameters are judged on.
 #[derive(Clone, Debug)]
-pub struct Judge {
+pub struct Objective {
     name: String,
     ride: Ride,
     desired: Channels<Vec<f64>>,
@@ -73,7 +73,7 @@ const LONGEST_STEP: f64 = 0.02;
 /// acceleration varies unseen.
 const RESERVE_OF_ACCELERATION: f64 = 0.85;
 
-impl Judge {
+impl Objective {
     /// Prepares to judge parameters that have the fixed ones of these on a ride.
     ///
     /// # Errors
@@ -83,14 +83,14 @@ impl Judge {
         parameters: &Parameters,
         weights: &Channels<f64>,
         constraints: Constraints,
-    ) -> Result<Self, Refusal> {
+    ) -> Result<Self, ParameterError> {
         let mut parameters = ride.parameters(parameters);
         let desired = desired(&ride, &parameters);
         parameters.structure.max_step = ride.step().min(LONGEST_STEP).max(parameters.structure.max_step);
         parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], ride.step()));
         let coarse = Washout::new(&parameters)?;
-        Ok(Judge { name: ride.name.clone(), ride, desired, desired_rms, weights: *weights, constraints, coarse })
+        Ok(Objective { name: ride.name.clone(), ride, desired, desired_rms, weights: *weights, constraints, coarse })
     }
 
     /// The ride's name.
@@ -117,7 +117,7 @@ impl Judge {
     ///
     /// # Errors
     /// The parameters cannot be used.
-    pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, Refusal> {
+    pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
         let mut washout = self.coarse.clone();
         let mut parameters = self.ride.parameters(parameters);
         let Parameters { structure, rig, .. } = washout.parameters();
@@ -125,7 +125,7 @@ impl Judge {
         parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
         washout.retune(&parameters)?;
         let mut washout = washout.starting_with(&self.ride.inputs()[0]);
-        let mut tally = Tally::new(self);
+        let mut tally = CostAccumulator::new(self);
         tally.add(&washout.output());
         self.ride.replay().run(&mut washout, |_, output| tally.add(output));
         Ok(tally.cost())
@@ -133,23 +133,23 @@ impl Judge {
 
     /// Cost of a simulation.
     pub fn cost(&self, recording: &Recording) -> Cost {
-        let mut tally = Tally::new(self);
+        let mut tally = CostAccumulator::new(self);
         recording.outputs.iter().for_each(|output| tally.add(output));
         tally.cost()
     }
 }
 
 /// Accumulated cost.
-struct Tally<'a> {
-    judge: &'a Judge,
+struct CostAccumulator<'a> {
+    judge: &'a Objective,
     errors: Channels<Vec<f64>>,
     violated: usize,
 }
 
-impl<'a> Tally<'a> {
-    fn new(judge: &'a Judge) -> Self {
+impl<'a> CostAccumulator<'a> {
+    fn new(judge: &'a Objective) -> Self {
         let samples = judge.desired[0].len();
-        Tally { judge, errors: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
+        CostAccumulator { judge, errors: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
     }
 
     fn add(&mut self, output: &Output) {
@@ -163,7 +163,7 @@ impl<'a> Tally<'a> {
     }
 
     fn cost(self) -> Cost {
-        let Judge { ride, desired_rms, .. } = self.judge;
+        let Objective { ride, desired_rms, .. } = self.judge;
         let channels = std::array::from_fn(|k| sensed_rms(k, &self.errors[k], ride.step()));
         // A ride on which less than a threshold is to be felt is not blown up.
         let whole = self.judge.weighted(desired_rms).max(1.0);

@@ -28,7 +28,7 @@ use rayon::prelude::*;
 
 use crate::ride::Ride;
 use crate::run::{Outcome, write_page};
-use cost::Judge;
+use cost::Objective;
 pub use options::Options;
 use space::Space;
 use summary::RideResult;
@@ -61,7 +61,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         interrupted: listen()?,
         bar,
     };
-    let everything: Vec<&Judge> = tuned_on.iter().collect();
+    let everything: Vec<&Objective> = tuned_on.iter().collect();
     let tuned = tuner.tune(&everything, "all rides")?;
     let mut results = results(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &tuned)?;
     for fold in &folds {
@@ -89,11 +89,11 @@ fn number_of_folds(options: &Options) -> usize {
     if options.hold_out.is_empty() { options.folds.unwrap_or(options.rides.len()) } else { 0 }
 }
 
-fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Judge>> {
+fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
     let judge = |file: &PathBuf| {
         let ride = Ride::read(file, &conventions)?;
-        Ok(Judge::new(ride, &setup.parameters, &options.weights, options.constraints())?)
+        Ok(Objective::new(ride, &setup.parameters, &options.weights, options.constraints())?)
     };
     files.par_iter().map(judge).collect()
 }
@@ -117,8 +117,13 @@ fn listen() -> Result<Arc<AtomicBool>> {
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn results(tuner: &Tuner, judges: &[&Judge], held_out: &[&Judge], tuned: &Setup) -> Result<Vec<RideResult>> {
-    let result = |judge: &&Judge, is_held_out: bool| {
+pub fn results(
+    tuner: &Tuner,
+    judges: &[&Objective],
+    held_out: &[&Objective],
+    tuned: &Setup,
+) -> Result<Vec<RideResult>> {
+    let result = |judge: &&Objective, is_held_out: bool| {
         let after = tuner::full_cost(judge, tuned)?;
         Ok(RideResult {
             name: judge.name().to_owned(),
@@ -152,7 +157,7 @@ fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> R
 fn write_reports<'a>(
     options: &Options,
     text: &str,
-    judges: impl Iterator<Item = &'a Judge>,
+    judges: impl Iterator<Item = &'a Objective>,
     setups: &[Setup; 2],
 ) -> Result<Vec<PathBuf>> {
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;

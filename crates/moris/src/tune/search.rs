@@ -9,7 +9,7 @@ use moris_washout::Parameters;
 use moris_washout::nalgebra;
 use rayon::prelude::*;
 
-use super::cost::{Cost, Judge};
+use super::cost::{Cost, Objective};
 use super::space::Space;
 
 /// Length and start of a search.
@@ -22,13 +22,13 @@ pub struct Budget {
 }
 
 /// Computes the cost of each ride with these parameters, in the long steps of a search.
-pub type Evaluate<'a> = dyn Fn(&[&Judge], &Parameters) -> Result<Vec<Cost>> + Sync + 'a;
+pub type Evaluate<'a> = dyn Fn(&[&Objective], &Parameters) -> Result<Vec<Cost>> + Sync + 'a;
 
 /// Evaluates on all cores of this machine.
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn evaluate_here(judges: &[&Judge], parameters: &Parameters) -> Result<Vec<Cost>> {
+pub fn evaluate_here(judges: &[&Objective], parameters: &Parameters) -> Result<Vec<Cost>> {
     judges.par_iter().map(|judge| Ok(judge.coarse_cost(parameters)?)).collect()
 }
 
@@ -87,7 +87,7 @@ pub struct Searched {
 /// # Errors
 /// Parameters of the space cannot be used.
 pub fn search(
-    judges: &[&Judge],
+    judges: &[&Objective],
     evaluate: &Evaluate,
     space: &Space,
     budget: Budget,
@@ -194,13 +194,13 @@ const PRICE_OF_WORSENING: f64 = 4.0;
 
 /// The rides, with their errors at the start of the search.
 struct Rides<'a> {
-    judges: &'a [&'a Judge],
+    judges: &'a [&'a Objective],
     evaluate: &'a Evaluate<'a>,
     starts: Vec<f64>,
 }
 
 impl<'a> Rides<'a> {
-    fn new(judges: &'a [&'a Judge], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
+    fn new(judges: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
         let start = at(space, &vec![0.0; space.dimension()]);
         let starts = evaluate(judges, &start)?.iter().map(|cost| cost.error).collect();
         Ok(Rides { judges, evaluate, starts })

@@ -11,7 +11,7 @@ use moris_setup::Setup;
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use super::cost::{Cost, Judge};
+use super::cost::{Cost, Objective};
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
 use super::summary::RideResult;
@@ -19,15 +19,15 @@ use crate::run::Recording;
 
 /// No parameters were found that keep the constraints; the text says where, and what to do.
 #[derive(Debug)]
-pub struct NothingFound(String);
+pub struct NoFeasibleParameters(String);
 
-impl fmt::Display for NothingFound {
+impl fmt::Display for NoFeasibleParameters {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
         formatter.write_str(&self.0)
     }
 }
 
-impl Error for NothingFound {}
+impl Error for NoFeasibleParameters {}
 
 /// Tunes on rides, as often as asked.
 pub struct Tuner<'a> {
@@ -58,8 +58,8 @@ impl Tuner<'_> {
     /// that they will be used with.
     ///
     /// # Errors
-    /// None were found ([`NothingFound`]), or parameters cannot be used.
-    pub fn tune(&self, judges: &[&Judge], what: &str) -> Result<Setup> {
+    /// None were found ([`NoFeasibleParameters`]), or parameters cannot be used.
+    pub fn tune(&self, judges: &[&Objective], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
         let searched = search(judges, self.evaluate, &self.space, self.budget, |tried, least| {
             let go_on = (self.observe)(what, tried, least);
@@ -95,7 +95,7 @@ impl Tuner<'_> {
              --tune splitter,angular,scale,cutoff",
             self.held_up(judges, &nearest)?
         );
-        Err(NothingFound(text).into())
+        Err(NoFeasibleParameters(text).into())
     }
 
     /// Candidates to verify in the final step size, one after the other: the best of the search,
@@ -119,7 +119,7 @@ impl Tuner<'_> {
     }
 
     /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
-    fn held_up(&self, judges: &[&Judge], setup: &Setup) -> Result<String> {
+    fn held_up(&self, judges: &[&Objective], setup: &Setup) -> Result<String> {
         let mut told = Vec::new();
         for judge in judges {
             let share = full_cost(judge, setup)?.violated;
@@ -136,8 +136,8 @@ impl Tuner<'_> {
     ///
     /// # Errors
     /// Parameters cannot be used.
-    pub fn leave_out(&self, judges: &[&Judge], fold: &[usize], results: &mut [RideResult]) -> Result<()> {
-        let others: Vec<&Judge> =
+    pub fn leave_out(&self, judges: &[&Objective], fold: &[usize], results: &mut [RideResult]) -> Result<()> {
+        let others: Vec<&Objective> =
             judges.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, judge)| *judge).collect();
         let names: Vec<&str> = fold.iter().map(|&k| judges[k].name()).collect();
         if self.was_interrupted() {
@@ -154,7 +154,7 @@ impl Tuner<'_> {
                 }
                 Ok(())
             }
-            Err(error) if error.is::<NothingFound>() => {
+            Err(error) if error.is::<NoFeasibleParameters>() => {
                 fold.iter().for_each(|&k| results[k].nothing_found_without = true);
                 Ok(())
             }
@@ -173,7 +173,7 @@ const TRIES: i32 = 32;
 /// Factor by which a ride's error may grow, at most, without a word.
 pub const WORST_RATIO: f64 = 1.05;
 
-fn full_costs(judges: &[&Judge], setup: &Setup) -> Result<Vec<Cost>> {
+fn full_costs(judges: &[&Objective], setup: &Setup) -> Result<Vec<Cost>> {
     judges.par_iter().map(|judge| full_cost(judge, setup)).collect()
 }
 
@@ -186,7 +186,7 @@ fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn full_cost(judge: &Judge, setup: &Setup) -> Result<Cost> {
+pub fn full_cost(judge: &Objective, setup: &Setup) -> Result<Cost> {
     let parameters = judge.ride().parameters(&setup.parameters);
     Ok(judge.cost(&Recording::of(&judge.ride().replay(), &parameters, || ())?))
 }
