@@ -40,8 +40,8 @@ pub struct DefaultExperiment {
 }
 
 impl UnitDefinitions {
-    /// Every unit that a row has, once, in the order in which they appear; with the unit for display
-    /// that any of these rows has. None without units.
+    /// Every unit that a row has, once, in the order in which they appear; with the unit for
+    /// display that any of these rows has. None without units.
     pub fn of(identity: &Identity) -> Option<Self> {
         let mut units: Vec<Unit> = Vec::new();
         for row in identity.rows {
