@@ -129,8 +129,28 @@ pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32)
 pub const ADAPTIVE: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Adaptive);
 /// The optimal strategy, with the tilt limits that its weights were found for.
 pub const OPTIMAL: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Optimal);
-/// The predictive strategy, with the tilt limits that its weights were found for.
-pub const PREDICTIVE: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Predictive);
+/// The predictive strategy, with the specific force unscaled and the limits that its weights were
+/// found for: tilt as fast as the paper's and no farther than 15 degrees, so that less of it is
+/// left over when a force ends.
+pub const PREDICTIVE: &[(&str, f64)] = &[
+    ("strategy", item(StrategyKind::Predictive as i32)),
+    ("scale.specificForce.x", 1.0),
+    ("scale.specificForce.y", 1.0),
+    ("scale.specificForce.z", 1.0),
+    ("limit.specificForce.x", 4.5),
+    ("limit.specificForce.y", 7.0),
+    ("tilt.rateLimit", 0.052_359_877_559_829_88),
+    ("tilt.accelerationLimit", 0.4),
+    ("tilt.angleLimit", 0.257),
+    ("predictive.weightPosition", 3.2e-4),
+    ("predictive.weightVelocity", 2.6e-2),
+    ("predictive.weightTiltRate", 1.9e-3),
+    ("predictive.weightTiltAcceleration", 5e-4),
+    ("predictive.slowPole", 0.2),
+    ("predictive.fastPole", 2.2),
+    ("predictive.memory", 160.0),
+    ("predictive.selection", 14.0),
+];
 
 /// A strategy under the paper's tilt limits, with the specific force unscaled.
 const fn with_tilt_of_the_paper(strategy: StrategyKind) -> [(&'static str, f64); 7] {

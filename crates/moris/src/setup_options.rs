@@ -18,7 +18,8 @@ pub struct SetupOptions {
     #[arg(long, value_name = "FILE|NAME")]
     pub parameters: Vec<String>,
 
-    /// Strategy that divides the cue between surge, sway and tilt; overrides the parameters'
+    /// Strategy that divides the cue between surge, sway and tilt, with the preset of its name
+    /// below the parameters given; overrides their strategy
     #[arg(long, value_enum)]
     pub strategy: Option<Strategy>,
 }
@@ -49,12 +50,18 @@ impl SetupOptions {
     /// # Errors
     /// As [`Setup::load`].
     pub fn load(&self) -> Result<Setup, Error> {
-        let mut setup = Setup::load(self.rig.as_deref(), &self.parameters)?;
-        if let Some(strategy) = self.strategy {
-            setup.parameters.structure.strategy = strategy.into();
-            let name = strategy.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-            setup.parameters_name =
-                if self.parameters.is_empty() { name } else { format!("{} + {name}", setup.parameters_name) };
+        let Some(strategy) = self.strategy else { return Setup::load(self.rig.as_deref(), &self.parameters) };
+        let name = strategy.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+        // The set of a strategy's name has the limits that the strategy is made for.
+        let own = (strategy != Strategy::Classical).then(|| name.clone());
+        let sets: Vec<String> = own.into_iter().chain(self.parameters.iter().cloned()).collect();
+        let mut setup = Setup::load(self.rig.as_deref(), &sets)?;
+        setup.parameters.structure.strategy = strategy.into();
+        if !self.parameters.is_empty() {
+            let given = Setup::load(self.rig.as_deref(), &self.parameters)?.parameters_name;
+            setup.parameters_name = format!("{given} + {name}");
+        } else {
+            setup.parameters_name = name;
         }
         Ok(setup)
     }

@@ -16,11 +16,11 @@ pub mod legs;
 pub mod preview;
 pub mod program;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Rows, Status};
-use self::forecast::{Forecaster, Memory, Tables};
+use self::forecast::{Forecast, Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, SAMPLE};
 use self::legs::{Surroundings, leg_rows};
 use self::preview::Course;
@@ -36,6 +36,11 @@ const PACE: f64 = 0.001;
 const LONG_PREVIEW: f64 = 2.0;
 /// A plan that takes more iterations is given up.
 const MAX_ITERATIONS: u32 = 120;
+/// Largest surcharge on a dropped force of surge and of sway that turns the felt force around,
+/// beside the price of 1. Sway has few opposite cues, which a surcharge does not make fewer.
+const OPPOSITE_SURCHARGE: [f64; 2] = [0.5, 0.0];
+/// The felt force in the opposite direction from which on the surcharge is due in full \[m/s2\].
+const OPPOSITE_FORCE: f64 = 0.15;
 /// Differences of time below this are rounding \[s\].
 const INSTANT: f64 = 1e-9;
 
@@ -56,6 +61,7 @@ pub struct Predictive {
     forecasters: [Box<Forecaster>; 2],
     until_sample: f64,
     programs: Programs,
+    factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
     rows: Box<Rows<CONTROLS, ROWS>>,
     solver: Box<DualActiveSet<CONTROLS, ROWS>>,
     /// True: a new plan is due.
@@ -120,6 +126,7 @@ impl Predictive {
             until_sample: SAMPLE,
             rows: Box::new(program::rows(&programs.near)),
             programs,
+            factor: Box::new(SMatrix::zeros()),
             solver: Box::new(DualActiveSet::new()),
             due: true,
             horizon: Horizon::Near,
@@ -231,6 +238,7 @@ impl Predictive {
         }
         let program = self.programs.over(horizon);
         let mut gradient = SVector::<f64, CONTROLS>::zeros();
+        let mut surcharges = [SVector::zeros(); 2];
         for (k, axis) in program.axes.iter().enumerate() {
             let forecaster = &self.forecasters[k];
             // A stop takes the reference of surge away; a preview knows of it.
@@ -239,6 +247,7 @@ impl Predictive {
             } else {
                 forecaster.over(horizon, &self.tables, self.tuning.forecast)
             };
+            surcharges[k] = OPPOSITE_SURCHARGE[k] * opposition(&forecast, &self.plan.controls[k]);
             let data = program::data(&states[k], &forecast);
             self.free[k] = axis.free_nodes(&data);
             gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
@@ -247,7 +256,12 @@ impl Predictive {
             self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| 1.0 - value));
         }
         self.limit_legs(surroundings);
-        self.solver.start(&self.programs.over(horizon).factor, &gradient);
+        if self.programs.over(horizon).factorize(&surcharges, &mut self.factor) {
+            self.solver.start(&self.factor, &gradient);
+        } else {
+            self.solver.abandon();
+            self.plan.kept = true;
+        }
     }
 
     /// Sets the rows of the actuators, in halves of the stroke.
@@ -302,6 +316,16 @@ impl Predictive {
         self.plan.iterations = self.solver.iterations();
         self.plan.kept = false;
     }
+}
+
+/// How far the plan before would have the rider feel the opposite of what is expected, block by
+/// block: 0 to 1. An opposite cue is worse than a missing one of the same error.
+fn opposition(forecast: &Forecast, controls: &AxisControls) -> SVector<f64, BLOCKS> {
+    SVector::from_fn(|block, _| {
+        let expected = forecast.means[block];
+        let opposite = -(expected + controls[block]) * expected.signum();
+        (opposite / OPPOSITE_FORCE).clamp(0.0, 1.0)
+    })
 }
 
 #[cfg(test)]
@@ -383,11 +407,42 @@ mod tests {
     }
 
     #[test]
+    fn only_a_felt_force_against_the_expected_one_is_opposed() {
+        let mut forecast = Forecast::default();
+        forecast.means.fill(-2.0);
+        let mut controls = AxisControls::zeros();
+        controls.as_mut_slice()[..4].copy_from_slice(&[1.0, 2.0, 2.0 + 0.5 * OPPOSITE_FORCE, 5.0]);
+        let opposed = opposition(&forecast, &controls);
+        assert_eq!((opposed[0], opposed[1], opposed[3], opposed[4]), (0.0, 0.0, 1.0, 0.0));
+        assert!((opposed[2] - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_factor_is_that_of_the_hessian_with_the_surcharges() {
+        let predictive = predictive();
+        let program = predictive.programs.over(Horizon::Far);
+        let surcharges = [SVector::from_fn(|k, _| 0.1 * k as f64), SVector::repeat(0.3)];
+        let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
+        assert!(program.factorize(&surcharges, &mut factor));
+        // J J' is the inverse of the Hessian.
+        let inverse = factor * factor.transpose();
+        for k in 0..2 {
+            let mut hessian = *program.axes[k].hessian();
+            for block in 0..BLOCKS {
+                hessian[(block, block)] += Horizon::Far.durations()[block] * surcharges[k][block];
+            }
+            let begin = k * AXIS_CONTROLS;
+            let product = hessian * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
+            assert!((product - SMatrix::identity()).amax() < 1e-8, "{}", (product - SMatrix::identity()).amax());
+        }
+    }
+
+    #[test]
     fn condensed_nodes_are_those_of_the_block_equations() {
         let predictive = predictive();
         let controls = AxisControls::from_fn(|k, _| 0.3 * (k as f64).sin());
         let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
-        let mut forecast = forecast::Forecast::default();
+        let mut forecast = Forecast::default();
         forecast.means.fill(0.7);
         let data = program::data(&state, &forecast);
         let axis = &predictive.programs.near.axes[0];

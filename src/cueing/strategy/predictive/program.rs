@@ -90,17 +90,13 @@ pub struct Program {
     pub horizon: Horizon,
     /// Surge and sway.
     pub axes: [Box<AxisProgram>; 2],
-    /// L^-T of the Hessian L L' of both axes.
-    pub factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
 }
 
 impl Program {
     /// The program of both axes. None if there is no regulator for these weights.
     pub fn new(models: &[AxisModel; 2], weights: &Weights, horizon: Horizon) -> Option<Self> {
         let axis = |axis: usize| AxisProgram::new(&models[axis], weights, horizon).map(Box::new);
-        let axes = [axis(0)?, axis(1)?];
-        let factor = Box::new(factor_of([&axes[0], &axes[1]])?);
-        Some(Program { horizon, axes, factor })
+        Some(Program { horizon, axes: [axis(0)?, axis(1)?] })
     }
 
     /// Replaces the program by that for other models or weights; it stays if there is no other.
@@ -111,8 +107,31 @@ impl Program {
         else {
             return;
         };
-        let Some(factor) = factor_of([&surge, &sway]) else { return };
-        (*self.axes[0], *self.axes[1], *self.factor) = (surge, sway, factor);
+        (*self.axes[0], *self.axes[1]) = (surge, sway);
+    }
+
+    /// Sets `factor` to L^-T of the Hessian L L' of both axes, the dropped force of each block
+    /// priced higher by `surcharges`. False if rounding has made the Hessian indefinite.
+    pub fn factorize(
+        &self,
+        surcharges: &[SVector<f64, BLOCKS>; 2],
+        factor: &mut SMatrix<f64, CONTROLS, CONTROLS>,
+    ) -> bool {
+        factor.fill(0.0);
+        for (k, axis) in self.axes.iter().enumerate() {
+            let mut hessian = axis.hessian;
+            for (block, duration) in self.horizon.durations().iter().enumerate() {
+                hessian[(block, block)] += duration * surcharges[k][block];
+            }
+            let Some(cholesky) = hessian.cholesky() else { return false };
+            let mut inverse = SMatrix::<f64, AXIS_CONTROLS, AXIS_CONTROLS>::identity();
+            if !cholesky.l_dirty().solve_lower_triangular_mut(&mut inverse) {
+                return false;
+            }
+            let begin = k * AXIS_CONTROLS;
+            factor.fixed_view_mut::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin).copy_from(&inverse.transpose());
+        }
+        true
     }
 }
 
@@ -294,17 +313,6 @@ fn node_weight(
     );
     let running = Matrix4::from_diagonal(&(time * prices));
     if last { running + regulator.cost.fixed_view::<4, 4>(0, 0) } else { running }
-}
-
-/// L^-T of the Hessian L L' of both axes. None if rounding has made it indefinite.
-fn factor_of(axes: [&AxisProgram; 2]) -> Option<SMatrix<f64, CONTROLS, CONTROLS>> {
-    let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
-    for (k, axis) in axes.iter().enumerate() {
-        let inverse = axis.hessian.cholesky()?.l().try_inverse()?;
-        let begin = k * AXIS_CONTROLS;
-        factor.fixed_view_mut::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin).copy_from(&inverse.transpose());
-    }
-    Some(factor)
 }
 
 /// The rows, those of the actuators without their normals.

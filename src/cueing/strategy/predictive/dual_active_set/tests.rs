@@ -141,18 +141,39 @@ fn compare<const N: usize, const M: usize>(program: &Program<N, M>) {
 
 #[test]
 fn random_programs_have_the_solution_that_an_interior_point_method_finds() {
-    let mut random = Random(1);
-    for _ in 0..300 {
+    compare_feasible(1, 300);
+}
+
+#[test]
+fn degenerate_programs_are_solved() {
+    compare_degenerate(2, 300);
+}
+
+#[test]
+#[ignore = "takes minutes: 100,000 programs"]
+fn a_hundred_thousand_programs_have_the_solution_that_an_interior_point_method_finds() {
+    compare_feasible(11, 20_000);
+    compare_degenerate(12, 15_000);
+    let mut random = Random(13);
+    for _ in 0..10_000 {
+        compare(&random.infeasible::<16, 40>());
+    }
+}
+
+/// So many programs of each of three sizes.
+fn compare_feasible(seed: u64, count: usize) {
+    let mut random = Random(seed);
+    for _ in 0..count {
         compare(&random.feasible::<6, 20>());
         compare(&random.feasible::<16, 40>());
         compare(&random.feasible::<32, 146>());
     }
 }
 
-#[test]
-fn degenerate_programs_are_solved() {
-    let mut random = Random(2);
-    for _ in 0..300 {
+/// So many programs of each of two sizes.
+fn compare_degenerate(seed: u64, count: usize) {
+    let mut random = Random(seed);
+    for _ in 0..count {
         compare(&random.degenerate::<6, 20>());
         compare(&random.degenerate::<16, 40>());
     }
