@@ -152,6 +152,14 @@ pub const PREDICTIVE: &[(&str, f64)] = &[
     ("predictive.selection", 14.0),
 ];
 
+/// The predictive strategy for a vehicle whose force is previewed: as far as the paper's set, in
+/// force and in tilt, since what comes after is known.
+pub const PREVIEW: &[(&str, f64)] = &joined::<{ PREDICTIVE.len() + FARTHER.len() }>(PREDICTIVE, FARTHER);
+
+/// The limits of force and tilt that a preview allows.
+const FARTHER: &[(&str, f64)] =
+    &[("limit.specificForce.x", 10.0), ("limit.specificForce.y", 10.0), ("tilt.angleLimit", 0.38)];
+
 /// A strategy under the paper's tilt limits, with the specific force unscaled.
 const fn with_tilt_of_the_paper(strategy: StrategyKind) -> [(&'static str, f64); 7] {
     [

@@ -13,8 +13,9 @@ pub struct SetupOptions {
     #[arg(long, value_name = "FILE")]
     pub rig: Option<PathBuf>,
 
-    /// Parameter file, or a preset: default, motorcycle, car, paper, small-motions, preaction,
-    /// adaptive, optimal, predictive. May be given several times: later ones override earlier ones
+    /// Parameter file, or a preset: default, motorcycle, car, paper, small-motions,
+    /// preaction, adaptive, optimal, predictive, preview. May be given several times: later
+    /// ones override earlier ones
     #[arg(long, value_name = "FILE|NAME")]
     pub parameters: Vec<String>,
 

@@ -18,7 +18,7 @@ pub enum Error {
         "{name} is neither a file nor a parameter set that is shipped{}",
         suggestion(
             nearest,
-            "shipped are default, motorcycle, car, paper, small-motions, preaction, adaptive, optimal and predictive"
+            "shipped are default, motorcycle, car, paper, small-motions, preaction, adaptive, optimal, predictive and preview"
         )
     )]
     NoSuchSet { name: String, nearest: Vec<String> },

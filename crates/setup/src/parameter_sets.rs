@@ -1,6 +1,8 @@
 //! The shipped parameter sets, by name.
 
-use moris_washout::presets::{ADAPTIVE, CAR, MOTORCYCLE, OPTIMAL, PAPER, PREACTION, PREDICTIVE, SMALL_MOTIONS};
+use moris_washout::presets::{
+    ADAPTIVE, CAR, MOTORCYCLE, OPTIMAL, PAPER, PREACTION, PREDICTIVE, PREVIEW, SMALL_MOTIONS,
+};
 
 /// A parameter set: names and values of variables.
 pub type ParameterSet = &'static [(&'static str, f64)];
@@ -16,4 +18,5 @@ pub const SETS: &[(&str, ParameterSet)] = &[
     ("adaptive", ADAPTIVE),
     ("optimal", OPTIMAL),
     ("predictive", PREDICTIVE),
+    ("preview", PREVIEW),
 ];

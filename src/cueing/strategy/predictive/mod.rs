@@ -426,10 +426,10 @@ mod tests {
         assert!(program.factorize(&surcharges, &mut factor));
         // J J' is the inverse of the Hessian.
         let inverse = factor * factor.transpose();
-        for k in 0..2 {
+        for (k, surcharge) in surcharges.iter().enumerate() {
             let mut hessian = *program.axes[k].hessian();
             for block in 0..BLOCKS {
-                hessian[(block, block)] += Horizon::Far.durations()[block] * surcharges[k][block];
+                hessian[(block, block)] += Horizon::Far.durations()[block] * surcharge[block];
             }
             let begin = k * AXIS_CONTROLS;
             let product = hessian * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
