@@ -169,14 +169,14 @@ impl Machine {
             return Some(StopPlan::new(to.coordinates, StopDurations::common(duration)));
         }
         let certified = axes_keep_limits(from.coordinates, to.coordinates, safety, step);
-        let plan = if certified { self.stop_plan(from.coordinates, to, safety) } else { None }?;
+        let plan = if certified { self.stop_plan(to, safety) } else { None }?;
         let keeps = self.transition_keeps_legs(from, to, step) && self.plan_keeps_legs(&plan);
         keeps.then_some(plan)
     }
 
     /// The stop from the candidate within the safety limits: all coordinates in one duration that
     /// suits the fastest leg and the safety limits of acceleration, an axis with less room sooner.
-    fn stop_plan(&self, from: &PlatformCoordinates, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
+    fn stop_plan(&self, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motions { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
         let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
@@ -185,7 +185,8 @@ impl Machine {
         let mut durations = StopDurations::common(duration);
         for k in 0..3 {
             let speed = velocity[k].abs();
-            let (lowest, highest) = reachable(from, safety, k);
+            // Seen from the candidate: one that is back inside a tightened limit stays inside.
+            let (lowest, highest) = reachable(to.coordinates, safety, k);
             let room = if velocity[k] > 0.0 { highest - position[k] } else { position[k] - lowest };
             if speed * duration > 2.0 * room {
                 durations.linear[k] = 2.0 * room / speed;
