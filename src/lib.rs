@@ -34,9 +34,9 @@ mod washout;
 pub use nalgebra;
 
 pub use interface::{Input, Output, Parameters, Preview, Rig};
-pub use moris_interface::ParameterError;
+pub use moris_interface::{MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
 pub use validate::{check, check_rig};
-pub use washout::{ENGAGE_TIME, MOST_INTERNAL_STEPS, SHORTEST_STEP, Washout};
+pub use washout::{ENGAGE_TIME, Washout};
 
 // The snippets of this page, as doc tests.
 #[cfg(doctest)]

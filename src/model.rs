@@ -1,9 +1,9 @@
 //! The washout as a model with variables, for whoever hosts it.
 
-use moris_interface::{Group, Identity, Model, ParameterError, variables};
+use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterError, variables};
 
 use crate::interface::{Inputs, Output, Parameters};
-use crate::washout::{MOST_INTERNAL_STEPS, Washout};
+use crate::washout::Washout;
 
 variables!(Inputs, Output, Parameters);
 

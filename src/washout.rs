@@ -1,18 +1,19 @@
 //! The whole washout, the paper's Fig. 4: an input, an output, one step.
 
-use moris_interface::{Group, ParameterError};
+use moris_interface::{Group, MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::cueing::angular::AngularChannel;
 use crate::cueing::compensation::compensated;
-use crate::cueing::conditioning::{Cue, InputFilter, courses, cue, forward_acceleration};
+use crate::cueing::conditioning::{Cue, InputFilter, cue, cue_force, forward_acceleration};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::coordinated::Circumstances;
+use crate::cueing::strategy::predictive::preview::Course;
 use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction, StrategyKind};
 use crate::motion::Motions;
 use crate::motion::extremes::{max, min};
@@ -93,13 +94,6 @@ struct PreviousStep {
 /// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
 pub const ENGAGE_TIME: f64 = 1.0;
 
-/// Shorter steps than this do nothing: a change of the input in so short a time is beyond what
-/// numbers can say \[s\].
-pub const SHORTEST_STEP: f64 = 1e-12;
-
-/// No more internal steps than this in one call; longer steps are the caller's mistake.
-pub const MOST_INTERNAL_STEPS: f64 = 1e6;
-
 impl Washout {
     /// The washout at rest at neutral.
     ///
@@ -160,12 +154,13 @@ impl Washout {
     #[inline]
     pub fn preview(&mut self, preview: &Preview) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
+        let Sample { input, head, .. } = &self.last;
         if let Some(predictive) = self.strategy.predictive_mut() {
-            let mut courses = courses(preview, &self.last.input, conditioning, structure.gravity, self.last.head.lean);
-            for course in &mut courses {
-                course.values.iter_mut().for_each(|value| *value *= self.engagement);
-            }
-            predictive.preview(&courses);
+            predictive.preview(&Course::of(preview, |[surge, sway]| {
+                let force = Vector3::new(surge, sway, input.specific_force.z);
+                let cue = self.engagement * cue_force(force, input, conditioning, structure.gravity, head.lean);
+                [cue.x, cue.y]
+            }));
         }
     }
 

@@ -1,13 +1,11 @@
 //! Block (1), first half: gravity removal, scaling, limiting and low-pass of what the
 //! vehicle model delivers.
 
-use moris_interface::{Group, bounds_of};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::cueing::strategy::predictive::preview::Course;
 use crate::filter::critically_damped::CriticallyDamped;
-use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input, PREVIEW_SAMPLES, Preview};
+use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
 use crate::motion::orientation::{away_from_zero, rates_from_reference};
 
 /// The signal to cue: zero at rest.
@@ -44,37 +42,26 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
         AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, roll, pitch),
     };
     Cue {
-        force: force.component_mul(&parameters.force_scale).zip_map(&parameters.force_limit, soft_limit),
+        force: conditioned(force, parameters),
         rates: rates.component_mul(&parameters.rate_scale).zip_map(&parameters.rate_limit, soft_limit),
     }
 }
 
-/// The courses that the cue's force along x and y will take by a preview, if the vehicle's
-/// orientation stays as in `input`. A preview ends before its first element that is not a number.
-pub fn courses(
-    preview: &Preview,
+/// The force of a [`cue`] from a specific force, if the vehicle is oriented as in `input`.
+pub fn cue_force(
+    specific_force: Vector3<f64>,
     input: &Input,
     parameters: &ConditioningParameters,
     gravity: f64,
     lean: f64,
-) -> [Course; 2] {
-    let count = if preview.step.is_nan() { 0 } else { preview.count.clamp(0, PREVIEW_SAMPLES as i32) as usize };
-    if count == 0 {
-        return [Course::default(); 2];
-    }
+) -> Vector3<f64> {
     let (roll, pitch) = (libm::sincos(input.orientation.roll + lean), libm::sincos(input.orientation.pitch));
-    let removed = gravity * removed_gravity(parameters.gravity_removal, roll, pitch);
-    let (shortest, longest) = bounds_of(Preview::ROWS, "vehicle.preview.step");
-    let (least, most) = bounds_of(Preview::ROWS, "vehicle.preview.specificForce.x[#]");
-    [(0, &preview.surge), (1, &preview.sway)].map(|(axis, forces)| Course {
-        step: preview.step.clamp(shortest, longest),
-        count: forces[..count].iter().position(|force| force.is_nan()).unwrap_or(count),
-        values: forces.map(|force| {
-            let force = force.clamp(least, most) + removed[axis];
-            soft_limit(force * parameters.force_scale[axis], parameters.force_limit[axis])
-        }),
-        ..Course::default()
-    })
+    conditioned(specific_force + gravity * removed_gravity(parameters.gravity_removal, roll, pitch), parameters)
+}
+
+/// A force without gravity, scaled and limited.
+fn conditioned(force: Vector3<f64>, parameters: &ConditioningParameters) -> Vector3<f64> {
+    force.component_mul(&parameters.force_scale).zip_map(&parameters.force_limit, soft_limit)
 }
 
 /// The vehicle's acceleration along the head's x \[m/s2\]: its specific force without gravity,

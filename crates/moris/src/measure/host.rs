@@ -44,9 +44,9 @@ impl Host {
             let name = &ride.name;
             format!("--step is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other")
         })?;
-        let previewer = Previewer::new(ride.inputs(), sample, self.preview);
+        let previewer = (self.preview > 0.0).then(|| Previewer::new(ride.inputs(), sample, self.preview));
         let preview = |washout: &mut Washout, time: f64| {
-            if self.preview > 0.0 {
+            if let Some(previewer) = &previewer {
                 washout.preview(&previewer.at(time));
             }
         };

@@ -1,5 +1,6 @@
 //! A recording's own future, as the washout's preview.
 
+use moris_interface::Group;
 use moris_washout::interface::PREVIEW_SAMPLES;
 use moris_washout::{Input, Preview};
 
@@ -15,7 +16,7 @@ pub struct Previewer {
 }
 
 /// Time from one element to the next \[s\].
-pub const PREVIEW_STEP: f64 = 0.2;
+pub const PREVIEW_STEP: f64 = Preview::START.step;
 /// The longest preview \[s\].
 pub const LONGEST_PREVIEW: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64;
 /// Tolerance of a count of elements.

@@ -308,11 +308,6 @@ impl Forecaster {
         self.integral += value * step;
     }
 
-    /// The latest forecast without the preview.
-    pub fn forecast(&self) -> &Forecast {
-        &self.forecast
-    }
-
     /// Gives the course that the cue will take; one without values takes it away.
     pub fn preview(&mut self, course: &Course) {
         self.course = *course;
@@ -531,7 +526,7 @@ mod tests {
             let (mut sum, mut count) = (0.0, 0.0);
             for time in [61.0, 62.3, 63.9, 65.2] {
                 let forecaster = followed(reference, time, kind);
-                sum += (forecaster.forecast().means - means(reference, time)).norm_squared();
+                sum += (forecaster.forecast.means - means(reference, time)).norm_squared();
                 count += BLOCKS as f64;
             }
             (sum / count).sqrt()
@@ -544,9 +539,9 @@ mod tests {
 
     #[test]
     fn a_constant_reference_is_expected_to_stay_and_none_to_stay_none() {
-        let forecast = *followed(|_| 1.5, 30.0, ForecastKind::Learned).forecast();
+        let forecast = followed(|_| 1.5, 30.0, ForecastKind::Learned).forecast;
         assert!(forecast.means.iter().all(|mean| (mean - 1.5).abs() < 0.05), "{}", forecast.means);
-        assert_eq!(*followed(|_| 0.0, 10.0, ForecastKind::Learned).forecast(), Forecast::default());
+        assert_eq!(followed(|_| 0.0, 10.0, ForecastKind::Learned).forecast, Forecast::default());
     }
 
     #[test]

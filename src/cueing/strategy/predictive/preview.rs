@@ -1,11 +1,12 @@
 //! A previewed reference: as it comes, in place of a forecast.
 
+use moris_interface::Group;
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use super::forecast::{FADE_DECAY, Forecast};
 use super::horizon::{BLOCKS, FORECAST, Horizon};
-use crate::interface::PREVIEW_SAMPLES;
+use crate::interface::{PREVIEW_SAMPLES, Preview};
 
 /// Time constant with which the angular channel's part of the reference is expected to fade \[s\].
 const BESIDE_TIME: f64 = 1.0;
@@ -29,6 +30,23 @@ pub struct Course {
 }
 
 impl Course {
+    /// The courses in surge and sway of a preview whose forces \[m/s2\] `cue` conditions. A preview
+    /// ends before its first element that is not a number.
+    pub fn of(preview: &Preview, cue: impl Fn([f64; 2]) -> [f64; 2]) -> [Self; 2] {
+        if preview.count <= 0 || preview.step.is_nan() {
+            return [Course::default(); 2];
+        }
+        let Preview { count, step, surge, sway } = preview.sanitized();
+        let mut courses = [&preview.surge, &preview.sway].map(|forces| {
+            let numbers = forces.iter().position(|force| force.is_nan()).unwrap_or(PREVIEW_SAMPLES);
+            Course { step, count: numbers.min(count as usize), ..Course::default() }
+        });
+        for k in 0..PREVIEW_SAMPLES {
+            [courses[0].values[k], courses[1].values[k]] = cue([surge[k], sway[k]]);
+        }
+        courses
+    }
+
     /// Lets `step` seconds pass.
     pub fn advance(&mut self, step: f64) {
         self.age += step;
