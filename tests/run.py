@@ -12,6 +12,7 @@ import argparse
 import os
 import subprocess
 import sys
+import time
 import venv
 from pathlib import Path
 
@@ -23,7 +24,9 @@ REQUIREMENTS = ROOT / "tests" / "python" / "requirements.txt"
 
 def run(*command):
     print("$", *command, flush=True)
+    start = time.monotonic()
     subprocess.run([str(part) for part in command], cwd=ROOT, check=True)
+    print(f"{time.monotonic() - start:.0f} s", flush=True)
 
 
 def python():

@@ -174,6 +174,16 @@ def test_a_lost_scheduler_is_a_clear_error_with_what_was_done(recordings, monkey
         made.close()
 
 
+def test_a_cluster_without_workers_is_warned_of(recordings, monkeypatch):
+    monkeypatch.setattr("moris._cluster.LONGEST_WITHOUT_WORKERS", 0.5)
+    cancel = threading.Event()
+    with cluster(0) as made, Client(made) as client:
+        threading.Timer(2.0, cancel.set).start()
+        with pytest.warns(UserWarning, match="no worker has joined the Dask cluster for 0.5 s.*scheduler at tcp://.*interface="):
+            found = moris.sweep(recordings, parameter_sets(), client=client, cancel=cancel)
+    assert found.done == 0 and not found.complete
+
+
 def test_no_client_is_a_type_error(recordings):
     with pytest.raises(TypeError, match="client must be a dask.distributed.Client, not str"):
         moris.sweep(recordings, parameter_sets(), client="tcp://somewhere:8786")

@@ -1,7 +1,7 @@
 //! `moris-hunter`, the command.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -110,6 +110,7 @@ fn hunt(arguments: &Arguments) -> Result<bool> {
         shrink: !arguments.no_shrink,
     };
     eprintln!("hunting with seed {}: {} steps on {} threads", plan.seed, plan.steps, plan.threads);
+    let shows_progress = std::io::stderr().is_terminal();
     let mut told = 0;
     let mut progress = |summary: &Summary| {
         for (number, found) in summary.found.iter().enumerate().skip(told) {
@@ -119,8 +120,10 @@ fn hunt(arguments: &Arguments) -> Result<bool> {
             }
         }
         told = summary.found.len();
-        eprint!("\r{}   ", line(summary));
-        _ = std::io::stderr().flush();
+        if shows_progress {
+            eprint!("\r{}   ", line(summary));
+            _ = std::io::stderr().flush();
+        }
     };
     let summary = match arguments.through {
         Through::Crate => search(&plan, || Ok(CrateTarget::default()), &mut progress)?,
@@ -130,7 +133,9 @@ fn hunt(arguments: &Arguments) -> Result<bool> {
         }
     };
     progress(&summary);
-    eprintln!();
+    if shows_progress {
+        eprintln!();
+    }
     if let Some(file) = &arguments.summary {
         let text = serde_json::to_string_pretty(&summary)?;
         std::fs::write(file, text).with_context(|| format!("writing {}", file.display()))?;

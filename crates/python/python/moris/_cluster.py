@@ -8,6 +8,7 @@ import hashlib
 import pickle
 import threading
 import time
+import warnings
 
 from ._errors import ClusterError
 from ._optional import need
@@ -18,6 +19,8 @@ PATIENCE = 10.0
 """Time without a scheduler after which it counts as lost [s]."""
 LOOK = 0.2
 """Time between two looks at the scheduler [s]."""
+LONGEST_WITHOUT_WORKERS = 60.0
+"""Time without any worker after which there is a warning [s]."""
 MOST_CONTEXTS = 4
 """Contexts that a process keeps."""
 
@@ -53,6 +56,7 @@ class Cluster:
             raise TypeError("client is asynchronous; make one without asynchronous=True")
         self._client = client
         self._missing_since = None
+        self._warn_after = time.monotonic() + LONGEST_WITHOUT_WORKERS
         payload = pickle.dumps((make, arguments))
         self._key = hashlib.sha256(payload).hexdigest()
         self._payload = self._submit(_same, payload, key=f"moris-{self._key}")
@@ -100,7 +104,20 @@ class Cluster:
                 return False
             if self._is_lost():
                 raise _lost("no answer")
+            self._warn_without_workers()
         return not cancelled()
+
+    def _warn_without_workers(self):
+        """Warns once if no worker has come for long."""
+        if time.monotonic() > self._warn_after:
+            self._warn_after = float("inf")
+            if not self._client.nthreads():
+                address = self._client.scheduler.address
+                warnings.warn(
+                    f"no worker has joined the Dask cluster for {LONGEST_WITHOUT_WORKERS:g} s; the workers must run, and reach the "
+                    f"scheduler at {address} (a cluster's option interface=... chooses another network)",
+                    stacklevel=2,
+                )
 
     def cancel(self, futures):
         """Cancels tasks, as far as there is still a scheduler."""
