@@ -36,7 +36,8 @@ impl LocationFrame {
     /// The head of a rider who leans by `lean` \[rad\] about the seat, `torso` below the upright
     /// head at `height` \[m\].
     pub fn leaning(height: f64, torso: f64, lean: f64) -> Self {
-        let (sin_lean, cos_lean) = libm::sincos(lean);
+        // The rider sits upright for most of the time.
+        let (sin_lean, cos_lean) = if lean == 0.0 { (lean, 1.0) } else { libm::sincos(lean) };
         let point = Vector3::new(0.0, -torso * sin_lean, height - torso + torso * cos_lean);
         LocationFrame { point, lean, sin_lean, cos_lean }
     }

@@ -26,7 +26,7 @@ use super::stop_plan::{StopDurations, StopPlan};
 use super::{Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
-use crate::motion::extremes::min;
+use crate::motion::extremes::{max, min};
 
 /// The guard with the motion that the platform is commanded, and with its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -185,7 +185,10 @@ impl ActuatorGuard {
 
     /// The smallest distance of a leg from either end of its stroke \[m\].
     pub fn stroke_margin(&self) -> f64 {
-        self.margins().fold(f64::INFINITY, |least, (margin, _)| min(margin, least))
+        let [shortest, longest] = self.stroke;
+        let least = self.legs.length.into_iter().fold(f64::INFINITY, |least, length| min(length, least));
+        let most = self.legs.length.into_iter().fold(f64::NEG_INFINITY, |most, length| max(length, most));
+        min(least - shortest, longest - most)
     }
 
     /// The time derivative of [`ActuatorGuard::stroke_margin`] \[m/s\].
