@@ -1,6 +1,9 @@
 //! The safety units: surge, sway and heave equal their demand as long as it keeps the limits, and
 //! follow it within them otherwise.
 
+#[cfg(test)]
+mod tests;
+
 use serde::{Deserialize, Serialize};
 use wide::f64x4;
 
