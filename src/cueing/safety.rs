@@ -60,7 +60,8 @@ impl SafetyUnits {
     pub fn beyond_limits(&self, limits: &SafetyParameters) -> bool {
         let Motions { position, velocity, .. } = &self.motion;
         (0..3).any(|k| {
-            let ahead = limits.position_limit[k] - position[k] * 1.0_f64.copysign(velocity[k]);
+            let outward = if velocity[k].is_sign_negative() { -position[k] } else { position[k] };
+            let ahead = limits.position_limit[k] - outward;
             let (speed, most) = (velocity[k].abs(), limits.acceleration_limit[k]);
             let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * WITH_ROUNDING;
             !keeps

@@ -238,7 +238,7 @@ impl Machine {
         let mut begin = 0.0;
         for end in stops {
             if end > begin {
-                let cells = (whole * (end - begin) / duration).ceil();
+                let cells = (whole * ((end - begin) / duration)).ceil();
                 if !self.piece_keeps_legs(plan, begin, end, cells) {
                     return false;
                 }

@@ -1,6 +1,8 @@
 //! Attempts to refute the certificate: derivatives beyond their bounds, and limits broken between
 //! the points looked at.
 
+mod edges;
+
 use std::cell::Cell;
 
 use nalgebra::Vector3;
