@@ -10,8 +10,8 @@ use proptest::prelude::*;
 
 use super::{JointBounds, after, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::Motions;
-use crate::platform::guard::certificate::{Candidate, Machine, Speed, State};
+use crate::motion::{Motions, braking_law};
+use crate::platform::guard::certificate::{Candidate, Machine, Speed, State, stroke_reserve};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates, inverse_kinematics};
@@ -418,4 +418,22 @@ fn the_bounds_of_a_joint_are_the_written_out_ones() {
     assert_eq!((bounds.velocity, bounds.acceleration, bounds.jerk), (3.5, 13.0, 45.0));
     let jerk = 3.0 * 3.5 * (13.0 + 2.0 / (3.0 * 3.0_f64.sqrt()) * 3.5 * 3.5 / 1.25) / 1.25 + 45.0;
     assert!((bounds.leg_jerk(1.25) - jerk).abs() < 1e-12 * jerk);
+}
+
+#[test]
+fn the_stroke_keeps_a_reserve_for_what_a_leg_does_within_a_step() {
+    let rig = |acceleration_limit, velocity_limit| Rig { acceleration_limit, velocity_limit, ..Rig::default() };
+    // A h²/8, the farthest that a leg gets beyond both ends of a step; V h/2 if it is too slow for that.
+    assert_eq!(stroke_reserve(&rig(8.0, 1.0), 0.25), 0.0625);
+    assert_eq!(stroke_reserve(&rig(8.0, 0.25), 0.25), 0.03125);
+}
+
+#[test]
+fn a_leg_pursues_its_demand_a_little_inside_the_certified_stroke() {
+    let rig = Rig { min_length: 1.0, max_length: 3.0, ..Rig::default() };
+    let machine = Machine::new(&rig, 0.0);
+    let inside = machine.pursuit_limits();
+    assert!((inside.min - 1.00002).abs() < 1e-12 && (inside.max - 2.99998).abs() < 1e-12, "{inside:?}");
+    let whole = braking_law::Limits { min: inside.min, max: inside.max, ..machine.limits };
+    assert_eq!(inside, whole);
 }
