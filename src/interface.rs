@@ -391,23 +391,23 @@ interface! {
     /// The predictive strategy, for surge and sway together.
     pub struct PredictiveParameters: Parameter, Tunable {
         /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
-        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 5e-4;
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 3.2e-4;
         /// Price of the travel's velocity at its limit.
-        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 1e-2;
+        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 2.6e-2;
         /// Price of the tilt rate at its limit.
-        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.2e-3;
+        "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3;
         /// Price of the tilt acceleration at its limit.
-        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 7e-4;
+        "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4;
         /// How fast the slow part of the force is expected to fade beyond the plan.
-        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.0368;
+        "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2;
         /// How fast the fast part of the force is expected to fade beyond the plan.
-        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.9;
+        "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2;
         /// How the force is forecast.
         "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
         /// Time constant with which the learned forecast forgets.
-        "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 60.0;
+        "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 160.0;
         /// Time constant over which the learned forecast's experts are compared.
-        "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 3.0;
+        "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 14.0;
         /// What a plan leaves of an actuator's stroke at either end.
         "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
     }

@@ -142,14 +142,6 @@ pub const PREDICTIVE: &[(&str, f64)] = &[
     ("tilt.rateLimit", 0.052_359_877_559_829_88),
     ("tilt.accelerationLimit", 0.4),
     ("tilt.angleLimit", 0.257),
-    ("predictive.weightPosition", 3.2e-4),
-    ("predictive.weightVelocity", 2.6e-2),
-    ("predictive.weightTiltRate", 1.9e-3),
-    ("predictive.weightTiltAcceleration", 5e-4),
-    ("predictive.slowPole", 0.2),
-    ("predictive.fastPole", 2.2),
-    ("predictive.memory", 160.0),
-    ("predictive.selection", 14.0),
 ];
 
 /// The predictive strategy for a vehicle whose force is previewed: as far as the paper's set, in

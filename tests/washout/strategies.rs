@@ -3,7 +3,7 @@
 
 use moris_washout::cueing::strategy::regulator::{AxisModel, Regulator, Weights, dynamics};
 use moris_washout::interface::RollPitchYaw;
-use moris_washout::{Input, Output, Parameters, Washout, presets};
+use moris_washout::{Input, Output, Parameters, Washout};
 use nalgebra::{Complex, SMatrix, SVector, Vector3};
 
 use crate::common::limits::Watch;
@@ -18,17 +18,10 @@ const PREDICTIVE: f64 = 4.0;
 /// All strategies but the classical one.
 const COORDINATED: [f64; 3] = [ADAPTIVE, OPTIMAL, PREDICTIVE];
 
-/// A washout with the paper's limits, the predictive strategy's weights from its preset, and these
-/// variables.
-fn washout_of_presets(changed: &[(&'static str, f64)]) -> Washout {
-    let weights = presets::PREDICTIVE.iter().filter(|(name, _)| name.starts_with("predictive."));
-    washout(&weights.chain(changed).copied().collect::<Vec<_>>())
-}
-
 /// RMS error of the felt force along x and y on a run \[m/s2\], without the vehicle's rates.
 fn errors(strategy: f64, duration: f64, input: impl Fn(f64) -> Input) -> [f64; 2] {
     const STEP: f64 = 0.01;
-    let mut washout = washout_of_presets(&[
+    let mut washout = washout(&[
         ("strategy", strategy),
         ("scale.angularVelocity.x", 0.0),
         ("scale.angularVelocity.y", 0.0),
@@ -68,7 +61,7 @@ fn the_predictive_strategy_tracks_the_papers_runs_better_than_the_classical_one(
 /// RMS error of the felt force along x on run c with preaction, the vehicle's speed given \[m/s2\].
 fn error_at_the_stop(strategy: f64) -> f64 {
     const STEP: f64 = 0.01;
-    let mut washout = washout_of_presets(&[("strategy", strategy), ("preaction", 2.0)]);
+    let mut washout = washout(&[("strategy", strategy), ("preaction", 2.0)]);
     let (mut felt, mut desired, mut speed) = (vec![], vec![], 0.0);
     let mut start = Input::default();
     for k in 1..=(BRUSQUE_STOP_TIME / STEP).round() as usize {
