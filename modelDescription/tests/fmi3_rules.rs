@@ -8,7 +8,7 @@ mod small_model;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
-use document::{child, elements, has_enumerations, type_definitions, variables};
+use document::{child, elements, type_definitions, variables};
 use moris_interface::{Causality, Identity, Kind, Model, Row, SlotModel};
 use moris_model_description::fmi2::describe;
 use moris_model_description::fmi3::{self, Layout};
@@ -70,7 +70,7 @@ fn its_parts_are_in_the_order_of_the_schema<M: Model>(layout: Layout) {
     let xml = xml::<M>(layout);
     let document = Document::parse(&xml).unwrap();
     let parts: Vec<_> = elements(document.root_element()).map(|part| part.tag_name().name()).collect();
-    let order = [
+    let expected = [
         "CoSimulation",
         "UnitDefinitions",
         "TypeDefinitions",
@@ -79,8 +79,7 @@ fn its_parts_are_in_the_order_of_the_schema<M: Model>(layout: Layout) {
         "ModelVariables",
         "ModelStructure",
     ];
-    let expected = order.into_iter().filter(|&part| part != "TypeDefinitions" || has_enumerations::<M>());
-    assert_eq!(parts, expected.collect::<Vec<_>>());
+    assert_eq!(parts, expected);
     assert!(elements(document.root_element()).all(|part| elements(part).count() > 0 || part.attributes().count() > 0));
 }
 
@@ -160,6 +159,7 @@ fn variables_have_the_values_of_fmi_2<M: Model>(layout: Layout) {
         let name = variable.attribute("name").unwrap();
         let start = variable.attribute("start").map(|list| list.split(' ').collect::<Vec<_>>());
         assert!(start.as_ref().is_none_or(|start| start.len() == size(variable)), "{name}");
+        let real_type = real_type(&document3, variable);
         for element in 0..size(variable) {
             let scalar = scalars.next().unwrap();
             let values = elements(scalar).next().unwrap();
@@ -169,12 +169,26 @@ fn variables_have_the_values_of_fmi_2<M: Model>(layout: Layout) {
             for attribute in ["causality", "variability", "initial"] {
                 assert_eq!(variable.attribute(attribute), scalar.attribute(attribute), "{name}");
             }
-            for attribute in ["quantity", "unit", "displayUnit", "min", "max", "nominal", "declaredType"] {
+            for attribute in ["min", "max"] {
                 assert_eq!(variable.attribute(attribute), values.attribute(attribute), "{name}");
             }
+            for attribute in ["quantity", "unit", "displayUnit", "nominal"] {
+                assert_eq!(real_type.and_then(|node| node.attribute(attribute)), values.attribute(attribute), "{name}");
+                assert!(!variable.has_attribute(attribute), "{name}: fmi-sim wants it in the type");
+            }
+            let enumeration = variable.attribute("declaredType").filter(|_| variable.has_tag_name("Enumeration"));
+            assert_eq!(enumeration, values.attribute("declaredType"), "{name}");
         }
     }
     assert!(scalars.next().is_none());
+}
+
+/// The type of a real that has a unit.
+fn real_type<'a, 'input>(document: &'a Document<'input>, variable: Node) -> Option<Node<'a, 'input>> {
+    let declared = variable.attribute("declaredType").filter(|_| variable.has_tag_name("Float64"))?;
+    let found = type_definitions(document).into_iter().find(|node| node.attribute("name") == Some(declared)).unwrap();
+    assert!(found.has_tag_name("Float64Type"), "{declared}");
+    Some(found)
 }
 
 fn start_values_are_the_models_bit_for_bit<M: Model>(layout: Layout) {
@@ -212,28 +226,37 @@ fn every_unit_and_every_type_used_is_defined<M: Model>(layout: Layout) {
     let types: BTreeMap<_, _> = type_definitions(&document)
         .into_iter()
         .map(|definition| {
-            assert!(definition.has_tag_name("EnumerationType"));
             for (item, value) in elements(definition).zip(1..) {
+                assert!(definition.has_tag_name("EnumerationType"));
                 assert_eq!(item.attribute("value"), Some(value.to_string().as_str()));
             }
-            (definition.attribute("name").unwrap(), elements(definition).count())
+            (definition.attribute("name").unwrap(), definition)
         })
         .collect();
+    assert_eq!(types.len(), type_definitions(&document).len(), "two types have one name");
+    let mut units_used = BTreeSet::new();
     let mut types_used = BTreeSet::new();
     for variable in variables(&document) {
         let name = variable.attribute("name").unwrap();
         assert!(!types.contains_key(name), "{name} is a type too");
-        if let Some(unit) = variable.attribute("unit") {
-            let frequency = variable.attribute("quantity") == Some("AngularFrequency");
-            assert_eq!(variable.attribute("displayUnit"), units[unit].filter(|_| !frequency), "{name}");
-        }
-        assert_eq!(variable.attribute("declaredType").is_some(), variable.has_tag_name("Enumeration"), "{name}");
-        if let Some(declared) = variable.attribute("declaredType") {
+        let Some(declared) = variable.attribute("declaredType") else {
+            assert!(!variable.has_tag_name("Enumeration"), "{name}");
+            continue;
+        };
+        let definition = types[declared];
+        assert_eq!(definition.tag_name().name(), format!("{}Type", variable.tag_name().name()), "{name}");
+        types_used.insert(declared);
+        if variable.has_tag_name("Enumeration") {
             assert_eq!(variable.attribute("min"), Some("1"), "{name}");
-            assert_eq!(variable.attribute("max"), Some(types[declared].to_string().as_str()), "{name}");
-            types_used.insert(declared);
+            assert_eq!(variable.attribute("max"), Some(elements(definition).count().to_string().as_str()), "{name}");
+        } else {
+            let unit = definition.attribute("unit").unwrap();
+            let frequency = definition.attribute("quantity") == Some("AngularFrequency");
+            assert_eq!(definition.attribute("displayUnit"), units[unit].filter(|_| !frequency), "{name}");
+            units_used.insert(unit);
         }
     }
+    assert_eq!(units_used, units.keys().copied().collect());
     assert_eq!(types_used, types.keys().copied().collect());
 }
 

@@ -21,9 +21,7 @@ def ride_with(fmu, ride, work, program):
 def main(fmus, work, program):
     for fmu in fmus:
         ride = Ride(fmu)
-        # fmi-sim does not know the attribute `unit` of FMI 3.0's variables.
-        if ride.fmi == "2.0":
-            report.ride(ride, "", ride_with(fmu, ride, work, program))
+        report.ride(ride, "", ride_with(fmu, ride, work, program))
 
 
 if __name__ == "__main__":

@@ -25,6 +25,12 @@ def example(name):
         sys.path.pop(0)
 
 
+def stated(variable, attribute):
+    """An attribute as the variable or, for FMI 3.0's units, its declared type states it."""
+    own = getattr(variable, attribute)
+    return getattr(variable.declaredType, attribute) if own is None and variable.declaredType else own
+
+
 @pytest.fixture(scope="session")
 def fmu():
     path = Path(os.environ.get("MORIS_FMU", ROOT / "target" / "fmu" / "MorisWashout.fmu"))

@@ -8,7 +8,7 @@ import pytest
 from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
 
-from conftest import ROOT
+from conftest import ROOT, stated
 
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 RIDE = "extra/org.fmi-standard.fmi-ls-ref"
@@ -34,7 +34,8 @@ def test_names_value_references_and_start_values_are_those_of_fmi_2(model):
         variables = read_model_description(fmu).modelVariables
         types = {"Real": "Float64", "Integer": "Int32"}
         return [
-            (v.name, v.valueReference, types.get(v.type, v.type), v.causality, v.variability, v.start, v.unit, v.min, v.max)
+            (v.name, v.valueReference, types.get(v.type, v.type), v.causality, v.variability, v.start, v.min, v.max)
+            + tuple(stated(v, attribute) for attribute in ("quantity", "unit", "displayUnit", "nominal"))
             for v in variables
         ]
 

@@ -8,7 +8,7 @@ import pytest
 from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.fmi1 import FMICallException
 
-from conftest import ROOT
+from conftest import ROOT, stated
 
 FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
@@ -71,12 +71,14 @@ def test_everything_that_is_set_has_a_range_with_its_start_value_inside(descript
 
 def test_units_come_with_quantities_and_angular_ones_with_degrees(description):
     for variable in description.modelVariables:
-        if is_real(variable) and variable.unit and variable.unit != "1/rad":
-            assert variable.quantity, variable.name
-            frequency = variable.quantity == "AngularFrequency"
-            assert variable.displayUnit == (None if frequency else DEGREES.get(variable.unit)), variable.name
-    forces = [v for v in description.modelVariables if is_real(v) and v.unit == "N"]
-    assert all(float(v.nominal) == 1000 for v in forces)
+        if is_real(variable) and (unit := stated(variable, "unit")):
+            assert stated(variable, "quantity"), variable.name
+            frequency = stated(variable, "quantity") == "AngularFrequency"
+            assert stated(variable, "displayUnit") == (None if frequency else DEGREES.get(unit)), variable.name
+    units = {stated(v, "unit") for v in description.modelVariables if is_real(v)}
+    assert {"s", "m", "m/s", "m/s2", "rad"} <= units
+    forces = [v for v in description.modelVariables if is_real(v) and stated(v, "unit") == "N"]
+    assert all(float(stated(v, "nominal")) == 1000 for v in forces)
 
 
 def test_parameters_take_the_ends_of_their_range_and_nothing_beyond(fmu, description, capsys, tmp_path):

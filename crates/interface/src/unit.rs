@@ -17,7 +17,7 @@ pub struct BaseUnit {
 pub struct Unit {
     pub name: &'static str,
     pub base: BaseUnit,
-    /// The quantity's name; empty for one without.
+    /// The quantity's name; empty for a dimensionless real.
     pub quantity: &'static str,
     /// A typical magnitude of the quantity.
     pub nominal: f64,
@@ -73,7 +73,8 @@ pub mod units {
     pub static S: Unit = unit("s", "Time", 0, 1, 0);
 
     pub static M2: Unit = unit("m2", "Area", 2, 0, 0);
-    pub static PER_RAD: Unit = unit("1/rad", "", 0, 0, -1);
+    /// Of tyres: force for a small angle, divided by the load.
+    pub static PER_RAD: Unit = unit("1/rad", "StiffnessCoefficient", 0, 0, -1);
 
     pub static KG: Unit = unit_with_mass("kg", "Mass", 100.0, 1, 0, 0, 0);
     pub static KG_M2: Unit = unit_with_mass("kg.m2", "MomentOfInertia", 10.0, 1, 2, 0, 0);

@@ -1,9 +1,9 @@
 //! Small parts of the file that are the same in FMI 2.0 and 3.0.
 
-use moris_interface::{Identity, Kind};
+use moris_interface::Identity;
 use serde::{Deserialize, Serialize};
 
-use super::units::Unit;
+use super::units::{self, Unit};
 
 /// `UnitDefinitions`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -44,12 +44,9 @@ impl UnitDefinitions {
     /// display that any of these rows has. None without units.
     pub fn of(identity: &Identity) -> Option<Self> {
         let mut units: Vec<Unit> = Vec::new();
-        for row in identity.rows {
-            let Kind::Real(unit) = row.kind else { continue };
-            let unit = Unit::from(unit);
+        for unit in units::units(identity).into_iter().map(Unit::from) {
             match units.iter_mut().find(|known| known.name == unit.name) {
                 Some(known) => known.display_unit = known.display_unit.take().or(unit.display_unit),
-                None if unit.name.is_empty() => {}
                 None => units.push(unit),
             }
         }

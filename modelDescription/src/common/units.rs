@@ -1,5 +1,6 @@
 //! Units, what they are made of, and how a user may like them shown.
 
+use moris_interface::{Identity, Kind};
 use serde::{Deserialize, Serialize};
 
 /// `Unit`.
@@ -66,6 +67,20 @@ impl From<&moris_interface::Unit> for RealAttributes {
             nominal: (unit.nominal != 1.0).then_some(unit.nominal),
         }
     }
+}
+
+/// Every unit that a row has, once for each quantity, in the order in which they appear.
+pub fn units(identity: &Identity) -> Vec<&'static moris_interface::Unit> {
+    let mut found: Vec<&moris_interface::Unit> = Vec::new();
+    for row in identity.rows {
+        if let Kind::Real(unit) = row.kind
+            && !unit.name.is_empty()
+            && !found.contains(&unit)
+        {
+            found.push(unit);
+        }
+    }
+    found
 }
 
 // serde hands a reference over.

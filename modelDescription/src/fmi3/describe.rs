@@ -3,15 +3,15 @@
 use moris_fmi::fmi3::{LOG_CATEGORIES, Layout};
 use moris_interface::{Causality, Identity, Kind, Model, Row, guid_of, start_values};
 
-use super::model_description::{CoSimulation, ModelDescription, ModelVariables, TypeDefinitions};
+use super::model_description::{CoSimulation, ModelDescription, ModelVariables};
 use super::model_structure::{ModelStructure, Unknown};
-use super::type_definitions::EnumerationType;
+use super::type_definitions::{TypeDefinition, TypeDefinitions};
 use super::variable::{Dimension, TypedVariable, Variable};
 use crate::common::attributes::Initial;
 use crate::common::enumerations::enumerations;
 use crate::common::origin;
 use crate::common::parts::{LogCategories, UnitDefinitions};
-use crate::common::units::RealAttributes;
+use crate::common::units::units;
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
 pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
@@ -65,9 +65,11 @@ fn co_simulation(identity: &Identity) -> CoSimulation {
     }
 }
 
-/// The enumerations; none without any.
+/// The quantities and the enumerations; none without any.
 fn type_definitions(identity: &Identity) -> Option<TypeDefinitions> {
-    let types: Vec<EnumerationType> = enumerations(identity).into_iter().map(EnumerationType::from).collect();
+    let quantities = units(identity).into_iter().map(|unit| TypeDefinition::Float64Type(unit.into()));
+    let enumerations = enumerations(identity).into_iter().map(|it| TypeDefinition::EnumerationType(it.into()));
+    let types: Vec<TypeDefinition> = quantities.chain(enumerations).collect();
     (!types.is_empty()).then_some(TypeDefinitions { types })
 }
 
@@ -106,16 +108,10 @@ fn variables(identity: &Identity, start: &[f64], layout: Layout) -> Vec<TypedVar
 
 fn typed_variable(place: Place, start: &[f64]) -> TypedVariable {
     match place.row.kind {
-        Kind::Real(unit) => {
-            let RealAttributes { quantity, unit, display_unit, nominal } = unit.into();
-            TypedVariable::Float64(Variable {
-                quantity,
-                unit,
-                display_unit,
-                nominal,
-                ..variable(place, start, |value| value)
-            })
-        }
+        Kind::Real(unit) => TypedVariable::Float64(Variable {
+            declared_type: (!unit.name.is_empty()).then(|| unit.quantity.to_owned()),
+            ..variable(place, start, |value| value)
+        }),
         Kind::Integer => TypedVariable::Int32(variable(place, start, |value| value as i32)),
         Kind::Boolean => TypedVariable::Boolean(variable(place, start, |value| value != 0.0)),
         Kind::Enumeration(enumeration) => TypedVariable::Enumeration(Variable {
@@ -142,10 +138,6 @@ fn variable<T>(place: Place, start: &[f64], convert: fn(f64) -> T) -> Variable<T
         variability: row.variability.into(),
         initial: (row.causality == Causality::Output).then_some(Initial::Calculated),
         declared_type: None,
-        quantity: None,
-        nominal: None,
-        unit: None,
-        display_unit: None,
         min: row.range.map(|(min, _)| convert(min)),
         max: row.range.map(|(_, max)| convert(max)),
         start: has_start.then(|| start.iter().map(|&value| convert(value)).collect()),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::model_structure::ModelStructure;
-use super::type_definitions::EnumerationType;
+use super::type_definitions::TypeDefinitions;
 use super::variable::TypedVariable;
 use crate::common::parts::{DefaultExperiment, LogCategories, UnitDefinitions};
 
@@ -83,13 +83,6 @@ pub struct CoSimulation {
     pub might_return_early_from_do_step: bool,
     #[serde(rename = "@hasEventMode")]
     pub has_event_mode: bool,
-}
-
-/// `TypeDefinitions`, of which we use enumerations only.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TypeDefinitions {
-    #[serde(rename = "EnumerationType")]
-    pub types: Vec<EnumerationType>,
 }
 
 /// `ModelVariables`

@@ -13,7 +13,7 @@ pub enum TypedVariable {
     Enumeration(Variable<i64>),
 }
 
-/// Attributes of a variable of any type, and those of some types only.
+/// Attributes of a variable of any type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(bound(deserialize = "T: Deserialize<'de>"))]
 pub struct Variable<T> {
@@ -31,23 +31,14 @@ pub struct Variable<T> {
     /// nothing for the time.
     #[serde(rename = "@initial", default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<Initial>,
-    /// The name of the type that lists an enumeration's items.
+    /// The name of the type that has a real's unit or lists an enumeration's items. None: a
+    /// dimensionless real, or of another type.
     #[serde(rename = "@declaredType", default, skip_serializing_if = "Option::is_none")]
     pub declared_type: Option<String>,
-    /// None for what is not a real.
-    #[serde(rename = "@quantity", default, skip_serializing_if = "Option::is_none")]
-    pub quantity: Option<String>,
-    /// None: dimensionless, or not a real.
-    #[serde(rename = "@unit", default, skip_serializing_if = "Option::is_none")]
-    pub unit: Option<String>,
-    #[serde(rename = "@displayUnit", default, skip_serializing_if = "Option::is_none")]
-    pub display_unit: Option<String>,
     #[serde(rename = "@min", default, skip_serializing_if = "Option::is_none")]
     pub min: Option<T>,
     #[serde(rename = "@max", default, skip_serializing_if = "Option::is_none")]
     pub max: Option<T>,
-    #[serde(rename = "@nominal", default, skip_serializing_if = "Option::is_none")]
-    pub nominal: Option<f64>,
     /// A value for each element, row by row.
     #[serde(rename = "@start", default = "no_start", skip_serializing_if = "Option::is_none")]
     pub start: Option<Vec<T>>,

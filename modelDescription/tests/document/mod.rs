@@ -3,7 +3,7 @@
 use moris_interface::{Kind, Model};
 use roxmltree::{Document, Node};
 
-/// True if the model has an enumeration; only then are there types to define.
+/// True if the model has an enumeration; only then has FMI 2.0 types to define.
 pub fn has_enumerations<M: Model>() -> bool {
     M::IDENTITY.rows.iter().any(|row| matches!(row.kind, Kind::Enumeration(_)))
 }
