@@ -125,10 +125,10 @@ pub const CAR: &[(&str, f64)] = &[
 /// surge act before it comes.
 pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
 
-/// The adaptive strategy, with the tilt limits that its gains were found for.
-pub const ADAPTIVE: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Adaptive);
-/// The optimal strategy, with the tilt limits that its weights were found for.
-pub const OPTIMAL: &[(&str, f64)] = &with_tilt_of_the_paper(StrategyKind::Optimal);
+/// The adaptive strategy, with the limits that its gains were found for.
+pub const ADAPTIVE: &[(&str, f64)] = &within_narrow_limits(StrategyKind::Adaptive);
+/// The optimal strategy, with the limits that its weights were found for.
+pub const OPTIMAL: &[(&str, f64)] = &within_narrow_limits(StrategyKind::Optimal);
 /// The predictive strategy, with the specific force unscaled and the limits that its weights were
 /// found for: tilt as fast as the paper's and no farther than 15 degrees, so that less of it is
 /// left over when a force ends.
@@ -152,8 +152,10 @@ pub const PREVIEW: &[(&str, f64)] = &joined::<{ PREDICTIVE.len() + FARTHER.len()
 const FARTHER: &[(&str, f64)] =
     &[("limit.specificForce.x", 10.0), ("limit.specificForce.y", 10.0), ("tilt.angleLimit", 0.38)];
 
-/// A strategy under the paper's tilt limits, with the specific force unscaled.
-const fn with_tilt_of_the_paper(strategy: StrategyKind) -> [(&'static str, f64); 7] {
+/// A strategy that knows nothing of the legs' stroke: with the specific force unscaled, under the
+/// paper's tilt limits, and with so little room and acceleration that surge and sway come to rest
+/// gently, before the legs do.
+const fn within_narrow_limits(strategy: StrategyKind) -> [(&'static str, f64); 11] {
     [
         ("strategy", item(strategy as i32)),
         ("scale.specificForce.x", 1.0),
@@ -162,6 +164,10 @@ const fn with_tilt_of_the_paper(strategy: StrategyKind) -> [(&'static str, f64);
         ("tilt.rateLimit", 0.052_359_877_559_829_88),
         ("tilt.accelerationLimit", 0.2),
         ("tilt.angleLimit", 0.38),
+        ("safety.x.positionLimit", 0.28),
+        ("safety.y.positionLimit", 0.28),
+        ("safety.x.accelerationLimit", 4.0),
+        ("safety.y.accelerationLimit", 4.0),
     ]
 }
 

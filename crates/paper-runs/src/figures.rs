@@ -1,5 +1,5 @@
 //! The paper's figures 5 to 9: felt against desired specific force and angular velocity, and the
-//! legs.
+//! legs; and one that compares the strategies.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use plotters::style::{BLACK, RGBColor};
 
 use crate::chart::{Curve, Panel, Stroke, draw};
-use crate::manoeuvres::{A, B, C};
+use crate::manoeuvres::{A, B, C, TOWN};
 use crate::recording::{Recording, Sample};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
@@ -45,6 +45,16 @@ pub fn write_figures(directory: &Path, recordings: &[Recording]) -> Result<Vec<P
         Ok(path)
     };
     figures.iter().map(write).collect()
+}
+
+/// Writes a figure of the strategies on run c and on the ride through town.
+///
+/// # Errors
+/// One of these runs is missing from the recordings, or the file cannot be written.
+pub fn write_strategies(path: &Path, recordings: &[Recording]) -> Result<()> {
+    let (c, town) = (runs(recordings, C.name)?, runs(recordings, TOWN.name)?);
+    let panels = [force("Strategies (a)", &c, 0), force("Strategies (b)", &town, 0), force("Strategies (c)", &town, 1)];
+    draw(path, &panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// Writes one compact picture of run a, for the top of a page.
@@ -92,8 +102,13 @@ fn felt_against_desired(
     felt: impl Fn(&Sample) -> f64,
 ) -> Vec<Curve> {
     let mut curves = vec![curve("desired", GREY, Stroke::Broad, runs[0], desired)];
-    for (run, colour) in runs.iter().zip([BLUE, VERMILION, GREEN]) {
-        let label = if runs.len() == 1 { "felt".into() } else { format!("felt, parameters “{}”", run.parameters) };
+    for (run, colour) in runs.iter().zip([BLUE, VERMILION, GREEN, PURPLE]) {
+        let label = match runs.len() {
+            1 => "felt".into(),
+            2 => format!("felt, parameters “{}”", run.parameters),
+            // So that the legend fits into a row.
+            _ => run.parameters.into(),
+        };
         curves.push(curve(&label, colour, Stroke::Fine, run, &felt));
     }
     curves
@@ -134,6 +149,7 @@ fn curve(
 mod tests {
     use super::*;
     use crate::manoeuvres::Manoeuvre;
+    use crate::parameter_set::STRATEGIES;
 
     /// A run felt a tenth of a second late.
     fn recording(run: &Manoeuvre, parameters: &'static str) -> Recording {
@@ -174,6 +190,18 @@ mod tests {
         }
         assert!(drawings[1].contains("leg 6") && drawings[1].contains("limits"));
         assert!(drawings[2].contains("felt, parameters “small-motions”"));
+    }
+
+    #[test]
+    fn the_strategies_are_told_apart_in_their_figure() {
+        let file = std::env::temp_dir().join(format!("paper-runs-strategies-{}.svg", std::process::id()));
+        let names = STRATEGIES.map(|set| set.name);
+        let recordings: Vec<_> = [C, TOWN].iter().flat_map(|run| names.map(|name| recording(run, name))).collect();
+        write_strategies(&file, &recordings).unwrap();
+        let drawing = std::fs::read_to_string(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        assert!(["run c", "run town"].iter().all(|title| drawing.contains(title)));
+        assert!(names.iter().all(|name| drawing.matches(name).count() == 3));
     }
 
     #[test]

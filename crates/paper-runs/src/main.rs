@@ -2,21 +2,21 @@
 //! figures.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Parser;
 use moris_build_fmu::{FmiVersion, model, workspace};
 use moris_fmu_host::Fmu;
-use moris_paper_runs::figures::{write_figures, write_readme_picture};
-use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre};
-use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTIONS};
+use moris_paper_runs::figures::{write_figures, write_readme_picture, write_strategies};
+use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre, TOWN};
+use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTIONS, STRATEGIES};
 use moris_paper_runs::recording::Recording;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
 
 /// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and
-/// draws figures 5 to 9.
+/// draws figures 5 to 9; then compares the strategies.
 #[derive(Parser)]
 #[command(name = "cargo paper-runs", bin_name = "cargo paper-runs")]
 struct Options {
@@ -40,16 +40,24 @@ struct Options {
 fn main() -> Result<()> {
     let options = Options::parse();
     let path = if options.no_build { workspace::default_output().join("MorisWashout.fmu") } else { build_fmu()? };
-    let recordings = make_runs(&path, options.step)?;
+    let fmu = Fmu::open(&path).with_context(|| format!("cannot open {}", path.display()))?;
+    let recordings = make_runs(&fmu, &paper_runs(), options.step)?;
+    let compared = make_runs(&fmu, &strategy_runs(), options.step)?;
     println!("{}", force_table(&recordings));
     println!("{}", rate_table(&recordings));
     println!("{}", platform_table(&recordings));
+    println!("The strategies\n");
+    println!("{}", force_table(&compared));
+    println!("{}", platform_table(&compared));
 
     let output = options.output.unwrap_or_else(|| workspace::root().join("target/paper-runs"));
     fs::create_dir_all(&output).with_context(|| format!("cannot make {}", output.display()))?;
     for path in write_figures(&output, &recordings)? {
         println!("{}", path.display());
     }
+    let strategies = output.join("strategies.svg");
+    write_strategies(&strategies, &compared)?;
+    println!("{}", strategies.display());
     if let Some(path) = &options.readme_picture {
         write_readme_picture(path, &recordings)?;
         println!("{}", path.display());
@@ -67,11 +75,18 @@ fn build_fmu() -> Result<PathBuf> {
 }
 
 /// The four runs with the paper's set, run b with the one made for it, and run c with preaction.
-fn make_runs(path: &Path, step: f64) -> Result<Vec<Recording>> {
-    let fmu = Fmu::open(path).with_context(|| format!("cannot open {}", path.display()))?;
-    let runs = [(A, PAPER), (A_BRISK, PAPER), (B, PAPER), (B, SMALL_MOTIONS), (C, PAPER), (C, PREACTION)];
+fn paper_runs() -> Vec<(Manoeuvre, ParameterSet)> {
+    vec![(A, PAPER), (A_BRISK, PAPER), (B, PAPER), (B, SMALL_MOTIONS), (C, PAPER), (C, PREACTION)]
+}
+
+/// Run c and the ride through town with each strategy.
+fn strategy_runs() -> Vec<(Manoeuvre, ParameterSet)> {
+    [C, TOWN].into_iter().flat_map(|run| STRATEGIES.map(|set| (run, set))).collect()
+}
+
+fn make_runs(fmu: &Fmu, runs: &[(Manoeuvre, ParameterSet)], step: f64) -> Result<Vec<Recording>> {
     let make = |(run, parameters): &(Manoeuvre, ParameterSet)| {
-        simulate(&fmu, run, parameters, step)
+        simulate(fmu, run, parameters, step)
             .with_context(|| format!("run {} with parameters {}", run.name, parameters.name))
     };
     runs.iter().map(make).collect()

@@ -76,6 +76,11 @@ pub const B: Manoeuvre =
 pub const C: Manoeuvre =
     Manoeuvre { name: "c", text: "accelerate, brake to a brusque stop", duration: 50.0, motion: run_c };
 
+/// A car through town: three starts and stops, two bends and a lane change. The paper has no such
+/// run; it compares the strategies.
+pub const TOWN: Manoeuvre =
+    Manoeuvre { name: "town", text: "a car through town: starts, stops, bends", duration: 90.0, motion: town };
+
 fn run_a(t: f64) -> Motion {
     straight(t, &[(2.0, 3.0, 6.0), (-2.0, 15.0, 6.0), (-2.5, 24.0, 7.5), (2.5, 33.6, 7.5)])
 }
@@ -105,6 +110,20 @@ fn run_b(t: f64) -> Motion {
 
 fn run_c(t: f64) -> Motion {
     if t < STOP { straight(t, &[(2.2, 1.0, 6.6), (-2.2, 12.0, 6.6), (-3.5, 22.0, 10.5)]) } else { Motion::default() }
+}
+
+fn town(t: f64) -> Motion {
+    let starts_and_stops = [
+        [(1.8, 2.0, 1.0), (-1.8, 8.0, 1.5), (-2.5, 16.0, 0.8), (2.5, 20.1, 0.8)],
+        [(1.5, 24.0, 1.0), (-1.5, 29.0, 1.5), (-1.5, 38.0, 1.0), (1.5, 43.0, 1.0)],
+        // The last one ends at rest: 9.575 m/s by then, at 3 m/s2.
+        [(2.0, 47.0, 0.8), (-2.0, 51.0, 1.0), (-3.0, 58.0, 0.6), (3.0, 58.0 + 9.575 / 3.0, 0.6)],
+    ];
+    let bends = [(2.0, 20.5, 0.8), (-2.0, 23.5, 0.8), (-1.8, 31.0, 1.0), (1.8, 34.5, 1.0)];
+    let lane_change = [(1.2, 52.5, 0.6), (-2.4, 54.0, 0.8), (1.2, 55.7, 0.6)];
+    let sway = bends.iter().chain(&lane_change).map(|&(change, a, b)| change * rise(t, a, b)).sum();
+    let Motion { acceleration: [surge, ..], speed, .. } = straight(t, starts_and_stops.as_flattened());
+    Motion { acceleration: [surge, sway, 0.0], speed, ..Motion::default() }
 }
 
 /// A run in a straight line from rest, whose acceleration changes by so much \[m/s2\], from when,
@@ -194,6 +213,20 @@ mod tests {
         assert_near(ay, 0.8 * 0.4_f64.sin() + 0.4 * (0.2 * TAU + 2.1).sin() + 0.2 * 0.3_f64.sin(), 1e-13);
         assert_near(az, 0.3 * (0.2 * TAU + 1.0).sin() + 0.15 * (0.4 * TAU + 2.2).sin(), 1e-13);
         assert_near(roll.to_degrees(), 3.0 * 2.0_f64.sin() + (0.2 * TAU + 0.6).sin(), 1e-12);
+    }
+
+    #[test]
+    fn the_ride_through_town_ends_at_rest_after_its_bends() {
+        assert_near(TOWN.motion(12.0).speed, 1.8 * 6.25, 1e-12);
+        let Motion { acceleration, speed, .. } = TOWN.motion(22.0);
+        assert_near(acceleration[1], 2.0, 1e-15);
+        assert_near(speed, 1.0, 1e-12);
+        assert_near(TOWN.motion(90.0).speed, 0.0, 1e-12);
+        assert!(TOWN.motion(90.0).acceleration.iter().all(|value| value.abs() < 1e-14));
+        // A lane change: the lateral velocity is zero again after it.
+        let step = 1e-3;
+        let drift: f64 = (52_000..57_000).map(|k| step * TOWN.motion(f64::from(k) * step).acceleration[1]).sum();
+        assert_near(drift, 0.0, 0.05);
     }
 
     #[test]
