@@ -24,6 +24,30 @@ def test_a_simulation_is_a_run_of_the_washout(ride, simulation):
     assert np.array_equal(simulation["vehicle.specificForce"], force)
 
 
+def test_a_preview_is_the_recordings_own_future(ride):
+    """Means over a triangle around each element, as docs/strategies/predictive.md says."""
+    force = np.column_stack([ride["ax"], ride["ay"], ride["az"]])
+    rate = np.column_stack([ride["wx"], ride["wy"], ride["wz"]])
+    count, apart, elements = len(force), 20, 5
+    weights = np.bartlett(2 * apart + 1)[1:-1]
+    mean = np.column_stack([np.convolve(force[:, k], weights / weights.sum(), mode="same") for k in range(2)])
+    ahead = np.arange(count)[:, None] + apart * np.arange(1, elements + 1)
+    previews = np.where((ahead < count)[:, :, None], mean[np.minimum(ahead, count - 1)], np.nan)
+    parameters = ["preview", {"angularVelocityFrame": "body"}]
+    expected = moris.Washout(parameters=parameters).run(ride["time"], force, rate, preview=previews)
+    found = moris.simulate(ride, parameters="preview", preview=1.0)
+    # The triangle is cut off at the recording's end.
+    until = count - (elements + 1) * apart
+    assert np.allclose(found["platform.position"][:until], expected["platform.position"][:until], rtol=0, atol=1e-9)
+    assert found.preview == 1.0 and found.name.endswith("preview of 1 s")
+    without = moris.simulate(ride, parameters="preview")
+    names = [f"specific force {axis} RMS error" for axis in "xy"]
+    assert sum(found.measures[name] for name in names) < 0.7 * sum(without.measures[name] for name in names)
+    for seconds in (-0.1, 4.1, float("nan")):
+        with pytest.raises(ValueError, match="preview is .* s, but must be from 0 to 4 s"):
+            moris.simulate(ride, preview=seconds)
+
+
 def test_measures_are_those_of_the_series(simulation):
     desired, felt = simulation["vehicle.specificForce"], simulation["rider.specificForce"]
     for k, axis in enumerate("xyz"):

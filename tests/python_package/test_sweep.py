@@ -55,6 +55,14 @@ def test_a_sweep_has_the_measures_of_single_simulations(here, recordings):
         here.value[0]["platform stroke usd"]
 
 
+def test_a_sweep_previews_the_recordings(recordings):
+    swept = moris.sweep(recordings[0], ["preview", "predictive"], preview=2.0)
+    for result in swept.value:
+        measures = moris.simulate(recordings[0], parameters=result.parameters, preview=2.0).measures
+        assert result["specific force x RMS error"][0] == measures["specific force x RMS error"]
+        assert measures["specific force x RMS error"] != moris.simulate(recordings[0], parameters=result.parameters).measures["specific force x RMS error"]
+
+
 @pytest.mark.parametrize("chunk", [1, 5, 100])
 def test_the_size_of_chunks_and_the_number_of_threads_change_nothing(here, recordings, chunk):
     assert_same(moris.sweep(recordings, parameter_sets(), chunk=chunk), here)

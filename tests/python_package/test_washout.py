@@ -41,8 +41,11 @@ INPUTS = [
 ]
 
 
-def through_the_fmu(fmu, unpacked, parameters, rows, slopes):
-    """The outputs of the FMU in fmpy at each sample, by name; with input derivatives if `slopes`."""
+def through_the_fmu(fmu, unpacked, parameters, rows, slopes, previews=None):
+    """The outputs of the FMU in fmpy at each sample, by name; with input derivatives if `slopes`.
+
+    previews: (N, K, 2), as of each sample.
+    """
     description = read_model_description(str(fmu))
     variables = {variable.name: variable for variable in description.modelVariables}
     outputs = [v for v in description.modelVariables if v.causality == "output"]
@@ -74,8 +77,15 @@ def through_the_fmu(fmu, unpacked, parameters, rows, slopes):
         return values
 
     found = [get()]
+    if previews is not None:
+        count = previews.shape[1]
+        slave.setInteger([variables["vehicle.preview.count"].valueReference], [count])
+        elements = [f"vehicle.preview.specificForce.{axis}[{k + 1}]" for k in range(count) for axis in "xy"]
+        elements = [variables[name].valueReference for name in elements]
     for k in range(len(rows) - 1):
         slave.setReal(references, rows[k].tolist())
+        if previews is not None:
+            slave.setReal(elements, previews[k].ravel().tolist())
         if slopes:
             slope = (rows[k + 1] - rows[k]) / STEP
             slave.setRealInputDerivatives(references, [1] * len(references), slope.tolist())
@@ -88,7 +98,9 @@ def through_the_fmu(fmu, unpacked, parameters, rows, slopes):
 
 @pytest.mark.parametrize("slopes", [True, False])
 @pytest.mark.parametrize(
-    "parameters", [{}, {"strategy": "optimal", "splitter.x.omega1": 1.5, "tilt.rateLimit": 0.03}], ids=["default", "optimal"]
+    "parameters",
+    [{}, {"strategy": "optimal", "splitter.x.omega1": 1.5, "tilt.rateLimit": 0.03}, {"strategy": "predictive"}],
+    ids=["default", "optimal", "predictive"],
 )
 def test_arrays_give_the_fmus_outputs_to_the_bit(fmu, unpacked, parameters, slopes):
     t, force, rate, angles, speed, lean = samples()
@@ -99,6 +111,70 @@ def test_arrays_give_the_fmus_outputs_to_the_bit(fmu, unpacked, parameters, slop
     for name in expected:
         assert np.array_equal(found[name], expected[name]), name
     assert np.ptp(found["actuator[1].length"]) > 0.01
+
+
+def previews_of(force, elements=6, apart=20):
+    """The x and y of the force to come as of each sample, elements 20 samples apart; the last one goes on."""
+    ahead = np.arange(len(force))[:, None] + apart * np.arange(1, elements + 1)
+    return force[np.minimum(ahead, len(force) - 1), :2]
+
+
+@pytest.mark.parametrize("slopes", [True, False])
+def test_a_preview_gives_the_fmus_outputs_to_the_bit(fmu, unpacked, slopes):
+    t, force, rate, angles, speed, lean = samples(800)
+    rows, previews = np.column_stack([force, rate, angles, speed, lean]), previews_of(force)
+    parameters = {"strategy": "predictive"}
+    expected = through_the_fmu(fmu, unpacked, parameters, rows, slopes, previews)
+    inputs = "slopes" if slopes else "values"
+    found = moris.Washout(parameters=parameters).run(t, force, rate, angles, speed, lean, preview=previews, inputs=inputs)
+    for name in expected:
+        assert np.array_equal(found[name], expected[name]), name
+    without = moris.Washout(parameters=parameters).run(t, force, rate, angles, speed, lean, inputs=inputs)
+    assert np.abs(without["platform.position"] - found["platform.position"]).max() > 0.01
+
+
+def test_single_steps_with_previews_are_those_of_an_array():
+    t, force, rate, *_ = samples(300)
+    previews = previews_of(force)
+    # Each is shorter than the one before: one that is NaN ends it.
+    previews[100:, 3:] = np.nan
+    run = moris.Washout(parameters="preview").run(t, force, rate, preview=previews, preview_step=0.15, inputs="values")
+    washout = moris.Washout(parameters="preview")
+    for k in range(len(t) - 1):
+        given = previews[k] if k < 100 else previews[k, :3].tolist()
+        output = washout.step(STEP, force[k], rate[k], preview=given, preview_step=0.15)
+        assert output["actuator.length"] == tuple(run["actuator.length"][k + 1])
+    other = moris.Washout(parameters="preview").run(t, force, rate, preview=previews, inputs="values")
+    assert not np.array_equal(other.array, run.array)
+
+
+def test_a_step_or_run_without_a_preview_has_none():
+    t, force, rate, *_ = samples(200)
+    washout = moris.Washout(parameters="preview")
+    washout.run(t, force, rate, preview=previews_of(force))
+    twin = washout.copy()
+    empty = np.empty((len(t), 0, 2))
+    assert np.array_equal(washout.run(t, force, rate).array, twin.run(t, force, rate, preview=empty).array)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"preview": np.zeros((50, 21, 2))}, moris.RecordingError, r"preview has the shape \(50, 21, 2\), but must have \(50, K, 2\), K at most 20"),
+        ({"preview": np.zeros((49, 5, 2))}, moris.RecordingError, r"\(49, 5, 2\), but must have \(50, K, 2\)"),
+        ({"preview": np.zeros((50, 5, 3))}, moris.RecordingError, r"\(50, 5, 3\), but must have \(50, K, 2\)"),
+        ({"preview": "ahead"}, moris.RecordingError, "preview is no array of numbers"),
+        ({"preview": np.zeros((50, 5, 2)), "preview_step": 0.0}, ValueError, "preview_step is 0 s, but must be from 0.01 to 10 s"),
+    ],
+)
+def test_previews_that_do_not_fit_are_refused(arguments, error, message):
+    t, force, *_ = samples(50)
+    washout = moris.Washout(parameters="preview")
+    with pytest.raises(error, match=message):
+        washout.run(t, force, **arguments)
+    assert washout == moris.Washout(parameters="preview")
+    with pytest.raises(moris.RecordingError, match=r"preview has the shape \(20,\), but must have \(K, 2\)"):
+        washout.step(0.01, preview=np.zeros(20))
 
 
 def test_single_steps_are_those_of_an_array():
@@ -302,3 +378,14 @@ def test_every_variable_is_described():
         assert variable.description and variable.min < variable.max or variable.kind == "boolean"
     assert moris.variables()["platform.position.x"].unit == "m"
     assert moris.variables()["platform.position.x"].vector == "platform.position"
+
+
+def test_the_variables_are_those_of_the_fmu(fmu):
+    described = {variable.name: variable for variable in read_model_description(str(fmu)).modelVariables}
+    described.pop("time", None)
+    rows = moris.variables()
+    assert set(rows) == set(described)
+    assert rows["vehicle.preview.step"].unit == "s" and rows["vehicle.preview.count"].max == 20
+    for name, row in rows.items():
+        assert row.causality == described[name].causality, name
+        assert row.unit == (described[name].unit or ""), name

@@ -3,7 +3,7 @@
 use moris_washout::Input;
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::nalgebra::Vector3;
-use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::error;
@@ -100,10 +100,7 @@ pub fn samples(time: &Bound<PyAny>, arrays: &Arrays) -> PyResult<(Vec<f64>, Time
 /// `RecordingError`: no array of numbers, or of another shape.
 pub fn values(array: &Bound<PyAny>, name: &str, rows: Option<usize>, columns: Option<usize>) -> PyResult<Vec<f64>> {
     let py = array.py();
-    let numpy = py.import("numpy")?;
-    let converted = numpy.call_method1("ascontiguousarray", (array, numpy.getattr("float64")?));
-    let array = converted.map_err(|reason| error::recording(py, format!("{name} is no array of numbers: {reason}")))?;
-    let array = array.cast::<PyArrayDyn<f64>>()?;
+    let array = numbers(array, name)?;
     let shape = array.shape();
     let fits = match columns {
         None => shape.len() == 1,
@@ -114,8 +111,27 @@ pub fn values(array: &Bound<PyAny>, name: &str, rows: Option<usize>, columns: Op
         let wanted = columns.map_or_else(|| format!("({rows},)"), |columns| format!("({rows}, {columns})"));
         let transposed = columns.is_some_and(|columns| shape.len() == 2 && shape[0] == columns && shape[1] != columns);
         let remedy = if transposed { "; transpose it: a row a sample" } else { "" };
-        let message = format!("{name} has the shape {shape:?}, but must have {wanted}{remedy}");
-        return Err(error::recording(py, message.replace('[', "(").replace(']', ")")));
+        return Err(wrong_shape(py, name, shape, &format!("{wanted}{remedy}")));
     }
-    Ok(array.try_readonly()?.as_slice()?.to_vec())
+    Ok(array.as_slice()?.to_vec())
+}
+
+/// A contiguous array of 64-bit floats with the object's numbers.
+///
+/// # Errors
+/// `RecordingError`: no array of numbers.
+pub fn numbers<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<PyReadonlyArrayDyn<'py, f64>> {
+    let py = object.py();
+    let numpy = py.import("numpy")?;
+    let converted = numpy.call_method1("ascontiguousarray", (object, numpy.getattr("float64")?));
+    let array = converted.map_err(|reason| error::recording(py, format!("{name} is no array of numbers: {reason}")))?;
+    Ok(array.cast::<PyArrayDyn<f64>>()?.try_readonly()?)
+}
+
+/// The error of an array of another shape than the wanted one.
+pub fn wrong_shape(py: Python, name: &str, shape: &[usize], wanted: &str) -> PyErr {
+    let shape: Vec<String> = shape.iter().map(usize::to_string).collect();
+    // A tuple of one has a comma in Python.
+    let comma = if shape.len() == 1 { "," } else { "" };
+    error::recording(py, format!("{name} has the shape ({}{comma}), but must have {wanted}", shape.join(", ")))
 }

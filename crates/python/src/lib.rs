@@ -1,12 +1,13 @@
 //! The compiled half of the Python package `moris`; the other half is in `python/moris`.
 //!
 //! `washout` is the class `Washout`, `output` what its step returns. `setup` reads rigs and
-//! parameters, `arrays` numpy's arrays, `variables` finds variables by name, `table` lists
+//! parameters, `arrays` and `preview` numpy's arrays, `variables` finds variables by name, `table` lists
 //! them. `error` makes the exceptions.
 
 mod arrays;
 mod error;
 mod output;
+mod preview;
 mod recording;
 mod response;
 mod setup;

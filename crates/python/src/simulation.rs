@@ -2,13 +2,16 @@
 
 use std::sync::Arc;
 
+use moris::measure::host::Host;
 use moris::ride::Ride;
+use moris::ride::preview::LONGEST_PREVIEW;
 use moris::run::{AxisBound, Outcome, Recording, bounds, findings, fits_the_rig, page};
 use moris_interface::{Group, Writer, slot_count};
 use moris_measures::{Axes, Row, bound_rows};
 use moris_setup::{Setup, all};
 use moris_washout::{Input, Output};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -30,8 +33,9 @@ pub struct PySimulation {
 
 #[pymethods]
 impl PySimulation {
-    /// Simulates a recording and measures it.
+    /// Simulates a recording with `preview` seconds of its own future, and measures it.
     #[new]
+    #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python,
         recording: &PyRecording,
@@ -39,10 +43,15 @@ impl PySimulation {
         parameters: Option<&Bound<PyAny>>,
         strategy: Option<&str>,
         bound: bool,
+        preview: f64,
     ) -> PyResult<Self> {
+        let host = host(preview)?;
         let setup = setup::load(py, rig, parameters, strategy)?;
         let ride = Arc::clone(&recording.ride);
-        let outcome = py.detach(|| Outcome::of(&ride, &setup, || ()));
+        let outcome = py.detach(|| {
+            let simulated = host.replay(&ride, &ride.parameters(&setup.parameters))?;
+            Outcome::measured(simulated, &setup)
+        });
         let mut outcome = outcome.map_err(|reason| error::parameter(py, reason.to_string()))?;
         if bound {
             outcome.bounds =
@@ -122,6 +131,19 @@ impl PySimulation {
         moris_report::html(&page::report(&self.ride, &outcomes))
             .map_err(|reason| error::recording(py, format!("the report does not fit together: {reason}")))
     }
+}
+
+/// A host that previews so many seconds of a recording.
+///
+/// # Errors
+/// `ValueError`: longer than a preview can be.
+pub fn host(preview: f64) -> PyResult<Host> {
+    if !(0.0..=LONGEST_PREVIEW).contains(&preview) {
+        return Err(PyValueError::new_err(format!(
+            "preview is {preview} s, but must be from 0 to {LONGEST_PREVIEW} s"
+        )));
+    }
+    Ok(Host { preview, ..Host::default() })
 }
 
 fn measure(row: Row) -> Measure {

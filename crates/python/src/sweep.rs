@@ -2,8 +2,9 @@
 
 use std::sync::{Arc, LazyLock};
 
+use moris::measure::host::Host;
 use moris::ride::Ride;
-use moris::run::{Recording, measured};
+use moris::run::measured;
 use moris_measures::{Limited, Measures, Platform, Run};
 use moris_setup::Setup;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
@@ -12,6 +13,7 @@ use rayon::prelude::*;
 
 use crate::recording::PyRecording;
 use crate::setup;
+use crate::simulation::host;
 
 /// The measures of a sweep, each a subject, a name and a unit: all that there are, on every axis.
 static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock::new(|| {
@@ -46,21 +48,24 @@ pub fn sweep_measures() -> Vec<(String, &'static str, &'static str)> {
 /// Simulates recordings with parameter sets and measures them.
 ///
 /// Returns the measures (sets, recordings, measures), NaN where one is not defined, and for
-/// each set the message of its error or None. `threads` = 1 stays on this thread, any other
+/// each set the message of its error or None. Each recording is previewed so many seconds.
+/// `threads` = 1 stays on this thread, any other
 /// number uses all cores.
 ///
 /// # Errors
-/// `TypeError`: a set is of no type that parameters have.
+/// `TypeError`: a set is of no type that parameters have. `ValueError`: too long a preview.
 #[pyfunction]
-#[allow(clippy::type_complexity)]
+#[allow(clippy::type_complexity, clippy::too_many_arguments)]
 pub fn sweep_chunk<'py>(
     py: Python<'py>,
     recordings: Vec<PyRef<PyRecording>>,
     rig: Option<&Bound<PyAny>>,
     sets: Vec<Bound<PyAny>>,
     strategy: Option<&str>,
+    preview: f64,
     threads: usize,
 ) -> PyResult<(Bound<'py, PyArray3<f64>>, Vec<Option<String>>)> {
+    let host = host(preview)?;
     let refused = py.import("moris._errors")?.getattr("ParameterError")?;
     let mut errors = Vec::with_capacity(sets.len());
     let mut setups = Vec::with_capacity(sets.len());
@@ -81,7 +86,7 @@ pub fn sweep_chunk<'py>(
         let tasks: Vec<_> = pairs.zip(rows.chunks_exact_mut(MEASURES.len())).collect();
         let act = |((setup, ride), row): ((Option<&Setup>, &Ride), &mut [f64])| {
             if let Some(setup) = setup {
-                measure(setup, ride, row);
+                measure(&host, setup, ride, row);
             }
         };
         if threads == 1 {
@@ -95,10 +100,10 @@ pub fn sweep_chunk<'py>(
 }
 
 /// Writes the measures of a simulation into a row; those that are not defined stay what they are.
-fn measure(setup: &Setup, ride: &Ride, row: &mut [f64]) {
+fn measure(host: &Host, setup: &Setup, ride: &Ride, row: &mut [f64]) {
     let parameters = ride.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
-    let Ok(recording) = Recording::of(&ride.replay(), &parameters, || ()) else { return };
+    let Ok(recording) = host.replay(ride, &parameters) else { return };
     let Ok(measures) = measured::measures(&recording) else { return };
     let mut places = MEASURES.iter().zip(row).peekable();
     for found in measures.rows() {

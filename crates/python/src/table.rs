@@ -1,7 +1,8 @@
 //! The table of variables.
 
 use moris_interface::{Causality, Group, Kind, Row};
-use moris_washout::{Input, Output, Parameters};
+use moris_washout::interface::Inputs;
+use moris_washout::{Output, Parameters};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
@@ -28,7 +29,7 @@ type Variable<'py> = (
 /// Python is out of memory.
 #[pyfunction]
 pub fn variable_rows(py: Python) -> PyResult<Vec<Variable>> {
-    let mut rows = of(py, &Input::default())?;
+    let mut rows = of(py, &Inputs::default())?;
     rows.extend(of(py, &Output::default())?);
     rows.extend(of(py, &Parameters::default())?);
     Ok(rows)

@@ -12,6 +12,7 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 
 use crate::arrays::{Arrays, samples};
 use crate::output::{COUNT, PyOutput, VARIABLES};
+use crate::preview::{self, Previews};
 use crate::variables::{Variables, slots};
 use crate::{error, setup};
 
@@ -57,11 +58,14 @@ impl PyWashout {
     /// [m/s2]; (0, 0, 9.80665) at rest. angular_velocity: x, y, z of the vehicle [rad/s], in the
     /// axes that `angularVelocityFrame` says. orientation: roll, pitch, yaw of the vehicle [rad];
     /// positive pitch is nose down. speed: forward [m/s]. lean: of the rider's torso, to the right
-    /// [rad]. engaged: False returns the platform to neutral.
+    /// [rad]. engaged: False returns the platform to neutral. preview: (K, 2), the x and y of
+    /// specific_force to come, K at most 20 [m/s2]; element k is that of k + 1 times preview_step
+    /// after the step's start. preview_step: from 0.01 to 10 [s], by default 0.2. Only the strategy
+    /// "predictive" makes use of a preview; it ends before an element that is NaN.
     ///
     /// Within the step the input goes from the last one to this one, or is held, as
     /// `input.reconstruction` says. Any input is safe: what is not a number counts as at rest.
-    #[pyo3(signature = (dt, specific_force=None, angular_velocity=None, orientation=None, speed=0.0, lean=0.0, engaged=true))]
+    #[pyo3(signature = (dt, specific_force=None, angular_velocity=None, orientation=None, speed=0.0, lean=0.0, engaged=true, *, preview=None, preview_step=None))]
     #[allow(clippy::too_many_arguments)]
     fn step(
         &mut self,
@@ -72,6 +76,8 @@ impl PyWashout {
         speed: f64,
         lean: f64,
         engaged: bool,
+        preview: Option<&Bound<PyAny>>,
+        preview_step: Option<f64>,
     ) -> PyResult<PyOutput> {
         self.check_step(dt)?;
         let force = vector(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?;
@@ -85,7 +91,9 @@ impl PyWashout {
             lean,
             engaged,
         };
+        let preview = preview.map(|array| Previews::of(array, None, preview_step)).transpose()?;
         self.start(&input);
+        self.washout.preview(&preview.map_or(preview::NONE, |preview| preview.at(0)));
         self.washout.step(&input, dt);
         Ok(PyOutput::from(&self.washout.output()))
     }
@@ -97,11 +105,13 @@ impl PyWashout {
     /// orientation: (N, 3), roll, pitch, yaw [rad]. speed: (N,) [m/s]. lean: (N,) [rad]. engaged:
     /// (N,) bool. inputs: "slopes" goes linearly from sample to sample, as a host that gives input
     /// derivatives; "values" gives each sample at the start of its step, as a host that gives none.
+    /// preview: (N, K, 2), the x and y of specific_force to come as of each sample, as for step;
+    /// preview_step: time from one of its elements to the next [s], by default 0.2.
     ///
     /// The first row is the output before the first step. A further call goes on from there, its
     /// first sample being the last of the call before. Other threads of Python run meanwhile.
     /// Raises RecordingError for arrays that do not fit together.
-    #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, inputs="slopes"))]
+    #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, preview=None, preview_step=None, inputs="slopes"))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &mut self,
@@ -113,6 +123,8 @@ impl PyWashout {
         speed: Option<&Bound<'py, PyAny>>,
         lean: Option<&Bound<'py, PyAny>>,
         engaged: Option<&Bound<'py, PyAny>>,
+        preview: Option<&Bound<'py, PyAny>>,
+        preview_step: Option<f64>,
         inputs: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let slopes = match inputs {
@@ -126,6 +138,7 @@ impl PyWashout {
         };
         let arrays = Arrays { specific_force, angular_velocity, orientation, speed, lean, engaged };
         let (times, time, samples) = samples(time, &arrays)?;
+        let previews = preview.map(|array| Previews::of(array, Some(samples.len()), preview_step)).transpose()?;
         for k in 1..samples.len() {
             self.check_step(time.step(k - 1))?;
         }
@@ -139,7 +152,11 @@ impl PyWashout {
             };
             self.start(&samples[0]);
             write(&self.washout);
+            self.washout.preview(&preview::NONE);
             for (k, pair) in samples.windows(2).enumerate() {
+                if let Some(previews) = &previews {
+                    self.washout.preview(&previews.at(k));
+                }
                 if slopes {
                     self.washout.step_between(&pair[0], &pair[1], time.step(k));
                 } else {

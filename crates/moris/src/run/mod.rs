@@ -93,10 +93,17 @@ impl Outcome {
     /// The parameters cannot be used.
     pub fn of(ride: &Ride, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
         let parameters = ride.parameters(&setup.parameters);
-        let recording = Recording::of(&ride.replay(), &parameters, progress)?;
+        Outcome::measured(Recording::of(&ride.replay(), &parameters, progress)?, setup)
+    }
+
+    /// Measures a simulation with this setup's rig.
+    ///
+    /// # Errors
+    /// The simulation has too few samples.
+    pub fn measured(recording: Recording, setup: &Setup) -> Result<Self> {
         let measures = measured::measures(&recording)?;
         let bounds = [const { None }; 3];
-        Ok(Outcome { setup: Setup { parameters, ..setup.clone() }, recording, measures, bounds })
+        Ok(Outcome { setup: Setup { parameters: recording.parameters, ..setup.clone() }, recording, measures, bounds })
     }
 
     /// The same with its bounds.

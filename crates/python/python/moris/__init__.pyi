@@ -95,6 +95,9 @@ class Washout:
         speed: float = 0.0,
         lean: float = 0.0,
         engaged: bool = True,
+        *,
+        preview: ArrayLike | None = None,
+        preview_step: float | None = None,
     ) -> Output: ...
     def run(
         self,
@@ -106,6 +109,8 @@ class Washout:
         lean: ArrayLike | None = None,
         engaged: ArrayLike | None = None,
         *,
+        preview: ArrayLike | None = None,
+        preview_step: float | None = None,
         inputs: Literal["slopes", "values"] = "slopes",
     ) -> Outputs: ...
     def retune(self, parameters: _ParameterSet) -> None: ...
@@ -181,9 +186,10 @@ class Simulation(Outputs):
     measures: Measures
     findings: list[str]
     parameters: dict[str, _Value]
+    preview: float
     fits: bool
     name: str
-    def __init__(self, native: Any, recording: Recording) -> None: ...
+    def __init__(self, native: Any, recording: Recording, preview: float = 0.0) -> None: ...
     @property
     def desired(self) -> tuple[_Floats, _Floats]: ...
     def plot(self, figure: Any = None) -> Any: ...
@@ -201,6 +207,7 @@ def simulate(
     strategy: _Strategy | None = None,
     *,
     bound: bool = False,
+    preview: float = 0.0,
     **options: Any,
 ) -> Simulation: ...
 def bound(
@@ -291,6 +298,7 @@ def sweep(
     rig: _Rig | None = None,
     base: _ParameterSet | None = None,
     strategy: _Strategy | None = None,
+    preview: float = 0.0,
     client: Any = None,
     chunk: int | None = None,
     progress: _Show = None,

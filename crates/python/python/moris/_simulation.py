@@ -31,18 +31,20 @@ class Simulation(Outputs):
 
     time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
     recording: the Recording. measures: Measures. findings: sentences, the most important first.
-    parameters: dict of all parameters. fits: False where a safety unit or an actuator's limit was active.
+    preview: time of the recording that was previewed [s]. parameters: dict of all parameters. fits: False where a safety unit or an actuator's limit was active.
     """
 
-    def __init__(self, native, recording):
+    def __init__(self, native, recording, preview=0.0):
         super().__init__(*native.samples())
         self._native = native
         self.recording = recording
+        self.preview = preview
         self.measures = Measures(native.measures)
         self.findings = native.findings
         self.parameters = native.parameters
         self.fits = native.fits
-        self.name = f"{recording.name}, {native.parameters_name} on {native.rig_name}"
+        previewed = f", preview of {preview:g} s" if preview else ""
+        self.name = f"{recording.name}, {native.parameters_name} on {native.rig_name}{previewed}"
 
     @property
     def desired(self):
@@ -90,17 +92,19 @@ def _picture(simulation):
     return f'<img alt="felt over desired motion" src="data:image/png;base64,{base64.b64encode(image.getvalue()).decode()}">'
 
 
-def simulate(recording, rig=None, parameters=None, strategy=None, *, bound=False, **options):
+def simulate(recording, rig=None, parameters=None, strategy=None, *, bound=False, preview=0.0, **options):
     """Simulates a recording from rest at neutral, the inputs going linearly from sample to sample.
 
     recording: a Recording, or what one is made of: a DataFrame, a dict of arrays or a path; `options` are those of
         Recording. rig, parameters, strategy: as for Washout.
     bound: compute the least error that any controller could reach, too; it takes some seconds.
+    preview: time of the recording's own future that the washout knows at each sample, from 0 to 4 [s]. Only the strategy
+        "predictive" makes use of it.
 
     Returns a Simulation. Raises RecordingError, ParameterError or BoundError.
     """
     recording = recording_of(recording, options)
-    return Simulation(_moris.Simulation(recording._native, rig, parameters, strategy, bound), recording)
+    return Simulation(_moris.Simulation(recording._native, rig, parameters, strategy, bound, preview), recording, preview)
 
 
 def bound(recording, rig=None, parameters=None, **options):

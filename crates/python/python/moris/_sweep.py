@@ -102,6 +102,7 @@ def sweep(
     rig=None,
     base=None,
     strategy=None,
+    preview=0.0,
     client=None,
     chunk=None,
     progress=None,
@@ -114,7 +115,7 @@ def sweep(
         Washout; it is read as far as needed, so that a generator of 1e5 sets takes no memory.
     reduce: reduce(accumulated, result) -> accumulated, called with each Result in the order of the sets, first with
         `initial`; None collects the Results in a list. moris.best(10, cost) keeps the best.
-    rig, base, strategy: what every set is laid over.
+    rig, base, strategy: what every set is laid over. preview: as for simulate [s].
     client: a dask.distributed.Client, whose workers then simulate; without it, the cores of this machine do. The results
         are the same to the bit.
     chunk: sets in a task; by default chosen by the recordings' length.
@@ -129,7 +130,7 @@ def sweep(
         raise ValueError("recordings is empty; give one at least")
     total = len(parameter_sets) if hasattr(parameter_sets, "__len__") else None
     chunk = chunk or _chunk(rides)
-    context = _Context([ride._native for ride in rides], rig, base, strategy)
+    context = _Context([ride._native for ride in rides], rig, base, strategy, preview)
     cancelled = cancel.is_set if cancel is not None else lambda: False
     bar = Progress(progress, total, "sweep", "set")
     made = Sweep(initial if reduce else [], 0, False, [ride.name for ride in rides])
@@ -161,15 +162,16 @@ def sweep(
 class _Context:
     """What every task needs; pickled once for each worker."""
 
-    def __init__(self, recordings, rig, base, strategy):
+    def __init__(self, recordings, rig, base, strategy, preview):
         self.recordings = recordings
         self.rig = rig
         self.base = base
         self.strategy = strategy
+        self.preview = preview
 
     def measures(self, sets, threads):
         sets = [[part for part in (self.base, parameters) if part is not None] for parameters in sets]
-        return _moris.sweep_chunk(self.recordings, self.rig, sets, self.strategy, threads)
+        return _moris.sweep_chunk(self.recordings, self.rig, sets, self.strategy, self.preview, threads)
 
 
 def _task(context, sets):
@@ -203,7 +205,7 @@ def _here(context, chunks, cancelled):
 
 def _on_cluster(client, context, chunks, cancelled):
     """Chunks with their measures, in order. As many are on their way as keep every thread busy, and no more."""
-    cluster = Cluster(client, _make, (context.recordings, context.rig, context.base, context.strategy))
+    cluster = Cluster(client, _make, (context.recordings, context.rig, context.base, context.strategy, context.preview))
     ahead = AHEAD * cluster.threads()
     underway = deque()
     try:
