@@ -136,7 +136,7 @@ impl Machine {
         let mut duration = joint_speed * self.stop_time_per_speed;
         for k in 0..3 {
             let speed = next.linear.velocity[k].abs();
-            if speed > safety.acceleration_limit[k] * duration {
+            if speed >= safety.acceleration_limit[k] * duration {
                 duration = speed / safety.acceleration_limit[k];
             }
         }
@@ -187,10 +187,9 @@ impl Machine {
             let speed = velocity[k].abs();
             // Seen from the candidate: one that is back inside a tightened limit stays inside.
             let (lowest, highest) = reachable(to.coordinates, safety, k);
-            let room = if velocity[k] > 0.0 { highest - position[k] } else { position[k] - lowest };
-            if speed * duration > 2.0 * room {
-                durations.linear[k] = 2.0 * room / speed;
-            }
+            let room = if velocity[k] >= 0.0 { highest - position[k] } else { position[k] - lowest };
+            // At rest, the quotient is infinite or no number.
+            durations.linear[k] = min(2.0 * room / speed, duration);
             let brakes = speed <= safety.acceleration_limit[k] * WITH_ROUNDING * durations.linear[k];
             if !(brakes && room >= 0.0) {
                 return None;
