@@ -169,3 +169,18 @@ def test_the_command_reads_the_same(ride, frame, tmp_path):
 
 def test_several_lengths_of_ride_have_their_own_duration():
     assert moris.Recording(gentle(7.0)).duration == pytest.approx(7.0, abs=1e-12)
+
+
+def test_files_of_one_ride_are_joined_and_a_turned_sensor_is_turned_back(ride, tmp_path):
+    frame = pandas.DataFrame(ride)
+    turned = frame.assign(ax=frame["ay"], ay=-frame["ax"], wx=frame["wy"], wy=-frame["wx"])
+    turned[["time", "ax", "ay", "az"]].to_csv(tmp_path / "force.csv", index=False)
+    turned[["time", "wx", "wy", "wz"]].to_csv(tmp_path / "rate.csv", index=False)
+    expected = inputs(moris.Recording(ride))
+    for source in ([tmp_path / "force.csv", tmp_path / "rate.csv"], tmp_path):
+        assert np.allclose(inputs(moris.Recording(source, mounting=[0, 0, 90])), expected, atol=1e-9)
+    with pytest.raises(moris.RecordingError, match='use format="phyphox"'):
+        names = ["Acceleration x", "Acceleration y", "Acceleration z", "Gyroscope x", "Gyroscope y", "Gyroscope z"]
+        units = ["(m/s^2)"] * 3 + ["(rad/s)"] * 3
+        renamed = dict(zip(NAMES, ["Time (s)", *(f"{name} {unit}" for name, unit in zip(names, units))]))
+        moris.Recording(frame.rename(columns=renamed))

@@ -1,7 +1,8 @@
 //! Names, units and axes of a recording's columns.
 //!
-//! They are given by options, by a small TOML file with the same words, or by both: options take
-//! precedence over the file. Units in the recording's header take precedence over the defaults.
+//! They are given by options, by a small TOML file with the same words, or by the name of a
+//! logger's format. Options take precedence over the file, and the file over the format. Units in
+//! the recording's header take precedence over the defaults.
 //!
 //! ```toml
 //! axes = "forward-right-down"
@@ -21,59 +22,11 @@ use moris_washout::interface::AngularVelocityFrame;
 use serde::Deserialize;
 
 use super::RideError;
+pub use super::formats::Format;
+pub use super::mounting::Mounting;
+pub use super::quantity::Quantity;
 use super::units::choices;
 pub use super::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
-
-/// A quantity that a recording may hold, by the key under which its column is named.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
-    Time,
-    Force(usize),
-    Rate(usize),
-    Angle(usize),
-    Speed,
-    Lean,
-}
-
-impl Quantity {
-    /// Every quantity with its key, which is also its column's name unless another is given.
-    pub const ALL: [(Quantity, &'static str); 12] = [
-        (Quantity::Time, "time"),
-        (Quantity::Force(0), "ax"),
-        (Quantity::Force(1), "ay"),
-        (Quantity::Force(2), "az"),
-        (Quantity::Rate(0), "wx"),
-        (Quantity::Rate(1), "wy"),
-        (Quantity::Rate(2), "wz"),
-        (Quantity::Angle(0), "roll"),
-        (Quantity::Angle(1), "pitch"),
-        (Quantity::Angle(2), "yaw"),
-        (Quantity::Speed, "speed"),
-        (Quantity::Lean, "lean"),
-    ];
-
-    /// True for time, specific force and rates, which every recording must have.
-    pub fn is_required(self) -> bool {
-        matches!(self, Quantity::Time | Quantity::Force(_) | Quantity::Rate(_))
-    }
-
-    /// The dimension of its units.
-    pub fn dimension(self) -> Dimension {
-        match self {
-            Quantity::Time => Dimension::Time,
-            Quantity::Force(_) => Dimension::Force,
-            Quantity::Rate(_) => Dimension::Rate,
-            Quantity::Angle(_) | Quantity::Lean => Dimension::Angle,
-            Quantity::Speed => Dimension::Speed,
-        }
-    }
-
-    /// The quantity's key.
-    pub fn key(self) -> &'static str {
-        let found = Self::ALL.iter().find(|(quantity, _)| *quantity == self);
-        found.map_or("", |(_, key)| key)
-    }
-}
 
 choices! {
     /// Presence of gravity's reaction in the accelerations.
@@ -105,6 +58,17 @@ choices! {
     }
 }
 
+choices! {
+    /// Fields that are empty.
+    EmptyFields {
+        /// They are errors
+        "error" Error,
+        /// They are interpolated between their neighbours: the channels are
+        /// sampled at different rates
+        "interpolate" Interpolate,
+    }
+}
+
 impl Axes {
     /// Factors that turn x, y and z into x forward, y left, z up.
     pub fn signs(self) -> [f64; 3] {
@@ -129,8 +93,15 @@ impl From<RateFrame> for AngularVelocityFrame {
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Columns of the recording")]
 pub struct ConventionOptions {
+    /// Conventions of a logger, which the other options override
+    #[arg(long, value_name = "NAME")]
+    pub format: Option<Format>,
+
     /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
-    /// roll pitch yaw, speed, lean): time=t,ax=accel_x. Upper and lower case are the same
+    /// roll pitch yaw, speed, lean): time=t,ax=accel_x. A sign turns an axis round:
+    /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
+    /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
+    /// Upper and lower case are the same
     #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
     #[serde(deserialize_with = "columns_of_table")]
     pub columns: Vec<(Quantity, String)>,
@@ -163,9 +134,18 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "AXES")]
     pub axes: Option<Axes>,
 
+    /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
+    /// gravity and the first acceleration, or from the speed where there is one
+    #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
+    pub mounting: Option<Mounting>,
+
     /// The axes of wx wy wz [default: body]
     #[arg(long, value_name = "AXES")]
     pub rate_frame: Option<RateFrame>,
+
+    /// Fields that are empty [default: error]
+    #[arg(long, value_name = "EMPTY")]
+    pub empty_fields: Option<EmptyFields>,
 
     /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
     #[arg(long, value_name = "HERTZ")]
@@ -185,13 +165,18 @@ pub struct ConventionOptions {
 /// Names, units and axes of a recording, given or by default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conventions {
+    /// The logger's format that the others are of.
+    pub format: Option<Format>,
     /// Column names that are not the keys.
     pub columns: BTreeMap<Quantity, String>,
     /// Units that are given; the header gives the others, or the defaults hold.
     pub units: BTreeMap<Dimension, Unit>,
     pub gravity: Gravity,
     pub axes: Axes,
+    /// The sensor's orientation in the vehicle; none if its axes are the vehicle's.
+    pub mounting: Option<Mounting>,
     pub rate_frame: RateFrame,
+    pub empty_fields: EmptyFields,
     /// Samples a second to interpolate at \[1/s\].
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
@@ -232,6 +217,7 @@ impl ConventionOptions {
     /// As [`ConventionOptions::load`].
     pub fn load_or_fade_in(&self, fade_in: f64) -> Result<Conventions, RideError> {
         let given = self.with_file()?;
+        let given = given.format.map_or(given.clone(), |format| given.over(format.options()));
         ConventionOptions { fade_in: given.fade_in.or(Some(fade_in)), ..given }.checked()
     }
 
@@ -248,6 +234,7 @@ impl ConventionOptions {
     fn over(&self, under: ConventionOptions) -> ConventionOptions {
         let columns = under.columns.into_iter().chain(self.columns.iter().cloned()).collect();
         ConventionOptions {
+            format: self.format.or(under.format),
             columns,
             time_unit: self.time_unit.or(under.time_unit),
             force_unit: self.force_unit.or(under.force_unit),
@@ -256,7 +243,9 @@ impl ConventionOptions {
             speed_unit: self.speed_unit.or(under.speed_unit),
             gravity: self.gravity.or(under.gravity),
             axes: self.axes.or(under.axes),
+            mounting: self.mounting.or(under.mounting),
             rate_frame: self.rate_frame.or(under.rate_frame),
+            empty_fields: self.empty_fields.or(under.empty_fields),
             resample: self.resample.or(under.resample),
             fade_in: self.fade_in.or(under.fade_in),
             conventions: self.conventions.clone(),
@@ -285,11 +274,14 @@ impl ConventionOptions {
             (Dimension::Speed, self.speed_unit.map(SpeedUnit::unit)),
         ];
         Conventions {
+            format: self.format,
             columns: self.columns.iter().cloned().collect(),
             units: units.into_iter().filter_map(|(dimension, unit)| Some((dimension, unit?))).collect(),
             gravity: self.gravity.unwrap_or(Gravity::Included),
             axes: self.axes.unwrap_or(Axes::ForwardLeftUp),
+            mounting: self.mounting,
             rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
+            empty_fields: self.empty_fields.unwrap_or(EmptyFields::Error),
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
         }
@@ -299,18 +291,11 @@ impl ConventionOptions {
 /// `key=name` of an option.
 fn column_name(text: &str) -> Result<(Quantity, String), String> {
     let (key, name) = text.split_once('=').ok_or("write KEY=NAME, as in ax=accel_x")?;
-    Ok((quantity(key.trim())?, name.trim().to_owned()))
-}
-
-/// The quantity of a key.
-fn quantity(key: &str) -> Result<Quantity, String> {
-    let found = Quantity::ALL.iter().find(|(_, known)| *known == key);
-    let keys = || Quantity::ALL.map(|(_, key)| key).join(", ");
-    found.map(|(quantity, _)| *quantity).ok_or_else(|| format!("there is no key {key}; there are {}", keys()))
+    Ok((Quantity::of_key(key.trim())?, name.trim().to_owned()))
 }
 
 fn columns_of_table<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<(Quantity, String)>, D::Error> {
     let table = BTreeMap::<String, String>::deserialize(deserializer)?;
-    let named = table.into_iter().map(|(key, name)| Ok((quantity(&key)?, name)));
+    let named = table.into_iter().map(|(key, name)| Ok((Quantity::of_key(&key)?, name)));
     named.collect::<Result<_, String>>().map_err(serde::de::Error::custom)
 }

@@ -3,38 +3,85 @@
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
-use moris_washout::nalgebra::Vector3;
+use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::conventions::{Conventions, Gravity, Quantity};
+use super::RideError;
+use super::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
+use super::mounting::{self, Found, SensorMotion};
 use super::sampling::at;
 use super::table::Table;
 
-/// The washout's input at each sample.
-pub fn inputs(table: &Table, conventions: &Conventions) -> Vec<Input> {
-    let signs = Vector3::from(conventions.axes.signs());
-    // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
-    let vector = |sample: usize, quantity: fn(usize) -> Quantity| {
-        Vector3::from_fn(|axis, _| at(table, quantity(axis), sample) * signs[axis])
+/// The washout's input at each sample, with warnings.
+///
+/// # Errors
+/// The mounting is to be found and cannot be.
+pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Vec<String>), RideError> {
+    let found = match conventions.mounting {
+        None => None,
+        Some(Mounting::Angles(angles)) => Some(Found { rotation: mounting::rotation(angles), remark: String::new() }),
+        Some(Mounting::Auto) => Some(
+            find_mounting(table, conventions)
+                .map_err(|reason| RideError::Whole { file: table.file.clone(), reason })?,
+        ),
     };
-    let input = |sample: usize| {
-        let orientation = RollPitchYaw::from_vector(vector(sample, Quantity::Angle));
-        let acceleration = vector(sample, Quantity::Force);
-        let gravity = match conventions.gravity {
-            Gravity::Included => Vector3::zeros(),
-            Gravity::Removed => {
-                Orientation::new(orientation).rotation.transpose() * Vector3::new(0.0, 0.0, STANDARD_GRAVITY)
-            }
-        };
-        Input {
-            specific_force: acceleration + gravity,
-            angular_velocity: vector(sample, Quantity::Rate),
-            orientation,
-            speed: at(table, Quantity::Speed, sample),
-            lean: at(table, Quantity::Lean, sample),
-            engaged: true,
+    let mounting = found.as_ref().map(|found| found.rotation);
+    let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
+    Ok((inputs, found.map(|found| found.remark).into_iter().filter(|remark| !remark.is_empty()).collect()))
+}
+
+/// Three columns at a sample, turned to x forward, y left, z up of the sensor.
+fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(usize) -> Quantity) -> Vector3<f64> {
+    // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
+    let signs = conventions.axes.signs();
+    Vector3::from_fn(|axis, _| at(table, quantity(axis), sample) * signs[axis])
+}
+
+fn find_mounting(table: &Table, conventions: &Conventions) -> Result<Found, String> {
+    if conventions.gravity == Gravity::Removed {
+        return Err("--mounting auto needs gravity in the accelerations; give --mounting ROLL,PITCH,YAW".to_owned());
+    }
+    let vectors = |quantity| -> Vec<Vector3<f64>> {
+        (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()
+    };
+    mounting::find(&SensorMotion {
+        step: table.step(),
+        forces: &vectors(Quantity::Force),
+        rates: &vectors(Quantity::Rate),
+        speeds: table.columns.get(&Quantity::Speed).map(Vec::as_slice),
+    })
+}
+
+/// The input at a sample; `mounting` turns the sensor's axes to the vehicle's.
+fn input(table: &Table, conventions: &Conventions, mounting: Option<&Matrix3<f64>>, sample: usize) -> Input {
+    let vector = |quantity| vector(table, conventions, sample, quantity);
+    let turned = |vector: Vector3<f64>| mounting.map_or(vector, |rotation| rotation * vector);
+    let sensor = RollPitchYaw::from_vector(vector(Quantity::Angle));
+    let orientation = match mounting {
+        Some(rotation) if table.has_orientation() => vehicle_orientation(sensor, rotation),
+        _ => sensor,
+    };
+    let gravity = match conventions.gravity {
+        Gravity::Included => Vector3::zeros(),
+        Gravity::Removed => {
+            Orientation::new(orientation).rotation.transpose() * Vector3::new(0.0, 0.0, STANDARD_GRAVITY)
         }
     };
-    (0..table.time.len()).map(input).collect()
+    let rates = vector(Quantity::Rate);
+    Input {
+        specific_force: turned(vector(Quantity::Force)) + gravity,
+        angular_velocity: if conventions.rate_frame == RateFrame::Body { turned(rates) } else { rates },
+        orientation,
+        speed: at(table, Quantity::Speed, sample),
+        lean: at(table, Quantity::Lean, sample),
+        engaged: true,
+    }
+}
+
+/// The vehicle's orientation from that of the sensor in it.
+fn vehicle_orientation(sensor: RollPitchYaw, mounting: &Matrix3<f64>) -> RollPitchYaw {
+    let rotation = Orientation::new(sensor).rotation * mounting.transpose();
+    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(rotation).euler_angles();
+    RollPitchYaw::new(roll, pitch, yaw)
 }
 
 /// Fades the inputs in from rest over the first `duration` seconds, by x^2 (3 - 2x) after a

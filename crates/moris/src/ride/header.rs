@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use clap::ValueEnum;
 use moris_setup::nearest;
 
 use super::RideError;
-use super::conventions::{Conventions, Quantity};
-use super::units::{Dimension, Unit, any_spelled};
+use super::conventions::{Conventions, Format, Quantity};
+use super::units::{Dimension, TimeUnit, Unit, any_spelled};
 
 /// Longest text of a file that a message quotes \[characters\].
 const LONGEST_QUOTE: usize = 40;
@@ -25,17 +26,24 @@ pub enum UnitSource {
     Default,
 }
 
-/// A column that is used.
+/// A column of the file, and the sign with which it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Term {
+    pub sign: f64,
+    /// Place in the line, from 0; of several files, in the line of all their columns.
+    pub place: usize,
+}
+
+/// A quantity of the file: the sum of columns.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     pub quantity: Quantity,
-    /// Place in the line, from 0.
-    pub place: usize,
+    pub terms: Vec<Term>,
     pub unit: Unit,
     pub source: UnitSource,
 }
 
-/// The header of a recording.
+/// The header of a recording, of one file or of several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Header {
     titles: Vec<Title>,
@@ -44,6 +52,8 @@ pub struct Header {
 /// The name of a column, and the unit in brackets behind it.
 #[derive(Clone, Debug, PartialEq)]
 struct Title {
+    /// The name of the file, where there are several.
+    file: Option<String>,
     full: String,
     name: String,
     unit: Option<String>,
@@ -62,16 +72,37 @@ impl Title {
             .split(['[', '('])
             .skip(1)
             .filter_map(|part| Some(part[..part.find([']', ')'])?].trim()))
-            .filter(|unit| !unit.is_empty() && *unit != "-")
+            // A number in brackets is an index.
+            .filter(|unit| !unit.is_empty() && *unit != "-" && unit.parse::<usize>().is_err())
             .collect();
         let unit = brackets.iter().find(|unit| any_spelled(unit).is_some()).or(brackets.last());
-        Title { full: full.to_owned(), name: name.to_owned(), unit: unit.map(|&unit| unit.to_owned()) }
+        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit: unit.map(|&unit| unit.to_owned()) }
+    }
+
+    /// The title with its file's name before it, where there are several files.
+    fn qualified(&self, title: &str) -> String {
+        self.file.as_ref().map_or_else(|| title.to_owned(), |file| format!("{file}.{title}"))
+    }
+
+    /// True if the name is this title or what stands before its brackets, with its file's name or
+    /// without.
+    fn is_called(&self, name: &str, is_same: fn(&str, &str) -> bool) -> bool {
+        let titles = [&self.full, &self.name];
+        titles.into_iter().any(|title| is_same(title, name) || is_same(&self.qualified(title), name))
     }
 }
 
 impl Header {
     pub fn new<'a>(titles: impl IntoIterator<Item = &'a str>) -> Self {
         Header { titles: titles.into_iter().map(Title::new).collect() }
+    }
+
+    /// The header of several files, each with its name.
+    pub fn of_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a Header)>) -> Self {
+        let named = |file: &'a str, header: &'a Header| {
+            header.titles.iter().map(move |title| Title { file: Some(file.to_owned()), ..title.clone() })
+        };
+        Header { titles: files.into_iter().flat_map(|(file, header)| named(file, header)).collect() }
     }
 
     /// Number of columns.
@@ -91,7 +122,12 @@ impl Header {
 
     /// A column's name as messages quote it.
     pub fn shown(&self, place: usize) -> String {
-        self.titles.get(place).map_or_else(String::new, |title| quoted(&title.full))
+        self.titles.get(place).map_or_else(String::new, |title| quoted(&title.qualified(&title.full)))
+    }
+
+    /// The column's place in its file, for messages: empty where there are several files.
+    fn number(&self, place: usize) -> String {
+        if self.titles[place].file.is_some() { String::new() } else { format!(" (column {})", place + 1) }
     }
 
     /// Takes a line of units below the names: no field is a number, and one at least is a unit.
@@ -114,87 +150,141 @@ impl Header {
     /// True where every column is there that a recording needs.
     pub fn has_needed_columns(&self, conventions: &Conventions) -> bool {
         let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| quantity.is_required());
-        needed.all(|&(quantity, _)| !matches!(self.place(conventions.column(quantity)), Ok(None)))
+        needed.all(|&(quantity, _)| !matches!(self.terms(conventions.column(quantity)), Ok(None)))
     }
 
-    /// The columns that are used.
+    /// The columns that are used; `skips_time` where each of several files has a time of its own.
     ///
     /// # Errors
     /// Columns are missing, all of which are named; a name stands twice; a column is given for two
     /// quantities; a unit is unknown, or contradicts an option.
-    pub fn columns(&self, file: &Path, conventions: &Conventions) -> Result<Vec<Column>, RideError> {
+    pub fn columns(&self, file: &Path, conventions: &Conventions, skips_time: bool) -> Result<Vec<Column>, RideError> {
         let refused = |reason: String| RideError::Whole { file: file.to_owned(), reason };
-        let places = self.places(file, conventions)?;
         let mut columns = Vec::new();
-        for (quantity, place) in places {
-            let (unit, source) = self.unit(place, quantity.dimension(), conventions).map_err(refused)?;
-            columns.push(Column { quantity, place, unit, source });
+        for (quantity, terms) in self.places(file, conventions, skips_time)? {
+            let (unit, source) = self.unit_of_sum(&terms, quantity.dimension(), conventions).map_err(refused)?;
+            columns.push(Column { quantity, terms, unit, source });
         }
         self.check_units_are_complete(&columns).map_err(refused)?;
         Ok(columns)
     }
 
-    fn places(&self, file: &Path, conventions: &Conventions) -> Result<Vec<(Quantity, usize)>, RideError> {
+    fn places(
+        &self,
+        file: &Path,
+        conventions: &Conventions,
+        skips_time: bool,
+    ) -> Result<Vec<(Quantity, Vec<Term>)>, RideError> {
+        let refused = |reason: String| RideError::Whole { file: file.to_owned(), reason };
         let mut used: BTreeMap<usize, Quantity> = BTreeMap::new();
         let mut places = Vec::new();
         let mut missing = Vec::new();
+        let mut ambiguous = None;
         for (quantity, key) in Quantity::ALL {
+            if quantity == Quantity::Time && skips_time {
+                continue;
+            }
             let name = conventions.column(quantity);
-            let place = self.place(name).map_err(|reason| RideError::Whole { file: file.to_owned(), reason })?;
             let is_needed = quantity.is_required() || conventions.columns.contains_key(&quantity);
-            match place {
-                Some(place) => {
-                    if let Some(other) = used.insert(place, quantity) {
-                        let reason = format!(
-                            "column {} is given for both {} and {key}; give each a column of its own with --columns",
-                            self.shown(place),
-                            other.key()
-                        );
-                        return Err(RideError::Whole { file: file.to_owned(), reason });
+            let terms = self.terms(name).unwrap_or_else(|reason| {
+                ambiguous.get_or_insert(reason);
+                Some(Vec::new())
+            });
+            match terms {
+                Some(terms) => {
+                    for term in &terms {
+                        if let Some(other) = used.insert(term.place, quantity) {
+                            return Err(refused(format!(
+                                "column {} is given for both {} and {key}; give each a column of its own with --columns",
+                                self.shown(term.place),
+                                other.key()
+                            )));
+                        }
                     }
-                    places.push((quantity, place));
+                    places.push((quantity, terms));
                 }
-                None if is_needed => missing.push((key, name)),
+                // Speed helps formats that have it, and no format needs it.
+                None if is_needed && (quantity != Quantity::Speed || conventions.format.is_none()) => {
+                    missing.push((key, name));
+                }
                 None => (),
             }
         }
-        if missing.is_empty() { Ok(places) } else { Err(self.missing(file, &missing)) }
+        match (&missing[..], ambiguous) {
+            ([], None) => Ok(places),
+            ([], Some(reason)) => Err(refused(reason)),
+            (missing, _) => Err(self.missing(file, missing)),
+        }
+    }
+
+    /// The columns of `name`, or of `-name`, or of terms with spaces around their signs.
+    fn terms(&self, text: &str) -> Result<Option<Vec<Term>>, String> {
+        if let Some(place) = self.place(text)? {
+            return Ok(Some(vec![Term { sign: 1.0, place }]));
+        }
+        let parts = signed_parts(text);
+        if parts.len() == 1 && parts[0].1 == text {
+            return Ok(None);
+        }
+        let term = |(sign, name): (f64, &str)| Ok(self.place(name)?.map(|place| Term { sign, place }));
+        parts.into_iter().map(term).collect()
     }
 
     /// The place of a name: of the whole title, or of what stands before its brackets, in any case.
-    fn place(&self, name: &str) -> Result<Option<usize>, String> {
-        let matches: [&dyn Fn(&Title) -> bool; 4] = [
-            &|title| title.full == name,
-            &|title| title.name == name,
-            &|title| title.full.to_lowercase() == name.to_lowercase(),
-            &|title| title.name.to_lowercase() == name.to_lowercase(),
+    /// `name#2` is the second of two with this name.
+    ///
+    /// # Errors
+    /// Several columns have this name.
+    pub fn place(&self, name: &str) -> Result<Option<usize>, String> {
+        let matches: [&dyn Fn(&Title) -> bool; 3] = [
+            &|title| title.full == name || title.qualified(&title.full) == name,
+            &|title| title.is_called(name, |title, name| title == name),
+            &|title| title.is_called(name, |title, name| title.to_lowercase() == name.to_lowercase()),
         ];
         for is_match in matches {
             let found: Vec<usize> = (0..self.width()).filter(|&place| is_match(&self.titles[place])).collect();
             match found[..] {
                 [] => (),
                 [place] => return Ok(Some(place)),
-                [first, second, ..] => {
-                    let (one, other) = (self.shown(first), self.shown(second));
-                    let remedy = if self.titles[first].full == self.titles[second].full {
-                        "remove or rename one of them"
-                    } else {
-                        "give the whole name of one of them with --columns, or rename one"
-                    };
-                    return Err(format!(
-                        "two columns are called {}: {one} (column {}) and {other} (column {}); {remedy}",
-                        quoted(name),
-                        first + 1,
-                        second + 1
-                    ));
-                }
+                [first, second, ..] => return Err(self.ambiguous(name, first, second)),
             }
         }
-        Ok(None)
+        let numbered = name.rsplit_once('#').and_then(|(name, number)| Some((name, number.parse::<usize>().ok()?)));
+        Ok(numbered.and_then(|(name, number)| {
+            let is_same = |title: &str, name: &str| title.to_lowercase() == name.to_lowercase();
+            (0..self.width()).filter(|&place| self.titles[place].is_called(name, is_same)).nth(number.checked_sub(1)?)
+        }))
+    }
+
+    fn ambiguous(&self, name: &str, first: usize, second: usize) -> String {
+        let (one, other) = (self.shown(first), self.shown(second));
+        let remedy = if self.titles[first].file != self.titles[second].file {
+            "give the file's name with it in --columns"
+        } else if self.titles[first].full == self.titles[second].full {
+            "remove or rename one of them, or give its number with --columns"
+        } else {
+            "give the whole name of one of them with --columns, or rename one"
+        };
+        format!(
+            "two columns are called {}: {one}{} and {other}{}; {remedy}",
+            quoted(name),
+            self.number(first),
+            self.number(second)
+        )
     }
 
     fn missing(&self, file: &Path, missing: &[(&str, &str)]) -> RideError {
         let names = || self.titles.iter().map(|title| title.name.as_str());
+        let format = Format::value_variants().iter().find(|format| self.is_of(**format));
+        if let Some(format) = format {
+            let reason = format!(
+                "there is no column {}, but those that {} writes; use --format {}",
+                missing.iter().map(|(_, name)| quoted(name)).collect::<Vec<_>>().join(", "),
+                format.word(),
+                format.word()
+            );
+            return RideError::Whole { file: file.to_owned(), reason };
+        }
         let like = |name: &str| {
             let like = nearest(name, names()).first().map(|&like| format!(" (is it {}?)", quoted(like)));
             format!("{}{}", quoted(name), like.unwrap_or_default())
@@ -214,6 +304,53 @@ impl Header {
             keys.join(",")
         );
         RideError::Whole { file: file.to_owned(), reason }
+    }
+
+    /// True where the columns of a logger's format are there.
+    fn is_of(&self, format: Format) -> bool {
+        let conventions = format.options().load();
+        conventions.is_ok_and(|conventions| {
+            let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| quantity.is_required());
+            // Each of several files has a time.
+            needed.all(|&(quantity, _)| match self.terms(conventions.column(quantity)) {
+                Ok(found) => found.is_some(),
+                Err(_) => quantity == Quantity::Time,
+            })
+        })
+    }
+
+    /// The unit of columns that are added, which must be one.
+    fn unit_of_sum(
+        &self,
+        terms: &[Term],
+        dimension: Dimension,
+        conventions: &Conventions,
+    ) -> Result<(Unit, UnitSource), String> {
+        let (unit, source) = self.unit(terms[0].place, dimension, conventions)?;
+        for term in &terms[1..] {
+            let (other, _) = self.unit(term.place, dimension, conventions)?;
+            if other != unit {
+                return Err(format!(
+                    "columns {} and {} are added, but are in {} and {}; convert one of them",
+                    self.shown(terms[0].place),
+                    self.shown(term.place),
+                    unit.word,
+                    other.word
+                ));
+            }
+        }
+        Ok((unit, source))
+    }
+
+    /// The time's unit: seconds where it is written out as dates or times of day.
+    ///
+    /// # Errors
+    /// As [`Header::columns`].
+    pub fn time_unit(&self, place: usize, is_written_out: bool, conventions: &Conventions) -> Result<Unit, String> {
+        if is_written_out {
+            return Ok(TimeUnit::Second.unit());
+        }
+        self.unit(place, Dimension::Time, conventions).map(|(unit, _)| unit)
     }
 
     /// The unit of a column: the header's, the option's, or the default, in this order.
@@ -261,12 +398,12 @@ impl Header {
             let of = |source| {
                 columns.iter().filter(move |column| column.quantity.dimension() == dimension && column.source == source)
             };
-            let open: Vec<String> = of(UnitSource::Default).map(|column| self.shown(column.place)).collect();
+            let open: Vec<String> = of(UnitSource::Default).map(|column| self.shown(column.terms[0].place)).collect();
             let stated = of(UnitSource::Header).find(|column| column.unit != dimension.default_unit());
             if let Some(stated) = stated.filter(|_| !open.is_empty()) {
                 return Err(format!(
                     "column {} is in {} by its header, but {} without a unit; write the unit into the header of each",
-                    self.shown(stated.place),
+                    self.shown(stated.terms[0].place),
                     stated.unit.word,
                     match &open[..] {
                         [one] => format!("{one} is"),
@@ -277,6 +414,22 @@ impl Header {
         }
         Ok(())
     }
+}
+
+/// The names in a sum, each with its sign: `-a + b`, with spaces around the signs between names.
+fn signed_parts(text: &str) -> Vec<(f64, &str)> {
+    let mut parts = Vec::new();
+    let (mut sign, mut rest) = match text.trim().strip_prefix(['-', '+']) {
+        Some(rest) => (if text.trim().starts_with('-') { -1.0 } else { 1.0 }, rest),
+        None => (1.0, text),
+    };
+    while let Some(end) = [" + ", " - "].iter().filter_map(|mark| rest.find(mark)).min() {
+        parts.push((sign, rest[..end].trim()));
+        sign = if rest[end..].starts_with(" - ") { -1.0 } else { 1.0 };
+        rest = &rest[end + 3..];
+    }
+    parts.push((sign, rest.trim()));
+    parts
 }
 
 /// Text of a file for a message: short, and without anything that a terminal would obey.

@@ -1,10 +1,11 @@
 //! Recordings: read from CSV, converted to the washout's frames and units, and
 //! checked for plausibility.
 //!
-//! [`Ride::read`] does it all. `source` reads the text, [`header`] finds the columns and their
-//! [`units`], [`table`] reads the numbers. [`sampling`] makes the steps equal.
-//! [`plausibility`] recognises wrong units and axes. [`conventions`] are the names, units and
-//! axes that options give.
+//! [`Ride::read`] does it all. `source` reads the text, `sheet` its lines, [`header`] finds the
+//! columns and their [`units`], [`table`] puts the numbers together, `join` those of several files.
+//! [`sampling`] makes the steps equal. `convert` turns the axes by the [`mounting`].
+//! [`plausibility`] recognises wrong units and axes. [`conventions`] are the names, units and axes
+//! that options give, or the name of one of the [`formats`].
 //!
 //! # Gravity without orientation
 //!
@@ -22,12 +23,19 @@
 pub mod conventions;
 mod convert;
 mod error;
+pub mod formats;
 pub mod header;
+mod join;
+pub mod mounting;
+mod numbers;
 pub mod plausibility;
 pub mod preview;
+pub mod quantity;
 pub mod sampling;
+mod sheet;
 mod source;
 pub mod table;
+mod time;
 pub mod units;
 
 use std::path::Path;
@@ -59,7 +67,8 @@ pub struct Ride {
 
 impl Ride {
     /// Reads a recording from a file, or from standard input if the file is `-`. Files compressed
-    /// with gzip are unpacked.
+    /// with gzip are unpacked. Files whose names are joined by `+`, and the CSV files of a
+    /// directory, are joined by time.
     ///
     /// # Errors
     /// The file cannot be read or is no CSV, columns are missing or stand twice, a field is no
@@ -83,7 +92,9 @@ impl Ride {
 
     fn of_table(name: String, table: Table, conventions: &Conventions) -> Result<Self, RideError> {
         let (table, mut remarks) = sampling::at_equal_steps(table, conventions)?;
-        let mut inputs = convert::inputs(&table, conventions);
+        remarks.extend(table.remarks.iter().cloned());
+        let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
+        remarks.extend(mounting);
         plausibility::check(&table, &inputs, conventions)?;
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
         remarks.extend(plausibility::warnings(&table, &inputs));

@@ -85,9 +85,11 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
     let added = if conventions.gravity == Gravity::Removed { gravity } else { Vector3::zeros() };
     let (unit, _) = unit(table, Quantity::Force(2));
     let raw = (median - added) / unit.in_si;
-    let signs = conventions.axes.signs();
+    let is_mounted = conventions.mounting.is_some();
+    let signs = if is_mounted { [1.0; 3] } else { conventions.axes.signs() };
     let shown = format!(
-        "most of the time the accelerations are about ({:.2}, {:.2}, {:.2}) {}",
+        "most of the time the accelerations{} are about ({:.2}, {:.2}, {:.2}) {}",
+        if is_mounted { ", turned by --mounting," } else { "" },
         raw.x,
         raw.y * signs[1],
         raw.z * signs[2],
@@ -113,7 +115,7 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
     } else if (median.norm() - STANDARD_GRAVITY).abs() < GRAVITY_TOLERANCE {
         let axis = ["x", "y", "z"][median.iamax()];
         format!(
-            "so {axis} is nearest to the vertical; name the column of each axis with --columns, or level the sensor"
+            "so {axis} is nearest to the vertical; name the column of each axis with --columns, or use --mounting auto"
         )
     } else {
         "which is gravity in no unit known here: convert the file to m/s2 or g".to_owned()

@@ -19,6 +19,15 @@ pub struct Previewer {
 pub const PREVIEW_STEP: f64 = Preview::START.step;
 /// The longest preview \[s\].
 pub const LONGEST_PREVIEW: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64;
+/// The length of a preview as written on the command line \[s\].
+///
+/// # Errors
+/// It is no number, or longer than the washout takes.
+pub fn parse_seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse().ok().filter(|seconds: &f64| (0.0..=LONGEST_PREVIEW).contains(seconds));
+    seconds.ok_or_else(|| format!("a time from 0 to {LONGEST_PREVIEW} s is needed, such as 1"))
+}
+
 /// Tolerance of a count of elements.
 const ROUNDING: f64 = 1e-9;
 

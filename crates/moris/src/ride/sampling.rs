@@ -2,6 +2,7 @@
 
 use super::RideError;
 use super::conventions::{Conventions, Quantity};
+use super::join::GAP;
 use super::table::Table;
 
 /// Largest distance of a sample from its place at equal steps \[fractions of a step\]. Clocks that
@@ -13,8 +14,6 @@ const COARSEST: f64 = 0.25;
 const FINEST: f64 = 1e-5;
 /// More samples than this are a mistake: a day at 100 Hz.
 const MOST_SAMPLES: f64 = 1e7;
-/// Longest gap that is interpolated over without a warning \[s\].
-const GAP: f64 = 0.2;
 
 /// The recording at equal steps, with warnings: unchanged where its steps are equal,
 /// interpolated on demand.
@@ -113,7 +112,9 @@ fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RideError
     let columns = table.columns.iter().map(|(&quantity, values)| (quantity, interpolated(values))).collect();
     let lines = places.iter().map(|&(k, _)| table.lines[k]).collect();
     let remarks = gaps(table);
-    Ok((Table { file: table.file.clone(), time, columns, layout: table.layout.clone(), lines }, remarks))
+    let Table { file, layout, remarks: earlier, .. } = table;
+    let (file, layout, earlier) = (file.clone(), layout.clone(), earlier.clone());
+    Ok((Table { file, time, columns, layout, lines, remarks: earlier }, remarks))
 }
 
 fn gaps(table: &Table) -> Vec<String> {

@@ -15,11 +15,56 @@ const LARGEST: u64 = 2_000_000_000;
 /// Part of a file in which a zero byte shows that it is no text \[bytes\].
 const HEAD: usize = 4096;
 
+/// Files of one recording are joined by this sign.
+const JOIN: char = '+';
+
+/// The files of a recording: the file itself, those whose names are joined by +, or the CSV files
+/// of a directory in the order of their names.
+///
+/// # Errors
+/// The directory cannot be read, or holds no CSV file.
+pub fn files(file: &Path) -> Result<Vec<PathBuf>, RideError> {
+    if file.is_dir() {
+        return files_in(file);
+    }
+    Ok(joined(file).unwrap_or_else(|| vec![file.to_owned()]))
+}
+
+/// The parts of a name that joins files; none if it is that of a file.
+fn joined(file: &Path) -> Option<Vec<PathBuf>> {
+    let text = file.to_str()?;
+    (text.contains(JOIN) && !file.exists()).then(|| text.split(JOIN).map(PathBuf::from).collect())
+}
+
+fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RideError> {
+    let unreadable = |reason| RideError::Read { file: directory.to_owned(), reason };
+    let is_csv = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        path.is_file() && (name.ends_with(".csv") || name.ends_with(".csv.gz"))
+    };
+    let entries: Result<Vec<PathBuf>, _> =
+        fs::read_dir(directory).map_err(unreadable)?.map(|entry| entry.map(|entry| entry.path())).collect();
+    let mut files: Vec<PathBuf> = entries.map_err(unreadable)?.into_iter().filter(is_csv).collect();
+    files.sort();
+    if files.is_empty() {
+        let reason = "is a directory without CSV files".to_owned();
+        return Err(RideError::Whole { file: directory.to_owned(), reason });
+    }
+    Ok(files)
+}
+
 /// The name of the recording in a file: without directory, `.csv` and `.gz`;
 /// `stdin` for standard input.
 pub fn name(file: &Path) -> String {
     if is_standard_input(file) {
         return "stdin".to_owned();
+    }
+    if let Some(files) = joined(file) {
+        return files.iter().map(|file| name(file)).collect::<Vec<_>>().join("+");
+    }
+    if file.is_dir() {
+        let directory = file.canonicalize().unwrap_or_else(|_| file.to_owned());
+        return directory.file_name().unwrap_or_default().to_string_lossy().into_owned();
     }
     let is_packed = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
     let stem = file.file_stem().map(PathBuf::from).unwrap_or_default();

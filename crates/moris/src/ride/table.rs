@@ -3,15 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use csv::{ReaderBuilder, StringRecord};
-
 use super::RideError;
 use super::conventions::{Conventions, Quantity};
 use super::header::{Column, Header, quoted};
+use super::join::{self, Part};
+use super::sheet::Sheet;
 use super::source;
-
-/// Most lines before the header.
-const LONGEST_PREAMBLE: usize = 100;
 
 /// A recording's columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +23,8 @@ pub struct Table {
     pub layout: Vec<Column>,
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
+    /// Warnings, in whole sentences.
+    pub remarks: Vec<String>,
 }
 
 impl Table {
@@ -46,70 +45,106 @@ impl Table {
     pub fn column(&self, quantity: Quantity) -> Option<&Column> {
         self.layout.iter().find(|column| column.quantity == quantity)
     }
+
+    /// A table of columns of numbers in the file's units, `values` by their places.
+    fn new(
+        file: PathBuf,
+        layout: Vec<Column>,
+        (time, lines): (Vec<f64>, Vec<u64>),
+        values: &BTreeMap<usize, Vec<f64>>,
+        remarks: Vec<String>,
+    ) -> Self {
+        let sum = |column: &Column| -> Vec<f64> {
+            let term = |place: usize, sample: usize| values.get(&place).map_or(0.0, |column| column[sample]);
+            let at =
+                |sample| column.terms.iter().map(|t| t.sign * term(t.place, sample)).sum::<f64>() * column.unit.in_si;
+            (0..time.len()).map(at).collect()
+        };
+        let columns = layout
+            .iter()
+            .filter(|column| column.quantity != Quantity::Time)
+            .map(|column| (column.quantity, sum(column)))
+            .collect();
+        Table { file, time, columns, layout, lines, remarks }
+    }
 }
 
-/// Reads a recording: a header of names, then lines of numbers, with commas, semicolons or
-/// tabulators between them. A line of units may follow the header, and a logger's preamble may
-/// precede it. Lines that begin with # are comments. Between semicolons or tabulators, numbers may
-/// have a decimal comma.
+/// Reads a recording of one file, of several joined by `+`, or of those in a directory.
 ///
 /// # Errors
-/// The file cannot be read or holds no samples, columns are missing, a unit contradicts an option,
-/// a value is not a number.
+/// A file cannot be read or holds no samples, columns are missing, a unit contradicts an option, a
+/// value is not a number, files do not overlap in time.
 pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
-    let text = source::text(file)?;
-    let text = text.trim_start_matches('\u{feff}');
-    let file = source::shown(file);
-    let whole = |reason: &str| RideError::Whole { file: file.clone(), reason: reason.to_owned() };
-    let (preamble, text) = without_preamble(text, conventions);
-    let delimiter = delimiter(text);
-    let mut reader =
-        ReaderBuilder::new().delimiter(delimiter).comment(Some(b'#')).flexible(true).from_reader(text.as_bytes());
-    let mut header = match reader.headers() {
-        Ok(names) => Header::new(names),
-        Err(error) => return Err(whole(&error.to_string())),
-    };
-    if header.is_blank() {
-        return Err(whole("is empty; the first line must name the columns"));
+    let files = source::files(file)?;
+    match &files[..] {
+        [one] => of_file(one, conventions),
+        _ => of_files(source::shown(file), &files, file.is_dir(), conventions),
     }
-    if header.is_numbers() {
-        return Err(whole("begins with numbers; the first line must name the columns: time,ax,ay,az,wx,wy,wz"));
-    }
+}
 
-    let mut record = StringRecord::new();
-    let mut advance = |record: &mut StringRecord| reader.read_record(record).map_err(|error| whole(&error.to_string()));
-    let mut is_sample = advance(&mut record)?;
-    if is_sample && header.take_units(record.iter()) {
-        is_sample = advance(&mut record)?;
-        // Some loggers write the source of each column below its unit.
-        if is_sample && record.iter().all(|field| !field.trim().is_empty() && !is_number(field)) {
-            is_sample = advance(&mut record)?;
+fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
+    let sheet = Sheet::open(file, conventions)?;
+    let whole = |reason| RideError::Whole { file: sheet.file.clone(), reason };
+    let mut layout = sheet.header.columns(&sheet.file, conventions, sheet.has_written_times)?;
+    let time = sheet.time.ok_or_else(|| whole(format!("there is no column {}", conventions.column(Quantity::Time))))?;
+    let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(whole)?;
+    if sheet.has_written_times {
+        layout.insert(0, join::time_column(time, unit));
+    }
+    let places = value_places(&layout);
+    let samples = sheet.samples(&places, time, conventions)?;
+    let mut part = Part::new(&sheet, samples, unit);
+    let remarks = part.fill_gaps(&places)?;
+    let values = places.into_iter().zip(part.columns).collect();
+    Ok(Table::new(sheet.file.clone(), layout, (part.time, part.lines), &values, remarks))
+}
+
+/// Reads several files. Files of a directory that hold no column in use are passed over.
+fn of_files(
+    name: PathBuf,
+    files: &[PathBuf],
+    is_directory: bool,
+    conventions: &Conventions,
+) -> Result<Table, RideError> {
+    let mut sheets = Vec::new();
+    for file in files {
+        match Sheet::open(file, conventions) {
+            // A directory holds other files, too.
+            Err(_) if is_directory => (),
+            sheet => sheets.push((source::name(file), sheet?)),
         }
     }
-    let layout = header.columns(&file, conventions)?;
-    let mut table = Table { file: file.clone(), time: Vec::new(), columns: BTreeMap::new(), layout, lines: Vec::new() };
-    let mut numbers = Numbers::default();
-    while is_sample {
-        let line = preamble + record.position().map_or(0, |position| line_of_record(position, text));
-        let refused = |column, reason| RideError::Line { file: file.clone(), line, column, reason };
-        if record.iter().skip(header.width()).any(|field| !field.trim().is_empty()) {
-            return Err(refused(None, too_many_fields(record.len(), header.width())));
+    let header = Header::of_files(sheets.iter().map(|(name, sheet)| (name.as_str(), &sheet.header)));
+    let layout = header.columns(&name, conventions, true)?;
+    let mut parts = Vec::new();
+    let mut first_place = 0;
+    for (_, sheet) in &sheets {
+        let width = sheet.header.width();
+        let used = |place: &usize| (first_place..first_place + width).contains(place);
+        let places: Vec<usize> = value_places(&layout).into_iter().filter(used).collect();
+        let refused = |reason| RideError::Whole { file: sheet.file.clone(), reason };
+        if !places.is_empty() {
+            let time_name = conventions.column(Quantity::Time);
+            let time = sheet.time.ok_or_else(|| refused(format!("there is no column {time_name}")))?;
+            let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(refused)?;
+            let own: Vec<usize> = places.iter().map(|place| place - first_place).collect();
+            let mut part = Part::new(sheet, sheet.samples(&own, time, conventions)?, unit);
+            part.remarks = part.fill_gaps(&own)?;
+            parts.push((places, part));
+        } else if !is_directory {
+            return Err(refused("holds no column of the recording; leave it out".to_owned()));
         }
-        for Column { quantity, place, unit, .. } in &table.layout {
-            let value =
-                numbers.parse(record.get(*place)).map_err(|reason| refused(Some(header.shown(*place)), reason))?;
-            match quantity {
-                Quantity::Time => table.time.push(value * unit.in_si),
-                _ => table.columns.entry(*quantity).or_default().push(value * unit.in_si),
-            }
-        }
-        table.lines.push(line);
-        is_sample = advance(&mut record)?;
+        first_place += width;
     }
-    if table.time.len() < 2 {
-        return Err(whole("has fewer than two samples below its header"));
-    }
-    Ok(table)
+    let base = layout.iter().find(|column| column.quantity == Quantity::Force(0)).map_or(0, |c| c.terms[0].place);
+    let joined = join::by_time(&name, parts, base)?;
+    Ok(Table::new(name, layout, (joined.time, joined.lines), &joined.values, joined.remarks))
+}
+
+/// The places of all columns in use but the time, each once.
+fn value_places(layout: &[Column]) -> Vec<usize> {
+    let used = layout.iter().filter(|column| column.quantity != Quantity::Time);
+    used.flat_map(|column| column.terms.iter().map(|term| term.place)).collect()
 }
 
 /// The recording in columns that are in memory already, by the rules for a file's: names, and units
@@ -121,20 +156,13 @@ pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)], conventions: &Conv
     let file = PathBuf::from(name);
     let whole = |reason: String| RideError::Whole { file: file.clone(), reason };
     let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
-    let layout = header.columns(&file, conventions)?;
-    let samples = layout.first().map_or(0, |column| columns[column.place].1.len());
+    let layout = header.columns(&file, conventions, false)?;
+    let samples = layout.first().map_or(0, |column| columns[column.terms[0].place].1.len());
     if samples < 2 {
         return Err(whole("has fewer than two samples".to_owned()));
     }
-    let mut table = Table {
-        file: file.clone(),
-        time: Vec::new(),
-        columns: BTreeMap::new(),
-        layout,
-        lines: (1..=samples as u64).collect(),
-    };
-    for Column { quantity, place, unit, .. } in &table.layout {
-        let (title, values) = &columns[*place];
+    for term in layout.iter().flat_map(|column| &column.terms) {
+        let (title, values) = &columns[term.place];
         if values.len() != samples {
             return Err(whole(format!("column {} has {} values, others have {samples}", quoted(title), values.len())));
         }
@@ -143,104 +171,12 @@ pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)], conventions: &Conv
             let column = Some(quoted(title));
             return Err(RideError::Line { file: file.clone(), line: sample as u64 + 1, column, reason });
         }
-        let in_si = values.iter().map(|value| value * unit.in_si).collect();
-        match quantity {
-            Quantity::Time => table.time = in_si,
-            _ => {
-                table.columns.insert(*quantity, in_si);
-            }
-        }
     }
-    Ok(table)
-}
-
-/// The number of lines before the header, and the text from the header on.
-///
-/// The header is the first line with all columns that a recording needs. Where there is none, it is
-/// the first of the lines with the most names, so that an error lists those.
-fn without_preamble<'a>(text: &'a str, conventions: &Conventions) -> (u64, &'a str) {
-    let mut start = 0;
-    let mut widest = (0, 0, text);
-    for (number, line) in (0..).zip(text.split_inclusive('\n').take(LONGEST_PREAMBLE)) {
-        let rest = &text[start..];
-        start += line.len();
-        if line.starts_with('#') || line.trim().is_empty() {
-            continue;
-        }
-        let mut reader =
-            ReaderBuilder::new().delimiter(delimiter(line)).has_headers(false).from_reader(line.as_bytes());
-        let mut record = StringRecord::new();
-        if !reader.read_record(&mut record).unwrap_or(false) {
-            continue;
-        }
-        let header = Header::new(record.iter());
-        if header.has_needed_columns(conventions) {
-            return (number, rest);
-        }
-        if record.len() > widest.0 && !record.iter().any(is_number) {
-            widest = (record.len(), number, rest);
-        }
-    }
-    (widest.1, widest.2)
-}
-
-/// Line of a record. Its position is where the reader began, before the blank lines and
-/// comments that it skipped.
-fn line_of_record(position: &csv::Position, text: &str) -> u64 {
-    let rest = text.get(position.byte() as usize..).unwrap_or_default();
-    let is_skipped = |line: &&str| line.trim_end_matches('\r').is_empty() || line.starts_with('#');
-    position.line() + rest.split('\n').take_while(is_skipped).count() as u64
-}
-
-fn is_number(field: &str) -> bool {
-    field.trim().replace(',', ".").parse::<f64>().is_ok()
-}
-
-fn too_many_fields(fields: usize, columns: usize) -> String {
-    format!(
-        "has {fields} fields below a header of {columns}; if its numbers have decimal commas, separate the columns with \
-         semicolons"
-    )
-}
-
-/// Which of comma, semicolon and tabulator there are most of in the first line that is no comment.
-fn delimiter(text: &str) -> u8 {
-    let header = text.lines().find(|line| !line.starts_with('#') && !line.trim().is_empty()).unwrap_or_default();
-    let count = |delimiter: u8| header.bytes().filter(|&byte| byte == delimiter).count();
-    [b',', b';', b'\t'].into_iter().rev().max_by_key(|&delimiter| count(delimiter)).unwrap_or(b',')
-}
-
-/// Parses numbers that all have the same decimal mark.
-#[derive(Default)]
-struct Numbers {
-    mark: Option<char>,
-}
-
-impl Numbers {
-    /// A field's number, or the reason why it is none.
-    fn parse(&mut self, field: Option<&str>) -> Result<f64, String> {
-        let text = field.ok_or("is missing: the line has too few fields")?.trim();
-        let number = match text.find([',', '.']).map(|place| text.as_bytes()[place] as char) {
-            None => text.parse::<f64>(),
-            Some(mark) => {
-                let number = if mark == ',' { text.replacen(',', ".", 1).parse::<f64>() } else { text.parse::<f64>() };
-                if number.is_ok() && *self.mark.get_or_insert(mark) != mark {
-                    return Err(format!(
-                        "is {}, but numbers before it have a decimal {}; write all with the same",
-                        quoted(text),
-                        if mark == ',' { "point" } else { "comma" }
-                    ));
-                }
-                number
-            }
-        };
-        match number {
-            Ok(number) if number.is_finite() => Ok(number),
-            Ok(_) => Err(format!("is {}; cut this part off, or fill the gap with plausible values", quoted(text))),
-            Err(_) if text.is_empty() => {
-                Err("is empty; cut this part off, or fill the gap with plausible values".to_owned())
-            }
-            Err(_) => Err(format!("is \"{}\", which is not a number", quoted(text))),
-        }
-    }
+    let value = |place: usize| (place, columns[place].1.clone());
+    let values = value_places(&layout).into_iter().map(value).collect();
+    let time = layout.first().map_or_else(Vec::new, |column| {
+        columns[column.terms[0].place].1.iter().map(|time| time * column.unit.in_si).collect()
+    });
+    let lines = (1..=samples as u64).collect();
+    Ok(Table::new(file, layout, (time, lines), &values, Vec::new()))
 }

@@ -10,6 +10,7 @@ from ._errors import RecordingError
 from ._optional import need
 
 OPTIONS = (
+    "format",
     "columns",
     "time_unit",
     "force_unit",
@@ -18,7 +19,9 @@ OPTIONS = (
     "speed_unit",
     "gravity",
     "axes",
+    "mounting",
     "rate_frame",
+    "empty_fields",
     "resample",
     "fade_in",
 )
@@ -28,15 +31,18 @@ class Recording:
     """A recorded ride, in the washout's frames and units and at equal steps.
 
     source: a pandas.DataFrame, a dict of arrays of shape (N,), or the path of a file: CSV (also .csv.gz), Parquet, Excel,
-        MATLAB (.mat) or MDF (.mf4). The columns are time, ax, ay, az (specific force) and wx, wy, wz (angular velocity) at
+        MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time, ax, ay, az (specific force) and wx, wy, wz (angular velocity) at
         the rider's head, and, where there are any, roll, pitch, yaw, speed and lean. Units in the brackets of a name are
         read: "ax [g]". A DataFrame whose index is called time needs no such column.
     name: of the recording; by default the file's, without extension.
-    columns: dict of names that are not these: {"ax": "accel_x"}.
+    format: name of a logger's format, such as "phyphox"; `moris simulate --help` lists them.
+    columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/workbench.md.
     time_unit: "s", "ms", "us", "ns". force_unit: "m/s2", "g", "mg". rate_unit: "rad/s", "deg/s".
     angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn".
     gravity: "included" as an accelerometer reads it, or "removed".
     axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
+    mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
+    empty_fields: of a file, "error" or "interpolate".
     resample: samples a second, to interpolate a recording whose steps are unequal.
     fade_in: seconds over which a recording that begins in motion is faded in from rest.
 
@@ -109,6 +115,8 @@ def recordings_of(sources, options):
 
 
 def _read(source, name, options):
+    if isinstance(source, (list, tuple)):
+        source = "+".join(str(path) for path in source)
     if isinstance(source, (str, Path)):
         path = Path(source)
         reader = READERS.get(path.suffix.lower())
@@ -224,6 +232,11 @@ def _in_python(message):
             return names[match[1]]
         return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'
 
+    message = re.sub(r"--mounting[= ](-?[\d.]+(?:,-?[\d.]+){2})", r"mounting=[\1]", message)
     message = re.sub(r"--columns ((?:\w+=\w+)(?:,\w+=\w+)*)", columns, message)
-    words = "included|removed|forward-[a-z-]+|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|\\d+"
+    formats = "phyphox|sensor-logger(?:-ios)?|sensorlog|androsensor|racechrono|aim|motec|iracing|px4"
+    words = (
+        "included|removed|forward-[a-z-]+|auto|interpolate|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|"
+        f"\\d+|{formats}"
+    )
     return re.sub(rf"--([a-z]+(?:-[a-z]+)*)(?: ({words})(?![\w/]))?", option, message)

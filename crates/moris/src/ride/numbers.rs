@@ -1,0 +1,52 @@
+//! The numbers of a text file's fields.
+
+use super::header::quoted;
+
+/// Parses numbers that all have the same decimal mark.
+#[derive(Default)]
+pub struct Numbers {
+    mark: Option<char>,
+}
+
+impl Numbers {
+    /// A field's number.
+    ///
+    /// # Errors
+    /// The reason why it is none.
+    pub fn parse(&mut self, field: Option<&str>) -> Result<f64, String> {
+        let text = field.ok_or("is missing: the line has too few fields")?.trim();
+        let number = match text.find([',', '.']).map(|place| text.as_bytes()[place] as char) {
+            None => text.parse::<f64>(),
+            Some(mark) => {
+                let number = if mark == ',' { text.replacen(',', ".", 1).parse::<f64>() } else { text.parse::<f64>() };
+                if number.is_ok() && *self.mark.get_or_insert(mark) != mark {
+                    return Err(format!(
+                        "is {}, but numbers before it have a decimal {}; write all with the same",
+                        quoted(text),
+                        if mark == ',' { "point" } else { "comma" }
+                    ));
+                }
+                number
+            }
+        };
+        match number {
+            Ok(number) if number.is_finite() => Ok(number),
+            Ok(_) => Err(format!("is {}; cut this part off, or fill the gap with plausible values", quoted(text))),
+            Err(_) if text.is_empty() => Err(
+                "is empty; cut this part off, fill the gap with plausible values, or use --empty-fields interpolate"
+                    .to_owned(),
+            ),
+            Err(_) => Err(format!("is \"{}\", which is not a number", quoted(text))),
+        }
+    }
+}
+
+/// True for a field that holds nothing: empty, or NaN.
+pub fn is_empty(field: Option<&str>) -> bool {
+    field.is_none_or(|field| field.trim().is_empty() || field.trim().eq_ignore_ascii_case("nan"))
+}
+
+/// True for a number, with a decimal point or comma.
+pub fn is_number(field: &str) -> bool {
+    field.trim().replace(',', ".").parse::<f64>().is_ok()
+}
