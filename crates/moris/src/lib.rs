@@ -2,13 +2,15 @@
 //!
 //! One module a command: [`rig`] checks a platform, [`run`] simulates a recording on it,
 //! [`measure`] prints a table of the measures of many, [`tune`] searches for better parameters,
-//! [`respond`] measures a frequency response, [`parameters`] lists all parameters.
+//! [`respond`] measures a frequency response, [`parameters`] lists all parameters, [`help`] writes
+//! completions for shells and man pages.
 //!
 //! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by
 //! the crate `moris-setup`.
 
 #![forbid(unsafe_code)]
 
+pub mod help;
 pub mod measure;
 pub mod parameters;
 mod progress;

@@ -3,8 +3,8 @@
 use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use moris::{measure, parameters, respond, rig, run, tune};
+use clap::{CommandFactory, Parser, Subcommand};
+use moris::{help, measure, parameters, respond, rig, run, tune};
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -25,6 +25,8 @@ enum Command {
     #[command(name = "frequency-response", alias = "respond")]
     Respond(respond::Options),
     Parameters(parameters::Options),
+    Completions(help::CompletionOptions),
+    Man(help::ManOptions),
 }
 
 fn main() -> ExitCode {
@@ -36,6 +38,8 @@ fn main() -> ExitCode {
         Command::Tune(options) => tune::main(&options, out),
         Command::Respond(options) => respond::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),
+        Command::Completions(options) => help::completions(&options, Arguments::command(), out),
+        Command::Man(options) => help::man_pages(&options, Arguments::command(), out),
     };
     match result.and_then(|code| Ok(out.flush().map(|()| code)?)) {
         Ok(code) => code,

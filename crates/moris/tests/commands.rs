@@ -75,6 +75,11 @@ fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same
     let lengths: Vec<f64> = lengths.trim().trim_end_matches(" m").split(", ").map(|l| l.parse().unwrap()).collect();
     assert!(lengths.len() == 6 && lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{said}");
     assert!(directory.path().join("moris-report/singular.svg").exists());
+    // Legs that do not hold the yaw set it no speed.
+    let yaw = said.lines().find(|line| line.trim_start().starts_with("yaw")).unwrap();
+    assert_eq!(yaw.matches("singular").count(), 2, "{said}");
+    let digits = |word: &str| word.chars().filter(char::is_ascii_digit).count();
+    assert!(said.split_whitespace().all(|word| digits(word) < 8), "{said}");
 }
 
 #[test]
@@ -255,4 +260,70 @@ fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
     assert!(peak["value"].as_f64().unwrap() > 0.0 && peak["unit"] == "m/s²");
     assert_eq!(all[1]["files"].as_array().unwrap().len(), 2);
     assert_eq!(moris(directory.path(), &arguments[..2]).status.code(), Some(0));
+}
+
+#[test]
+fn a_preview_is_simulated_beside_the_strategy_without_it() {
+    let directory = tempfile::tempdir().unwrap();
+    write_ride(directory.path(), "ride.csv");
+    let simulate = |more: &[&str]| moris(directory.path(), &[&["simulate", "ride.csv"], more].concat());
+    let output = simulate(&["--strategy", "predictive", "--preview", "1", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let results = all[0]["results"].as_array().unwrap();
+    let names: Vec<&str> = results.iter().map(|result| result["parameters"].as_str().unwrap()).collect();
+    assert_eq!(names, ["predictive", "predictive-preview-1s"]);
+    let error = |result: &serde_json::Value| {
+        let measures = result["measures"].as_array().unwrap();
+        let is_surge = |row: &&serde_json::Value| row["subject"] == "specific force x" && row["name"] == "RMS error";
+        measures.iter().find(is_surge).unwrap()["value"].as_f64().unwrap()
+    };
+    assert_ne!(error(&results[0]), error(&results[1]), "the preview changes the plan");
+    // The bound is the same, and holds for both.
+    assert_eq!(results[0]["forceBounds"], results[1]["forceBounds"]);
+    assert!(results[0]["forceBounds"][0].as_f64().unwrap() <= error(&results[1]));
+    assert!(directory.path().join("moris-report/ride.predictive-preview-1s.outputs.csv").exists());
+
+    let refused = simulate(&["--preview", "1"]);
+    assert!(text(&refused.stderr).contains("--preview is for the predictive strategy alone"), "{refused:?}");
+}
+
+/// A minute at 1 kHz and a page that opens: every curve keeps its extremes.
+#[test]
+fn a_long_recording_makes_a_page_of_less_than_three_megabytes() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut long = "time,ax,ay,az,wx,wy,wz\n".to_owned();
+    for k in 0..60_000 {
+        let t = f64::from(k) / 1000.0;
+        let blow = if k == 31_234 { 3.0 } else { 0.0 };
+        writeln!(long, "{t:.3},{:.4},{:.4},{},0,0,0", blow + (0.6 * t).sin(), 0.5 * (0.9 * t).sin(), 9.80665).unwrap();
+    }
+    fs::write(directory.path().join("long.csv"), long).unwrap();
+    let output = moris(directory.path(), &["simulate", "long.csv", "--no-bound", "--compare", "car"]);
+    assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(&output.stderr));
+    let page = fs::read_to_string(directory.path().join("moris-report/long.html")).unwrap();
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
+    let data = page.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
+    let data: serde_json::Value = serde_json::from_str(data).unwrap();
+    let encoded = data["report"]["runs"][0]["desired"]["specific_force"][0].as_str().unwrap();
+    // Four letters hold three bytes, four bytes hold a number.
+    assert!(encoded.len() / 16 * 3 <= 6_100, "{}", encoded.len());
+    assert!(page.contains("least and greatest value of every 20 ms"), "the resolution is stated");
+}
+
+#[test]
+fn completions_and_man_pages_name_every_command() {
+    let directory = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish", "powershell"] {
+        let output = moris(directory.path(), &["completions", shell]);
+        let script = text(&output.stdout);
+        for word in ["simulate", "frequency-response", "mounting"] {
+            assert!(output.status.success() && script.contains(word), "{shell}: {word}");
+        }
+    }
+    assert!(moris(directory.path(), &["man", "man1"]).status.success());
+    for page in ["moris.1", "moris-simulate.1", "moris-rig-check.1"] {
+        let text = fs::read_to_string(directory.path().join("man1").join(page)).unwrap();
+        assert!(text.contains(".TH"), "{page}");
+    }
 }

@@ -13,7 +13,7 @@ use crate::setup::rig_of;
 const DEFAULT_RIG: &str = include_str!("../../moris/rigs/default.toml");
 
 /// An axis: name, reach [m or rad], speed [m/s or rad/s], acceleration [m/s2 or rad/s2].
-type AxisAlone = (&'static str, f64, f64, f64, f64);
+type AxisAlone = (&'static str, f64, f64, Option<f64>, Option<f64>);
 
 /// Properties of a rig: its name, the axes alone, volumes of the workspace with standard errors,
 /// smallest singular value and worst condition number, or leg lengths at a singularity, and it

@@ -12,8 +12,10 @@ mod data;
 mod encode;
 mod events;
 mod page;
+mod thinning;
 
 pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight};
 pub use events::{Event, Kind, events};
 pub use page::html;
+pub use thinning::{MOST_SAMPLES, Thinning};

@@ -17,7 +17,7 @@ use anyhow::{Context, Result, bail};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::ride::preview::LONGEST_PREVIEW;
+use crate::ride::preview::parse_seconds;
 use crate::ride::{ConventionOptions, Ride};
 use crate::run::{bounds, measured};
 use crate::setup_options::SetupOptions;
@@ -50,7 +50,7 @@ pub struct Options {
     inputs: Inputs,
 
     /// Preview of the recording's force, in s, at most 4; for the predictive strategy
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = preview)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_seconds)]
     preview: f64,
 
     /// Compute the bound, the least error that any controller could reach; it
@@ -161,11 +161,4 @@ fn step(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|step: &f64| (1e-6..=1.0).contains(step))
         .ok_or_else(|| "a time from 1e-6 to 1 s is needed, such as 0.001".to_owned())
-}
-
-fn preview(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|seconds: &f64| (0.0..=LONGEST_PREVIEW).contains(seconds))
-        .ok_or_else(|| format!("a time from 0 to {LONGEST_PREVIEW} s is needed, such as 1"))
 }

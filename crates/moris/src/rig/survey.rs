@@ -32,11 +32,17 @@ pub struct AxisAlone {
     pub axis: Axis,
     /// Reach from neutral \[m or rad\].
     pub range: Range,
-    /// Speed through neutral, by the legs' speed \[m/s or rad/s\].
-    pub speed: f64,
-    /// Acceleration at rest at neutral, by the legs' acceleration \[m/s2 or rad/s2\].
-    pub acceleration: f64,
+    /// Speed through neutral, by the legs' speed \[m/s or rad/s\]; none where the
+    /// legs do not limit it.
+    pub speed: Option<f64>,
+    /// Acceleration at rest at neutral, by the legs' acceleration \[m/s2 or rad/s2\]; none as the
+    /// speed.
+    pub acceleration: Option<f64>,
 }
+
+/// Speed of a leg for a unit of speed along an axis, below which the legs do not set the platform's
+/// speed: the platform is singular there.
+const SINGULAR: f64 = 1e-6;
 
 /// Result of the survey over all leg lengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,8 +90,8 @@ impl AxisAlone {
         AxisAlone {
             axis,
             range: single_axis_range(rig, axis),
-            speed: rig.velocity_limit / fastest_leg,
-            acceleration: rig.acceleration_limit / fastest_leg,
+            speed: (fastest_leg > SINGULAR).then(|| rig.velocity_limit / fastest_leg),
+            acceleration: (fastest_leg > SINGULAR).then(|| rig.acceleration_limit / fastest_leg),
         }
     }
 
@@ -93,12 +99,15 @@ impl AxisAlone {
         let (factor, unit, decimals, rates) =
             if self.axis.is_rotation() { (1f64.to_degrees(), "°", 1, 0) } else { (1.0, " m", 3, 1) };
         let signed = |value: f64| format!("{:+.decimals$}{unit}", factor * value);
+        let rate = |value: Option<f64>, per: &str| {
+            value.map_or_else(|| "singular".to_owned(), |value| format!("{:.rates$}{unit}{per}", factor * value))
+        };
         vec![
             self.axis.name().to_owned(),
             signed(self.range.min),
             signed(self.range.max),
-            format!("{:.rates$}{unit}/s", factor * self.speed),
-            format!("{:.rates$}{unit}/s²", factor * self.acceleration),
+            rate(self.speed, "/s"),
+            rate(self.acceleration, "/s²"),
         ]
     }
 }

@@ -22,8 +22,11 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
+use moris_washout::Washout;
+use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
+use crate::ride::preview::{Previewer, parse_seconds};
 use crate::ride::{ConventionOptions, Conventions, Ride};
 use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
@@ -55,6 +58,11 @@ pub struct Options {
     /// Other parameters to simulate with, shown beside the first: files or shipped sets
     #[arg(long, alias = "against", value_name = "FILE|NAME")]
     compare: Vec<String>,
+
+    /// Simulate the predictive strategy once more with a preview of the recording's force, in s, at
+    /// most 4
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    preview: Option<f64>,
 
     /// Directory for the reports and the tables of outputs
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
@@ -92,8 +100,22 @@ impl Outcome {
     /// # Errors
     /// The parameters cannot be used.
     pub fn of(ride: &Ride, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+        Self::previewed(ride, setup, 0.0, progress)
+    }
+
+    /// As [`Outcome::of`] with a preview of the recording of so many seconds.
+    ///
+    /// # Errors
+    /// As [`Outcome::of`].
+    pub fn previewed(ride: &Ride, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
         let parameters = ride.parameters(&setup.parameters);
-        Outcome::measured(Recording::of(&ride.replay(), &parameters, progress)?, setup)
+        let previewer = (seconds > 0.0).then(|| Previewer::new(ride.inputs(), ride.step(), seconds));
+        let prepare = |washout: &mut Washout, time: f64| {
+            if let Some(previewer) = &previewer {
+                washout.preview(&previewer.at(time));
+            }
+        };
+        Outcome::measured(Recording::prepared(&ride.replay(), &parameters, prepare, progress)?, setup)
     }
 
     /// Measures a simulation with this setup's rig.
@@ -106,14 +128,12 @@ impl Outcome {
         Ok(Outcome { setup: Setup { parameters: recording.parameters, ..setup.clone() }, recording, measures, bounds })
     }
 
-    /// The same with its bounds.
+    /// The bounds of its recording on its rig.
     ///
     /// # Errors
     /// The recording is too short, or the solver fails.
-    pub fn with_bounds(mut self) -> Result<Self> {
-        self.bounds =
-            bounds::bounds(&self.recording).context("cannot compute the bound; --no-bound does without it")?;
-        Ok(self)
+    pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>> {
+        bounds::bounds(&self.recording).context("cannot compute the bound; --no-bound does without it")
     }
 }
 
@@ -122,16 +142,13 @@ impl Outcome {
 /// # Errors
 /// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let mut setups = vec![options.setup.load()?];
-    for other in &options.compare {
-        setups.push(Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?);
-    }
-    check_names(&options.rides, &setups)?;
+    let cases = cases(options)?;
+    check_names(&options.rides, &cases)?;
     let conventions = options.conventions.load()?;
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();
     for file in &options.rides {
-        let simulated = match simulate(options, file, &setups, &conventions) {
+        let simulated = match simulate(options, file, &cases, &conventions) {
             Ok(simulated) => simulated,
             Err(error) => {
                 eprintln!("error: {error:#}");
@@ -160,6 +177,38 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     })
 }
 
+/// Parameters on a rig, and the preview that they get.
+struct Case {
+    setup: Setup,
+    /// \[s\]; 0: none.
+    preview: f64,
+}
+
+/// The parameters, those that they are compared with, and each of the predictive strategy with its
+/// preview.
+fn cases(options: &Options) -> Result<Vec<Case>> {
+    let mut cases = vec![Case { setup: options.setup.load()?, preview: 0.0 }];
+    for other in &options.compare {
+        let setup = Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?;
+        cases.push(Case { setup, preview: 0.0 });
+    }
+    let Some(preview) = options.preview.filter(|&seconds| seconds > 0.0) else { return Ok(cases) };
+    let is_predictive = |case: &&Case| case.setup.parameters.structure.strategy == StrategyKind::Predictive;
+    let previewed: Vec<Case> = cases
+        .iter()
+        .filter(is_predictive)
+        .map(|case| {
+            let parameters_name = format!("{}-preview-{preview}s", case.setup.parameters_name);
+            Case { setup: Setup { parameters_name, ..case.setup.clone() }, preview }
+        })
+        .collect();
+    if previewed.is_empty() {
+        bail!("--preview is for the predictive strategy alone; add --strategy predictive");
+    }
+    cases.extend(previewed);
+    Ok(cases)
+}
+
 /// A recording's results, ready to be printed.
 struct Simulated {
     /// No safety unit and no actuator's limit was active with the first parameters.
@@ -170,10 +219,10 @@ struct Simulated {
 }
 
 /// Simulates a recording with each of the setups, and writes its files.
-fn simulate(options: &Options, file: &Path, setups: &[Setup], conventions: &Conventions) -> Result<Simulated> {
+fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conventions) -> Result<Simulated> {
     let mut progress = Progress::new(&Ride::name_of(file), "reading")?;
     let ride = Ride::read(file, conventions)?;
-    let outcomes = outcomes(&ride, setups, !options.no_bound, &mut progress).with_context(|| ride.name.clone())?;
+    let outcomes = outcomes(&ride, cases, !options.no_bound, &mut progress).with_context(|| ride.name.clone())?;
     progress.phase("writing the report", 0);
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let files = write_files(&options.report, &ride, &outcomes)?;
@@ -189,15 +238,24 @@ pub fn fits_the_rig(outcome: &Outcome) -> bool {
     effort.safety_active == 0.0 && effort.actuator_limited == 0.0
 }
 
-fn outcomes(ride: &Ride, setups: &[Setup], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
-    progress.phase("simulating", (ride.inputs().len() * setups.len()) as u64);
-    let outcomes: Result<Vec<Outcome>> =
-        setups.iter().map(|setup| Outcome::of(ride, setup, || progress.step())).collect();
-    if !with_bounds {
-        return outcomes;
+fn outcomes(ride: &Ride, cases: &[Case], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
+    progress.phase("simulating", (ride.inputs().len() * cases.len()) as u64);
+    let mut outcomes: Vec<Outcome> = cases
+        .iter()
+        .map(|case| Outcome::previewed(ride, &case.setup, case.preview, || progress.step()))
+        .collect::<Result<_>>()?;
+    if with_bounds {
+        progress.phase("computing the bound", 0);
+        for index in 0..outcomes.len() {
+            // The bound does not depend on a preview.
+            let is_same = |other: &&Outcome| other.setup.parameters == outcomes[index].setup.parameters;
+            outcomes[index].bounds = match outcomes[..index].iter().find(is_same) {
+                Some(same) => same.bounds.clone(),
+                None => outcomes[index].bounds()?,
+            };
+        }
     }
-    progress.phase("computing the bound", 0);
-    outcomes?.into_iter().map(Outcome::with_bounds).collect()
+    Ok(outcomes)
 }
 
 /// File name of the outputs with one of the setups: the recording's for the first, with the
@@ -213,12 +271,12 @@ fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
 ///
 /// # Errors
 /// Two of them would be written into one file, or one over a recording.
-fn check_names(rides: &[PathBuf], setups: &[Setup]) -> Result<()> {
+fn check_names(rides: &[PathBuf], cases: &[Case]) -> Result<()> {
     let mut tables = BTreeMap::new();
     for ride in rides {
         let stem = Ride::name_of(ride);
-        for (index, setup) in setups.iter().enumerate() {
-            let name = table_name(&stem, index, setup);
+        for (index, case) in cases.iter().enumerate() {
+            let name = table_name(&stem, index, &case.setup);
             if rides.iter().any(|ride| ride.file_name().is_some_and(|file| file == name.as_str())) {
                 bail!(
                     "{name} is both a recording and what the outputs of {} are to be written into; rename the recording",

@@ -1,9 +1,12 @@
 //! The report's data.
 
+use std::array;
+
 use moris_measures::Row;
-use moris_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Run, Weight};
+use moris_report::{
+    Better, Chart, Cues, Finding, Limited, Limits, Line, MOST_SAMPLES, Measure, Report, Run, Thinning, Weight,
+};
 use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, Parameters};
 
 use super::{Outcome, Recording, findings};
@@ -12,6 +15,7 @@ use crate::ride::Ride;
 /// The report of a ride with one or several sets of parameters, of which the first is shown first.
 pub fn report(ride: &Ride, outcomes: &[Outcome]) -> Report {
     let first = &outcomes[0];
+    let thinning = Thinning::new(first.recording.inputs.len(), MOST_SAMPLES / outcomes.len());
     let remarks = ride.remarks.iter().map(|remark| Finding { weight: Weight::Warning, text: remark.clone() });
     Report {
         title: ride.name.clone(),
@@ -25,10 +29,11 @@ pub fn report(ride: &Ride, outcomes: &[Outcome]) -> Report {
         provenance: vec![
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", ride.name, 1.0 / ride.step())),
             ("Gravity".to_owned(), gravity(ride).to_owned()),
+            ("Curves".to_owned(), resolution(first, &thinning)),
             ("Made by".to_owned(), format!("moris {}", env!("CARGO_PKG_VERSION"))),
         ],
         rig: (&first.setup.parameters).into(),
-        runs: outcomes.iter().map(run).collect(),
+        runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
         selected: 0,
     }
 }
@@ -42,36 +47,49 @@ fn gravity(ride: &Ride) -> &'static str {
     }
 }
 
-fn run(outcome: &Outcome) -> Run {
+/// Samples that the curves show.
+fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
+    match thinning.factor() {
+        1.0 => "every sample".to_owned(),
+        factor => format!(
+            "least and greatest value of every {:.0} ms; the table of outputs has every sample",
+            2e3 * factor * outcome.recording.step
+        ),
+    }
+}
+
+fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
     let Outcome { setup, recording, measures, .. } = outcome;
-    let outputs = |value: fn(&Output) -> f64| recording.outputs.iter().map(value).collect::<Vec<f64>>();
-    let flags = |value: fn(&Output) -> bool| recording.outputs.iter().map(value).collect::<Vec<bool>>();
-    let leans = recording.inputs.iter().any(|input| input.lean != 0.0);
+    let Recording { inputs, outputs, .. } = recording;
+    let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
+    let desired_rates = recording.desired_rates();
+    let leans = inputs.iter().any(|input| input.lean != 0.0);
     Run {
         name: setup.parameters_name.clone(),
-        times: recording.times(),
+        times: thinning.at_times(|k| k as f64 * recording.step),
         desired: Cues {
-            specific_force: by_axis(recording.inputs.iter().map(|input| input.specific_force)),
-            angular_velocity: by_axis(recording.desired_rates().into_iter()),
+            specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
+            angular_velocity: array::from_fn(|axis| thinning.extremes(|k| desired_rates[k][axis])),
         },
         felt: Cues {
-            specific_force: by_axis(recording.outputs.iter().map(|output| output.felt_specific_force)),
-            angular_velocity: by_axis(recording.outputs.iter().map(|output| output.felt_angular_velocity)),
+            specific_force: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_specific_force[axis])),
+            angular_velocity: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_angular_velocity[axis])),
         },
-        position: by_axis(recording.outputs.iter().map(|output| output.position)),
-        orientation: by_axis(recording.outputs.iter().map(|output| output.orientation.to_vector())),
-        legs: std::array::from_fn(|leg| recording.outputs.iter().map(|output| output.length[leg]).collect()),
-        tilt: [outputs(|output| output.tilt_roll), outputs(|output| output.tilt_pitch)],
-        tilt_rate: [outputs(|output| output.tilt_roll_rate), outputs(|output| output.tilt_pitch_rate)],
-        lean: if leans { recording.inputs.iter().map(|input| input.lean).collect() } else { Vec::new() },
+        // A pose is that of one time.
+        position: array::from_fn(|axis| thinning.at_times(|k| outputs[k].position[axis])),
+        orientation: array::from_fn(|axis| thinning.at_times(|k| outputs[k].orientation.to_vector()[axis])),
+        legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].length[leg])),
+        tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
+        tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
+        lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
         limited: Limited {
-            tilt: flags(|output| output.tilt_limited),
-            safety: flags(|output| output.safety_active),
-            actuator: flags(|output| output.actuator_limited),
+            tilt: thinning.any(|k| outputs[k].tilt_limited),
+            safety: thinning.any(|k| outputs[k].safety_active),
+            actuator: thinning.any(|k| outputs[k].actuator_limited),
         },
         limits: limits(recording),
         measures: measures.rows().into_iter().chain(bound_rows(outcome)).map(measure).collect(),
-        charts: bound_charts(outcome),
+        charts: bound_charts(outcome, thinning),
     }
 }
 
@@ -86,31 +104,26 @@ fn bound_rows(outcome: &Outcome) -> Vec<Row> {
 }
 
 /// The bound, axis by axis.
-fn bound_charts(outcome: &Outcome) -> Vec<Chart> {
-    let times = outcome.recording.times();
+fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
+    let Recording { outputs, step, .. } = &outcome.recording;
     let chart = |axis: usize| {
         let bound = outcome.bounds[axis].as_ref()?;
-        let felt = outcome.recording.outputs.iter().map(|output| output.felt_specific_force[axis]);
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let line = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), values };
+        let best = |k: usize| bound.bound.trajectory.felt(k as f64 * step);
         Some(Chart {
             title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
             quantity: "specific force without gravity [m/s²]".to_owned(),
             times: Vec::new(),
             lines: vec![
-                line("desired", bound.desired.clone()),
-                line("felt", felt.map(|force| force - rest).collect()),
-                line("best possible", times.iter().map(|&time| bound.bound.trajectory.felt(time)).collect()),
+                line("desired", thinning.extremes(|k| bound.desired[k])),
+                line("felt", thinning.extremes(|k| outputs[k].felt_specific_force[axis] - rest)),
+                line("best possible", thinning.extremes(best)),
             ],
             limits: Vec::new(),
         })
     };
     (0..3).filter_map(chart).collect()
-}
-
-fn by_axis(vectors: impl Iterator<Item = Vector3<f64>>) -> [Vec<f64>; 3] {
-    let vectors: Vec<Vector3<f64>> = vectors.collect();
-    std::array::from_fn(|axis| vectors.iter().map(|vector| vector[axis]).collect())
 }
 
 fn limits(recording: &Recording) -> Limits {

@@ -1,6 +1,6 @@
 """The survey of a rig."""
 
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 from . import _moris
 
@@ -12,10 +12,10 @@ class AxisReach(NamedTuple):
     """[m] or [rad]"""
     max: float
     """[m] or [rad]"""
-    speed: float
-    """[m/s] or [rad/s]"""
-    acceleration: float
-    """[m/s2] or [rad/s2]"""
+    speed: Optional[float]
+    """[m/s] or [rad/s]; None where the legs do not limit it: the platform is singular at neutral"""
+    acceleration: Optional[float]
+    """[m/s2] or [rad/s2]; None as the speed"""
 
 
 class Survey:
