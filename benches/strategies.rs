@@ -1,0 +1,69 @@
+//! Times of a step with each strategy, on a brisk ride with vibration.
+//!
+//! `cargo bench --bench strategies`. The ride is repeated, and each step counts with the least of
+//! its times, so that other work on the machine does not count. A step's time is that of one call
+//! with a step of 1 ms, in which the predictive strategy does a part of the work on its next plan.
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
+
+/// Duration of the ride \[s\].
+const DURATION: f64 = 120.0;
+const STEP: f64 = 0.001;
+const REPEATS: usize = 9;
+
+fn main() -> Result<(), ParameterError> {
+    let ride = ride();
+    println!("strategy     mean   median     99 %  99.99 %  slowest  [µs]");
+    let sets: [(&str, &[(&str, f64)]); 4] = [
+        ("classical", &[]),
+        ("adaptive", presets::ADAPTIVE),
+        ("optimal", presets::OPTIMAL),
+        ("predictive", presets::PREDICTIVE),
+    ];
+    for (name, set) in sets {
+        let times = least_times(&presets::parameters(set), &ride)?;
+        let micros = |time: Duration| 1e6 * time.as_secs_f64();
+        let part = |fraction: f64| micros(times[((times.len() - 1) as f64 * fraction).round() as usize]);
+        let mean = times.iter().map(|&time| micros(time)).sum::<f64>() / times.len() as f64;
+        let row = [mean, part(0.5), part(0.99), part(0.9999), part(1.0)].map(|value| format!("{value:7.2}"));
+        println!("{name:10}  {}", row.join("  "));
+    }
+    Ok(())
+}
+
+/// The least time of each step over several repetitions, in ascending order.
+fn least_times(parameters: &Parameters, ride: &[Input]) -> Result<Vec<Duration>, ParameterError> {
+    let mut least = vec![Duration::MAX; ride.len()];
+    for _ in 0..REPEATS {
+        let mut washout = Washout::new(parameters)?;
+        for (input, least) in ride.iter().zip(&mut least) {
+            let start = Instant::now();
+            washout.step(black_box(input), STEP);
+            *least = start.elapsed().min(*least);
+            black_box(washout.output());
+        }
+    }
+    least.sort();
+    Ok(least)
+}
+
+/// Starts, stops and bends that never repeat, with an engine's and a road's vibration.
+fn ride() -> Vec<Input> {
+    let waves = |t: f64, waves: &[(f64, f64)]| -> f64 { waves.iter().map(|(a, f)| a * (TAU * f * t).sin()).sum() };
+    (0..(DURATION / STEP) as usize)
+        .map(|k| {
+            let t = k as f64 * STEP;
+            let mut input = Input::default();
+            input.specific_force.x += waves(t, &[(2.0, 0.031), (1.5, 0.083), (1.0, 0.217), (0.4, 11.3), (0.3, 23.7)]);
+            input.specific_force.y += waves(t, &[(1.5, 0.047), (1.2, 0.113), (0.8, 0.307), (0.4, 13.1), (0.3, 27.1)]);
+            input.specific_force.z += waves(t, &[(0.8, 1.7), (1.0, 9.1)]);
+            input.angular_velocity.x = waves(t, &[(0.1, 0.2), (0.2, 12.7)]);
+            input.angular_velocity.y = waves(t, &[(0.05, 0.3), (0.1, 15.1)]);
+            input
+        })
+        .collect()
+}
