@@ -219,6 +219,117 @@ def charts_are_zoomed_and_clicked(browser):
 
 
 @check
+def the_wheel_zooms_and_moves(browser):
+    """Control and the wheel zoom about the pointer, shift and a drag move, and neither leaves the ride."""
+    with opened(browser, "two-runs") as page:
+        box = page.locator(".plot").first.bounding_box()
+        x_of = lambda share: box["x"] + 52 + (box["width"] - 62) * share
+        y = box["y"] + 20
+        shown = lambda: page.evaluate("rideReport.now.shown")
+        page.mouse.move(x_of(0.5), y)
+        page.keyboard.down("Control")
+        page.mouse.wheel(0, -400)
+        page.keyboard.up("Control")
+        page.wait_for_function("rideReport.now.shown[1] < 60")
+        zoomed = shown()
+        near(sum(zoomed) / 2, 30, 0.2, "middle of the zoom")
+        page.keyboard.down("Shift")
+        page.mouse.down()
+        page.mouse.move(x_of(0.3), y, steps=3)
+        page.mouse.up()
+        moved = shown()
+        near(moved[0] - zoomed[0], 0.2 * (zoomed[1] - zoomed[0]), 0.3, "distance moved")
+        near(moved[1] - moved[0], zoomed[1] - zoomed[0], 1e-6, "span while moving")
+        page.mouse.down()
+        page.mouse.move(x_of(0.3) - 5000, y, steps=3)
+        page.mouse.up()
+        page.keyboard.up("Shift")
+        near(shown()[1], 60, 1e-9, "end of the ride")
+
+
+@check
+def the_pointer_reads_every_curve(browser):
+    """Under the pointer, the legends of all charts give its time's values; off the charts, the cursor's again."""
+    run = plain("two-runs")["runs"][0]
+    with opened(browser, "two-runs") as page:
+        set_slider(page, 10.0)
+        legend = page.locator('.chart[data-title="Surge, x"] .legend li', has_text="default")
+        written = lambda k: f"{run['felt'][0][k]:.2f}".replace("-", "\u2212")
+        assert legend.inner_text().endswith(written(1000))
+        box = page.locator('.chart[data-title="Surge, x"] .plot').bounding_box()
+        page.mouse.move(box["x"] + 52 + (box["width"] - 62) * 37.5 / 60, box["y"] + 40)
+        shown = float(legend.inner_text().split()[-1].replace("\u2212", "-"))
+        values = run["felt"][0][3742:3759]
+        assert min(values) - 0.01 <= shown <= max(values) + 0.01, f"{shown} is not among {values}"
+        page.mouse.move(2, 2)
+        assert legend.inner_text().endswith(written(1000))
+
+
+@check
+def curves_differ_without_colour_and_in_words(browser):
+    """Each curve of a chart has dashes of its own, and each chart a description for readers of screens."""
+    with opened(browser, "two-runs") as page:
+        for chart in page.locator(".chart").all():
+            dashes = chart.locator(".legend li svg line").evaluate_all(
+                "lines => lines.map((line) => [line.getAttribute('stroke-dasharray'), line.getAttribute('stroke-width')].join('/'))")
+            assert len(set(dashes)) == len(dashes), f"{chart.get_attribute('data-title')}: {dashes}"
+            label = chart.locator("canvas").get_attribute("aria-label")
+            assert chart.get_attribute("data-title") in label and " from " in label, label
+
+
+@check
+def findings_and_axes_are_those_of_all_runs(browser):
+    """Findings follow the run that is shown; the vertical axis does not change with it."""
+    with opened(browser, "two-runs") as page:
+        ranges = lambda: page.evaluate("rideReport.ranges()")
+        before = ranges()
+        for name, text in (("soft", "four seconds less"), ("small-motions", "hold the platform back"), ("default", "No leg comes")):
+            page.get_by_role("button", name=name).click()
+            found = page.locator("#findings li").all_inner_texts()
+            assert text in found[0] and "computed" in found[1] and len(found) == 2, found
+            assert ranges() == before, name
+
+
+@check
+def chosen_channels_share_a_chart(browser):
+    with opened(browser, "two-runs") as page:
+        page.get_by_text("Overlay channels in one chart").click()
+        for name in ("Surge, felt", "Leg 3"):
+            page.get_by_label(name, exact=True).check()
+        chart = page.locator('.chart[data-title="Overlay"]')
+        assert len(chart.locator(".legend li").all()) == 2
+        chart.scroll_into_view_if_needed()
+        page.screenshot(path=PICTURES / "overlay.png")
+        page.get_by_label("Leg 3", exact=True).uncheck()
+        assert len(chart.locator(".legend li").all()) == 1
+
+
+@check
+def the_machine_is_in_sight_where_it_plays(browser):
+    """On a phone, too, wherever the page is scrolled to."""
+    with opened(browser, "two-runs", viewport={"width": 390, "height": 844}) as page:
+        page.get_by_role("button", name="Play").click()
+        box = page.locator("#view").bounding_box()
+        assert 0 <= box["y"] and box["y"] + box["height"] <= 844 and box["height"] > 120, box
+        page.screenshot(path=PICTURES / "phone.png")
+        page.get_by_role("button", name="Pause").click()
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+@check
+def a_print_has_no_controls_and_every_definition_once(browser):
+    with opened(browser, "two-runs") as page:
+        page.emulate_media(media="print")
+        page.evaluate("dispatchEvent(new Event('beforeprint'))")
+        assert not page.locator("#player").is_visible() and not page.locator("#overlay").is_visible()
+        rows = page.locator("#measures details tbody tr").all_inner_texts()
+        assert rows and len(rows) == len(set(rows)) and page.locator("#measures details tbody tr").first.is_visible()
+        page.screenshot(path=PICTURES / "print.png", full_page=True)
+        page.evaluate("dispatchEvent(new Event('afterprint'))")
+        assert not page.locator("#measures details tbody tr").first.is_visible()
+
+
+@check
 def it_plays_at_real_speed(browser):
     """On a clock that the test turns: a second of it is a second of the ride, or five at speed 5; it stops at the end."""
     with opened(browser, "two-runs") as page:

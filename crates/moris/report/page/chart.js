@@ -7,44 +7,76 @@ const plotWidth = (width) => width - MARGIN.left - MARGIN.right;
 const xOf = (time, [from, to], width) => MARGIN.left + (time - from) / (to - from) * plotWidth(width);
 const timeOf = (x, [from, to], width) => from + (x - MARGIN.left) / plotWidth(width) * (to - from);
 
-/** A plot's canvas with a cursor line over it, on which a click sets the time and a drag chooses the times shown. */
+/** How much a turn of the wheel zooms. */
+const WHEEL = 1.0015;
+
+/**
+ * A plot's canvas with a cursor line over it. A click sets the time, a drag chooses the times shown, a drag with shift moves
+ * them; the wheel with control zooms, with shift it moves. The pointer reads the curves.
+ */
 class Plot {
-  constructor(height, shown, { seek, show }) {
-    this.canvas = element("canvas");
+  constructor(height, shown, { seek, show, hover }) {
+    this.canvas = element("canvas", { role: "img" });
     this.cursor = element("div", { class: "cursor" });
+    this.reader = element("div", { class: "reader", hidden: "" });
     this.selection = element("div", { class: "selection", hidden: "" });
-    this.box = element("div", { class: "plot", style: `height: ${height}px` }, [this.canvas, this.selection, this.cursor]);
+    this.box = element("div", { class: "plot", style: `height: ${height}px` }, [this.canvas, this.selection, this.cursor, this.reader]);
     this.shown = shown;
-    this.listen(seek, show);
+    this.listen(seek, show, hover);
   }
 
   get width() {
     return this.box.clientWidth;
   }
 
-  moveCursor(time) {
+  moveCursor(time, cursor = this.cursor) {
     const [from, to] = this.shown();
-    this.cursor.hidden = time < from || time > to;
-    this.cursor.style.transform = `translateX(${xOf(time, [from, to], this.width)}px)`;
+    cursor.hidden = time === null || time < from || time > to;
+    cursor.style.transform = `translateX(${xOf(time, [from, to], this.width)}px)`;
   }
 
-  listen(seek, show) {
+  listen(seek, show, hover) {
     let start = null;
+    let moved = null;
     const xIn = (event) => event.clientX - this.box.getBoundingClientRect().left;
     const clamped = (x) => Math.min(this.width - MARGIN.right, Math.max(MARGIN.left, x));
     this.box.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
-      start = clamped(xIn(event));
       this.box.setPointerCapture(event.pointerId);
+      if (event.shiftKey) moved = { x: xIn(event), times: this.shown() };
+      else start = clamped(xIn(event));
     });
     this.box.addEventListener("pointermove", (event) => {
+      if (moved) {
+        const by = timeOf(moved.x, moved.times, this.width) - timeOf(xIn(event), moved.times, this.width);
+        show(moved.times.map((time) => time + by));
+        return;
+      }
+      hover(timeOf(clamped(xIn(event)), this.shown(), this.width));
       if (start === null) return;
       const x = clamped(xIn(event));
       this.selection.hidden = Math.abs(x - start) < 5;
       this.selection.style.left = `${Math.min(x, start)}px`;
       this.selection.style.width = `${Math.abs(x - start)}px`;
     });
+    this.box.addEventListener("pointerleave", () => hover(null));
+    this.box.addEventListener("wheel", (event) => {
+      const [from, to] = this.shown();
+      const span = to - from;
+      if (event.ctrlKey || event.metaKey) {
+        const at = timeOf(clamped(xIn(event)), [from, to], this.width);
+        const factor = WHEEL ** event.deltaY;
+        show([at - (at - from) * factor, at + (to - at) * factor]);
+      } else if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+        const by = (event.deltaX || event.deltaY) / this.width * span;
+        show([from + by, to + by]);
+      } else {
+        return;
+      }
+      event.preventDefault();
+    }, { passive: false });
     this.box.addEventListener("pointerup", (event) => {
+      moved = null;
       if (start === null) return;
       const times = [start, clamped(xIn(event))].sort((a, b) => a - b).map((x) => timeOf(x, this.shown(), this.width));
       if (this.selection.hidden) seek(times[1]);
@@ -55,6 +87,7 @@ class Plot {
     this.box.addEventListener("pointercancel", () => {
       this.selection.hidden = true;
       start = null;
+      moved = null;
     });
     this.box.addEventListener("dblclick", () => show(null));
   }
@@ -79,13 +112,26 @@ function drawTimeAxis(context, shown, width, height, from = MARGIN.top) {
   }
 }
 
+/** Time after the beginning of a ride in which a jolt does not set the vertical axis [s], and how much larger it is. */
+const JOLT = { time: 1, factor: 3 };
+
+/** Lowest and highest of a curve; without its first second, where that alone makes it several times as large. */
+function usualExtent({ times, values }, from, to) {
+  const whole = extent(times, values, from, to);
+  const settled = times[0] + JOLT.time;
+  if (!whole || from > times[0] || to <= 2 * JOLT.time + times[0]) return whole;
+  const later = extent(times, values, settled, to);
+  return later && whole[1] - whole[0] > JOLT.factor * (later[1] - later[0]) && later[1] > later[0] ? later : whole;
+}
+
 class Chart {
   /**
-   * `lines`: { label, colour, width, dash, times, values }, `aside` for those that may leave the chart, and
-   * `layer`, higher on top of lower; `limits`: values of dashed lines; `unit` stands in the title; `least`: the smallest span of the vertical axis.
+   * `lines`: { label, colour, width, dash, times, values }, `aside` for those in the background, and `layer`, higher on top
+   * of lower; `others`: curves that are not drawn but set the vertical axis, too; `limits`: values of dashed lines; `unit`
+   * stands in the title; `least`: the smallest span of the vertical axis.
    */
-  constructor({ title, unit, lines, limits = [], least = 1e-3, height = 150, digits = 2 }, shown, handlers) {
-    Object.assign(this, { lines, limits, least, digits });
+  constructor({ title, unit, lines, others = [], limits = [], least = 1e-3, height = 150, digits = 2 }, shown, handlers) {
+    Object.assign(this, { lines, others, limits, least, digits });
     this.plot = new Plot(height, shown, handlers);
     this.shown = shown;
     this.legend = lines.map((line) => {
@@ -100,10 +146,31 @@ class Chart {
     const legend = element("ul", { class: "legend" }, this.legend.map(({ entry }) => entry));
     this.element = element("figure", { class: "chart" }, [element("figcaption", {}, [heading, legend]), this.plot.box]);
     this.element.dataset.title = title;
+    this.plot.canvas.setAttribute("aria-label", this.spoken(title, unit));
+  }
+
+  /** The chart in words, for readers of screens. */
+  spoken(title, unit) {
+    const [from, to] = this.shown();
+    const ranges = this.lines.map(({ label, times, values }) => {
+      const found = extent(times, values, from, to);
+      return found ? `${label} from ${found.map((value) => fixed(value, this.digits)).join(" to ")}` : `${label} without values`;
+    });
+    return `${title} over time, in ${unit}: ${ranges.join("; ")}`;
+  }
+
+  /** The pointer's time, whose values the legend shows; null: those of the cursor's. */
+  read(time, cursor) {
+    this.plot.moveCursor(time, this.plot.reader);
+    this.showValues(time === null ? cursor : time);
   }
 
   moveCursor(time) {
     this.plot.moveCursor(time);
+    this.showValues(time);
+  }
+
+  showValues(time) {
     for (const { line, value } of this.legend) {
       if (line) value.textContent = fixed(valueAt(line.times, line.values, time), this.digits);
     }
@@ -112,7 +179,7 @@ class Chart {
   /** Lowest and highest value of the vertical axis. */
   range() {
     const [from, to] = this.shown();
-    const extents = this.lines.filter((line) => !line.aside).map(({ times, values }) => extent(times, values, from, to)).filter(Boolean);
+    const extents = [...this.lines, ...this.others].map((line) => usualExtent(line, from, to)).filter(Boolean);
     const all = [...extents.flat(), ...this.limits];
     if (all.length === 0) return [-1, 1];
     const [low, high] = [Math.min(...all), Math.max(...all)];
@@ -182,9 +249,10 @@ function drawLine(context, line, shown, width, yOf) {
   context.globalAlpha = 1;
 }
 
-/** A line's sample for the legend. */
+/** A line's sample for the legend: of names and numbers of the page's own, never of a user's. */
 function swatch(line) {
-  const sample = element("span", { class: "swatch" });
-  sample.style.borderTop = `${Math.min(line.width, 4)}px ${line.dash ? "dashed" : "solid"} var(${line.colour})`;
-  return sample;
+  const made = document.createElement("template");
+  made.innerHTML = `<svg class="swatch" width="26" height="6" aria-hidden="true"><line x1="0" y1="3" x2="26" y2="3"
+    style="stroke: var(${line.colour})" stroke-width="${Math.min(line.width, 4)}" stroke-dasharray="${(line.dash || []).join(" ")}"/></svg>`;
+  return made.content.firstChild;
 }

@@ -12,6 +12,9 @@ function bytes(text) {
 const numbers32 = (text) => new Float32Array(bytes(text).buffer);
 const numbers64 = (text) => new Float64Array(bytes(text).buffer);
 
+/** Dashes of the runs' curves, beside their colours. */
+const RUN_DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4]];
+
 /** A run with typed arrays in place of base64. */
 function decodedRun(run, events, index) {
   const each = (list) => list.map(numbers32);
@@ -26,6 +29,7 @@ function decodedRun(run, events, index) {
     events,
     times,
     colour: `--run-${index % 4 + 1}`,
+    dash: RUN_DASHES[index % RUN_DASHES.length],
     desired: cues(run.desired),
     felt: cues(run.felt),
     position: each(run.position),

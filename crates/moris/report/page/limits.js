@@ -34,6 +34,7 @@ class TimeLine {
       const time = timeLimited(run, run.limited[kind]);
       return time > 0 ? `${long} ${fixed(time, 1)} s (${fixed(100 * time / (last - first), 0)} %)` : null;
     }).filter(Boolean);
+    this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
     this.summary.textContent = shares.length > 0 ? `Of ${fixed(last - first, 1)} s: ${shares.join(", ")}.` : "Nothing was limited.";
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
     this.element.querySelector(".events").hidden = this.events.length === 0;
@@ -53,6 +54,10 @@ class TimeLine {
 
   moveCursor(time) {
     this.plot.moveCursor(time);
+  }
+
+  read(time) {
+    this.plot.moveCursor(time, this.plot.reader);
   }
 
   draw() {

@@ -12,7 +12,7 @@ const view = new View(byId("view"), report.rig);
 const gauges = new Gauges(byId("gauges"), report.rig.stroke);
 const chips = new Chips(byId("chips"));
 const shown = () => now.shown;
-const handlers = { seek, show };
+const handlers = { seek, show, hover };
 const timeLine = new TimeLine(shown, handlers);
 let charts = [];
 
@@ -25,11 +25,22 @@ function seek(time) {
   drawMachine();
 }
 
-/** Shows other times in the charts; null: the whole ride. */
+/** Reads the curves at a time; null: at the cursor's. */
+function hover(time) {
+  for (const chart of [timeLine, ...charts]) chart.read(time, now.time);
+}
+
+/** Shows other times in the charts, within the ride; null: the whole ride. */
 function show(times) {
-  const shortest = 1e-3 * (ride.to - ride.from);
-  now.shown = times && times[1] - times[0] > shortest ? times : [ride.from, ride.to];
-  byId("whole").hidden = !times;
+  const [whole, shortest] = [ride.to - ride.from, 1e-3 * (ride.to - ride.from)];
+  const span = times ? Math.min(whole, times[1] - times[0]) : whole;
+  if (times && span < whole && span > shortest) {
+    const from = Math.min(ride.to - span, Math.max(ride.from, times[0]));
+    now.shown = [from, from + span];
+  } else if (!times || span >= whole) {
+    now.shown = [ride.from, ride.to];
+  }
+  byId("whole").hidden = now.shown[1] - now.shown[0] >= whole;
   drawCharts();
   seek(now.time);
 }
@@ -38,6 +49,9 @@ function play(on) {
   if (on && now.time >= ride.to) seek(ride.from);
   now.playing = on;
   byId("play").textContent = on ? "Pause" : "Play";
+  // On a narrow screen the machine then stands above the charts.
+  document.body.classList.toggle("playing", on);
+  drawMachine();
   if (!on) return;
   let before = performance.now();
   const tick = (at) => {
@@ -56,6 +70,7 @@ function select(index) {
   [...byId("runs").children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === index)));
   timeLine.select(now.run);
   showKey();
+  showFindings();
   buildCharts();
   drawCharts();
   seek(now.time);
@@ -73,7 +88,13 @@ function buildCharts() {
     if (note) parts.push(element("p", { class: "summary" }, [note]));
     return element("section", {}, [element("h2", {}, [heading + (ofRun ? of : "")]), ...parts]);
   });
-  box.replaceChildren(lane, ...built);
+  const choice = overlayChoice(now.run, () => {
+    buildCharts();
+    drawCharts();
+    seek(now.time);
+  });
+  choice.open = overlay.size > 0;
+  box.replaceChildren(lane, ...built, choice);
 }
 
 function drawCharts() {
@@ -88,7 +109,7 @@ function drawMachine() {
 
 function showFindings() {
   const marks = { good: "\u2713", note: "\u2022", warning: "!" };
-  byId("findings").append(...report.findings.map(({ weight, text }) => {
+  byId("findings").replaceChildren(...[...now.run.findings, ...report.findings].map(({ weight, text }) => {
     const mark = element("span", { class: "finding-mark", "aria-hidden": "true" }, [marks[weight]]);
     return element("li", { class: weight }, [mark, element("span", {}, [text])]);
   }));
@@ -101,6 +122,13 @@ function showKey() {
     "\u2014 arrows at the head: specific force less gravity at rest. Legs: ",
     ...arrow("--leg-easy", "free "), ...arrow("--leg-near", "near "), ...arrow("--leg-end", "at an end of the stroke"),
   );
+}
+
+/** Shows a multiple of the times shown, around the cursor. */
+function zoom(factor) {
+  const [from, to] = now.shown;
+  const middle = Math.min(to, Math.max(from, now.time));
+  show([middle - (middle - from) * factor, middle + (to - middle) * factor]);
 }
 
 function setUpPlayer() {
@@ -126,6 +154,8 @@ function setUpPlayer() {
     if (event.key === " ") play(!now.playing);
     else if (event.key === "ArrowLeft") seek(now.time - step);
     else if (event.key === "ArrowRight") seek(now.time + step);
+    else if (event.key === "+" || event.key === "=") zoom(0.5);
+    else if (event.key === "-") zoom(2);
     else return;
     event.preventDefault();
   });
@@ -137,15 +167,25 @@ function redraw() {
   seek(now.time);
 }
 
-showFindings();
 showMeasures(byId("measures"), report.runs);
 byId("provenance").append(...report.provenance.map(([name, text]) => element("span", {}, [element("b", {}, [name]), " ", text])));
 setUpPlayer();
 letTurn(view, drawMachine);
 select(report.selected);
 addEventListener("resize", redraw);
+// A print has room for what a screen unfolds.
+const folded = [];
+addEventListener("beforeprint", () => {
+  for (const part of document.querySelectorAll("#measures details:not([open])")) {
+    part.open = true;
+    folded.push(part);
+  }
+});
+addEventListener("afterprint", () => {
+  for (const part of folded.splice(0)) part.open = false;
+});
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 
 // For those who drive the page from a script, such as its tests.
-window.rideReport = { now, seek, show, play, select, view, ride };
+window.rideReport = { now, seek, show, play, select, view, ride, ranges: () => charts.map((chart) => chart.range()) };
 byId("alarm").hidden = true;

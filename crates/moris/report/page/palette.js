@@ -24,3 +24,6 @@ function strokeColour(length, [shortest, longest]) {
   const [[low, one], [high, other]] = [STROKE_COLOURS[above - 1], STROKE_COLOURS[above]];
   return mixed(channels(colour(one)), channels(colour(other)), (left - low) / (high - low));
 }
+
+/** Dashes that tell curves from each other without colour: in drawing order, the first is a whole line. */
+const DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [5, 2, 1, 2, 1, 2], [12, 4]];

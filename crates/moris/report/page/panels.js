@@ -10,14 +10,14 @@ const STILL = { specific_force: 0.01, angular_velocity: 0.05 };
 
 const inDegrees = (values) => values.map((value) => value * DEGREES);
 
-/** Felt against desired on one axis, felt for every run; the chart is as high as the selected one needs. */
+/** Felt against desired on one axis, felt for every run, on one vertical axis whichever is selected. */
 function cueLines(quantity, axis, selected, convert) {
   const desired = {
     label: "desired", colour: "--desired", width: 4,
     times: selected.times, values: convert(selected.desired[quantity][axis]),
   };
   const felt = report.runs.map((run) => ({
-    label: report.runs.length > 1 ? `felt, ${run.name}` : "felt", colour: run.colour, width: run === selected ? 1.8 : 1,
+    label: report.runs.length > 1 ? `felt, ${run.name}` : "felt", colour: run.colour, dash: run.dash, width: run === selected ? 1.8 : 1,
     times: run.times, values: convert(run.felt[quantity][axis]), aside: run !== selected,
     layer: run === selected ? 2 : 1,
   }));
@@ -42,34 +42,38 @@ function cuePanels(quantity, names, unitText, convert, selected, options) {
   return { charts, note };
 }
 
-const series = (run, list, names, colours, convert = (values) => values) => list.map((values, i) => ({
-  label: names[i], colour: colours[i], width: 1.6, times: run.times, values: convert(values),
-}));
+/** Curves of the selected run; the curves of the other runs set the vertical axis with them. */
+function series(selected, list, names, colours, convert = (values) => values) {
+  const of = (run) => list(run).map((values, i) => ({
+    label: names[i], colour: colours[i], dash: DASHES[i], width: 1.6, times: run.times, values: convert(values),
+  }));
+  return { lines: of(selected), others: report.runs.filter((run) => run !== selected).flatMap(of) };
+}
 
 const bothWays = (limit) => (limit > 0 ? [-limit, limit] : []);
 
 /** The sections of the page for a run: heading, charts, and a note where something is left out. */
 function sections(run) {
   const { rig } = report;
-  const height = run.position[2].map((value) => value - rig.neutral_height);
-  const position = [run.position[0], run.position[1], height];
+  const position = ({ position: [x, y, z] }) => [x, y, z.map((value) => value - rig.neutral_height)];
   const forces = AXES.map(([name, axis]) => `${name}, ${axis}`);
   const rates = TURNS.map((name, i) => `${name} rate, ${AXES[i][1]}`);
   return [
     { heading: "Specific force at the rider's head", ...cuePanels("specific_force", forces, "m/s\u00b2", (values) => values, run, { least: 0.2 }) },
     { heading: "Angular velocity of the rider's head", ...cuePanels("angular_velocity", rates, "\u00b0/s", inDegrees, run, { least: 1 }) },
     { heading: "Platform", of_run: true, charts: [
-      { title: "Position from neutral", unit: "m", lines: series(run, position, ["x", "y", "z"], THREE), least: 0.05, digits: 3 },
-      { title: "Orientation", unit: "\u00b0", lines: series(run, run.orientation, ["roll", "pitch", "yaw"], THREE, inDegrees), least: 1 },
+      { title: "Position from neutral", unit: "m", ...series(run, position, ["x", "y", "z"], THREE), least: 0.05, digits: 3 },
+      { title: "Orientation", unit: "\u00b0", ...series(run, ({ orientation }) => orientation, ["roll", "pitch", "yaw"], THREE, inDegrees), least: 1 },
     ] },
     { heading: "Tilt coordination", of_run: true, charts: [
-      { title: "Tilt", unit: "\u00b0", lines: series(run, run.tilt, ["roll", "pitch"], THREE, inDegrees), least: 1 },
-      { title: "Tilt rate", unit: "\u00b0/s", lines: series(run, run.tilt_rate, ["roll", "pitch"], THREE, inDegrees), limits: bothWays(run.limits.tilt_rate * DEGREES), least: 1 },
+      { title: "Tilt", unit: "\u00b0", ...series(run, ({ tilt }) => tilt, ["roll", "pitch"], THREE, inDegrees), least: 1 },
+      { title: "Tilt rate", unit: "\u00b0/s", ...series(run, ({ tilt_rate: rate }) => rate, ["roll", "pitch"], THREE, inDegrees), limits: bothWays(run.limits.tilt_rate * DEGREES), least: 1 },
     ] },
     { heading: "Legs", of_run: true, charts: [
-      { title: "Length", unit: "m", lines: series(run, run.legs, ["1", "2", "3", "4", "5", "6"], LEGS), limits: rig.stroke, height: 190, digits: 3 },
+      { title: "Length", unit: "m", ...series(run, ({ legs }) => legs, ["1", "2", "3", "4", "5", "6"], LEGS), limits: rig.stroke, height: 190, digits: 3 },
     ] },
     ...furtherSections(),
+    ...overlaid(run),
   ].filter(({ charts, note }) => charts.length > 0 || note);
 }
 
@@ -82,7 +86,7 @@ function furtherSections() {
       const lines = chart.lines.map((line, i) => ({
         label: report.runs.length > 1 ? `${line.label}, ${run.name}` : line.label,
         colour: report.runs.length > 1 ? run.colour : LEGS[i % 6],
-        dash: report.runs.length > 1 && i > 0 ? [6 - i, 3] : null,
+        dash: DASHES[i % DASHES.length],
         width: 1.6, times: chart.times, values: line.values,
       }));
       charts.get(chart.title).lines.push(...lines);

@@ -15,13 +15,12 @@ pub struct Report {
     pub title: String,
     /// One line below the heading: what was ridden, on which rig, with which parameters.
     pub subtitle: String,
-    /// Findings, in order of importance.
+    /// Findings that hold for every run, below those of the run.
     pub findings: Vec<Finding>,
     /// Facts for the foot of the page as name and value: files, versions, step.
     pub provenance: Vec<(String, String)>,
     pub rig: Rig,
-    /// The runs, for instance with the default parameters and with tuned ones. At least one; at
-    /// most four are readable.
+    /// The runs, for instance with the default parameters and with tuned ones. At least one.
     pub runs: Vec<Run>,
     /// Which of the runs the platform shows first.
     pub selected: usize,
@@ -83,6 +82,8 @@ impl From<&Parameters> for Rig {
 pub struct Run {
     /// Short, because it stands in legends: `default`, `tuned`.
     pub name: String,
+    /// Findings, in order of importance.
+    pub findings: Vec<Finding>,
     /// \[s\], ascending.
     #[serde(serialize_with = "f64_series::one")]
     pub times: Vec<f64>,

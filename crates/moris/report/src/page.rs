@@ -11,7 +11,7 @@ const STYLE: &str = include_str!("../page/style.css");
 const ALARM: &str = include_str!("../page/alarm.js");
 
 /// In the order in which they build upon each other.
-const SCRIPTS: [&str; 15] = [
+const SCRIPTS: [&str; 16] = [
     include_str!("../page/data.js"),
     include_str!("../page/format.js"),
     include_str!("../page/dom.js"),
@@ -25,6 +25,7 @@ const SCRIPTS: [&str; 15] = [
     include_str!("../page/limits.js"),
     include_str!("../page/gauges.js"),
     include_str!("../page/measures.js"),
+    include_str!("../page/overlay.js"),
     include_str!("../page/panels.js"),
     include_str!("../page/main.js"),
 ];

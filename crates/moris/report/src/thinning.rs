@@ -5,8 +5,8 @@ pub const MOST_SAMPLES: usize = 12_000;
 
 /// Intervals of samples, of each of which two values are kept.
 ///
-/// Of a curve these are the least and the greatest value in the order in which they come: peaks keep
-/// their height, and move by less than an interval.
+/// Of a curve these are the least and the greatest value in the order in which they come: peaks
+/// keep their height, and move by less than an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thinning {
     samples: usize,
@@ -15,7 +15,8 @@ pub struct Thinning {
 }
 
 impl Thinning {
-    /// Keeps at most `most` of so many samples, all of them if they are no more; `most` is at least 4.
+    /// Keeps at most `most` of so many samples, all of them if they are no more;
+    /// `most` is at least 4.
     pub fn new(samples: usize, most: usize) -> Self {
         Thinning { samples, intervals: (samples > most.max(4)).then_some(most.max(4) / 2) }
     }
@@ -31,8 +32,8 @@ impl Thinning {
         (0..count).map(move |k| k * samples / count)
     }
 
-    /// Values at the times that are kept: for times themselves, and for what belongs together, such as
-    /// a pose.
+    /// Values at the times that are kept: for times themselves, and for what belongs
+    /// together, such as a pose.
     pub fn at_times(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         self.halves().map(value).collect()
     }

@@ -25,7 +25,7 @@ pub fn report(ride: &Ride, outcomes: &[Outcome]) -> Report {
             first.setup.rig_name,
             outcomes.iter().map(|outcome| outcome.setup.parameters_name.as_str()).collect::<Vec<_>>().join(", ")
         ),
-        findings: findings::of(first).into_iter().chain(remarks).collect(),
+        findings: remarks.collect(),
         provenance: vec![
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", ride.name, 1.0 / ride.step())),
             ("Gravity".to_owned(), gravity(ride).to_owned()),
@@ -66,6 +66,7 @@ fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
     let leans = inputs.iter().any(|input| input.lean != 0.0);
     Run {
         name: setup.parameters_name.clone(),
+        findings: findings::of(outcome),
         times: thinning.at_times(|k| k as f64 * recording.step),
         desired: Cues {
             specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
