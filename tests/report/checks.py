@@ -317,7 +317,8 @@ def the_machine_is_in_sight_where_it_plays(browser):
 
 
 @check
-def a_print_has_no_controls_and_every_definition_once(browser):
+def a_print_has_every_definition_once(browser):
+    """The control bar and what is only for a screen are left out."""
     with opened(browser, "two-runs") as page:
         page.emulate_media(media="print")
         page.evaluate("dispatchEvent(new Event('beforeprint'))")

@@ -1,5 +1,5 @@
-//! Recordings of public loggers: their formats by name, several files of one ride, times of day, turned
-//! sensors.
+//! Recordings of public loggers: their formats by name, several files of one ride, times
+//! of day, turned sensors.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

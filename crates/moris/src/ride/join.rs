@@ -111,7 +111,8 @@ impl Part {
         })
     }
 
-    /// A column at other times, by linear interpolation; the times ascend and are within the part's.
+    /// A column at other times, by linear interpolation; the times ascend and
+    /// are within the part's.
     fn at(&self, column: &[f64], times: &[f64]) -> Vec<f64> {
         let mut after = 1;
         let value = |&time: &f64| {

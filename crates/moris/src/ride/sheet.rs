@@ -35,18 +35,18 @@ pub struct Sheet {
 pub struct Samples {
     /// As the file has it, times that are written out in seconds.
     pub time: Vec<f64>,
-    /// The columns in the order in which they were asked for, in the file's units; an empty field is
-    /// not a number.
+    /// The columns in the order in which they were asked for, in the file's units; an empty
+    /// field is not a number.
     pub columns: Vec<Vec<f64>>,
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
 }
 
 impl Sheet {
-    /// Opens a file: a header of names, then lines of numbers, with commas, semicolons or tabulators
-    /// between them. A line of units may follow the header, and a logger's preamble may precede it.
-    /// Lines that begin with # are comments. Between semicolons or tabulators, numbers may have a
-    /// decimal comma.
+    /// Opens a file: a header of names, then lines of numbers, with commas, semicolons or
+    /// tabulators between them. A line of units may follow the header, and a logger's preamble may
+    /// precede it. Lines that begin with # are comments. Between semicolons or tabulators, numbers
+    /// may have a decimal comma.
     ///
     /// # Errors
     /// The file cannot be read, is no CSV, or has no header.

@@ -1,4 +1,5 @@
-//! Times as loggers write them beside plain numbers: dates with a time (ISO 8601), and times of day.
+//! Times as loggers write them beside plain numbers: dates with a time (ISO
+//! 8601), and times of day.
 
 use jiff::Timestamp;
 use jiff::civil::DateTime;

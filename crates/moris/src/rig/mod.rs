@@ -1,8 +1,9 @@
 //! `moris rig`: looks at a platform.
 //!
-//! [`survey`] gathers what there is to know of it, [`workspace`] measures where it can go,
-//! [`picture`] draws both.
+//! [`new`] writes a rig file. [`survey`] gathers what there is to know of it, [`workspace`]
+//! measures where it can go, [`picture`] draws both.
 
+pub mod new;
 pub mod picture;
 mod section;
 pub mod survey;
@@ -11,7 +12,7 @@ mod view;
 pub mod workspace;
 
 use std::fs;
-use std::io::Write;
+use std::io::{Write, stdin};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -20,9 +21,14 @@ use moris_setup::load_rig;
 
 use survey::{Singularities, Survey};
 
-/// Check a rig
+/// Check a rig, or write a new one
 #[derive(Clone, Debug, clap::Subcommand)]
 pub enum Command {
+    /// Ask for a platform's geometry and write a rig file that has been checked
+    ///
+    /// An empty answer takes the value in brackets. The file is written only if the washout takes
+    /// the rig: its legs reach neutral, and there is no singularity inside their stroke.
+    New(new::NewOptions),
     /// Reach and singularities of a rig
     ///
     /// Prints reach, speed and acceleration along each axis alone, the size of the workspace
@@ -51,7 +57,14 @@ pub struct CheckOptions {
 /// # Errors
 /// The rig file cannot be used, or the picture cannot be written.
 pub fn main(command: &Command, out: &mut dyn Write) -> Result<ExitCode> {
-    let Command::Check(options) = command;
+    match command {
+        Command::New(options) => new::main(options, &mut stdin().lock(), out),
+        Command::Check(options) => check(options, out),
+    }
+}
+
+/// Surveys a rig, prints the result and draws it.
+fn check(options: &CheckOptions, out: &mut dyn Write) -> Result<ExitCode> {
     let file = load_rig(&options.rig)?;
     let survey = Survey::of(&file, options.samples).with_context(|| options.rig.display().to_string())?;
     write!(out, "{survey}")?;
