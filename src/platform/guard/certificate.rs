@@ -236,13 +236,11 @@ impl Machine {
         }
         let mut begin = 0.0;
         for end in stops {
-            if end > begin {
-                let cells = (whole * ((end - begin) / duration)).ceil();
-                if !self.piece_keeps_legs(plan, begin, end, cells) {
-                    return false;
-                }
-                begin = end;
+            let cells = (whole * ((end - begin) / duration)).ceil();
+            if cells != 0.0 && !self.piece_keeps_legs(plan, begin, end, cells) {
+                return false;
             }
+            begin = end;
         }
         true
     }

@@ -10,7 +10,8 @@ use proptest::prelude::*;
 
 use super::{JointBounds, after, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::{Motions, braking_law};
+use crate::motion::Motions;
+use crate::motion::braking_law::{self, Motion};
 use crate::platform::guard::certificate::{Candidate, Machine, Speed, State, stroke_reserve};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
@@ -337,13 +338,34 @@ impl Conditions {
     }
 }
 
+/// Room of an axis beyond its position, as a fraction of what its stop in the common duration takes.
+#[derive(Clone, Copy, PartialEq)]
+enum Room {
+    Enough,
+    Less,
+}
+
+/// The limits with so little room for one axis that it has to stop sooner than the others.
+fn hurried(case: &Case, limits: &Limits, axis: usize, fraction: f64) -> Option<Limits> {
+    let Motion { position, velocity, .. } = case.next.linear.axis(axis);
+    let room = fraction * 0.5 * velocity.abs() * Conditions::new(case, limits).stop()?.angular;
+    let limit = position * velocity.signum() + room;
+    let mut limits = *limits;
+    limits.0[4 + axis] = limit;
+    (limit > position.abs()).then_some(limits)
+}
+
 /// Finds the edge of each limit, where the conditions change their answer, and compares both sides.
 /// Returns how many edges each limit had.
-fn compare(count: u32, gap: f64, by_bounds: bool) -> [u32; LIMITS] {
+fn compare(count: u32, gap: f64, by_bounds: bool, room: Room) -> [u32; LIMITS] {
     let found = std::cell::Cell::new([0; LIMITS]);
     search(count)
-        .run(&(cases(gap), 0.0..0.6_f64, 0.0..0.6_f64), |(case, slower, softer)| {
-            let start = Limits::LOOSE.tightened(2, 0.1 * slower).tightened(3, 0.2 * softer);
+        .run(&(cases(gap), 0.0..0.6_f64, 0.0..0.6_f64, 0..3_usize), |(case, slower, softer, axis)| {
+            let mut start = Limits::LOOSE.tightened(2, 0.1 * slower).tightened(3, 0.2 * softer);
+            if room == Room::Less {
+                let Some(limits) = hurried(&case, &start, axis, 0.2 + slower) else { return Ok(()) };
+                start = limits;
+            }
             let expected = |limits: &Limits| {
                 let conditions = Conditions::new(&case, limits);
                 if by_bounds { conditions.by_bounds().map(StopDurations::common) } else { conditions.durations() }
@@ -398,7 +420,7 @@ fn compare(count: u32, gap: f64, by_bounds: bool) -> [u32; LIMITS] {
 #[test]
 fn bounds_on_the_whole_way_certify_what_their_conditions_say() {
     for gap in [0.0, 0.2] {
-        let edges = compare(300, gap, true);
+        let edges = compare(300, gap, true, Room::Enough);
         assert!(edges.iter().all(|&count| count > 50), "{edges:?}");
     }
 }
@@ -406,9 +428,30 @@ fn bounds_on_the_whole_way_certify_what_their_conditions_say() {
 #[test]
 fn points_on_the_way_certify_what_their_conditions_say() {
     for gap in [0.0, 0.2] {
-        let edges = compare(300, gap, false);
+        let edges = compare(300, gap, false, Room::Enough);
         assert!(edges.iter().all(|&count| count > 50), "{edges:?}");
     }
+}
+
+#[test]
+fn points_on_the_way_certify_a_stop_in_pieces_as_their_conditions_say() {
+    for gap in [0.0, 0.2] {
+        let edges = compare(600, gap, false, Room::Less);
+        assert!(edges.iter().all(|&count| count > 50), "{edges:?}");
+    }
+}
+
+#[test]
+fn an_interval_in_which_a_leg_could_vanish_is_refused() {
+    let machine = Machine::new(&Limits([1e-9, 1e9, 1e9, 1e9, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]).rig(), 1e-9);
+    let legs = LegMotion { length: [1.0; 6], velocity: [0.0; 6], acceleration: [0.0; 6] };
+    let keeps = |speed: f64, length: f64| {
+        let bounds = JointBounds { velocity: speed, acceleration: 0.0, jerk: 0.0 };
+        let legs = LegMotion { length: [length; 6], ..legs };
+        machine.interval_keeps_legs(&legs, &legs, &bounds, 1.0, (f64::NEG_INFINITY, f64::INFINITY), &[0.0; 6])
+    };
+    // In half a second, a joint at 2 m/s is where the other one may be.
+    assert!(keeps(1.9, 1.0) && !keeps(2.0, 1.0) && !keeps(3.0, 1.0) && !keeps(1.9, f64::NAN));
 }
 
 #[test]

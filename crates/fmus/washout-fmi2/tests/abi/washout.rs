@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use moris_fmu_host::{Api, Status};
 use moris_fmu_tests::swing;
 use moris_interface::SlotModel;
-use moris_washout::{Parameters, Washout};
+use moris_washout::{Parameters, Washout, presets};
 use object::Object;
 
 use crate::fixture::*;
@@ -67,6 +67,31 @@ fn a_restored_state_repeats_bit_for_bit() {
     assert_eq!(ride(&mut other, 500, 500), expected);
     assert_eq!(other.free_state(read), Status::Ok);
     assert_eq!(instance.free_state(state), Status::Ok);
+}
+
+/// A new plan is begun every 50 ms and takes several steps.
+#[test]
+fn a_state_serialized_at_any_instant_of_a_plan_repeats_bit_for_bit() {
+    const END: u32 = 640;
+    for set in [presets::PREDICTIVE, presets::OPTIMAL, presets::ADAPTIVE] {
+        let mut instance = initialized(set);
+        ride(&mut instance, 0, 500);
+        let states: Vec<_> = (500..560)
+            .map(|step| {
+                let state = bytes(&mut instance);
+                ride(&mut instance, step, 1);
+                (step, state)
+            })
+            .collect();
+        let expected = ride(&mut instance, 560, END - 560);
+        let mut other = open().instantiate("other").unwrap();
+        for (step, bytes) in states {
+            let state = other.deserialize(&bytes).unwrap();
+            assert_eq!(other.set_state(&state), Status::Ok);
+            assert_eq!(other.free_state(state), Status::Ok);
+            assert_eq!(ride(&mut other, step, END - step), expected, "{:?} from step {step}", set[0]);
+        }
+    }
 }
 
 #[test]
