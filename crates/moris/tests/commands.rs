@@ -87,7 +87,7 @@ fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same
 fn a_run_leaves_the_crate_s_outputs_and_a_page() {
     let directory = tempfile::tempdir().unwrap();
     write_ride(directory.path(), "ride.csv");
-    let output = moris(directory.path(), &["simulate", "ride.csv", "--report", "out"]);
+    let output = moris(directory.path(), &["simulate", "ride.csv", "--report", "out", "--fade-in", "0"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let said = text(&output.stdout);
     assert!(said.contains("The ride fits the rig") && said.contains("force x"), "{said}");
@@ -260,7 +260,13 @@ fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
     let peak = measures.iter().find(|row| row["subject"] == "specific force x" && row["name"] == "peak error").unwrap();
     assert!(peak["value"].as_f64().unwrap() > 0.0 && peak["unit"] == "m/s²");
     assert_eq!(all[1]["files"].as_array().unwrap().len(), 2);
+    // The list has the one that does not fit first.
+    let list = fs::read_to_string(directory.path().join("moris-report/index.html")).unwrap();
+    let place = |link: &str| list.find(link).unwrap_or_else(|| panic!("{link} is not in {list}"));
+    assert!(place("href=\"./rough.html\"") < place("href=\"./ride.html\""));
+    fs::remove_file(directory.path().join("moris-report/index.html")).unwrap();
     assert_eq!(moris(directory.path(), &arguments[..2]).status.code(), Some(0));
+    assert!(!directory.path().join("moris-report/index.html").exists(), "one recording needs no list");
 }
 
 #[test]

@@ -11,11 +11,13 @@ mod check;
 mod data;
 mod encode;
 mod events;
+mod index;
 mod page;
 mod thinning;
 
 pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight};
 pub use events::{Event, Kind, events};
+pub use index::{IndexRow, index_html};
 pub use page::html;
 pub use thinning::{MOST_SAMPLES, Thinning};

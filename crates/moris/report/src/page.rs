@@ -7,7 +7,7 @@ use crate::data::Report;
 use crate::events::{Event, events};
 
 const TEMPLATE: &str = include_str!("../page/page.html");
-const STYLE: &str = include_str!("../page/style.css");
+pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const ALARM: &str = include_str!("../page/alarm.js");
 
 /// In the order in which they build upon each other.
@@ -77,7 +77,7 @@ fn filled(template: &str, texts: &[(&str, &str)]) -> String {
 }
 
 /// Text as HTML.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

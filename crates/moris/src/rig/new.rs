@@ -24,8 +24,8 @@ const PLATFORM_ANGLES: [f64; 6] = [-52.0, 52.0, 68.0, 172.0, 188.0, 292.0];
 /// Asks, checks and writes.
 ///
 /// # Errors
-/// The file exists or cannot be written, the answers end early, or they make no rig that the washout
-/// takes: why.
+/// The file exists or cannot be written, the answers end early, or they make no rig that
+/// the washout takes: why.
 pub fn main(options: &NewOptions, answers: &mut dyn BufRead, out: &mut dyn Write) -> Result<ExitCode> {
     let file = &options.file;
     if file.exists() {

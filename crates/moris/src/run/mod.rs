@@ -2,10 +2,12 @@
 //!
 //! [`recording`] steps the washout; everything else reads its result: [`output_table`] writes it
 //! down, [`measured`] measures it, [`bounds`] computes the least possible error, [`summary`] and
-//! [`json`] print it, [`findings`] puts it in sentences, [`page`] makes the report.
+//! [`json`] print it, [`findings`] puts it in sentences, [`page`] makes the report, [`index`] lists
+//! the reports of several recordings.
 
 pub mod bounds;
 pub mod findings;
+pub mod index;
 pub mod json;
 pub mod measured;
 pub mod output_table;
@@ -32,6 +34,8 @@ use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
 pub use recording::Recording;
 
+/// Time over which recordings are faded in from rest \[s\].
+const FADE_IN: f64 = 1.0;
 /// Exit status where a recording does not fit the rig.
 const DOES_NOT_FIT: u8 = 3;
 
@@ -39,8 +43,9 @@ const DOES_NOT_FIT: u8 = 3;
 ///
 /// Prints the measures of each recording and writes two files: NAME.outputs.csv, every input and
 /// output at every sample by the names of the FMU's variables, and NAME.html, a page with all
-/// curves and the moving platform, which needs no network and nothing beside it. A recording that
-/// cannot be used does not end the others.
+/// curves and the moving platform, which needs no network and nothing beside it. Of several
+/// recordings, index.html lists the pages, the worst first. A recording that cannot be used does
+/// not end the others. Recordings are faded in from rest over 1 s unless --fade-in says otherwise.
 ///
 /// Exit status: 0 if every recording fits the rig; 3 if a safety unit or an actuator's limit was
 /// active on one, with the first parameters; 1 if one could not be simulated.
@@ -144,7 +149,8 @@ impl Outcome {
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
     check_names(&options.rides, &cases)?;
-    let conventions = options.conventions.load()?;
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
+    let mut entries = Vec::new();
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();
     for file in &options.rides {
@@ -157,6 +163,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             }
         };
         all_fit &= simulated.fits;
+        entries.push(simulated.entry);
         if options.json {
             objects.push(simulated.json);
             continue;
@@ -166,6 +173,13 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             writeln!(out, "wrote {}", file.display())?;
         }
         writeln!(out)?;
+    }
+    if entries.len() > 1 {
+        let Setup { rig_name, parameters_name, .. } = &cases[0].setup;
+        let file = index::write(&options.report, rig_name, parameters_name, entries)?;
+        if !options.json {
+            writeln!(out, "wrote {}", file.display())?;
+        }
     }
     if options.json {
         writeln!(out, "{:#}", serde_json::Value::Array(objects))?;
@@ -216,6 +230,7 @@ struct Simulated {
     text: String,
     json: serde_json::Value,
     files: Vec<PathBuf>,
+    entry: index::Entry,
 }
 
 /// Simulates a recording with each of the setups, and writes its files.
@@ -229,7 +244,9 @@ fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conven
     progress.finish();
     let mut json = json::recording(&ride, &outcomes);
     json["files"] = files.iter().map(|file| file.display().to_string()).collect();
-    Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&ride, &outcomes), json, files })
+    let page = files.last().map(PathBuf::as_path).unwrap_or(file);
+    let entry = index::Entry::new(&ride, &outcomes[0], page);
+    Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&ride, &outcomes), json, files, entry })
 }
 
 /// True where neither a safety unit nor an actuator's limit was active.
