@@ -20,6 +20,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 VENV = TARGET / "venv"
 REQUIREMENTS = ROOT / "tests" / "python" / "requirements.txt"
+PROGRAM = ".exe" if os.name == "nt" else ""
 
 
 def run(*command):
@@ -46,12 +47,14 @@ def main():
     parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
     arguments = parser.parse_args()
     passed_on = [f"--{name}" for name in ("install", "require") if getattr(arguments, name)]
-    run("cargo", "build-fmu")
-    run("cargo", "build-fmu", "--fmi", "3")
+    run("cargo", "build-fmu", "--fmi", "2,3")
     run("cargo", "build-fmu", "--fmi", "3", "--arrays")
     run("cargo", "build-ssp")
     run("cargo", "build-ssp", "--flat")
     run("cargo", "test", "--workspace", "--", "--quiet")
+    # These examples are compiled by now.
+    for example in ("bound", "pages"):
+        os.environ[f"MORIS_{example.upper()}"] = str(TARGET / "debug" / "examples" / (example + PROGRAM))
     run(python(), "-m", "pip", "install", "--verbose", "--disable-pip-version-check", ".")
     run(python(), "-m", "pytest", "--quiet", "tests/python")
     run(python(), "-m", "pytest", "--quiet", "tests/python_package")

@@ -50,6 +50,15 @@ pub fn build_with(
     Ok(Built { file, size: archive.len() })
 }
 
+/// Compiles the libraries of several FMUs with their models' own start values, which takes a
+/// fraction of the time that they take one after the other in [`build`].
+///
+/// # Errors
+/// A tool that is missing, or a library that does not compile.
+pub fn compile_together(libraries: &[(&Model, FmiVersion)], platforms: &[Platform]) -> Result<(), Error> {
+    compile::plan(platforms)?.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
+}
+
 /// Builds a model's FMU and returns its bytes; otherwise as [`build`].
 ///
 /// # Errors

@@ -26,7 +26,7 @@ pub mod workspace;
 
 pub use error::Error;
 pub use fmi_version::FmiVersion;
-pub use fmu::{Built, build, build_with, fmu};
+pub use fmu::{Built, build, build_with, compile_together, fmu};
 pub use model::{MODELS, Model};
 pub use platform::Platform;
 pub use start_values::Start;

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use moris_build_fmu::model::WASHOUT;
-use moris_build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, workspace};
+use moris_build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, compile_together, workspace};
 use moris_setup::{NamedValues, load_rig, load_set};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and
@@ -23,9 +23,9 @@ struct Arguments {
     #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = model_names())]
     model: Vec<String>,
 
-    /// Version of FMI
-    #[arg(long, value_name = "VERSION", default_value = "2")]
-    fmi: FmiVersion,
+    /// Version of FMI, or both separated by a comma
+    #[arg(long, value_name = "VERSION", value_delimiter = ',', default_value = "2")]
+    fmi: Vec<FmiVersion>,
 
     /// Describe vectors as array variables (FMI 3.0 only), for tools that support them
     #[arg(long)]
@@ -64,12 +64,16 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let output = arguments.output.clone().unwrap_or_else(workspace::default_output);
     let chosen = |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
     let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
-    let fmi = fmi_version(arguments)?;
+    let versions = fmi_versions(arguments)?;
     // Before anything is compiled.
     check_used(arguments, &models)?;
     let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
     let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
-    for (model, start) in models.iter().zip(&starts) {
+    let of_version = |fmi| models.iter().zip(&starts).map(move |(&model, start)| (model, start, fmi));
+    let fmus: Vec<(&Model, &Start, FmiVersion)> = versions.into_iter().flat_map(of_version).collect();
+    let own = fmus.iter().filter(|(_, start, _)| start.is_own()).map(|&(model, _, fmi)| (model, fmi));
+    compile_together(&own.collect::<Vec<_>>(), &arguments.platform)?;
+    for (model, start, fmi) in fmus {
         if !start.is_own() {
             println!("{}: {} embedded start values", model.name, start.count());
         }
@@ -80,12 +84,10 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// The version of FMI, with or without arrays.
-fn fmi_version(arguments: &Arguments) -> Result<FmiVersion, Error> {
-    match arguments.arrays {
-        true => arguments.fmi.with_arrays().ok_or(Error::NoArrays),
-        false => Ok(arguments.fmi),
-    }
+/// The versions of FMI, with or without arrays.
+fn fmi_versions(arguments: &Arguments) -> Result<Vec<FmiVersion>, Error> {
+    let with_arrays = |fmi: &FmiVersion| fmi.with_arrays().ok_or(Error::NoArrays);
+    if arguments.arrays { arguments.fmi.iter().map(with_arrays).collect() } else { Ok(arguments.fmi.clone()) }
 }
 
 /// Checks that each option with start values applies to one of the models.
@@ -150,13 +152,19 @@ mod tests {
         assert_eq!(refusal(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
     }
+
     #[test]
     fn arrays_are_for_fmi_3() {
-        let version = |arguments: &[&str]| fmi_version(&Arguments::parse_from([&["build-fmu"], arguments].concat()));
-        let fmi3 = version(&["--fmi", "3", "--arrays"]).unwrap();
-        assert_eq!(fmi3.fmu_file("Model"), "Model.fmi3.arrays.fmu");
-        assert_eq!(version(&["--fmi", "3"]).unwrap().fmu_file("Model"), "Model.fmi3.fmu");
-        assert_eq!(version(&[]).unwrap().fmu_file("Model"), "Model.fmu");
-        assert!(version(&["--arrays"]).unwrap_err().to_string().contains("--fmi 3"));
+        let files = |arguments: &[&str]| -> Result<Vec<String>, Error> {
+            let versions = fmi_versions(&Arguments::parse_from([&["build-fmu"], arguments].concat()))?;
+            Ok(versions.iter().map(|fmi| fmi.fmu_file("Model")).collect())
+        };
+        assert_eq!(files(&["--fmi", "3", "--arrays"]).unwrap(), ["Model.fmi3.arrays.fmu"]);
+        assert_eq!(files(&["--fmi", "3"]).unwrap(), ["Model.fmi3.fmu"]);
+        assert_eq!(files(&["--fmi", "2,3"]).unwrap(), ["Model.fmu", "Model.fmi3.fmu"]);
+        assert_eq!(files(&[]).unwrap(), ["Model.fmu"]);
+        for wrong in [&["--arrays"][..], &["--fmi", "2,3", "--arrays"]] {
+            assert!(files(wrong).unwrap_err().to_string().contains("--fmi 3"));
+        }
     }
 }

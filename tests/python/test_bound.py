@@ -1,5 +1,6 @@
 """The bound on the felt specific force, against an optimum that scipy finds by a formulation of its own."""
 
+import os
 import subprocess
 from pathlib import Path
 
@@ -15,7 +16,8 @@ ANGLE, RATE, TILT_ACCELERATION = 0.38, np.radians(3.0), 0.2
 
 def bound(desired, step, interval):
     """The bound and what is attained, by the crate."""
-    command = ["cargo", "run", "--quiet", "--release", "--package", "moris-measures", "--example", "bound", "--"]
+    compile_and_run = ["cargo", "run", "--quiet", "--release", "--package", "moris-measures", "--example", "bound", "--"]
+    command = [os.environ["MORIS_BOUND"]] if "MORIS_BOUND" in os.environ else compile_and_run
     text = "\n".join(repr(float(value)) for value in desired)
     done = subprocess.run(
         [*command, str(step), str(interval)], cwd=ROOT, input=text, capture_output=True, text=True, check=True

@@ -27,7 +27,7 @@ pub enum Form {
 use crate::archive::{self, Contents};
 use crate::contents::LICENCES;
 use crate::fmu::write_whole;
-use crate::{Built, Error, FmiVersion, Platform, fmu};
+use crate::{Built, Error, FmiVersion, Platform, compile_together, fmu};
 
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";
@@ -49,6 +49,8 @@ pub fn build(
     mut report: impl FnMut(&str),
 ) -> Result<Built, Error> {
     let mut contents = description(system, form)?;
+    let libraries: Vec<_> = system.components.iter().map(|it| (it.model, FmiVersion::Fmi2)).collect();
+    compile_together(&libraries, platforms)?;
     for component in system.components {
         let model = component.model;
         contents.insert(fmu_path(component), fmu(model, FmiVersion::Fmi2, platforms, &mut report)?);
