@@ -1,12 +1,6 @@
 //! Parts of a description, read independently of the package that wrote it.
 
-use moris_interface::{Kind, Model};
 use roxmltree::{Document, Node};
-
-/// True if the model has an enumeration; only then has FMI 2.0 types to define.
-pub fn has_enumerations<M: Model>() -> bool {
-    M::IDENTITY.rows.iter().any(|row| matches!(row.kind, Kind::Enumeration(_)))
-}
 
 /// The definitions of types; none where there is no such part.
 pub fn type_definitions<'a, 'input: 'a>(document: &'a Document<'input>) -> Vec<Node<'a, 'input>> {
