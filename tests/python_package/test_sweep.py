@@ -197,3 +197,71 @@ def test_no_client_is_a_type_error(recordings):
         moris.sweep(recordings, parameter_sets(), client="tcp://somewhere:8786")
     with pytest.raises(ValueError, match="recordings is empty"):
         moris.sweep([], parameter_sets())
+    with pytest.raises(TypeError, match="parameter_sets is a single set; give several"):
+        moris.sweep(recordings, {"tilt.rateLimit": 0.03})
+    with pytest.raises(ValueError, match="chunk is -1"):
+        moris.sweep(recordings, parameter_sets(), chunk=-1)
+
+
+SETS = 12_000
+"""Sets whose results would take much more memory than a process's own comes and goes."""
+
+
+def short_recordings(count=11):
+    """Recordings of three samples: a sweep over them costs little beside its results."""
+    t = 0.01 * np.arange(3)
+    still = {"az": 9.80665 + 0 * t, "wx": 0 * t, "wy": 0 * t, "wz": 0 * t}
+    return [moris.Recording({"time": t, "ax": 0.1 * k + t, "ay": t, **still}, name=f"ride {k}") for k in range(count)]
+
+
+def resident_memory():
+    """Resident memory of this process [B]."""
+    import psutil
+
+    return psutil.Process().memory_info().rss
+
+
+def test_memory_on_threads_is_that_of_the_results_kept():
+    recordings = short_recordings()
+    seen = {}
+
+    def progress(done, total, text):
+        seen[done] = resident_memory()
+
+    def growth(reduce):
+        seen.clear()
+        sets = ({"splitter.x.omega1": 1.0 + 1e-5 * k} for k in range(SETS))
+        assert moris.sweep(recordings, sets, reduce, progress=progress).done == SETS
+        return seen[SETS] - next(memory for done, memory in seen.items() if done >= SETS / 2)
+
+    results = SETS / 2 * len(recordings) * len(moris.MEASURES) * 8
+    assert growth(lambda count, result: (count or 0) + 1) < 0.2 * results
+    # What the limit would show: a sweep that keeps its results.
+    assert growth(None) > 0.8 * results
+
+
+def test_a_cluster_holds_no_more_than_the_tasks_on_their_way():
+    recordings = short_recordings()
+    tasks, data, memory = [], [], {}
+
+    def held(dask_scheduler):
+        return len(dask_scheduler.tasks)
+
+    def stored(dask_worker):
+        return len(dask_worker.data)
+
+    with cluster(1) as made, Client(made) as client:
+
+        def progress(done, total, text):
+            if done % 1000 == 0:
+                tasks.append(client.run_on_scheduler(held))
+                data.extend(client.run(stored).values())
+                memory[done] = next(iter(client.run(resident_memory).values()))
+
+        sets = ({"splitter.x.omega1": 1.0 + 1e-5 * k} for k in range(SETS))
+        count = moris.sweep(recordings, sets, lambda count, result: count + 1, initial=0, client=client, chunk=100, progress=progress)
+    assert count.value == SETS and len(tasks) == 12
+    # Beside those on their way are the context, the task just done, and one that is being forgotten.
+    assert max(tasks) <= 4 + 3 and max(data) <= 4 + 3
+    results = SETS / 2 * len(recordings) * len(moris.MEASURES) * 8
+    assert memory[SETS] - memory[SETS // 2] < 0.3 * results

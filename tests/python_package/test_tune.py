@@ -121,7 +121,10 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
         ({"groups": ["splitters"]}, "there is no group splitters; there are splitter, angular, scale, cutoff, tilt"),
         ({"weights": [0, 0, 0, 0, 0, 0]}, "must be six numbers, none below 0 and not all 0"),
         ({"stroke_reserve": -0.1}, "stroke_reserve is -0.1 m"),
-        ({"evaluations": 0}, "evaluations is 0"),
+        ({"evaluations": 0}, "evaluations is 0, but must be 1 at least"),
+        ({"patience": 0}, "patience is 0, but must be 1 at least"),
+        ({"folds": -1}, "folds is -1, but must be 0 at least"),
+        ({"seed": -1}, "seed is -1, but must be 0 at least"),
         ({"hold_out": "itself"}, "two recordings are called ride-0"),
     ],
 )

@@ -349,8 +349,9 @@ def test_any_input_is_safe():
         for _ in range(200):
             lengths = washout.step(0.01, force, (1e9, float("nan"), 0.0))["actuator.length"]
             assert all(1.0 <= length <= 1.6 for length in lengths)
-    with pytest.raises(TypeError, match="specific_force is .* three numbers"):
-        washout.step(0.01, (1.0, 2.0))
+    for force in ((1.0, 2.0), "abc", ("a", "b", "c"), 1.0):
+        with pytest.raises(TypeError, match="specific_force is .* three numbers"):
+            washout.step(0.01, force)
 
 
 def test_other_threads_run_during_a_run():
@@ -376,6 +377,8 @@ def test_other_threads_run_during_a_run():
 def test_every_variable_is_described():
     for variable in moris.variables().values():
         assert variable.description and variable.min < variable.max or variable.kind == "boolean"
+    with pytest.raises(ValueError, match="causality is 'inputs', but must be 'input', 'output' or 'parameter'"):
+        moris.variables("inputs")
     assert moris.variables()["platform.position.x"].unit == "m"
     assert moris.variables()["platform.position.x"].vector == "platform.position"
 

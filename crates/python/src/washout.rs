@@ -255,13 +255,13 @@ impl PyWashout {
 /// The vector of a sequence of three numbers.
 fn vector(object: Option<&Bound<PyAny>>, name: &str, default: [f64; 3]) -> PyResult<Vector3<f64>> {
     let Some(object) = object else { return Ok(Vector3::from(default)) };
+    let wrong = |_| PyTypeError::new_err(format!("{name} is {object}, but must be three numbers"));
     if let Ok(tuple) = object.cast::<PyTuple>()
         && tuple.len() == 3
     {
-        let item = |k| tuple.get_borrowed_item(k)?.extract::<f64>();
+        let item = |k| tuple.get_borrowed_item(k)?.extract::<f64>().map_err(wrong);
         return Ok(Vector3::new(item(0)?, item(1)?, item(2)?));
     }
-    let wrong = |_| PyTypeError::new_err(format!("{name} is {object}, but must be three numbers"));
     object.extract::<[f64; 3]>().map(Vector3::from).map_err(wrong)
 }
 

@@ -3,6 +3,7 @@
 import itertools
 import os
 from collections import deque
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -125,6 +126,10 @@ def sweep(
     Returns a Sweep. A set that cannot be used has a Result with an error. Raises ClusterError where the cluster is lost; its
     `partial` is the Sweep until then.
     """
+    if isinstance(parameter_sets, (str, Mapping)):
+        raise TypeError("parameter_sets is a single set; give several, such as a list with it")
+    if chunk is not None and chunk < 1:
+        raise ValueError(f"chunk is {chunk}, but must be 1 at least")
     rides = recordings_of(recordings, options)
     if not rides:
         raise ValueError("recordings is empty; give one at least")

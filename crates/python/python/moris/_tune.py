@@ -92,8 +92,9 @@ def tune(
     double = next((name for name in names if names.count(name) > 1), None)
     if double is not None:
         raise ValueError(f"two recordings are called {double}; give each a name of its own: moris.Recording(..., name=...)")
-    if evaluations < 1:
-        raise ValueError(f"evaluations is {evaluations}, but must be 1 at least")
+    for name, value, least in (("evaluations", evaluations, 1), ("patience", patience, 1), ("folds", folds, 0), ("seed", seed, 0)):
+        if value is not None and value < least:
+            raise ValueError(f"{name} is {value}, but must be {least} at least")
     folds = 0 if held_out else len(tuned_on) if folds is None else folds
     arguments = (
         [ride._native for ride in rides], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,

@@ -31,7 +31,12 @@ VARIABLES = {row[0]: Variable(*row[:7], tuple(row[7]), *row[8:]) for row in _mor
 
 
 def variables(causality=None):
-    """The variables as a dict from name to Variable; of one causality where it is given."""
+    """The variables as a dict from name to Variable; of one causality where it is given.
+
+    causality: "input", "output" or "parameter".
+    """
+    if causality not in (None, "input", "output", "parameter"):
+        raise ValueError(f"causality is {causality!r}, but must be 'input', 'output' or 'parameter'")
     return {name: row for name, row in VARIABLES.items() if causality in (None, row.causality)}
 
 
