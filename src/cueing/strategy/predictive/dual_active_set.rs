@@ -22,7 +22,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 /// The rows lower <= C u <= upper of a quadratic program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

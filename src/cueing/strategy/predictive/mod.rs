@@ -333,7 +333,9 @@ mod tests {
     use super::*;
     use crate::interface::{Parameters, Rig};
     use crate::platform::Geometry;
+    use dual_active_set::tests::{Program, compare};
     use nalgebra::Vector3;
+    use std::f64::consts::TAU;
 
     const MODEL: AxisModel = AxisModel {
         head_height: 1.2,
@@ -404,6 +406,56 @@ mod tests {
             assert!(rows.amax() <= 1.0 + 1e-8, "{}", rows.amax());
             assert!(rows.amax() > 0.999, "a strong reference must reach a limit");
         }
+    }
+
+    /// Surge and sway `step` seconds later, if they move by this decision at this reference.
+    fn moved(state: &AxisState, decision: &Decision, reference: f64, step: f64) -> AxisState {
+        let AxisState { position, velocity, tilt, tilt_rate } = *state;
+        let Decision { dropped_force, tilt_acceleration } = *decision;
+        let acceleration = reference + dropped_force - MODEL.gravity * tilt + MODEL.head_height * tilt_acceleration;
+        AxisState {
+            position: position + velocity * step,
+            velocity: velocity + acceleration * step,
+            tilt: tilt + tilt_rate * step,
+            tilt_rate: tilt_rate + tilt_acceleration * step,
+        }
+    }
+
+    #[test]
+    fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds() {
+        const STEP: f64 = 0.001;
+        let mut predictive = predictive();
+        let geometry = Geometry::from(&Rig::default());
+        let mut states = [AxisState::default(); 2];
+        let (mut begun, mut limited) = (0, 0);
+        for k in 0..30_000 {
+            let t = f64::from(k) * STEP;
+            let waves = |waves: [(f64, f64); 4]| waves.iter().map(|(a, f)| a * (TAU * f * t).sin()).sum::<f64>();
+            let references = [
+                [(2.5, 0.07), (1.5, 0.21), (0.8, 0.9), (0.3, 11.0)],
+                [(1.8, 0.09), (1.2, 0.33), (0.7, 1.1), (0.3, 13.0)],
+            ]
+            .map(waves);
+            let due = predictive.due;
+            let decisions =
+                predictive.decide(&states, &surroundings(&geometry), f64::INFINITY, STEP).unwrap_or_default();
+            if due && predictive.solver.status() == Status::Running && predictive.solver.iterations() == 0 {
+                begun += 1;
+                if begun % 5 == 0 {
+                    // The solve begins at the minimum without rows, -J J' times the gradient.
+                    let inverse = predictive.factor.try_inverse().unwrap();
+                    let gradient = -inverse.tr_mul(&(inverse * predictive.solver.solution()));
+                    compare(&Program { factor: *predictive.factor, gradient, rows: (*predictive.rows).clone() });
+                }
+            }
+            limited += usize::from(predictive.plan().iterations > 10);
+            for (axis, state) in states.iter_mut().enumerate() {
+                *state = moved(state, &decisions[axis], references[axis], STEP);
+            }
+            predictive.observe(references, [0.0; 2], STEP);
+        }
+        // The ride is long and asks for more than the platform has.
+        assert!(begun > 1000 && limited > 1000, "{begun} programs, {limited}");
     }
 
     #[test]
