@@ -46,7 +46,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
                 "rig.neutralHeight",
                 format!(
                     "is {height}, and there actuator {leg} would be {length:.4} m long, outside its stroke from {min_length} to \
-                     {max_length} m; mend it, or rig.base[{leg}], rig.platform[{leg}], actuator.minLength or .maxLength",
+                     {max_length} m; correct it, or rig.base[{leg}], rig.platform[{leg}], actuator.minLength or .maxLength",
                     height = rig.neutral_height,
                     leg = i + 1
                 ),

@@ -318,7 +318,7 @@ impl Washout {
         self.input_filter.advance(start, end, &self.parameters.conditioning, step)
     }
 
-    /// Changes the cue ahead of a stop, if that is wanted.
+    /// Changes the cue ahead of a stop, with `preaction` on.
     fn preact(&mut self, start: &mut Cue, end: &mut Cue, input: &Input, step: f64) {
         let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
         if structure.preaction == Preaction::On {

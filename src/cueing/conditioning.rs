@@ -98,7 +98,7 @@ fn rates_from_body(
     Vector3::new(omega.x + sin_pitch * yaw, cos_roll * omega.y - sin_roll * omega.z, yaw)
 }
 
-/// The share of a limit up to which [`soft_limit`] changes nothing.
+/// The fraction of a limit up to which [`soft_limit`] changes nothing.
 const KNEE: f64 = 0.8;
 
 /// A smooth limit: the value itself up to 80 % of the limit, then bent towards the

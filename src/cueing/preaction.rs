@@ -48,7 +48,7 @@ enum Phase {
 const SMOOTHING: f64 = 0.2;
 /// Less than this is not braking \[m/s2\].
 const LEAST_DECELERATION: f64 = 0.5;
-/// The share of the force for which the platform is still tilted at the stop: so much error
+/// The fraction of the force for which the platform is still tilted at the stop: so much error
 /// before it as after it.
 const SHARE_AT_STOP: f64 = 0.45;
 /// The surge is launched so long before the stop, and recovers in the same time \[s\].
@@ -56,7 +56,8 @@ const LAUNCH_TIME: f64 = 1.5;
 /// The shares of the safety limits that the launch uses.
 const SHARE_OF_POSITION: f64 = 0.9;
 const SHARE_OF_VELOCITY: f64 = 0.8;
-/// The share of the way back that the launch is planned for: the stop may come later than foreseen.
+/// The fraction of the way back that the launch is planned for: the stop may
+/// come later than foreseen.
 const SHARE_OF_ROOM: f64 = 0.9;
 /// The platform is moved forward from so long before the stop \[s\] ...
 const POSITIONING_TIME: f64 = 9.0;

@@ -53,16 +53,16 @@ impl Limits {
     pub fn follow(&self, motion: &Motion, target: &Motion, catch_up: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
         let behind = target.position - position - 0.5 * (velocity + target.velocity) * step;
-        let wanted = target.velocity + approach_velocity(behind, catch_up, self.reserve(step));
-        self.at_velocity(motion, wanted, step)
+        let demanded = target.velocity + approach_velocity(behind, catch_up, self.reserve(step));
+        self.at_velocity(motion, demanded, step)
     }
 
     /// The motion after one step at whose end this velocity is demanded. The limits hold whatever
     /// it is, as in [`Limits::follow`].
     #[inline(always)]
-    pub fn at_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> Motion {
+    pub fn at_velocity(&self, motion: &Motion, demanded: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
-        let next = self.nearest_velocity(motion, wanted, step);
+        let next = self.nearest_velocity(motion, demanded, step);
         let arrived = position + 0.5 * velocity * step + 0.5 * next * step;
         let inside = (self.min..=self.max).contains(&position);
         Motion {
@@ -75,7 +75,7 @@ impl Limits {
 
     /// The velocity nearest to the demanded one that a motion can have after one step and
     /// still keep the limits.
-    pub fn nearest_velocity(&self, motion: &Motion, wanted: f64, step: f64) -> f64 {
+    pub fn nearest_velocity(&self, motion: &Motion, demanded: f64, step: f64) -> f64 {
         let Motion { position, velocity, .. } = *motion;
         // Where the step would end if the velocity at its end were zero; each metre per second adds half a step.
         let coasted = position + 0.5 * velocity * step;
@@ -83,7 +83,7 @@ impl Limits {
         let fastest = min(approach_velocity(self.max - coasted, self.acceleration, reserve), self.velocity);
         let slowest = max(approach_velocity(self.min - coasted, self.acceleration, reserve), -self.velocity);
         let change = self.acceleration * step;
-        max(min(wanted, fastest), slowest).clamp(velocity - change, velocity + change)
+        max(min(demanded, fastest), slowest).clamp(velocity - change, velocity + change)
     }
 
     /// The step that [`approach_velocity`] needs where the one after this may be longer.

@@ -75,7 +75,7 @@ def test_the_bound_encloses_scipy_s_optimum():
     desired = 2.5 * np.clip(t / 0.5, 0, 1) - 1.5 * np.clip((t - 2.0) / 0.3, 0, 1)
     least, attained = bound(desired, step, step)
     whole, means = optimum(desired, step)
-    # The relaxed programme cannot cost more, and the restricted one is scipy's.
+    # The relaxed program cannot cost more, and the restricted one is scipy's.
     assert least <= means + 1e-6
     assert abs(attained - whole) < 2e-3 * whole
     assert attained - least < 0.1 * attained, "scipy has little room to be wrong in"

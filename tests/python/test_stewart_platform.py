@@ -170,7 +170,7 @@ def test_the_forces_are_those_of_newton_and_euler(made, parameters):
 
 
 def energy_error(made, parameters, step):
-    """By how much the work of the drives differs from the change of the body's energy, as a share of the latter [1]."""
+    """By how much the work of the drives differs from the change of the body's energy, as a fraction of the latter [1]."""
     instance = made(parameters | {"solver.maxStep": step})
     motion = ride(instance, *rough(6.0, 0.3, 5, neutral(instance), step), step=step)
     assert not np.any(motion.legs("stopForce"))

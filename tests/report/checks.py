@@ -174,7 +174,7 @@ def the_picture_has_the_legs_colours(browser):
 
 
 def stroke_colour(page, data, length):
-    """The colour by the share of the half stroke that is left, from the style sheet's four colours."""
+    """The colour by the fraction of the half stroke that is left, from the style sheet's four colours."""
     shortest, longest = data["rig"]["stroke"]
     left = min(length - shortest, longest - length) / ((longest - shortest) / 2)
     names = ["--leg-end", "--leg-near", "--leg-some", "--leg-easy"]

@@ -158,7 +158,7 @@ fn line(summary: &Summary) -> String {
     )
 }
 
-/// Prints what was found, and keeps it in a file if that is wanted.
+/// Prints what was found, and keeps it in a file if --save is given.
 fn tell(arguments: &Arguments, number: usize, found: &Found) -> Result<()> {
     match &found.failure {
         Failure::Breach(breach) => println!("BREACH {breach}; found after {} steps", found.found_after),

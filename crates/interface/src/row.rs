@@ -117,7 +117,7 @@ impl Row {
     /// The reason why the row's scalar variable cannot have this value, in words that go on its
     /// name.
     pub fn reason(&self, value: f64) -> String {
-        let wanted = match (self.kind, self.range) {
+        let expected = match (self.kind, self.range) {
             (Kind::Enumeration(enumeration), _) => {
                 let items = enumeration.items.iter().zip(1..);
                 let items: Vec<_> = items.map(|(item, number)| format!("{number} ({})", item.name)).collect();
@@ -127,7 +127,7 @@ impl Row {
             (_, Some((min, max))) if value.is_finite() => format!("from {min} to {max}"),
             (_, Some((min, max))) => format!("a finite number from {min} to {max}"),
         };
-        format!("is {value}, but must be {wanted}")
+        format!("is {value}, but must be {expected}")
     }
 
     /// The error about the first scalar variable of a field that is outside the row's range.

@@ -136,18 +136,18 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
         row(
             "sensed in the vehicle",
             cues.desired,
-            "Share of the run in which the vehicle's motion is above the threshold.",
+            "Fraction of the run in which the vehicle's motion is above the threshold.",
         ),
         row(
             "false cues",
             cues.false_cues,
-            "Share of the run in which the platform's motion is above the threshold and the vehicle's is not, or has the \
+            "Fraction of the run in which the platform's motion is above the threshold and the vehicle's is not, or has the \
              opposite sign.",
         ),
         row(
             "missing cues",
             cues.missing_cues,
-            "Share of the run in which the vehicle's motion is above the threshold and the platform's is not.",
+            "Fraction of the run in which the vehicle's motion is above the threshold and the platform's is not.",
         ),
     ]
 }
@@ -188,7 +188,7 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
             share(felt),
             "%",
             1,
-            "RMS error as a share of the RMS of the desired specific force without gravity: 100 % is to stand still.",
+            "RMS error as a fraction of the RMS of the desired specific force without gravity: 100 % is to stand still.",
         ),
         row("bound, of what is desired", share(bound.rms_error), "%", 1, "The bound as the same share."),
     ]
@@ -210,7 +210,7 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
             100.0 * effort.stroke_used,
             "%",
             1,
-            "Span from the shortest to the longest length of any actuator, as a share of the stroke.",
+            "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.",
         ),
         row(
             "smallest stroke margin",
@@ -231,21 +231,21 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
             100.0 * effort.tilt_limited,
             "%",
             1,
-            "Share of the steps in which tilt coordination lagged behind its target because of a limit.",
+            "Fraction of the steps in which tilt coordination lagged behind its target because of a limit.",
         ),
         row(
             "safety units active",
             100.0 * effort.safety_active,
             "%",
             1,
-            "Share of the steps in which a safety unit held the platform back.",
+            "Fraction of the steps in which a safety unit limited the platform.",
         ),
         row(
             "actuators limited",
             100.0 * effort.actuator_limited,
             "%",
             1,
-            "Share of the steps in which the actuator guard held an actuator back.",
+            "Fraction of the steps in which the actuator guard limited an actuator.",
         ),
         row(
             "from neutral at the end",

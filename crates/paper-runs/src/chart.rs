@@ -21,7 +21,7 @@ const TEXT: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const LIMIT: RGBColor = RGBColor(190, 30, 45);
 
-/// Share of a panel's height that its legend has to itself, above the curves.
+/// Fraction of a panel's height that its legend has to itself, above the curves.
 const LEGEND_HEIGHT: f64 = 0.16;
 /// Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a pixel.
 const TOLERANCE: f64 = 0.0005;

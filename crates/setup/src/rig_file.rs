@@ -41,7 +41,7 @@ use crate::names::nearest;
 use crate::ranges::{Axis, displaced, single_axis_range, stroke_margin};
 use crate::{Error, NamedValues};
 
-/// Share of the reach along an axis alone that a safety unit allows where the file does not say.
+/// Fraction of the reach along an axis alone that a safety unit allows where the file does not say.
 pub const SAFETY_SHARE: f64 = 0.95;
 
 /// A rig file's contents; see the [module](self).

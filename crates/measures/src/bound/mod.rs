@@ -7,20 +7,20 @@
 //! with roll, heave goes alone. Position, velocity and acceleration, tilt, its rate and its
 //! acceleration keep their limits; the axis starts at rest at neutral and may end anyhow.
 //!
-//! The best motion is found by a convex quadratic programme over intervals of time.
+//! The best motion is found by a convex quadratic program over intervals of time.
 //! [`Bound::rms_error`] is a lower bound for every motion in continuous time, not only for those
-//! that the intervals can describe: the programme keeps of a motion only what holds for all of
+//! that the intervals can describe: the program keeps of a motion only what holds for all of
 //! them. It is not the solver's word for it either, but the value of a dual solution, computed here
 //! from the multipliers that the solver found. [`Bound::attained`] is the RMS error of a motion
 //! that keeps all limits, so that the true optimum lies between the two.
 
 mod certificate;
-mod programme;
+mod quadratic_program;
 mod trajectory;
 
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
 
-use programme::{Kind, Programme};
+use quadratic_program::{Kind, QuadraticProgram};
 pub use trajectory::Trajectory;
 
 /// The limits of one axis of the platform.
@@ -126,10 +126,10 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
     let interval = steps as f64 * step;
     let duration = (desired.len() - 1) as f64 * step;
 
-    let relaxed = Programme::new(&means, interval, limits, Kind::Relaxed);
+    let relaxed = QuadraticProgram::new(&means, interval, limits, Kind::Relaxed);
     let multipliers = solve(&relaxed)?.z;
     let least = certificate::dual_value(&relaxed, &multipliers);
-    let restricted = Programme::new(&means, interval, limits, Kind::Restricted);
+    let restricted = QuadraticProgram::new(&means, interval, limits, Kind::Restricted);
     let trajectory = restricted.trajectory(&solve(&restricted)?.x);
     Ok(Bound {
         rms_error: (2.0 * least * interval / duration).max(0.0).sqrt(),
@@ -172,9 +172,9 @@ struct Solution {
     z: Vec<f64>,
 }
 
-fn solve(programme: &Programme) -> Result<Solution, BoundError> {
+fn solve(program: &QuadraticProgram) -> Result<Solution, BoundError> {
     let settings = DefaultSettings { verbose: false, max_iter: 200, ..DefaultSettings::default() };
-    let Programme { quadratic, linear, matrix, right, cones, .. } = programme;
+    let QuadraticProgram { quadratic, linear, matrix, right, cones, .. } = program;
     let mut solver = DefaultSolver::new(quadratic, linear, matrix, right, cones, settings)
         .map_err(|error| BoundError::Solver(error.to_string()))?;
     solver.solve();

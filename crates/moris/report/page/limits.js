@@ -2,7 +2,7 @@
 
 const KINDS = {
   tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target because of its rate, acceleration or angle limit." },
-  safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit held the platform back from its position, velocity or acceleration limit." },
+  safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit limited the platform from its position, velocity or acceleration limit." },
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard held a leg back from its stroke, speed or acceleration limit." },
 };
 const LANE = 20;

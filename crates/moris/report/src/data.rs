@@ -100,7 +100,7 @@ pub struct Run {
     /// The legs' lengths \[m\].
     #[serde(serialize_with = "f32_series::many")]
     pub legs: [Vec<f64>; 6],
-    /// Tilt coordination's share of roll and pitch \[rad\].
+    /// Tilt coordination's part of roll and pitch \[rad\].
     #[serde(serialize_with = "f32_series::many")]
     pub tilt: [Vec<f64>; 2],
     /// Rates of that share \[rad/s\].
@@ -135,7 +135,7 @@ pub struct Limited {
     /// Tilt coordination lagged behind its target.
     #[serde(serialize_with = "flags")]
     pub tilt: Vec<bool>,
-    /// A safety unit held the platform back.
+    /// A safety unit limited the platform.
     #[serde(serialize_with = "flags")]
     pub safety: Vec<bool>,
     /// The actuator guard held a leg back.

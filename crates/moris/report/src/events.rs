@@ -28,10 +28,10 @@ pub enum Kind {
 /// Stretches closer to each other than this are one \[s\].
 const GAP: f64 = 0.1;
 
-/// A limit counts as reached at this share of it.
+/// A limit counts as reached at this fraction of it.
 const REACHED: f64 = 0.98;
 
-/// A quantity's largest share of its limit, and how to say so.
+/// A quantity's largest fraction of its limit, and how to say so.
 struct Share {
     share: f64,
     /// The axis or leg.
@@ -41,7 +41,7 @@ struct Share {
 }
 
 impl Share {
-    /// A limit of 0 is one that is not known: nothing has a share of it.
+    /// A limit of 0 is one that is not known: nothing has a fraction of it.
     fn new(who: impl Into<String>, value: f64, limit: f64, text: String) -> Self {
         Share { share: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
     }

@@ -18,10 +18,10 @@ pub struct Response {
     pub amplitude: f64,
     /// Felt amplitude of each channel over the input's, in SI units.
     pub ratios: [Complex<f64>; CHANNELS],
-    /// Of each channel: what it holds beside the input's frequency and its mean, as a share of what
-    /// it holds at that frequency (root mean squares). A linear filter has none.
+    /// Of each channel: what it holds beside the input's frequency and its mean, as a fraction of
+    /// what it holds at that frequency (root mean squares). A linear filter has none.
     pub distortion: [f64; CHANNELS],
-    /// Share of time in which the tilt, a safety unit, the actuator guard limited.
+    /// Fraction of time in which the tilt, a safety unit, the actuator guard limited.
     pub limited: [f64; 3],
     /// True if two successive windows agree within 1 %.
     pub settled: bool,
@@ -34,10 +34,10 @@ const SHORTEST_BLOCK: f64 = 10.0;
 /// After so long it is not waited for any more, but for at least [`FEWEST_BLOCKS`] \[s\].
 const LONGEST_WAIT: f64 = 300.0;
 const FEWEST_BLOCKS: usize = 4;
-/// No further block is needed when the last two differ in what is felt by less than this share of
-/// the input, 1 °/s counting as much as 1 m/s2.
+/// No further block is needed when the last two differ in what is felt by less than this fraction
+/// of the input, 1 °/s counting as much as 1 m/s2.
 const AGREEMENT: f64 = 1e-4;
-/// A filter at its limits need not repeat itself from period to period. Up to this share of the
+/// A filter at its limits need not repeat itself from period to period. Up to this fraction of the
 /// input that is no matter.
 const SETTLED: f64 = 1e-2;
 

@@ -14,7 +14,7 @@ const ELEVATION: f64 = 0.35;
 
 /// Radius of the head \[m\].
 const HEAD_RADIUS: f64 = 0.12;
-/// Length of the arrows along the base's axes, as a share of its radius.
+/// Length of the arrows along the base's axes, as a fraction of its radius.
 const ARROW: f64 = 0.4;
 
 /// The base, the platform, the six legs with their numbers, the rider's head, and

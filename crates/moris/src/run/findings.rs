@@ -9,7 +9,7 @@ use moris_washout::Output;
 /// Less than this of a signal is not worth a sentence: RMS of the desired specific force
 /// without its mean \[m/s2\].
 const WORTH_SAYING: f64 = 0.1;
-/// Less error than this share of what is desired, and it is felt as it should be.
+/// Less error than this fraction of what is desired, and it is felt as it should be.
 const FAITHFUL: f64 = 0.25;
 /// More than this share, and not cueing at all would be as good: a platform at rest has 1.
 const USELESS: f64 = 1.0;

@@ -37,8 +37,8 @@ pub struct Cost {
     pub channels: Channels<f64>,
     /// The ride's error: 0 perfect, 1 a platform at rest.
     pub error: f64,
-    /// Share of the steps in which a safety unit or the actuator guard was at work or the reserve
-    /// of stroke was touched.
+    /// Fraction of the steps in which a safety unit or the actuator guard was at work or the
+    /// reserve of stroke was touched.
     pub violated: f64,
 }
 
@@ -69,7 +69,7 @@ pub struct Objective {
 /// it will be used with.
 const LONGEST_STEP: f64 = 0.02;
 
-/// Share of the acceleration limits that the search's long steps may use: within such a step
+/// Fraction of the acceleration limits that the search's long steps may use: within such a step
 /// acceleration varies unseen.
 const RESERVE_OF_ACCELERATION: f64 = 0.85;
 

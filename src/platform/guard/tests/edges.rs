@@ -338,7 +338,8 @@ impl Conditions {
     }
 }
 
-/// Room of an axis beyond its position, as a fraction of what its stop in the common duration takes.
+/// Room of an axis beyond its position, as a fraction of what its stop in the
+/// common duration takes.
 #[derive(Clone, Copy, PartialEq)]
 enum Room {
     Enough,

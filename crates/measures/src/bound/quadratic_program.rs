@@ -1,4 +1,4 @@
-//! The quadratic programme: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities
+//! The quadratic program: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities
 //! and s >= 0 for the rest.
 //!
 //! Time is divided into intervals of length T. At each of their ends there are position p, velocity
@@ -13,7 +13,7 @@
 //!
 //! A motion's way over an interval differs from T (v_k + v_k+1)/2 by the integral of p'' times t
 //! (T - t)/2, which is at most T^3/12 times the limit of |p''|. So does the tilt's, and its mean
-//! from (q_k + q_k+1)/2 by at most T^2/12 times the limit of |q''|. The relaxed programme asks for
+//! from (q_k + q_k+1)/2 by at most T^2/12 times the limit of |q''|. The relaxed program asks for
 //! no more than this. The restricted one has constant accelerations over an interval, where the
 //! first two are zero and the third is known. Its positions and tilts are parabolas between the
 //! moments; such a one stays between the least and the greatest of its ends and of the point where
@@ -25,7 +25,7 @@ use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, ZeroConeT};
 use super::trajectory::{Knot, Trajectory};
 use super::{AxisLimits, TiltLimits};
 
-/// Which motions a programme describes.
+/// Which motions a program describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// At least all that keep the limits.
@@ -34,8 +34,8 @@ pub enum Kind {
     Restricted,
 }
 
-/// The programme in the solver's form.
-pub struct Programme {
+/// The program in the solver's form.
+pub struct QuadraticProgram {
     /// P: 1 on the diagonal for each error, 0 for the rest.
     pub quadratic: CscMatrix<f64>,
     /// All zero.
@@ -78,7 +78,7 @@ fn mean_tilt(k: usize) -> usize {
     STRIDE * k + AT + 1
 }
 
-/// The limits in the programme's terms: tilt_force = g sin(tilt) and its derivatives.
+/// The limits in the program's terms: tilt_force = g sin(tilt) and its derivatives.
 struct Box {
     tilt: f64,
     tilt_rate: f64,
@@ -102,8 +102,8 @@ impl Box {
     }
 }
 
-impl Programme {
-    /// The programme for these means of the desired force over each interval.
+impl QuadraticProgram {
+    /// The program for these means of the desired force over each interval.
     pub fn new(means: &[f64], interval: f64, limits: &AxisLimits, kind: Kind) -> Self {
         let intervals = means.len();
         let bounds = Box::of(&limits.tilt);
@@ -160,7 +160,7 @@ impl Programme {
         let farthest = limits.max.max(-limits.min);
         let largest = [farthest, limits.velocity, bounds.tilt, bounds.tilt_rate, f64::INFINITY, bounds.tilt];
         let (matrix, right, cones) = rows.assemble(variables);
-        Programme {
+        QuadraticProgram {
             quadratic: ones_at((0..intervals).map(error), variables),
             linear: vec![0.0; variables],
             matrix,
