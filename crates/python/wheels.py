@@ -3,7 +3,8 @@
     python3 crates/python/wheels.py [PLATFORM...]
 
 Needs maturin and zig (`pip install maturin ziglang`), mingw for Windows (`apt install gcc-mingw-w64-x86-64`), and the targets
-that it names where one is missing (`rustup target add TARGET`). `tests/python_package/try_wheel.py` tries a wheel.
+that it names where one is missing (`rustup target add TARGET`). For macOS, SDKROOT names Apple's development kit.
+`tests/python_package/try_wheel.py` tries a wheel.
 """
 
 import argparse
