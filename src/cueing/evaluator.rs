@@ -17,7 +17,7 @@ pub struct Felt {
 
 /// f^H = R_B^H (p_head'' - g), eq. (5) with g = (0, 0, -gravity) and every term of p_head''.
 ///
-/// The rider's own leaning is not the platform's doing: his head is taken as at rest
+/// The rider's own leaning is not the platform's doing: the head is taken as at rest
 /// relative to the platform.
 #[inline(always)]
 pub fn felt(platform: &PlatformMotion, head: &LocationFrame, gravity: f64) -> Felt {

@@ -1,4 +1,4 @@
-//! Where the washout location is on the platform: the rider's head with his lean, eq.
+//! Where the washout location is on the platform: the rider's head with the rider's lean, eq.
 //! (4), or another point.
 
 use moris_interface::{ParameterError, refuse};

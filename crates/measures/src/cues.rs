@@ -1,5 +1,5 @@
 //! Time above the perception thresholds: cues that the rider senses on the platform and should not,
-//! and cues that he should and does not.
+//! and cues that should be felt and are not.
 //!
 //! The thresholds apply to what the vestibular model senses, as in Reid and Nahon (1985): 0.17 m/s2
 //! in surge and sway, 0.28 m/s2 in heave, 3.0 deg/s in roll, 3.6 deg/s in pitch, 2.6 deg/s in yaw.

@@ -16,9 +16,9 @@ pub struct Effort {
     pub smallest_margin: f64,
     /// Fraction of the steps in which tilt coordination was limited, 0 to 1.
     pub tilt_limited: f64,
-    /// Fraction of the steps in which a safety unit was at work, 0 to 1.
+    /// Fraction of the steps in which a safety unit was active, 0 to 1.
     pub safety_active: f64,
-    /// Fraction of the steps in which the actuator guard was at work, 0 to 1.
+    /// Fraction of the steps in which the actuator guard was active, 0 to 1.
     pub actuator_limited: f64,
     /// Largest rate of tilt coordination in roll or pitch \[rad/s\].
     pub largest_tilt_rate: f64,
@@ -45,7 +45,7 @@ pub fn effort(platform: &Platform) -> Effort {
     }
 }
 
-/// Fraction of the steps in which a limit was at work, 0 to 1. The first sample is
+/// Fraction of the steps in which a limit was active, 0 to 1. The first sample is
 /// none: no step led to it.
 pub fn share(limited: &[Limited], at_work: impl Fn(&Limited) -> bool) -> f64 {
     match limited {

@@ -35,7 +35,7 @@ pub struct Platform<'a> {
     pub limited: &'a [Limited],
 }
 
-/// Which of the washout's limits were at work.
+/// Which of the washout's limits were active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Limited {
     /// Tilt coordination.
@@ -99,7 +99,7 @@ impl Run<'_> {
         check_series("actuator lengths", self.platform.legs, expected)?;
         check_series("displacement", self.platform.displacement, expected)?;
         check_series("tilt rate", self.platform.tilt_rate, expected)?;
-        check_length("limits at work", self.platform.limited.len(), expected)
+        check_length("active limits", self.platform.limited.len(), expected)
     }
 }
 

@@ -36,7 +36,7 @@ const MOST_INTERVALS: f64 = 10_000.0;
 /// The bounds of surge, sway and heave, computed beside each other; none where nothing
 /// is desired on an axis.
 ///
-/// The bound knows an upright rider: his head's height is that of the washout
+/// The bound knows an upright rider: the head's height is that of the washout
 /// location without lean.
 ///
 /// # Errors

@@ -53,7 +53,7 @@ fn held(what: &str, recording: &Recording, holds: impl Fn(&Output) -> bool) -> O
     let time = |samples: usize| samples as f64 * recording.step;
     let first = recording.outputs.iter().position(&holds)?;
     let all = recording.outputs.iter().filter(|output| holds(output)).count();
-    Some(format!("{what} held the platform back for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
+    Some(format!("{what} limited the platform for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
 }
 
 fn tilt(outcome: &Outcome) -> Option<Finding> {

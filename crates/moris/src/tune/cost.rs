@@ -37,7 +37,7 @@ pub struct Cost {
     pub channels: Channels<f64>,
     /// The ride's error: 0 perfect, 1 a platform at rest.
     pub error: f64,
-    /// Fraction of the steps in which a safety unit or the actuator guard was at work or the
+    /// Fraction of the steps in which a safety unit or the actuator guard was active or the
     /// reserve of stroke was touched.
     pub violated: f64,
 }

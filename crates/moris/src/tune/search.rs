@@ -36,10 +36,10 @@ pub fn evaluate_here(judges: &[&Objective], parameters: &Parameters) -> Result<V
 const FIRST_STEP: f64 = 0.4;
 /// The search ends when a generation's costs differ by less.
 const TOLERANCE: f64 = 1e-5;
-/// Cost of limits at work throughout; all errors are about 1. It goes with the root of the time: a
+/// Cost of limits active throughout; all errors are about 1. It goes with the root of the time: a
 /// thousandth of it costs 0.06.
 const PRICE_OF_LIMITS: f64 = 2.0;
-/// And that of limits at work at all.
+/// And that of limits active at all.
 const PRICE_OF_ANY: f64 = 0.05;
 /// Cost of being outside the space's box by a factor of e in one parameter.
 const PRICE_OF_OUTSIDE: f64 = 0.1;

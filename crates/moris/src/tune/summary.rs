@@ -187,7 +187,7 @@ fn errors(results: &[RideResult]) -> String {
     table(["ride", "before", "tuned", "tuned without it"], rows)
 }
 
-/// The error, and what fraction of the time limits were at work.
+/// The error, and what fraction of the time limits were active.
 fn with_limits(cost: &Cost) -> String {
     match cost.violated {
         0.0 => format!("{:.3}", cost.error),

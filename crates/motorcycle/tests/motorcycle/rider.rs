@@ -1,4 +1,4 @@
-//! The rider: gains against closed forms, stability over all speeds, how he follows a lean.
+//! The rider: gains against closed forms, stability over all speeds, how the lean is followed.
 
 use moris_motorcycle::lateral::place;
 use moris_motorcycle::riccati::lqr_gain;
@@ -113,7 +113,7 @@ fn to_lean_to_the_right_he_first_steers_to_the_left() {
     for _ in 0..3000 {
         ridden.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
     }
-    assert!(ridden.output().steer_angle < 0.0, "in the turn he steers into it");
+    assert!(ridden.output().steer_angle < 0.0, "in the turn the rider steers into it");
 }
 
 #[test]
