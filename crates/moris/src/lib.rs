@@ -3,7 +3,7 @@
 //! One module a command: [`rig`] checks a platform, [`run`] simulates a recording on it,
 //! [`measure`] prints a table of the measures of many, [`tune`] searches for better parameters,
 //! [`respond`] measures a frequency response, [`parameters`] lists all parameters, [`help`] writes
-//! completions for shells and man pages.
+//! completions for shells and man pages, [`schema`] the schemas of files for editors.
 //!
 //! [`ride`] reads recordings, for every command that needs one. Rigs and parameters are read by
 //! the crate `moris-setup`.
@@ -18,6 +18,7 @@ pub mod respond;
 pub mod ride;
 pub mod rig;
 pub mod run;
+pub mod schema;
 pub mod setup_options;
 pub mod text_table;
 pub mod tune;

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use moris::{help, measure, parameters, respond, rig, run, tune};
+use moris::{help, measure, parameters, respond, rig, run, schema, tune};
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -25,6 +25,7 @@ enum Command {
     #[command(name = "frequency-response", alias = "respond")]
     Respond(respond::Options),
     Parameters(parameters::Options),
+    Schema(schema::Options),
     Completions(help::CompletionOptions),
     Man(help::ManOptions),
 }
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Tune(options) => tune::main(&options, out),
         Command::Respond(options) => respond::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),
+        Command::Schema(options) => schema::main(&options, out),
         Command::Completions(options) => help::completions(&options, Arguments::command(), out),
         Command::Man(options) => help::man_pages(&options, Arguments::command(), out),
     };

@@ -374,3 +374,60 @@ fn a_new_rig_is_asked_for_checked_and_written() {
         assert!(!directory.path().join(file).exists());
     }
 }
+
+/// The schemas know every key of the shipped files, and the parameters' ranges.
+#[test]
+fn schemas_describe_the_files() {
+    let directory = tempfile::tempdir().unwrap();
+    let schema = |kind: &str| -> serde_json::Value {
+        let output = moris(directory.path(), &["schema", kind]);
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let rig = schema("rig");
+    // Tables are described apart.
+    let described = |schema: &serde_json::Value, key: &str| -> serde_json::Value {
+        let property = schema["properties"][key].clone();
+        let reference = property["$ref"].as_str().map(|name| name.rsplit('/').next().unwrap().to_owned());
+        reference.map_or(property, |name| rig["$defs"][name].clone())
+    };
+    for name in ["default", "compact", "long-stroke", "narrow"] {
+        let file: toml::Table = fs::read_to_string(rigs().join(format!("{name}.toml"))).unwrap().parse().unwrap();
+        for (key, value) in &file {
+            let property = described(&rig, key);
+            assert!(property.is_object(), "{name}: {key}");
+            for inner in value.as_table().into_iter().flat_map(toml::Table::keys) {
+                assert!(property["properties"][inner].is_object(), "{name}: {key}.{inner} in {property}");
+            }
+        }
+    }
+    let required: Vec<&str> = rig["required"].as_array().unwrap().iter().map(|key| key.as_str().unwrap()).collect();
+    for key in ["name", "neutralHeight", "base", "platform", "actuator"] {
+        assert!(required.contains(&key), "{key}");
+    }
+    assert_eq!(rig["additionalProperties"], false);
+
+    let conventions = schema("conventions");
+    for key in ["format", "columns", "force-unit", "mounting", "empty-fields", "resample", "fade-in"] {
+        assert!(conventions["properties"][key].is_object(), "{key}");
+    }
+    assert!(conventions.to_string().contains("\"forward-right-down\""));
+
+    let parameters = schema("parameters");
+    let file: toml::Table = text(&moris(directory.path(), &["parameters"]).stdout).parse().unwrap();
+    assert_eq!(parameters["properties"].as_object().unwrap().len(), file.len());
+    for (name, value) in &file {
+        let property = &parameters["properties"][name];
+        let number = value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64));
+        if let Some(number) = number {
+            let above = property["minimum"].as_f64().is_none_or(|least| number >= least);
+            assert!(above && property["maximum"].as_f64().is_none_or(|most| number <= most), "{name}: {property}");
+        } else {
+            let items = property["enum"].as_array();
+            assert!(
+                value.is_bool() || items.is_some_and(|items| items.iter().any(|item| item == value.as_str().unwrap()))
+            );
+        }
+        assert!(!property["description"].as_str().unwrap().is_empty(), "{name}");
+    }
+}

@@ -35,6 +35,7 @@
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{ParameterError, Rig, check};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::names::nearest;
@@ -45,8 +46,9 @@ use crate::{Error, NamedValues};
 pub const SAFETY_SHARE: f64 = 0.95;
 
 /// A rig file's contents; see the [module](self).
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
 pub struct RigFile {
     /// Name of the rig.
     pub name: String,
@@ -67,8 +69,9 @@ pub struct RigFile {
 }
 
 /// Six joints: on a circle, or one by one.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
 pub struct Joints {
     /// Of the circle \[m\].
     radius: Option<f64>,
@@ -79,8 +82,9 @@ pub struct Joints {
 }
 
 /// Stroke, speed and acceleration of each leg.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
 pub struct Actuator {
     /// \[m\]
     pub min_length: f64,
@@ -93,8 +97,9 @@ pub struct Actuator {
 }
 
 /// The rider's head.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
 pub struct Head {
     /// Above the platform \[m\].
     pub height: Option<f64>,
@@ -103,8 +108,9 @@ pub struct Head {
 }
 
 /// The safety units' limits along x, y and z.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
 pub struct Safety {
     /// From neutral \[m\].
     pub position_limit: Option<[f64; 3]>,

@@ -19,6 +19,7 @@ use std::path::PathBuf;
 
 use clap::ValueEnum;
 use moris_washout::interface::AngularVelocityFrame;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::RideError;
@@ -89,7 +90,7 @@ impl From<RateFrame> for AngularVelocityFrame {
 }
 
 /// Options that describe a recording.
-#[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[command(next_help_heading = "Columns of the recording")]
 pub struct ConventionOptions {
@@ -104,6 +105,7 @@ pub struct ConventionOptions {
     /// Upper and lower case are the same
     #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
     #[serde(deserialize_with = "columns_of_table")]
+    #[schemars(with = "BTreeMap<String, String>")]
     pub columns: Vec<(Quantity, String)>,
 
     /// Unit of time [default: the header's, otherwise s]
@@ -137,6 +139,7 @@ pub struct ConventionOptions {
     /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
     /// gravity and the first acceleration, or from the speed where there is one
     #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
+    #[schemars(with = "Option<super::mounting::Written>")]
     pub mounting: Option<Mounting>,
 
     /// The axes of wx wy wz [default: body]

@@ -1,6 +1,7 @@
 //! Formats of public loggers: conventions by name.
 
 use clap::ValueEnum;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::conventions::ConventionOptions;

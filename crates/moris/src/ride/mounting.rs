@@ -3,6 +3,7 @@
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// The sensor's orientation in the vehicle.
@@ -16,10 +17,12 @@ pub enum Mounting {
 }
 
 /// The mounting in a file of conventions.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(untagged)]
-enum Written {
+pub(super) enum Written {
+    /// auto
     Word(String),
+    /// Roll, pitch and yaw of the sensor in the vehicle's axes, in degrees
     Angles([f64; 3]),
 }
 

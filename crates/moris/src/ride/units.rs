@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use moris_washout::interface::STANDARD_GRAVITY;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// A unit of one of the quantities of a recording.
@@ -27,7 +28,7 @@ pub enum Dimension {
 macro_rules! choices {
     ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
         $(#[$attribute])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
         pub enum $name {
             $( $(#[doc = $text])+ #[value(name = $word)] #[serde(rename = $word)] $item, )+
         }
