@@ -35,6 +35,9 @@ pub enum Error {
     /// The model rejects the start values.
     #[error("{model} cannot start with these values: {refusal}")]
     Start { model: &'static str, refusal: ParameterError },
+    /// A path file cannot be used.
+    #[error("the path {} {reason}", file.display())]
+    Path { file: PathBuf, reason: String },
     /// The option applies to none of the models.
     #[error("--{option} applies to none of the chosen models ({who}); choose others with --model, or omit it")]
     NotTaken { option: &'static str, who: &'static str },

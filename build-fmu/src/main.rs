@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
-use moris_build_fmu::model::WASHOUT;
+use moris_build_fmu::model::{MOTORCYCLE, WASHOUT, path_values};
 use moris_build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, compile_together, workspace};
 use moris_setup::{NamedValues, load_rig, load_set};
 
@@ -44,6 +44,10 @@ struct Arguments {
     /// earlier ones, and all of them the rig
     #[arg(long, value_name = "FILE|NAME")]
     parameters: Vec<String>,
+
+    /// CSV file of a path (distance, curvature, speed) that the motorcycle's FMU rides
+    #[arg(long, value_name = "FILE")]
+    path: Option<PathBuf>,
 
     /// Directory for the FMUs [default: target/fmu in the workspace]
     #[arg(long, value_name = "DIRECTORY")]
@@ -95,6 +99,9 @@ fn check_used(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
     if arguments.rig.is_some() && !models.iter().any(|model| model.has_rig()) {
         return Err(Error::NotTaken { option: "rig", who: "only models with a platform have a rig" });
     }
+    if arguments.path.is_some() && !models.iter().any(|model| model.name == MOTORCYCLE.name) {
+        return Err(Error::NotTaken { option: "path", who: "only the motorcycle rides one" });
+    }
     if !arguments.parameters.is_empty() && !models.iter().any(|model| takes_parameters(arguments, model)) {
         let who = "with several models they are the washout's; choose another model alone with --model";
         return Err(Error::NotTaken { option: "parameters", who });
@@ -113,6 +120,9 @@ fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Err
     let mut values = NamedValues::new();
     if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {
         values.extend(load_rig(file)?.values());
+    }
+    if let Some(file) = arguments.path.as_ref().filter(|_| model.name == MOTORCYCLE.name) {
+        values.extend(path_values(file)?);
     }
     if takes_parameters(arguments, model) {
         for set in &arguments.parameters {
@@ -142,6 +152,8 @@ mod tests {
     fn values_that_no_chosen_model_takes_are_refused() {
         let refused = refusal(&["--model", "Motorcycle", "--rig", "rig.toml"]).unwrap();
         assert!(refused.contains("--rig applies to none") && refused.contains("--model"), "{refused}");
+        let refused = refusal(&["--model", "StewartPlatform", "--path", "bend.csv"]).unwrap();
+        assert!(refused.contains("--path applies to none"), "{refused}");
         let refused = refusal(&["--model", "Motorcycle,StewartPlatform", "--parameters", "mine.toml"]).unwrap();
         assert!(refused.contains("--parameters applies to none"), "{refused}");
     }
@@ -151,6 +163,20 @@ mod tests {
         assert_eq!(refusal(&["--rig", "rig.toml", "--parameters", "small-motions"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
         assert_eq!(refusal(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
+    }
+
+    #[test]
+    fn a_path_becomes_start_values_of_the_motorcycle_alone() {
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/motorcycle/paths/hairpin.csv");
+        let arguments = Arguments::parse_from(["build-fmu", "--path", file]);
+        let values = start_values(&arguments, &MOTORCYCLE).unwrap();
+        let value = |name: &str| values.iter().find(|(known, _)| known == name).unwrap().1;
+        assert_eq!((value("path.course"), value("path.point.count")), (2.0, 6.0));
+        assert_eq!(value("path.point.distance[2]"), 150.0);
+        assert!(Start::with(&MOTORCYCLE, &values).is_ok());
+        assert_eq!(start_values(&arguments, &WASHOUT).unwrap(), []);
+        let missing = Arguments::parse_from(["build-fmu", "--path", "no-such.csv"]);
+        assert!(start_values(&missing, &MOTORCYCLE).unwrap_err().to_string().contains("no-such.csv"));
     }
 
     #[test]

@@ -16,7 +16,7 @@ use crate::reference::{self, Stimuli};
 use crate::terminals::Terminal;
 use crate::{FmiVersion, Start};
 
-pub use motorcycle::MOTORCYCLE;
+pub use motorcycle::{MOTORCYCLE, path_values};
 pub use stewart_platform::STEWART_PLATFORM;
 pub use washout::WASHOUT;
 

@@ -1,12 +1,16 @@
 //! The motorcycle with its rider.
 
-use moris_motorcycle::Motorcycle;
+use std::fs;
+use std::path::Path;
 
-use moris_setup::NamedValues;
+use moris_motorcycle::Motorcycle;
+use moris_motorcycle::path::table::from_csv;
+
+use moris_setup::{NamedValues, changed};
 
 use super::{Model, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
-use crate::icon;
+use crate::{Error, icon};
 
 /// The motorcycle's FMU.
 pub const MOTORCYCLE: Model = Model {
@@ -39,3 +43,13 @@ pub const MOTORCYCLE: Model = Model {
     icon: icon::motorcycle,
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),
 };
+
+/// Start values of a motorcycle that rides the path of a CSV file.
+///
+/// # Errors
+/// The file cannot be read, or is no path. Its values are checked with all start values.
+pub fn path_values(file: &Path) -> Result<NamedValues, Error> {
+    let text = fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+    let path = from_csv(&text).map_err(|reason| Error::Path { file: file.to_owned(), reason })?;
+    Ok(changed(&path))
+}

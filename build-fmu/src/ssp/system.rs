@@ -136,8 +136,10 @@ fn simulator_connections() -> Vec<Connection> {
         to: (to, input),
     };
     let delivered = names(&MOTORCYCLE.functions.identity, Causality::Output);
-    let taken =
-        names(&WASHOUT.functions.identity, Causality::Input).into_iter().filter(|name| delivered.contains(name));
+    // Without a path there is no preview.
+    let taken = names(&WASHOUT.functions.identity, Causality::Input)
+        .into_iter()
+        .filter(|name| delivered.contains(name) && !name.starts_with("vehicle.preview."));
     let mut connections: Vec<Connection> =
         taken.map(|name| connect(("motorcycle", name.clone()), ("washout", name))).collect();
     for quantity in ["length", "velocity"] {

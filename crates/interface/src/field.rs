@@ -1,6 +1,6 @@
 //! The types that a field of an interface may have, and how each lies in slots.
 
-use nalgebra::Vector3;
+use nalgebra::{RowSVector, Vector3};
 
 use crate::{Kind, units};
 
@@ -37,7 +37,7 @@ pub trait Field: Copy {
     }
 }
 
-/// Slots of the largest field.
+/// Slots of the largest field, row vectors aside.
 const LARGEST_FIELD: usize = 20;
 
 impl Field for f64 {
@@ -86,6 +86,25 @@ impl<const N: usize> Field for [f64; N] {
     }
     fn write(self, slots: &mut [f64]) {
         slots.copy_from_slice(&self);
+    }
+}
+
+/// For more numbers than the other fields have, and serde's arrays.
+impl<const N: usize> Field for RowSVector<f64, N> {
+    const COUNT: usize = N;
+    fn read(slots: &[f64]) -> Self {
+        RowSVector::from_fn(|_, i| slots[i])
+    }
+    fn write(self, slots: &mut [f64]) {
+        slots.copy_from_slice(self.as_slice());
+    }
+
+    fn is_within(self, (min, max): (f64, f64)) -> bool {
+        self.iter().all(|&value| (min..=max).contains(&value))
+    }
+
+    fn sanitized(self, rest: Self, (min, max): (f64, f64)) -> Self {
+        self.zip_map(&rest, |value, rest| if value.is_nan() { rest } else { value.clamp(min, max) })
     }
 }
 

@@ -75,6 +75,7 @@ pub mod units {
     pub static M2: Unit = unit("m2", "Area", 2, 0, 0);
     /// Of tyres: force for a small angle, divided by the load.
     pub static PER_RAD: Unit = unit("1/rad", "StiffnessCoefficient", 0, 0, -1);
+    pub static PER_M: Unit = unit("1/m", "Curvature", -1, 0, 0);
 
     pub static KG: Unit = unit_with_mass("kg", "Mass", 100.0, 1, 0, 0, 0);
     pub static KG_M2: Unit = unit_with_mass("kg.m2", "MomentOfInertia", 10.0, 1, 2, 0, 0);

@@ -6,11 +6,11 @@
 
 use moris_interface::units::{
     ANGULAR_FREQUENCY, KG, KG_M2, KG_PER_M3, M, M_PER_S, M_PER_S2, M2, N, N_M, N_M_S_PER_RAD, N_PER_M, N_S_PER_M,
-    PER_RAD, RAD, RAD_PER_S, S, W,
+    PER_M, PER_RAD, RAD, RAD_PER_S, S, W,
 };
-use moris_interface::{interface, interface_tree};
-use moris_washout::interface::{AngularVelocityFrame, RollPitchYaw, STANDARD_GRAVITY};
-use nalgebra::Vector3;
+use moris_interface::{enumeration, interface, interface_tree};
+use moris_washout::interface::{AngularVelocityFrame, PREVIEW_SAMPLES, RollPitchYaw, STANDARD_GRAVITY};
+use nalgebra::{ArrayStorage, RowSVector, Vector3};
 
 use crate::check::LARGEST_SPEED;
 use crate::motorcycle::STRONGEST_WIND;
@@ -88,8 +88,56 @@ interface! {
         "status.frictionLimited" friction_limited: bool = false;
         /// True if wheel lift limited drive or brakes at the end of the last communication step.
         "status.wheelLiftLimited" wheel_lift_limited: bool = false;
+        /// Distance covered along the path, with all rounds.
+        "path.distance" path_distance: f64 [M] = 0.0;
+        /// Deviation of the rear tyre's contact from the path, positive to the left.
+        "path.deviation" path_deviation: f64 [M] = 0.0;
+        /// Heading relative to the path's, positive to the left.
+        "path.headingDeviation" path_heading: f64 [RAD] = 0.0;
+        /// Speed that the rider plans for this place on the path.
+        "path.plannedSpeed" planned_speed: f64 [M_PER_S] = 0.0;
+        /// True if friction limited the lateral force of a tyre at the end of the last communication step; only on a path.
+        "status.gripLimited" grip_limited: bool = false;
+        /// True once the motorcycle has left the path by more than path.halfWidth; the rider then brakes to a stop.
+        "status.offPath" off_path: bool = false;
+        /// True once the motorcycle has fallen: too much roll or slip. It then slides to a stop.
+        "status.fallen" fallen: bool = false;
+        /// Number of elements of vehicle.preview.specificForce in use; 0 without a path.
+        "vehicle.preview.count" preview_count: i32 { 0 ..= 20 } = 0;
+        /// Time from one element of the preview to the next; the first is as far ahead of the present outputs.
+        "vehicle.preview.step" preview_step: f64 [S] = 0.2;
+        /// Specific force to come along the head's x, as vehicle.specificForce.x will be.
+        "vehicle.preview.specificForce.x[#]" preview_surge: [f64; PREVIEW_SAMPLES] [M_PER_S2] = [0.0; PREVIEW_SAMPLES];
+        /// Specific force to come along the head's y, as vehicle.specificForce.y will be.
+        "vehicle.preview.specificForce.y[#]" preview_sway: [f64; PREVIEW_SAMPLES] [M_PER_S2] = [0.0; PREVIEW_SAMPLES];
     }
 }
+
+enumeration! {
+    /// Path that the rider follows.
+    pub enum Course {
+        /// None: the rider obeys command.throttle, command.brake and command.lean.
+        "none" None,
+        /// The table path.point.
+        "custom" Custom,
+        /// A change of lane by 3.5 m at 20 m/s.
+        "lane_change" LaneChange,
+        /// A slalom with a period of 60 m at 15 m/s.
+        "slalom" Slalom,
+        /// A bend of 180 degrees with a radius of 12 m between straights of 150 m.
+        "hairpin" Hairpin,
+        /// A closed circuit of 1634 m with nine bends, ridden again and again.
+        "lap" Lap,
+    }
+}
+
+/// Most rows of a path.
+pub const PATH_POINTS: usize = 64;
+
+/// A column of a path's table.
+pub type PathColumn = RowSVector<f64, PATH_POINTS>;
+
+const NO_ROWS: PathColumn = PathColumn::from_array_storage(ArrayStorage([[0.0]; PATH_POINTS]));
 
 interface! {
     /// Masses and geometry: the parameters of a bicycle in Meijaard et al. (2007), and a
@@ -265,6 +313,34 @@ interface! {
     }
 }
 
+interface! {
+    /// The path, and the limits within which the rider follows it.
+    pub struct Path: Parameter, Fixed {
+        /// Path that the rider follows.
+        "path.course" course: Course = Course::None;
+        /// True to begin the custom path again at its end; else the rider goes straight on from there.
+        "path.repeat" repeat: bool = false;
+        /// Deviation at which the motorcycle has left the path.
+        Tunable "path.halfWidth" half_width: f64 [M] { 0.1 ..= 20.0 } = 3.0;
+        /// Largest lateral acceleration that the rider plans.
+        Tunable "rider.lateralAcceleration" lateral_acceleration: f64 [M_PER_S2] { 0.1 ..= 30.0 } = 4.5;
+        /// Largest forward acceleration that the rider plans.
+        Tunable "rider.forwardAcceleration" forward_acceleration: f64 [M_PER_S2] { 0.1 ..= 30.0 } = 2.0;
+        /// Largest deceleration that the rider plans.
+        Tunable "rider.deceleration" deceleration: f64 [M_PER_S2] { 0.1 ..= 30.0 } = 2.5;
+        /// Largest lateral force of a tyre divided by the largest force along the road; only on a path.
+        Tunable "tyre.frictionRatio" friction_ratio: f64 { 0.1 ..= 3.0 } = 1.0;
+        /// Number of rows of the custom path.
+        "path.point.count" count: i32 { 0 ..= 64 } = 0;
+        /// Distance along the path from its beginning; ascending, the first is 0.
+        "path.point.distance[#]" distance: PathColumn [M] { 0.0 ..= 1e6 } = NO_ROWS;
+        /// Curvature of the path there, positive to the left; linear between rows.
+        "path.point.curvature[#]" curvature: PathColumn [PER_M] { -0.5 ..= 0.5 } = NO_ROWS;
+        /// Speed limit there; linear between rows.
+        "path.point.speed[#]" speed_limit: PathColumn [M_PER_S] { 0.0 ..= LARGEST_SPEED } = NO_ROWS;
+    }
+}
+
 interface_tree! {
     /// All parameters.
     pub struct Parameters {
@@ -274,5 +350,6 @@ interface_tree! {
         suspension: Suspension,
         rider: Rider,
         run: Run,
+        path: Path,
     }
 }

@@ -11,6 +11,7 @@
 //! | [`lateral`] | lean, steer, lateral velocity and yaw on tyres that slip, in the manner of Sharp (1971) |
 //! | [`whipple`] | the limit for stiff tyres: the benchmark bicycle of Meijaard et al. (2007) |
 //! | [`rider`], [`riccati`] | lean control by steering torque and torso |
+//! | [`path`] | a path, and the rider who follows it |
 //! | [`pose`] | the pose in the world, and the specific force at the head |
 //! | [`state`] | the state vector and its integration |
 //!
@@ -30,6 +31,7 @@ pub mod lateral;
 pub mod longitudinal;
 mod motorcycle;
 mod output_rate;
+pub mod path;
 pub mod pose;
 pub mod riccati;
 pub mod rider;
@@ -37,7 +39,7 @@ pub mod state;
 pub mod suspension;
 pub mod whipple;
 
-pub use interface::{Input, Output, Parameters};
+pub use interface::{Course, Input, Output, Parameters};
 pub use moris_interface::{Model, ParameterError};
 pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};
 

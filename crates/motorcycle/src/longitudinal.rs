@@ -106,6 +106,32 @@ impl Longitudinal {
         high
     }
 
+    /// Largest acceleration on a level road without wind \[m/s2\]; friction and wheel lift not
+    /// counted.
+    pub fn largest_acceleration(&self, speed: f64) -> f64 {
+        (self.largest_drive(speed) - self.resistance(speed)) / self.inertia
+    }
+
+    /// Throttle and brakes, from 0 to 1, for an acceleration \[m/s2\] on a level road without wind.
+    pub fn pedals(&self, acceleration: f64, speed: f64) -> (f64, f64) {
+        let p = &self.parameters;
+        let force = self.inertia * acceleration + self.resistance(speed);
+        let engine = p.engine_braking * (speed / CLUTCH_SPEED).min(1.0);
+        let throttle = (force + engine) / (self.largest_drive(speed) + engine);
+        let brake = (-engine - force) / p.brake_force.max(1e-3);
+        (throttle.max(0.0).min(1.0), brake.max(0.0).min(1.0))
+    }
+
+    /// Force of the fully open throttle \[N\].
+    fn largest_drive(&self, speed: f64) -> f64 {
+        self.parameters.drive_force.min(self.parameters.power / speed.max(1e-3))
+    }
+
+    /// Drag and rolling resistance \[N\].
+    fn resistance(&self, speed: f64) -> f64 {
+        self.drag(speed) + self.rolling_resistance * (self.static_loads.front + self.static_loads.rear)
+    }
+
     /// The forces. At rest brakes, rolling resistance and feet hold whatever does not drive
     /// forward.
     pub fn forces(&self, now: &Situation) -> Forces {

@@ -12,9 +12,12 @@ use crate::interface::{Input, Output, Parameters};
 use crate::lateral::{self, Actions, Lateral, Wheels, foot_support, place};
 use crate::longitudinal::{Accelerations, Forces, Longitudinal, Situation};
 use crate::output_rate::{mean_rate, rest_rate};
+use crate::path::follower::{Ahead, Follower};
+use crate::path::forerun::{self, Forerun, PREVIEW_STEP, Record};
+use crate::path::grip::{self, Friction};
 use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
-use crate::state::State;
+use crate::state::{Place, State};
 use crate::suspension::{self, Suspension};
 
 /// Largest number of internal steps in a communication step.
@@ -22,6 +25,9 @@ pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
 
 /// Limit of the wind force along each axis \[N\]: about that of 30 m/s from the side.
 pub const STRONGEST_WIND: f64 = 600.0;
+
+/// Limit of the rider's torque on the bars on a path \[N m\].
+const STRONGEST_TORQUE: f64 = 120.0;
 
 /// A motorcycle and its rider.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -32,9 +38,32 @@ pub struct Motorcycle {
     suspension: Suspension,
     geometry: Geometry,
     rider: Rider,
-    state: State,
+    ride: Ride,
     output: Output,
     output_derivative: Output,
+    /// The path and the rider's gains on it; none without a path.
+    follower: Option<Box<Follower>>,
+    /// The ride of the next seconds; none without a path, and after the ride.
+    forerun: Option<Box<Forerun>>,
+}
+
+/// The state, and the stage of a ride on a path.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ride {
+    state: State,
+    stage: Stage,
+    /// True if friction limited a tyre's lateral force in the last internal step.
+    grip_limited: bool,
+}
+
+/// Stage of a ride on a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+enum Stage {
+    /// On the path, or without one.
+    Riding,
+    /// The motorcycle has left the path.
+    OffPath,
+    Fallen,
 }
 
 /// A state's derivative with intermediate results.
@@ -43,8 +72,12 @@ struct Dynamics {
     forces: Forces,
     accelerations: Accelerations,
     loads: Wheels,
+    lateral_forces: Wheels,
     torque: f64,
     feet: f64,
+    /// Limits of the lateral forces of the front and the rear tyre, on a path.
+    grip: Option<(grip::Limits, grip::Limits)>,
+    grip_limited: bool,
 }
 
 impl Model for Motorcycle {
@@ -72,7 +105,9 @@ impl Model for Motorcycle {
             rider: crate::rider::State::default(),
             throttle: 0.0,
             brake: 0.0,
+            place: Place::default(),
         };
+        let follower = Follower::new(parameters, &lateral, &rider, &longitudinal)?;
         let mut motorcycle = Motorcycle {
             parameters: *parameters,
             lateral,
@@ -80,11 +115,15 @@ impl Model for Motorcycle {
             suspension,
             geometry: Geometry::new(parameters),
             rider,
-            state,
+            ride: Ride { state, stage: Stage::Riding, grip_limited: false },
             output: Output::default(),
             output_derivative: rest_rate(),
+            follower,
+            forerun: None,
         };
-        motorcycle.output = motorcycle.output_for(&input.sanitized());
+        let input = input.sanitized();
+        motorcycle.output = motorcycle.output_for(&input);
+        motorcycle.begin_forerun(&input);
         Ok(motorcycle)
     }
 
@@ -103,19 +142,27 @@ impl Model for Motorcycle {
         let suspension = Suspension::new(parameters);
         let fastest = fastest(parameters, &longitudinal)?;
         let same_gains = parameters.rider.torque_weight == self.parameters.rider.torque_weight;
+        let follower;
         if same_gains && fastest <= self.rider.fastest() {
             check_step(parameters, &suspension)?;
-            self.rider.set_limits(parameters);
+            let mut rider = self.rider.clone();
+            rider.set_limits(parameters);
+            follower = Follower::new(parameters, &self.lateral, &rider, &longitudinal)?;
+            self.rider = rider;
         } else {
-            let (_, rider) = design_rider(parameters, &suspension, fastest.max(self.state.speed))?;
-            let State { rider: state, lateral, speed, .. } = &self.state;
+            let (_, rider) = design_rider(parameters, &suspension, fastest.max(self.ride.state.speed))?;
+            follower = Follower::new(parameters, &self.lateral, &rider, &longitudinal)?;
+            let State { rider: state, lateral, speed, .. } = &self.ride.state;
             let error = rider.error_for_torque_of(&self.rider, state, lateral, *speed);
-            self.state.rider.error = error;
+            self.ride.state.rider.error = error;
             self.rider = rider;
         }
         self.longitudinal = longitudinal;
         self.suspension = suspension;
         self.parameters = *parameters;
+        self.follower = follower;
+        // The next seconds come out otherwise.
+        self.forerun = None;
         Ok(())
     }
 
@@ -137,7 +184,11 @@ impl Model for Motorcycle {
         let size = step / steps;
         for k in 0..steps as u32 {
             let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
-            self.advance([at(0.0), at(0.5), at(1.0)], size);
+            let inputs = [at(0.0), at(0.5), at(1.0)];
+            let mut ride = self.ride;
+            self.advance(&mut ride, &inputs, size);
+            self.ride = ride;
+            self.look_ahead(&inputs[2], size);
         }
         let before = self.output;
         self.output = self.output_for(&end);
@@ -173,47 +224,122 @@ impl Motorcycle {
 
     /// The state now.
     pub fn state(&self) -> &State {
-        &self.state
+        &self.ride.state
+    }
+
+    /// The rider on the path; `None` without one.
+    pub fn follower(&self) -> Option<&Follower> {
+        self.follower.as_deref()
     }
 
     /// One step by the classical Runge-Kutta rule. A speed below zero becomes zero.
-    fn advance(&mut self, [start, middle, end]: [Input; 3], size: f64) {
-        let state = self.state;
-        let k1 = self.motion(&state, &start).derivative;
-        let k2 = self.motion(&state.plus(&k1, 0.5 * size), &middle).derivative;
-        let k3 = self.motion(&state.plus(&k2, 0.5 * size), &middle).derivative;
-        let k4 = self.motion(&state.plus(&k3, size), &end).derivative;
+    fn advance(&self, ride: &mut Ride, [start, middle, end]: &[Input; 3], size: f64) {
+        let Ride { state, stage, .. } = *ride;
+        let ahead = self.ahead(&state, stage);
+        let motion = |state: &State, input: &Input| self.motion(state, input, stage, &ahead);
+        let k1 = motion(&state, start).derivative;
+        let k2 = motion(&state.plus(&k1, 0.5 * size), middle).derivative;
+        let k3 = motion(&state.plus(&k2, 0.5 * size), middle).derivative;
+        let last = motion(&state.plus(&k3, size), end);
+        let k4 = last.derivative;
         let end = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
-        self.state = end.flush_small();
-        self.state.speed = self.state.speed.max(0.0);
+        ride.state = end.flush_small();
+        ride.state.speed = ride.state.speed.max(0.0);
+        if let Some(limits) = last.grip {
+            (ride.state.lateral, _) = held(&ride.state.lateral, limits);
+            ride.grip_limited = last.grip_limited;
+            ride.stage = self.stage(ride);
+        }
+    }
+
+    /// The rider's actions for the path ahead; none without one.
+    fn ahead(&self, state: &State, stage: Stage) -> Ahead {
+        match &self.follower {
+            Some(follower) if stage == Stage::Riding => follower.ahead(state, &self.longitudinal),
+            Some(follower) => follower.stop(state, &self.longitudinal),
+            None => Ahead::default(),
+        }
+    }
+
+    /// Stage of a ride on a path.
+    fn stage(&self, ride: &Ride) -> Stage {
+        let Parameters { rider, path, .. } = &self.parameters;
+        let state = &ride.state;
+        let roll = libm::atan(state.lateral[place::LEAN]);
+        if grip::has_fallen(roll, rider.lean_limit, state.speed, state.lateral[place::VELOCITY]) {
+            return Stage::Fallen;
+        }
+        match ride.stage {
+            Stage::Riding if state.place.deviation.abs() > path.half_width => Stage::OffPath,
+            stage => stage,
+        }
     }
 
     /// The equations of motion.
-    fn motion(&self, state: &State, input: &Input) -> Dynamics {
+    fn motion(&self, state: &State, input: &Input, stage: Stage, ahead: &Ahead) -> Dynamics {
         let p = &self.parameters;
         let speed = state.speed.max(0.0);
         let feet = foot_support(speed, p.rider.feet_speed);
         let gains = self.rider.gains(speed);
         let command = (input.lean, input.rider_lean);
-        let rider = self.rider.derivative(&state.rider, &state.lateral, &gains, feet, command);
+        let mut rider = self.rider.derivative(&state.rider, &state.lateral, &gains, feet, command);
+        let (mut throttle, mut brake, mut place) = (input.throttle, input.brake, Place::default());
+        if let Some(follower) = &self.follower {
+            let (control, feet) = match stage {
+                Stage::Riding => (follower.lean_control(state, ahead), feet),
+                Stage::OffPath | Stage::Fallen => (0.0, 1.0),
+            };
+            rider.lean_rate = self.rider.lean_acceleration(&state.rider, &gains, feet, control);
+            (throttle, brake) = (ahead.throttle, ahead.brake);
+            if stage == Stage::Riding {
+                place = follower.place_rate(state, feet);
+            }
+        }
 
-        let torque = self.rider.torque(&state.rider, &state.lateral, &gains, feet);
+        let mut torque = self.rider.torque(&state.rider, &state.lateral, &gains, feet);
+        if self.follower.is_some() {
+            torque = torque.clamp(-STRONGEST_TORQUE, STRONGEST_TORQUE);
+        }
         let actions =
             Actions { torque, torso: state.rider.torso, torso_acceleration: rider.torso_rate, wind: -input.wind.y };
-        let lateral = self.lateral.derivative(&state.lateral, speed, feet, &actions);
+        let mut lateral = self.lateral.derivative(&state.lateral, speed, feet, &actions);
 
-        let extra_weight = self.extra_weight(&state.lateral, &lateral, speed);
-        let loads = self.suspension.loads(&state.suspension, extra_weight);
+        let mut extra_weight = self.extra_weight(&state.lateral, &lateral, speed);
+        let mut loads = self.suspension.loads(&state.suspension, extra_weight);
+        let (mut limits, mut grip_limited, mut on_tyres) = (None, false, state.lateral);
+        if self.follower.is_some() {
+            // Limits depend on loads, and these on the acceleration within the limits.
+            for _ in 0..GRIP_PASSES {
+                let limited = self.grip_limits(&state.lateral, &loads);
+                let (within, any) = held(&state.lateral, limited);
+                (limits, grip_limited, on_tyres) = (Some(limited), any, within);
+                if !any {
+                    break;
+                }
+                lateral = self.lateral.derivative(&on_tyres, speed, feet, &actions);
+                extra_weight = self.extra_weight(&state.lateral, &lateral, speed);
+                loads = self.suspension.loads(&state.suspension, extra_weight);
+            }
+            if stage == Stage::Fallen {
+                lateral = fallen(&state.lateral);
+                extra_weight = self.extra_weight(&state.lateral, &lateral, speed);
+            }
+            loads = self.normal_loads(&on_tyres, &loads);
+        }
         let forces = self.longitudinal.forces(&Situation {
             speed,
             throttle: state.throttle,
             brake: state.brake,
             wind: input.wind.x,
             loads,
-            lateral: Wheels { front: state.lateral[place::FRONT_FORCE], rear: state.lateral[place::REAR_FORCE] },
+            lateral: Wheels { front: on_tyres[place::FRONT_FORCE], rear: on_tyres[place::REAR_FORCE] },
         });
-        let (heave, moment) = self.suspension.push(&state.suspension, extra_weight, input.wind.z);
-        let accelerations = self.longitudinal.accelerations(&forces, moment);
+        let (mut heave, moment) = self.suspension.push(&state.suspension, extra_weight, input.wind.z);
+        let mut accelerations = self.longitudinal.accelerations(&forces, moment);
+        if stage == Stage::Fallen {
+            accelerations.speed = if speed > 0.0 { -grip::SLIDING * p.tyres.friction * p.run.gravity } else { 0.0 };
+            (heave, accelerations.pitch) = settling(&state.suspension);
+        }
 
         let (sin, cos) = libm::sincos(state.heading);
         let to_left = -state.lateral[place::VELOCITY];
@@ -227,10 +353,72 @@ impl Motorcycle {
                 velocity: Vector2::new(heave, accelerations.pitch),
             },
             rider,
-            throttle: (input.throttle - state.throttle) / p.longitudinal.drive_time,
-            brake: (input.brake - state.brake) / p.longitudinal.brake_time,
+            throttle: (throttle - state.throttle) / p.longitudinal.drive_time,
+            brake: (brake - state.brake) / p.longitudinal.brake_time,
+            place,
         };
-        Dynamics { derivative, forces, accelerations, loads, torque, feet }
+        let lateral_forces = Wheels { front: on_tyres[place::FRONT_FORCE], rear: on_tyres[place::REAR_FORCE] };
+        Dynamics { derivative, forces, accelerations, loads, lateral_forces, torque, feet, grip: limits, grip_limited }
+    }
+
+    /// Friction of the tyres.
+    fn friction(&self) -> Friction {
+        Friction { along: self.parameters.tyres.friction, ratio: self.parameters.path.friction_ratio }
+    }
+
+    /// Limits of the lateral forces of the front and the rear tyre, for loads along the
+    /// motorcycle's plane.
+    fn grip_limits(&self, state: &lateral::State, loads: &Wheels) -> (grip::Limits, grip::Limits) {
+        let of = |load: f64| self.friction().lateral(load, state[place::LEAN]);
+        (of(loads.front), of(loads.rear))
+    }
+
+    /// Loads normal to the road.
+    fn normal_loads(&self, state: &lateral::State, loads: &Wheels) -> Wheels {
+        let of = |load: f64, force: f64| self.friction().normal(load, force, state[place::LEAN]);
+        Wheels { front: of(loads.front, state[place::FRONT_FORCE]), rear: of(loads.rear, state[place::REAR_FORCE]) }
+    }
+
+    /// Begins the ride of the next seconds where the motorcycle is; none without a path, and after
+    /// the ride.
+    fn begin_forerun(&mut self, input: &Input) {
+        let on_path = self.follower.is_some() && self.ride.stage == Stage::Riding;
+        self.forerun = on_path.then(|| Box::new(Forerun::new(self.ride, self.record(&self.ride, input))));
+    }
+
+    /// Keeps the ride of the next seconds ahead of a motorcycle that has advanced by `step`
+    /// seconds.
+    fn look_ahead(&mut self, input: &Input, step: f64) {
+        if self.follower.is_none() {
+            return;
+        }
+        let State { place, speed, .. } = self.ride.state;
+        let here = forerun::Place { distance: place.distance, speed, deviation: place.deviation };
+        let ended = self.ride.stage != Stage::Riding;
+        if ended || self.forerun.as_ref().is_none_or(|forerun| forerun.is_wrong(&here)) {
+            self.begin_forerun(input);
+        }
+        if let Some(mut forerun) = self.forerun.take() {
+            let inputs = [*input; 3];
+            let advance = |ride: &mut Ride, size: f64| self.advance(ride, &inputs, size);
+            forerun.follow(step, self.parameters.run.max_step, &here, advance, |ride| self.record(ride, input));
+            self.forerun = Some(forerun);
+        }
+    }
+
+    /// A record of a ride.
+    fn record(&self, ride: &Ride, input: &Input) -> Record {
+        let Ride { state, stage, .. } = ride;
+        let motion = self.motion(state, input, *stage, &self.ahead(state, *stage));
+        let force = self.head(state, &motion.derivative).specific_force;
+        let place = state.place;
+        Record {
+            distance: place.distance,
+            speed: state.speed,
+            deviation: place.deviation,
+            surge: force.x,
+            sway: force.y,
+        }
     }
 
     /// Addition of leaning and cornering to gravity along the vertical of the motorcycle's plane
@@ -245,9 +433,12 @@ impl Motorcycle {
 
     /// The outputs in the present state with these inputs.
     fn output_for(&self, input: &Input) -> Output {
-        let state = &self.state;
-        let motion = self.motion(state, input);
-        let head = self.head(&motion.derivative);
+        let Ride { state, stage, .. } = &self.ride;
+        let motion = self.motion(state, input, *stage, &self.ahead(state, *stage));
+        let head = self.head(state, &motion.derivative);
+        let felt = head.specific_force;
+        let (preview_count, preview_surge, preview_sway) =
+            self.forerun.as_ref().map_or((0, [0.0; _], [0.0; _]), |forerun| forerun.preview([felt.x, felt.y]));
         let lateral = &state.lateral;
         let travel = self.suspension.travel(&state.suspension.position);
         let angular_velocity = match self.parameters.run.angular_velocity_frame {
@@ -255,7 +446,7 @@ impl Motorcycle {
             AngularVelocityFrame::Body => head.orientation.rotation.transpose() * head.angular_velocity,
         };
         Output {
-            specific_force: head.specific_force,
+            specific_force: felt,
             angular_velocity,
             orientation: head.orientation.angles,
             speed: state.speed,
@@ -276,18 +467,28 @@ impl Motorcycle {
             rear_load: motion.loads.rear,
             front_longitudinal: motion.accelerations.tyres.front,
             rear_longitudinal: motion.accelerations.tyres.rear,
-            front_lateral: -lateral[place::FRONT_FORCE],
-            rear_lateral: -lateral[place::REAR_FORCE],
+            front_lateral: -motion.lateral_forces.front,
+            rear_lateral: -motion.lateral_forces.rear,
             front_travel: travel.front,
             rear_travel: travel.rear,
             friction_limited: motion.forces.friction_limited,
             wheel_lift_limited: motion.forces.lift_limited,
+            path_distance: state.place.distance,
+            path_deviation: -state.place.deviation,
+            path_heading: -state.place.heading,
+            planned_speed: self.follower.as_ref().map_or(0.0, |on| on.planned_speed(state.place.distance)),
+            grip_limited: self.ride.grip_limited,
+            off_path: *stage == Stage::OffPath,
+            fallen: *stage == Stage::Fallen,
+            preview_count,
+            preview_step: PREVIEW_STEP,
+            preview_surge,
+            preview_sway,
         }
     }
 
-    /// The head's motion, from the state and its derivative.
-    fn head(&self, derivative: &State) -> Head {
-        let state = &self.state;
+    /// The head's motion, from a state and its derivative.
+    fn head(&self, state: &State, derivative: &State) -> Head {
         let (rider, suspension) = (&state.rider, &state.suspension);
         let yaw_rate = -state.lateral[place::YAW_RATE];
         let to_left = -state.lateral[place::VELOCITY];
@@ -323,6 +524,34 @@ impl Motorcycle {
         })
     }
 }
+
+/// A lateral state with the tyres' forces within these limits, and whether any was beyond.
+fn held(state: &lateral::State, limits: (grip::Limits, grip::Limits)) -> (lateral::State, bool) {
+    let forces = Wheels { front: state[place::FRONT_FORCE], rear: state[place::REAR_FORCE] };
+    let (forces, any) = grip::limited(forces, limits);
+    let mut state = *state;
+    state[place::FRONT_FORCE] = forces.front;
+    state[place::REAR_FORCE] = forces.rear;
+    (state, any)
+}
+
+/// The derivative of a fallen motorcycle's lateral state: all rates end, and the tyres' forces.
+fn fallen(state: &lateral::State) -> lateral::State {
+    let mut derivative = -state / grip::SETTLING;
+    derivative[place::LEAN] = state[place::LEAN_RATE];
+    derivative[place::STEER] = state[place::STEER_RATE];
+    derivative
+}
+
+/// Accelerations of a fallen motorcycle's heave and pitch: back to rest, without overshoot.
+fn settling(state: &suspension::State) -> (f64, f64) {
+    let rate = 1.0 / grip::SETTLING;
+    let back = -(state.velocity * 2.0 + state.position * rate) * rate;
+    (back.x, back.y)
+}
+
+/// Passes in which limits of lateral forces and loads are found together.
+const GRIP_PASSES: usize = 3;
 
 /// The roll angle, whose tangent the lateral equations' lean is, and its derivatives.
 fn roll(state: &lateral::State, derivative: &lateral::State) -> Motion {

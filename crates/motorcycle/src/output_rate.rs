@@ -7,7 +7,7 @@ use crate::interface::Output;
 type Values = [f64; slot_count(Output::ROWS)];
 
 /// The mean rate of the outputs while they went from one to another in `step` seconds; false for
-/// those that are true or false.
+/// those that are true or false, and zero for counts.
 pub fn mean_rate(before: &Output, after: &Output, step: f64) -> Output {
     let (before, after) = (values(before), values(after));
     let rate: Values = std::array::from_fn(|k| (after[k] - before[k]) / step);
@@ -26,5 +26,13 @@ fn values(output: &Output) -> Values {
 }
 
 fn without_flags(rate: &Values) -> Output {
-    Output { friction_limited: false, wheel_lift_limited: false, ..Output::read(&mut Reader::new(rate)) }
+    Output {
+        friction_limited: false,
+        wheel_lift_limited: false,
+        grip_limited: false,
+        off_path: false,
+        fallen: false,
+        preview_count: 0,
+        ..Output::read(&mut Reader::new(rate))
+    }
 }

@@ -17,6 +17,18 @@ pub fn lqr_gain<const N: usize>(
     ease: f64,
     shift: f64,
 ) -> Option<SVector<f64, N>> {
+    Some(cost_to_go(a, b, q, ease, shift)? * b * ease)
+}
+
+/// The symmetric matrix P with which x' P x is the cost of [`lqr_gain`]'s control from the state x
+/// on; otherwise as [`lqr_gain`].
+pub fn cost_to_go<const N: usize>(
+    a: &SMatrix<f64, N, N>,
+    b: &SVector<f64, N>,
+    q: &SMatrix<f64, N, N>,
+    ease: f64,
+    shift: f64,
+) -> Option<SMatrix<f64, N, N>> {
     let identity = SMatrix::<f64, N, N>::identity();
     let control = b * b.transpose() * ease;
     let shifted = a - identity * shift;
@@ -36,7 +48,7 @@ pub fn lqr_gain<const N: usize>(
             return None;
         }
         if change.norm() <= 1e-14 * h.norm() {
-            return Some(h * b * ease);
+            return Some(h);
         }
     }
     None

@@ -115,6 +115,21 @@ impl Rider {
         self.fastest
     }
 
+    /// The speed \[m/s\] below which feet support the motorcycle.
+    pub fn feet_speed(&self) -> f64 {
+        self.parameters.feet_speed
+    }
+
+    /// The torso's lean as a fraction of the reference lean, and its natural frequency \[rad/s\].
+    pub fn torso(&self) -> (f64, f64) {
+        (self.parameters.body_lean_share, self.parameters.body_lean_frequency)
+    }
+
+    /// Largest tangent of the reference lean with these gains.
+    pub fn steepest(&self, gains: &GainSet) -> f64 {
+        self.largest_lean.min(self.steer_lock / gains.turn[place::STEER].abs())
+    }
+
     /// Accumulated error \[s\] with which the torque of this rider equals that of `other`, the
     /// rider up to now. The torque does not jump then, and the difference fades as the error does.
     pub fn error_for_torque_of(&self, other: &Rider, state: &State, lateral: &lateral::State, speed: f64) -> f64 {
@@ -160,7 +175,7 @@ impl Rider {
     ) -> State {
         let limits = &self.parameters;
         let riding = 1.0 - feet;
-        let steepest = libm::atan(self.largest_lean.min(self.steer_lock / gains.turn[place::STEER].abs()));
+        let steepest = libm::atan(self.steepest(gains));
         let target = riding * within(command.0, steepest);
         let rate = within(0.5 * limits.lean_frequency * (target - state.lean), limits.lean_rate_limit);
         let torso = within(command.1 + limits.body_lean_share * state.lean, limits.body_lean_limit);
@@ -172,6 +187,22 @@ impl Rider {
             torso_rate: limits.body_lean_frequency
                 * (limits.body_lean_frequency * (torso - state.torso) - 2.0 * state.torso_rate),
         }
+    }
+
+    /// Second derivative of the reference roll angle on a path, for the second derivative `control`
+    /// of its tangent.
+    ///
+    /// It ends rates beyond the rider's limit, and leaves room to stop ahead of the largest lean.
+    pub fn lean_acceleration(&self, state: &State, gains: &GainSet, feet: f64, control: f64) -> f64 {
+        let lean = libm::tan(state.lean);
+        let (square, most) = (1.0 + lean * lean, self.steepest(gains));
+        let rate = state.lean_rate * square;
+        let fastest = self.parameters.lean_rate_limit * square;
+        let to_right = LIMIT_RATE * ((LIMIT_APPROACH * (most - lean)).min(fastest) - rate);
+        let to_left = LIMIT_RATE * ((-LIMIT_APPROACH * (most + lean)).max(-fastest) - rate);
+        let upright = -UPRIGHT * (UPRIGHT * lean + 2.0 * rate);
+        let control = (1.0 - feet) * control.min(to_right).max(to_left) + feet * upright;
+        control / square - 2.0 * lean * state.lean_rate * state.lean_rate
     }
 
     /// The matrix of the closed loop of lateral state and accumulated error at a speed \[m/s\].
@@ -188,6 +219,12 @@ const SLOWEST_FRACTION: f64 = 0.3;
 const FRICTION_FRACTION: f64 = 0.9;
 /// Time constant with which foot support discharges the accumulated error \[s\].
 const FORGETTING: f64 = 0.5;
+
+/// Rates at which a reference lean on a path nears its limit, and its rate the fastest \[1/s\].
+const LIMIT_APPROACH: f64 = 8.0;
+const LIMIT_RATE: f64 = 30.0;
+/// Natural frequency with which the reference lean on a path ends below walking pace \[1/s\].
+const UPRIGHT: f64 = 4.0;
 
 /// The limited value: at most `limit` to either side.
 fn within(value: f64, limit: f64) -> f64 {

@@ -21,6 +21,20 @@ pub struct State {
     /// Throttle and brakes after their lags, from 0 to 1.
     pub throttle: f64,
     pub brake: f64,
+    /// Place beside the path; all zero without one.
+    pub place: Place,
+}
+
+/// Place beside a path: in its own coordinates, positive to the RIGHT as in [`crate::lateral`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Place {
+    /// Distance along the path \[m\].
+    pub distance: f64,
+    /// Deviation of the rear contact \[m\], and its integral \[m s\].
+    pub deviation: f64,
+    pub integral: f64,
+    /// Heading relative to the path's \[rad\].
+    pub heading: f64,
 }
 
 impl State {
@@ -46,6 +60,12 @@ impl State {
             },
             throttle: number(self.throttle, derivative.throttle),
             brake: number(self.brake, derivative.brake),
+            place: Place {
+                distance: number(self.place.distance, derivative.place.distance),
+                deviation: number(self.place.deviation, derivative.place.deviation),
+                integral: number(self.place.integral, derivative.place.integral),
+                heading: number(self.place.heading, derivative.place.heading),
+            },
         }
     }
 

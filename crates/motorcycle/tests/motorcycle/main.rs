@@ -6,6 +6,7 @@ mod interface;
 mod lateral;
 mod longitudinal;
 mod parameters;
+mod path;
 mod pose;
 mod retuning;
 mod ride;

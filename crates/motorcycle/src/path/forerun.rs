@@ -1,0 +1,179 @@
+//! The motion of the next seconds, for the preview.
+//!
+//! A second ride with the same equations, rider and path is stepped ahead of the motorcycle. It
+//! records the specific force at the head by time and distance. The preview is what it felt from
+//! the motorcycle's present distance on. Until it is far enough ahead it takes some steps for one
+//! of the motorcycle. It takes wind and torso command to stay as they are. When the motorcycle's
+//! speed or deviation differ from what it had there, it begins again at the motorcycle.
+
+use moris_washout::interface::PREVIEW_SAMPLES;
+use nalgebra::SVector;
+use serde::{Deserialize, Serialize};
+
+use crate::motorcycle::Ride;
+
+/// Time between two elements of the preview \[s\].
+pub const PREVIEW_STEP: f64 = 0.2;
+/// Time between two records \[s\].
+const RECORD: f64 = 0.02;
+const RECORDS: usize = 256;
+/// Time by which the second ride is ahead \[s\]: the preview, and a record.
+const LEAD: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64 + RECORD;
+/// Time that the second ride may cover in a second of the motorcycle's \[s\].
+const PACE: f64 = 5.0;
+
+/// A record of the second ride.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// Distance along the path \[m\].
+    pub distance: f64,
+    pub speed: f64,
+    pub deviation: f64,
+    /// Specific force at the head \[m/s2\].
+    pub surge: f64,
+    pub sway: f64,
+}
+
+impl Record {
+    fn toward(&self, other: &Record, t: f64) -> Record {
+        let number = |from: f64, to: f64| from + t * (to - from);
+        Record {
+            distance: number(self.distance, other.distance),
+            speed: number(self.speed, other.speed),
+            deviation: number(self.deviation, other.deviation),
+            surge: number(self.surge, other.surge),
+            sway: number(self.sway, other.sway),
+        }
+    }
+}
+
+/// The second ride and its records.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Forerun {
+    ride: Ride,
+    /// The last records, each at its number modulo [`RECORDS`].
+    records: SVector<Record, RECORDS>,
+    /// Number of the last record.
+    last: usize,
+    /// Internal steps since the last record.
+    steps: u32,
+    /// Time in the records at which the second ride was where the motorcycle is now \[s\].
+    now: f64,
+    /// Time that the second ride may still cover \[s\].
+    allowance: f64,
+}
+
+/// A preview: number of elements in use, surge and sway.
+pub type Preview = (i32, [f64; PREVIEW_SAMPLES], [f64; PREVIEW_SAMPLES]);
+
+impl Forerun {
+    /// A second ride that begins where the motorcycle is.
+    pub fn new(ride: Ride, here: Record) -> Self {
+        Forerun { ride, records: SVector::repeat(here), last: 0, steps: 0, now: 0.0, allowance: 0.0 }
+    }
+
+    /// Follows a step of the motorcycle of `step` seconds, in internal steps of at most `longest`
+    /// seconds: `advance` makes one, and `record` a record.
+    pub fn follow(
+        &mut self,
+        step: f64,
+        longest: f64,
+        here: &Place,
+        mut advance: impl FnMut(&mut Ride, f64),
+        record: impl Fn(&Ride) -> Record,
+    ) {
+        self.find(step, here);
+        let per_record = libm::ceil(RECORD / longest - 1e-6).max(1.0);
+        let size = RECORD / per_record;
+        self.allowance = (self.allowance + PACE * step).min(PACE * step + RECORD);
+        while self.last as f64 * RECORD < self.now + LEAD && self.allowance >= size {
+            advance(&mut self.ride, size);
+            self.allowance -= size;
+            self.steps += 1;
+            if f64::from(self.steps) >= per_record {
+                self.steps = 0;
+                self.last += 1;
+                self.records[self.last % RECORDS] = record(&self.ride);
+            }
+        }
+    }
+
+    /// Finds when the second ride was where the motorcycle is now.
+    fn find(&mut self, step: f64, here: &Place) {
+        self.now = (self.now + step).min(self.last as f64 * RECORD);
+        if here.speed < SLOW {
+            return;
+        }
+        let mut number = (self.now / RECORD) as usize;
+        let oldest = (self.last + 1).saturating_sub(RECORDS);
+        while number > oldest && self.record(number).distance > here.distance {
+            number -= 1;
+        }
+        while number + 1 < self.last && self.record(number + 1).distance <= here.distance {
+            number += 1;
+        }
+        let (before, after) = (self.record(number), self.record((number + 1).min(self.last)));
+        let covered = after.distance - before.distance;
+        if covered > 0.0 {
+            let fraction = ((here.distance - before.distance) / covered).clamp(0.0, 1.0);
+            self.now = (number as f64 + fraction) * RECORD;
+        }
+    }
+
+    /// True if the motorcycle's motion is another than the second ride's was at this distance.
+    pub fn is_wrong(&self, here: &Place) -> bool {
+        let then = self.at(self.now);
+        self.now > LEAST_TIME
+            && ((then.speed - here.speed).abs() > LARGEST_SPEED_ERROR
+                || (then.deviation - here.deviation).abs() > LARGEST_DEVIATION_ERROR)
+    }
+
+    /// The preview from now on, for the force in surge and sway that the head feels now \[m/s2\]:
+    /// the present difference from the second ride's fades.
+    pub fn preview(&self, felt: [f64; 2]) -> Preview {
+        let then = self.at(self.now);
+        let [surge, sway] = [felt[0] - then.surge, felt[1] - then.sway];
+        let end = self.last as f64 * RECORD;
+        let time = |k: usize| self.now + (k + 1) as f64 * PREVIEW_STEP;
+        let count = (0..PREVIEW_SAMPLES).take_while(|&k| time(k) <= end).count();
+        let record = |k: usize| if k < count { self.at(time(k)) } else { Record::default() };
+        let records: [Record; PREVIEW_SAMPLES] = std::array::from_fn(record);
+        let fading = |k: usize| if k < count { libm::exp(-((k + 1) as f64) * PREVIEW_STEP / FADING) } else { 0.0 };
+        (
+            count as i32,
+            std::array::from_fn(|k| records[k].surge + surge * fading(k)),
+            std::array::from_fn(|k| records[k].sway + sway * fading(k)),
+        )
+    }
+
+    /// The record of this number.
+    fn record(&self, number: usize) -> &Record {
+        &self.records[number % RECORDS]
+    }
+
+    /// The second ride at a time since its beginning, between two records.
+    fn at(&self, time: f64) -> Record {
+        let along = time / RECORD;
+        let number = (along as usize).min(self.last);
+        let fraction = (along - number as f64).clamp(0.0, 1.0);
+        self.record(number).toward(self.record((number + 1).min(self.last)), fraction)
+    }
+}
+
+/// Where the motorcycle is, and how fast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    pub distance: f64,
+    pub speed: f64,
+    pub deviation: f64,
+}
+
+/// Time constant with which a difference between the rides is expected to fade \[s\].
+const FADING: f64 = 1.0;
+/// Speed below which time alone tells where the second ride was \[m/s\].
+const SLOW: f64 = 1.0;
+/// Least time from one beginning of the second ride to the next \[s\].
+const LEAST_TIME: f64 = 2.0;
+/// Errors of speed \[m/s\] and deviation \[m\] that the preview may have.
+const LARGEST_SPEED_ERROR: f64 = 0.5;
+const LARGEST_DEVIATION_ERROR: f64 = 0.3;

@@ -1,0 +1,68 @@
+//! Limits of the tyres' lateral forces, and the end of a ride that exceeds them.
+//!
+//! Along the road and across it, a tyre's forces stay together within the friction ellipse,
+//! (X / μ N)^2 + (F / r μ N)^2 <= 1, with r the ratio of the frictions: H. B. Pacejka, "Tire
+//! and Vehicle Dynamics", and J. Y. Wong, "Theory of Ground Vehicles". The lateral force has
+//! priority; [`crate::longitudinal`] takes what it leaves.
+//!
+//! The load of [`crate::suspension`] is along the motorcycle's plane, which leans by φ:
+//! L = N cos φ + F sin φ, F positive to the side of the lean. The ellipse's end on either side then
+//! is F = r μ L / (cos φ ± r μ sin φ).
+
+use crate::lateral::Wheels;
+
+/// Limits of a tyre's lateral force \[N\], to the left (negative) and to the right.
+pub type Limits = (f64, f64);
+
+/// Friction along the road, and across it relative to that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    pub along: f64,
+    pub ratio: f64,
+}
+
+impl Friction {
+    /// Limits of a lateral force for a load in the plane of a motorcycle whose lean has the tangent
+    /// `lean`, positive to the right.
+    pub fn lateral(&self, load: f64, lean: f64) -> Limits {
+        let friction = self.ratio * self.along;
+        let cos = 1.0 / libm::sqrt(1.0 + lean * lean);
+        let sin = lean * cos;
+        // Leaning more than friction holds, a force to the other side has no limit but the load.
+        let end = |inward: f64| friction * load / (cos + friction * inward).max(LEAST_SHARE);
+        (-end(-sin), end(sin))
+    }
+
+    /// Load normal to the road of a load in the plane \[N\].
+    pub fn normal(&self, load: f64, lateral: f64, lean: f64) -> f64 {
+        let hypotenuse = libm::sqrt(1.0 + lean * lean);
+        ((load - lateral * lean / hypotenuse) * hypotenuse).clamp(0.0, hypotenuse * load)
+    }
+}
+
+/// Least denominator of the ellipse's end.
+const LEAST_SHARE: f64 = 0.1;
+
+/// The lateral forces within their limits, and whether any was beyond.
+pub fn limited(forces: Wheels, limits: (Limits, Limits)) -> (Wheels, bool) {
+    let within = |force: f64, (least, most): Limits| force.max(least).min(most);
+    let held = Wheels { front: within(forces.front, limits.0), rear: within(forces.rear, limits.1) };
+    (held, held != forces)
+}
+
+/// Deceleration of a motorcycle that slides on its side, as a fraction of gravity times friction.
+pub const SLIDING: f64 = 0.4;
+/// Time constant with which roll and yaw rates of a fallen motorcycle end \[s\].
+pub const SETTLING: f64 = 0.1;
+
+/// Roll beyond the rider's limit at which the motorcycle has fallen \[rad\], and the largest roll.
+const BEYOND: f64 = 0.35;
+const FLAT: f64 = 1.35;
+/// Slip angle at which it has fallen, as a tangent, above a lateral velocity of 1 m/s.
+const SPUN: f64 = 0.7;
+
+/// True for a motorcycle that has fallen: with a roll, the speed and the lateral velocity of its
+/// rear contact.
+pub fn has_fallen(roll: f64, lean_limit: f64, speed: f64, lateral_velocity: f64) -> bool {
+    roll.abs() > (lean_limit + BEYOND).min(FLAT) || lateral_velocity.abs() > 1.0 + SPUN * speed
+}

@@ -1,0 +1,279 @@
+//! Lean control with preview of the path: a linear-quadratic regulator.
+//!
+//! The rider of [`crate::rider`] holds a reference lean by torque on the bars. On a path the
+//! reference's second derivative is the control u. The plant is the motorcycle with that rider,
+//! its torso, and its place beside the path. With ρ the steady lean in the path's curvature and
+//! X the state of the steady turn with lean 1, the deviation z = x - X ρ obeys
+//!
+//! z' = A z + b u - X ρ',
+//!
+//! and ρ' is known ahead. The control that minimises the integral of z' Q z + u^2 / ease is
+//!
+//! u = -ease b' (P z - ∫ exp(A_c' τ) P X ρ'(t + τ) dτ),   A_c = A - ease b b' P,
+//!
+//! with P from the Riccati equation: R. S. Sharp, "Motorcycle steering control by road preview",
+//! J. Dyn. Syst. Meas. Control 129 (2007) 373-382, in continuous time. The integral is taken over
+//! [`SAMPLES`] intervals in which ρ is linear.
+
+use nalgebra::{SMatrix, SVector};
+use serde::{Deserialize, Serialize};
+
+use crate::lateral::{self, Actions, Lateral, place};
+use crate::riccati::cost_to_go;
+use crate::rider::{GainSet, Rider};
+
+/// Coordinates of the plant: the lateral state, the accumulated error of the lean, the reference
+/// lean (its tangent) and its rate, the torso's lean and its rate, deviation from the path to the
+/// right, heading relative to it, and the deviation's integral.
+const SIZE: usize = lateral::SIZE + 8;
+const ERROR: usize = lateral::SIZE;
+const REFERENCE: usize = ERROR + 1;
+pub const REFERENCE_RATE: usize = ERROR + 2;
+const TORSO: usize = ERROR + 3;
+const TORSO_RATE: usize = ERROR + 4;
+const DEVIATION: usize = ERROR + 5;
+const HEADING: usize = ERROR + 6;
+const INTEGRAL: usize = ERROR + 7;
+
+/// State of the plant.
+pub type Plant = SVector<f64, SIZE>;
+type PlantMatrix = SMatrix<f64, SIZE, SIZE>;
+
+/// Intervals of the preview, and the duration of each \[s\].
+pub const SAMPLES: usize = 30;
+pub const INTERVAL: f64 = 0.1;
+
+/// Number of speeds for which gains are computed.
+const SPEEDS: usize = 24;
+
+/// Gains at one speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PreviewGains {
+    /// Of the plant's state.
+    pub gain: Plant,
+    /// Of the changes of ρ over the preview's intervals.
+    pub preview: SVector<f64, SAMPLES>,
+    /// The steady turn with lean 1.
+    pub turn: Plant,
+    /// Lean of a steady turn divided by its lateral acceleration, as v^2 times the curvature
+    /// \[s2/m\].
+    pub lean_per_acceleration: f64,
+}
+
+impl PreviewGains {
+    fn interpolated(&self, other: &PreviewGains, t: f64) -> PreviewGains {
+        PreviewGains {
+            gain: self.gain + (other.gain - self.gain) * t,
+            preview: self.preview + (other.preview - self.preview) * t,
+            turn: self.turn + (other.turn - self.turn) * t,
+            lean_per_acceleration: self.lean_per_acceleration
+                + t * (other.lean_per_acceleration - self.lean_per_acceleration),
+        }
+    }
+
+    /// The control's part that the path ahead causes, for ρ now and at the ends of the intervals.
+    pub fn feedforward(&self, steady_leans: &[f64; SAMPLES + 1]) -> f64 {
+        (0..SAMPLES).map(|k| self.preview[k] * (steady_leans[k + 1] - steady_leans[k])).sum()
+    }
+
+    /// The control's part that the deviation of the plant from the steady turn with lean
+    /// `steady_lean` causes.
+    pub fn feedback(&self, state: &Plant, steady_lean: f64) -> f64 {
+        -self.gain.dot(&(state - self.turn * steady_lean))
+    }
+}
+
+/// Arguments of [`plant_state`].
+pub struct Parts<'a> {
+    pub lateral: &'a lateral::State,
+    pub error: f64,
+    /// Tangent of the reference lean, and its rate.
+    pub reference: [f64; 2],
+    /// Lean of the torso, and its rate.
+    pub torso: [f64; 2],
+    pub deviation: f64,
+    pub heading: f64,
+    pub integral: f64,
+}
+
+/// The plant's state.
+pub fn plant_state(parts: &Parts) -> Plant {
+    let mut state = Plant::zeros();
+    state.fixed_rows_mut::<{ lateral::SIZE }>(0).copy_from(parts.lateral);
+    state[ERROR] = parts.error;
+    state[REFERENCE] = parts.reference[0];
+    state[REFERENCE_RATE] = parts.reference[1];
+    state[TORSO] = parts.torso[0];
+    state[TORSO_RATE] = parts.torso[1];
+    state[DEVIATION] = parts.deviation;
+    state[HEADING] = parts.heading;
+    state[INTEGRAL] = parts.integral;
+    state
+}
+
+/// Gains for all speeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PreviewRider {
+    gains: SVector<PreviewGains, SPEEDS>,
+    slowest: f64,
+    fastest: f64,
+}
+
+impl PreviewRider {
+    /// The preview rider of a motorcycle with this rider; `None` where no reference lean keeps it
+    /// on a path.
+    pub fn new(lateral: &Lateral, rider: &Rider) -> Option<Self> {
+        let slowest = rider.feet_speed();
+        let fastest = rider.fastest();
+        let none = PreviewGains {
+            gain: Plant::zeros(),
+            preview: SVector::zeros(),
+            turn: Plant::zeros(),
+            lean_per_acceleration: 0.0,
+        };
+        let mut designed = PreviewRider { gains: SVector::repeat(none), slowest, fastest };
+        for k in 0..SPEEDS {
+            let speed = slowest * libm::pow(fastest / slowest, k as f64 / (SPEEDS - 1) as f64);
+            designed.gains[k] = design(lateral, rider, speed)?;
+        }
+        Some(designed)
+    }
+
+    /// Gains at a speed \[m/s\]: interpolated between two knots.
+    pub fn gains(&self, speed: f64) -> PreviewGains {
+        let place = libm::log(speed / self.slowest) / libm::log(self.fastest / self.slowest) * (SPEEDS - 1) as f64;
+        let place = place.max(0.0).min((SPEEDS - 1) as f64);
+        let k = (place as usize).min(SPEEDS - 2);
+        self.gains[k].interpolated(&self.gains[k + 1], place - k as f64)
+    }
+
+    /// The matrix of motorcycle, rider and path in closed loop at a speed \[m/s\].
+    pub fn closed_loop(&self, lateral: &Lateral, rider: &Rider, speed: f64) -> PlantMatrix {
+        plant(lateral, rider, &rider.gains(speed), speed) - control() * self.gains(speed).gain.transpose()
+    }
+}
+
+/// Effect of the control.
+fn control() -> Plant {
+    let mut control = Plant::zeros();
+    control[REFERENCE_RATE] = 1.0;
+    control
+}
+
+/// The plant's matrix at a speed, without feet on the road.
+fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> PlantMatrix {
+    let (share, frequency) = rider.torso();
+    let mut a = PlantMatrix::zeros();
+    for column in 0..SIZE {
+        let mut unit = Plant::zeros();
+        unit[column] = 1.0;
+        let motion: lateral::State = unit.fixed_rows::<{ lateral::SIZE }>(0).into_owned();
+        let mut deviation = motion - gains.turn * unit[REFERENCE];
+        deviation[place::LEAN_RATE] -= unit[REFERENCE_RATE];
+        let torque = gains.turn_torque * unit[REFERENCE] - gains.gain.dot(&deviation) - gains.error_gain * unit[ERROR];
+        let torso_acceleration =
+            frequency * (frequency * (share * unit[REFERENCE] - unit[TORSO]) - 2.0 * unit[TORSO_RATE]);
+        let actions = Actions { torque, torso: unit[TORSO], torso_acceleration, wind: 0.0 };
+        let derivative = plant_state(&Parts {
+            lateral: &lateral.derivative(&motion, speed, 0.0, &actions),
+            error: unit[place::LEAN] - unit[REFERENCE],
+            reference: [unit[REFERENCE_RATE], 0.0],
+            torso: [unit[TORSO_RATE], torso_acceleration],
+            deviation: speed * unit[HEADING] + unit[place::VELOCITY],
+            heading: unit[place::YAW_RATE],
+            integral: unit[DEVIATION],
+        });
+        a.set_column(column, &derivative);
+    }
+    a
+}
+
+/// The steady turn with lean 1, and its yaw rate.
+///
+/// All but deviation and integral, which are zero, and the given lean solve the plant's equations
+/// with the derivative zero; the path takes the yaw rate.
+fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
+    let unknown: [usize; 12] = std::array::from_fn(|k| if k < place::LEAN { k } else { k + 1 });
+    let equations: [usize; 12] = [
+        place::VELOCITY,
+        place::YAW_RATE,
+        place::LEAN_RATE,
+        place::STEER_RATE,
+        place::LEAN,
+        place::STEER,
+        place::REAR_FORCE,
+        place::FRONT_FORCE,
+        ERROR,
+        REFERENCE,
+        TORSO,
+        TORSO_RATE,
+    ];
+    let matrix = SMatrix::<f64, 12, 12>::from_fn(|i, j| a[(equations[i], unknown[j])]);
+    let right = SVector::<f64, 12>::from_fn(|i, _| -a[(equations[i], place::LEAN)]);
+    let solution = matrix.lu().solve(&right)?;
+    let mut turn = Plant::zeros();
+    turn[place::LEAN] = 1.0;
+    for (k, &coordinate) in unknown.iter().enumerate() {
+        turn[coordinate] = solution[k];
+    }
+    turn[HEADING] = -turn[place::VELOCITY] / a[(DEVIATION, HEADING)];
+    Some((turn, turn[place::YAW_RATE]))
+}
+
+/// Gains at a speed.
+fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> {
+    let a = plant(lateral, rider, &rider.gains(speed), speed);
+    let (turn, yaw_rate) = steady_turn(&a)?;
+    // Forces in kN: then all numbers are of about the same size.
+    let mut unit = Plant::repeat(1.0);
+    unit[place::REAR_FORCE] = 1e3;
+    unit[place::FRONT_FORCE] = 1e3;
+    let (scale, inverse) = (PlantMatrix::from_diagonal(&unit), PlantMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
+    let scaled = inverse * a * scale;
+    let mut cost = Plant::zeros();
+    for (coordinate, size) in WEIGHTS {
+        cost[coordinate] = 1.0 / (size * size);
+    }
+    let to_go = cost_to_go(&scaled, &control(), &PlantMatrix::from_diagonal(&cost), EASE, CAYLEY_SHIFT)?;
+    let gain = to_go * control() * EASE;
+    let closed = scaled - control() * gain.transpose();
+    // The mean of exp(A_c' τ) P X over each interval.
+    let (flow, mean) = flow(&closed.transpose(), INTERVAL);
+    let mut weight = to_go * (inverse * turn) * EASE;
+    let mut preview = SVector::<f64, SAMPLES>::zeros();
+    for k in 0..SAMPLES {
+        preview[k] = (mean * weight)[REFERENCE_RATE];
+        weight = flow * weight;
+    }
+    let gain = inverse * gain;
+    let finite = gain.iter().chain(turn.iter()).chain(preview.iter()).all(|number| number.is_finite());
+    finite.then(|| PreviewGains { gain, preview, turn, lean_per_acceleration: 1.0 / (speed * yaw_rate) })
+}
+
+/// Deviations that cost the same, as does a control of 1 / sqrt([`EASE`]).
+pub const WEIGHTS: [(usize, f64); 4] =
+    [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTERVAL_OF_DEVIATION, 0.3)];
+const INTERVAL_OF_DEVIATION: usize = INTEGRAL;
+pub const EASE: f64 = 16.0;
+/// See [`cost_to_go`] \[1/s\].
+const CAYLEY_SHIFT: f64 = 20.0;
+
+/// exp(A t), and the mean of exp(A τ) from 0 to t: by Taylor's series over a small part of the
+/// time, doubled.
+fn flow(a: &PlantMatrix, time: f64) -> (PlantMatrix, PlantMatrix) {
+    const DOUBLINGS: i32 = 12;
+    const TERMS: u32 = 10;
+    let identity = PlantMatrix::identity();
+    let small = a * (time / f64::from(1 << DOUBLINGS));
+    let (mut term, mut flow, mut mean) = (identity, identity, identity);
+    for k in 1..=TERMS {
+        term = term * small / f64::from(k);
+        flow += term;
+        mean += term / f64::from(k + 1);
+    }
+    for _ in 0..DOUBLINGS {
+        mean = (mean + flow * mean) * 0.5;
+        flow = flow * flow;
+    }
+    (flow, mean)
+}
