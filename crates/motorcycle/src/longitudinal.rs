@@ -119,7 +119,7 @@ impl Longitudinal {
         let engine = p.engine_braking * (speed / CLUTCH_SPEED).min(1.0);
         let throttle = (force + engine) / (self.largest_drive(speed) + engine);
         let brake = (-engine - force) / p.brake_force.max(1e-3);
-        (throttle.max(0.0).min(1.0), brake.max(0.0).min(1.0))
+        (throttle.clamp(0.0, 1.0), brake.clamp(0.0, 1.0))
     }
 
     /// Force of the fully open throttle \[N\].

@@ -36,7 +36,7 @@ impl Friction {
     /// Load normal to the road of a load in the plane \[N\].
     pub fn normal(&self, load: f64, lateral: f64, lean: f64) -> f64 {
         let hypotenuse = libm::sqrt(1.0 + lean * lean);
-        ((load - lateral * lean / hypotenuse) * hypotenuse).clamp(0.0, hypotenuse * load)
+        ((load - lateral * lean / hypotenuse) * hypotenuse).max(0.0).min(hypotenuse * load)
     }
 }
 

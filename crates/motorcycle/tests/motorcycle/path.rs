@@ -377,7 +377,8 @@ fn limits_change_in_flight_and_the_path_does_not() {
 #[test]
 fn unusable_paths_are_refused_by_name() {
     let straight = [[0.0, 0.0, 20.0], [100.0, 0.0, 20.0], [200.0, 0.0, 20.0]];
-    let cases: [(&str, fn(&mut Path)); 7] = [
+    type Change = fn(&mut Path);
+    let cases: [(&str, Change); 7] = [
         ("path.point.count", |path| path.count = 1),
         ("path.point.count", |path| path.count = 65),
         ("path.point.distance[1]", |path| path.distance[0] = 1.0),
