@@ -1,4 +1,5 @@
-//! `moris schema`: JSON schemas of the workbench's files, with which editors check and complete them.
+//! `moris schema`: JSON schemas of the workbench's files, with which editors
+//! check and complete them.
 
 use std::io::Write;
 use std::process::ExitCode;
