@@ -39,7 +39,7 @@ def test_a_dict_a_frame_and_a_csv_file_are_the_same_recording(ride, frame, expec
     for recording in read:
         assert np.array_equal(inputs(recording), expected)
     assert [recording.name for recording in read] == ["recording", "recording", "ride", "packed"]
-    columns = moris.Recording(ride).inputs
+    columns = moris.Recording(ride, fade_in=0.0).inputs
     assert np.array_equal(columns["vehicle.specificForce"], np.column_stack([ride["ax"], ride["ay"], ride["az"]]))
     assert np.array_equal(columns["vehicle.angularVelocity.z"], ride["wz"])
     assert np.allclose(columns.time, ride["time"], rtol=0, atol=1e-12)

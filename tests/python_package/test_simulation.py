@@ -15,7 +15,8 @@ def simulation(ride):
     return moris.simulate(ride)
 
 
-def test_a_simulation_is_a_run_of_the_washout(ride, simulation):
+def test_a_simulation_is_a_run_of_the_washout(ride):
+    simulation = moris.simulate(ride, fade_in=0.0)
     force = np.column_stack([ride["ax"], ride["ay"], ride["az"]])
     rate = np.column_stack([ride["wx"], ride["wy"], ride["wz"]])
     run = moris.Washout(parameters={"angularVelocityFrame": "body"}).run(ride["time"], force, rate)
@@ -35,7 +36,7 @@ def test_a_preview_is_the_recordings_own_future(ride):
     previews = np.where((ahead < count)[:, :, None], mean[np.minimum(ahead, count - 1)], np.nan)
     parameters = ["preview", {"angularVelocityFrame": "body"}]
     expected = moris.Washout(parameters=parameters).run(ride["time"], force, rate, preview=previews)
-    found = moris.simulate(ride, parameters="preview", preview=1.0)
+    found = moris.simulate(ride, parameters="preview", preview=1.0, fade_in=0.0)
     # The triangle is cut off at the recording's end.
     until = count - (elements + 1) * apart
     assert np.allclose(found["platform.position"][:until], expected["platform.position"][:until], rtol=0, atol=1e-9)

@@ -25,6 +25,8 @@ OPTIONS = (
     "resample",
     "fade_in",
 )
+FADE_IN = 1.0
+"""Time over which recordings are faded in from rest unless another is given [s], as by the command."""
 
 
 class Recording:
@@ -44,7 +46,7 @@ class Recording:
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
     empty_fields: of a file, "error" or "interpolate".
     resample: samples a second, to interpolate a recording whose steps are unequal.
-    fade_in: seconds over which a recording that begins in motion is faded in from rest.
+    fade_in: seconds over which the recording is faded in from rest: 1 by default, 0 to take it as it is.
 
     Raises RecordingError where columns are missing or the units or axes are implausible, with the remedy.
     """
@@ -53,7 +55,7 @@ class Recording:
         unknown = [option for option in options if option not in OPTIONS]
         if unknown:
             raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(OPTIONS)}")
-        options = {option: value for option, value in options.items() if value is not None}
+        options = {"fade_in": FADE_IN, **{option: value for option, value in options.items() if value is not None}}
         try:
             if isinstance(source, _moris.Recording):
                 self._native = source

@@ -6,9 +6,6 @@ from ._progress import Progress
 from ._recording import recordings_of
 from ._simulation import write_parameters
 
-FADE_IN = 1.0
-"""Time over which recordings are faded in from rest unless another is given [s]."""
-
 
 class Tuned:
     """Tuned parameters and what they come to.
@@ -79,10 +76,9 @@ def tune(
         that returns True to end them all. Both, and Ctrl-C, keep the best so far.
     client: a dask.distributed.Client, whose workers then evaluate. The result is the same to the bit.
 
-    Recordings are faded in from rest over 1 s unless `fade_in` says otherwise. docs/tuning-by-search.md has the objective.
+    docs/tuning-by-search.md has the objective.
     Returns Tuned. Raises NoParametersFound where none keep the limits.
     """
-    options = {"fade_in": FADE_IN, **{name: value for name, value in options.items() if value is not None}}
     tuned_on = recordings_of(recordings, options)
     held_out = recordings_of(hold_out, options)
     rides = tuned_on + held_out
