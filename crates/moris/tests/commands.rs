@@ -279,7 +279,7 @@ fn a_preview_is_simulated_beside_the_strategy_without_it() {
     let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let results = all[0]["results"].as_array().unwrap();
     let names: Vec<&str> = results.iter().map(|result| result["parameters"].as_str().unwrap()).collect();
-    assert_eq!(names, ["predictive", "predictive-preview-1s"]);
+    assert_eq!(names, ["predictive", "predictive, preview of 1 s"]);
     let error = |result: &serde_json::Value| {
         let measures = result["measures"].as_array().unwrap();
         let is_surge = |row: &&serde_json::Value| row["subject"] == "specific force x" && row["name"] == "RMS error";
@@ -289,7 +289,7 @@ fn a_preview_is_simulated_beside_the_strategy_without_it() {
     // The bound is the same, and holds for both.
     assert_eq!(results[0]["forceBounds"], results[1]["forceBounds"]);
     assert!(results[0]["forceBounds"][0].as_f64().unwrap() <= error(&results[1]));
-    assert!(directory.path().join("moris-report/ride.predictive-preview-1s.outputs.csv").exists());
+    assert!(directory.path().join("moris-report/ride.predictive-preview-of-1-s.outputs.csv").exists());
 
     let refused = simulate(&["--preview", "1"]);
     assert!(text(&refused.stderr).contains("--preview is for the predictive strategy alone"), "{refused:?}");

@@ -212,7 +212,7 @@ fn cases(options: &Options) -> Result<Vec<Case>> {
         .iter()
         .filter(is_predictive)
         .map(|case| {
-            let parameters_name = format!("{}-preview-{preview}s", case.setup.parameters_name);
+            let parameters_name = format!("{}, preview of {preview} s", case.setup.parameters_name);
             Case { setup: Setup { parameters_name, ..case.setup.clone() }, preview }
         })
         .collect();
@@ -280,7 +280,10 @@ fn outcomes(ride: &Ride, cases: &[Case], with_bounds: bool, progress: &mut Progr
 fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
     match index {
         0 => format!("{ride}.outputs.csv"),
-        _ => format!("{ride}.{}.outputs.csv", setup.parameters_name),
+        _ => format!(
+            "{ride}.{}.outputs.csv",
+            setup.parameters_name.replace(", ", "-").replace(" + ", "+").replace(' ', "-")
+        ),
     }
 }
 
