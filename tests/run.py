@@ -51,6 +51,8 @@ def main():
     run("cargo", "build-fmu", "--fmi", "3", "--arrays")
     run("cargo", "build-ssp")
     run("cargo", "build-ssp", "--flat")
+    run("cargo", "build-ssp", "--system", "MotorcycleLap")
+    run("cargo", "build-ssp", "--system", "MotorcycleLap", "--flat")
     run("cargo", "test", "--workspace", "--", "--quiet")
     # These examples are compiled by now.
     for example in ("bound", "pages"):

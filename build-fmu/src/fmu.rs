@@ -69,7 +69,7 @@ pub fn fmu(model: &Model, fmi: FmiVersion, platforms: &[Platform], report: impl 
 
 /// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as
 /// [`build`].
-fn fmu_with(
+pub(crate) fn fmu_with(
     model: &Model,
     start: &Start,
     fmi: FmiVersion,

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use moris_build_fmu::archive::{Contents, pack};
 use moris_build_fmu::contents::contents;
 use moris_build_fmu::model::WASHOUT;
-use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
+use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR};
 use moris_build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
 use moris_model_description::fmi2::scalar_variable::{ScalarVariable, Values};
 use moris_model_description::fmi3::Layout;
@@ -293,5 +293,10 @@ fn a_systems_description_is_the_same_every_time() {
         let parameters = format!("resources/{parameters}.ssv");
         assert_eq!(paths, ["SystemStructure.ssd", "documentation/licenses/license.txt", &*parameters]);
         assert!(pack(&contents).unwrap() == pack(&ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap()).unwrap());
+    }
+    // Its parameters are start values of its FMUs.
+    for form in [Form::Whole, Form::Flat] {
+        let contents = ssp::description(&MOTORCYCLE_LAP, form).unwrap();
+        assert!(contents.keys().eq(["SystemStructure.ssd", "documentation/licenses/license.txt"]));
     }
 }

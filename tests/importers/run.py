@@ -24,6 +24,8 @@ import venv
 from dataclasses import dataclass
 from pathlib import Path
 
+import simulator
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 CACHE = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "importers"
@@ -285,9 +287,9 @@ def main():
     arguments = parser.parse_args()
     directory = arguments.fmus.resolve()
     wanted = [directory / f"{model}.{kind}" for kind in ("fmu", "fmi3.fmu") for model in MODELS]
-    wanted += [directory / f"MotorcycleSimulator.{kind}" for kind in ("ssp", "flat.ssp")]
+    wanted += [directory / f"{system}.{kind}" for system in simulator.SYSTEMS for kind in ("ssp", "flat.ssp")]
     if lacking := [path for path in wanted if not path.exists()]:
-        sys.exit(f"{lacking[0]} is missing: run `cargo build-fmu`, with --fmi 3 too, and `cargo build-ssp`, with --flat too")
+        sys.exit(f"{lacking[0]} is missing: run `cargo build-fmu`, with --fmi 3 too, and `cargo build-ssp`, with --flat and --system MotorcycleLap too")
     fmus = ",".join(str(path) for path in wanted if path.suffix == ".fmu")
     if not PYTHON.exists():
         venv.create(VENV, with_pip=True)

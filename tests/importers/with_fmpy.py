@@ -167,6 +167,19 @@ def whole_simulator():
     simulator.judge(result["speed"], lengths, simulator.VALUE, "the whole simulator, MotorcycleSimulator.ssp")
 
 
+def lap():
+    """A few seconds of the lap, which has no inputs and no parameter set."""
+    package = Path(FMU).with_name("MotorcycleLap.ssp")
+    if not package.exists():
+        return
+    result = simulate_ssp(package, stop_time=simulator.STEP * simulator.STEPS, step_size=simulator.STEP)[-1]
+
+    def value(component, variable):
+        return result[f"{component}.{variable}"]
+
+    simulator.judge_lap(value, value, "the lap, MotorcycleLap.ssp")
+
+
 def main():
     problems = validate_fmu(FMU)
     report.check("validation", not problems, "; ".join(problems[:3]))
@@ -182,6 +195,7 @@ def main():
     command_line(input_file)
     others()
     whole_simulator()
+    lap()
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """OMSimulator, by its library's C functions: the reference rides, and the whole simulator in both forms."""
 
 import sys
-from ctypes import CDLL, byref, c_char_p, c_double
+from ctypes import CDLL, byref, c_char_p, c_double, c_int
 from pathlib import Path
 
 import report
@@ -26,6 +26,11 @@ class OMSimulator:
     def get(self, name):
         value = c_double()
         self.call("oms_getReal", name, byref(value))
+        return value.value
+
+    def get_integer(self, name):
+        value = c_int()
+        self.call("oms_getInteger", name, byref(value))
         return value.value
 
     def set(self, name, value):
@@ -88,6 +93,21 @@ def accelerate(oms, package, throttle):
     oms.stop(model)
 
 
+def ride_the_lap(oms, package):
+    model = c_char_p()
+    oms.call("oms_importFile", str(package), byref(model))
+    model = model.value.decode()
+    oms.call("oms_setStopTime", model, c_double(simulator.STEP * simulator.STEPS))
+    oms.start(model)
+    oms.call("oms_stepUntil", model, c_double(simulator.STEP * simulator.STEPS))
+    simulator.judge_lap(
+        lambda component, variable: oms.get(f"{model}.simulator.{component}.{variable}"),
+        lambda component, variable: oms.get_integer(f"{model}.simulator.{component}.{variable}"),
+        f"the lap, {package.name}",
+    )
+    oms.stop(model)
+
+
 def main(fmus, work, library):
     oms = OMSimulator(library, work)
     for fmu in fmus:
@@ -97,6 +117,8 @@ def main(fmus, work, library):
         package = Path(fmus[0]).with_name(name)
         if package.exists():
             accelerate(oms, package, throttle)
+    for form in ("ssp", "flat.ssp"):
+        ride_the_lap(oms, Path(fmus[0]).with_name(f"MotorcycleLap.{form}"))
 
 
 if __name__ == "__main__":

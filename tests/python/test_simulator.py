@@ -13,6 +13,7 @@ from lxml import etree
 
 from conftest import ANGLES, AXES, ROOT, example
 
+ENDS = ("startElement", "startConnector", "endElement", "endConnector")
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"
 NAMESPACES = {
     part: f"http://ssp-standard.org/SSP1/SystemStructure{name}"
@@ -79,6 +80,67 @@ def test_the_flat_one_is_the_same_without_inputs_and_with_a_parameter_set_a_comp
             values[f"{component.get('name')}.{parameter.get('name')}"] = dict(parameter[0].attrib)
     whole = parameters.xpath("ssv:Parameters/ssv:Parameter", namespaces=NAMESPACES)
     assert values == {parameter.get("name"): dict(parameter[0].attrib) for parameter in whole}
+
+
+@pytest.fixture(scope="module")
+def laps(ssp):
+    """The lap in both forms."""
+    paths = [ssp.with_name(f"MotorcycleLap.{form}") for form in ("ssp", "flat.ssp")]
+    for path in paths:
+        assert path.exists(), f"{path} is missing: run `cargo build-ssp --system MotorcycleLap`, with --flat too"
+    return paths
+
+
+def wires(root):
+    return {tuple(wire.get(part) for part in ENDS) for wire in root.xpath("//ssd:Connection", namespaces=NAMESPACES)}
+
+
+def test_the_lap_is_the_simulator_without_inputs_and_with_the_preview(laps, system):
+    schema = etree.XMLSchema(file=str(SCHEMAS / "SystemStructureDescription.xsd"))
+    whole, flat = (etree.fromstring(file(path, "SystemStructure.ssd")) for path in laps)
+    for root in (whole, flat):
+        schema.assertValid(root)
+        assert not root.xpath("//ssd:ParameterBinding", namespaces=NAMESPACES)
+    forces = [f"specificForce.{axis}[{k}]" for axis in "xy" for k in range(1, 21)]
+    names = [f"vehicle.preview.{name}" for name in ("count", "step", *forces)]
+    previews = {("motorcycle", name, "washout", name) for name in names}
+    assert wires(whole) == {wire for wire in wires(system) if wire[0] is not None} | previews
+    assert wires(flat) == {wire for wire in wires(whole) if wire[2] is not None}
+    kinds = whole.xpath("ssd:System/ssd:Connectors/ssd:Connector/@kind", namespaces=NAMESPACES)
+    assert set(kinds) == {"output"}
+
+
+def test_the_laps_fmus_start_with_its_parameters_and_have_its_connectors(laps):
+    for path in laps:
+        root = etree.fromstring(file(path, "SystemStructure.ssd"))
+        starts = {}
+        for component in root.xpath("//ssd:Component", namespaces=NAMESPACES):
+            description = read_model_description(io.BytesIO(file(path, component.get("source"))))
+            variables = {variable.name: variable for variable in description.modelVariables}
+            starts[component.get("name")] = variables
+            for connector in component.xpath("ssd:Connectors/ssd:Connector", namespaces=NAMESPACES):
+                variable, (kind,) = variables[connector.get("name")], connector
+                assert variable.causality == connector.get("kind")
+                assert (etree.QName(kind).localname, kind.get("unit")) == (variable.type, variable.unit)
+        assert starts["motorcycle"]["path.course"].start == "6"
+        assert starts["washout"]["strategy"].start == "4"
+        assert float(starts["washout"]["scale.angularVelocity.x"].start) == 0.1
+
+
+def test_the_example_rides_the_lap_near_its_preview(laps):
+    lap = example("10_lap")
+    result = lap.simulate(laps[0], 2e-3, 15.0)
+    assert result["speed"].max() > 20.0 and np.abs(result["motorcycle.path.deviation"]).max() < 0.1
+    (rest, surge), _ = lap.errors(result)
+    assert surge < 0.5 * rest
+    assert not np.any(result["actuatorLimited"])
+    # From 1.5 s on the preview is whole, and element k is the force k times the step later.
+    desired = result["motorcycle.vehicle.specificForce.x"]
+    for k in (1, 5, 20):
+        previewed = result[f"motorcycle.vehicle.preview.specificForce.x[{k}]"]
+        later = np.interp(result["time"] + 0.2 * k, result["time"], desired)
+        settled = (result["time"] > 1.5) & (result["time"] < 10.0)
+        assert np.max(np.abs(previewed - later)[settled]) < 0.05
 
 
 def test_it_is_valid_against_the_schemas_of_ssp_1_0(system, parameters):

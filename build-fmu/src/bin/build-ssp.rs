@@ -4,18 +4,26 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Parser;
-use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_SIMULATOR};
+use clap::builder::PossibleValuesParser;
+use moris_build_fmu::ssp::{self, Form, SYSTEMS, System};
 use moris_build_fmu::{Platform, workspace};
 
-/// Builds MotorcycleSimulator.ssp: motorcycle, washout filter and platform as FMUs, connected, with
-/// their parameters.
+/// Builds a package of connected FMUs with their parameters.
+///
+/// MotorcycleSimulator.ssp is a motorcycle with its rider, the washout filter and the platform.
+/// MotorcycleLap.ssp is the same on a lap: the motorcycle follows it by itself, and the washout
+/// knows what comes.
 ///
 /// Without options the FMUs are for this machine, and the package is written to target/fmu.
 #[derive(Parser)]
 #[command(name = "cargo build-ssp", version)]
 struct Arguments {
-    /// Build MotorcycleSimulator.flat.ssp, without inputs of the system and with a parameter set
-    /// for each component, for Ecos and libcosim
+    /// System to build
+    #[arg(long, value_name = "NAME", default_value = SYSTEMS[0].name, value_parser = system_names())]
+    system: String,
+
+    /// Build the form .flat.ssp, without connectors of the system and with a parameter set for each
+    /// component, for Ecos and libcosim
     #[arg(long)]
     flat: bool,
 
@@ -32,7 +40,9 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let output = arguments.output.unwrap_or_else(workspace::default_output);
     let form = if arguments.flat { Form::Flat } else { Form::Whole };
-    match ssp::build(&MOTORCYCLE_SIMULATOR, form, &arguments.platform, &output, |line| println!("{line}")) {
+    let is_named = |system: &&&System| system.name == arguments.system;
+    let system = SYSTEMS.iter().find(is_named).expect("names of systems are checked");
+    match ssp::build(system, form, &arguments.platform, &output, |line| println!("{line}")) {
         Ok(built) => {
             println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
             ExitCode::SUCCESS
@@ -42,4 +52,8 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn system_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(SYSTEMS.iter().map(|system| system.name))
 }

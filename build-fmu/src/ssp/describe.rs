@@ -40,7 +40,7 @@ pub fn describe(system: &System, form: Form, parameters: &ByComponent) -> schema
         system: schema::System {
             name: "simulator".to_owned(),
             connectors: (form == Form::Whole).then(|| own_connectors(system)),
-            parameter_bindings: (form == Form::Whole).then(|| bound_to(system.name)),
+            parameter_bindings: (form == Form::Whole && !parameters.is_empty()).then(|| bound_to(system.name)),
             elements: schema::Elements {
                 components: (0..)
                     .zip(system.components)

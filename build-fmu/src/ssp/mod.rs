@@ -8,11 +8,14 @@
 pub mod describe;
 pub mod parameter_set;
 pub mod schema;
+pub mod start_values;
 pub mod system;
 
 use std::path::Path;
 
-pub use system::{MOTORCYCLE_SIMULATOR, System};
+pub use start_values::read as start_values;
+use system::Place;
+pub use system::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR, SYSTEMS, System};
 
 /// Purpose of a package.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +29,8 @@ pub enum Form {
 
 use crate::archive::{self, Contents};
 use crate::contents::LICENCES;
-use crate::fmu::write_whole;
-use crate::{Built, Error, FmiVersion, Platform, compile_together, fmu};
+use crate::fmu::{fmu_with, write_whole};
+use crate::{Built, Error, FmiVersion, Platform, compile_together};
 
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";
@@ -49,11 +52,13 @@ pub fn build(
     mut report: impl FnMut(&str),
 ) -> Result<Built, Error> {
     let mut contents = description(system, form)?;
-    let libraries: Vec<_> = system.components.iter().map(|it| (it.model, FmiVersion::Fmi2)).collect();
+    let starts = start_values::read(system)?;
+    let own = system.components.iter().zip(&starts).filter(|(_, start)| start.is_own());
+    let libraries: Vec<_> = own.map(|(component, _)| (component.model, FmiVersion::Fmi2)).collect();
     compile_together(&libraries, platforms)?;
-    for component in system.components {
-        let model = component.model;
-        contents.insert(fmu_path(component), fmu(model, FmiVersion::Fmi2, platforms, &mut report)?);
+    for (component, start) in system.components.iter().zip(&starts) {
+        let fmu = fmu_with(component.model, start, FmiVersion::Fmi2, platforms, &mut report)?;
+        contents.insert(fmu_path(component), fmu);
     }
     let package = archive::pack(&contents)?;
     let file = output.join(format!("{}{}.ssp", system.name, if form == Form::Flat { ".flat" } else { "" }));
@@ -66,12 +71,16 @@ pub fn build(
 /// # Errors
 /// The system's parameters name what there is not.
 pub fn description(system: &System, form: Form) -> Result<Contents, Error> {
-    let parameters = parameter_set::read(system)?;
+    let parameters = match system.place {
+        Place::Sets => parameter_set::read(system)?,
+        Place::StartValues => Vec::new(),
+    };
     let mut contents = Contents::from([
         ("SystemStructure.ssd".to_owned(), describe::to_xml(&describe::describe(system, form, &parameters))),
         ("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec()),
     ]);
     match form {
+        Form::Whole if parameters.is_empty() => {}
         Form::Whole => {
             let set = describe::parameter_set(system, parameter_set::of_all(&parameters));
             contents.insert(parameters_path(system.name), describe::to_xml(&set));

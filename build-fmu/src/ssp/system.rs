@@ -20,11 +20,26 @@ pub struct System {
     pub outputs: &'static [Port],
     /// Parameters that the components start with: a table in TOML for each component.
     pub parameters: &'static str,
+    /// Place of these parameters in the package.
+    pub place: Place,
     /// Where the default experiment ends \[s\].
     pub stop_time: f64,
     /// Communication step, for tools that read one \[s\].
     pub step_size: f64,
 }
+
+/// Place of a system's parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Parameter sets, which a tool applies to FMUs with their models' own start values.
+    Sets,
+    /// The FMUs' start values, for parameters that not every tool takes from a set: items of
+    /// enumerations, say.
+    StartValues,
+}
+
+/// Every system; the first is built by default.
+pub const SYSTEMS: &[&System] = &[&MOTORCYCLE_SIMULATOR, &MOTORCYCLE_LAP];
 
 /// An input or output of a system, and the component's variable that it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,90 +71,123 @@ pub const MOTORCYCLE_SIMULATOR: System = System {
     name: "MotorcycleSimulator",
     text: "A motorcycle simulator: a motorcycle with its rider, the washout filter, and the Stewart platform that moves",
     components: &[
-        Component {
-            name: "motorcycle",
-            model: &MOTORCYCLE,
-            shown: &["vehicle.position", "vehicle.acceleration", "steer.angle"],
-        },
-        Component {
-            name: "washout",
-            model: &WASHOUT,
-            shown: &["rider.specificForce", "rider.angularVelocity", "tilt", "status"],
-        },
-        Component {
-            name: "platform",
-            model: &STEWART_PLATFORM,
-            shown: &[
-                "platform.position",
-                "platform.orientation",
-                "actuator[1].length",
-                "actuator[2].length",
-                "actuator[3].length",
-                "actuator[4].length",
-                "actuator[5].length",
-                "actuator[6].length",
-                "actuator[1].force",
-                "actuator[2].force",
-                "actuator[3].force",
-                "actuator[4].force",
-                "actuator[5].force",
-                "actuator[6].force",
-                "rider.specificForce",
-                "rider.angularVelocity",
-                "status",
-            ],
-        },
+        motorcycle(&["vehicle.position", "vehicle.acceleration", "steer.angle"]),
+        WASHOUT_PART,
+        PLATFORM_PART,
     ],
-    connections: simulator_connections,
+    connections: || simulator_connections(Preview::No),
     inputs: &[
         port("throttle", "motorcycle", "command.throttle"),
         port("brake", "motorcycle", "command.brake"),
         port("lean", "motorcycle", "command.lean"),
     ],
-    outputs: &[
-        port("speed", "motorcycle", "vehicle.speed"),
-        port("feltSpecificForceX", "platform", "rider.specificForce.x"),
-        port("feltSpecificForceY", "platform", "rider.specificForce.y"),
-        port("feltSpecificForceZ", "platform", "rider.specificForce.z"),
-        port("feltAngularVelocityX", "platform", "rider.angularVelocity.x"),
-        port("feltAngularVelocityY", "platform", "rider.angularVelocity.y"),
-        port("feltAngularVelocityZ", "platform", "rider.angularVelocity.z"),
-        port("actuatorLength1", "platform", "actuator[1].length"),
-        port("actuatorLength2", "platform", "actuator[2].length"),
-        port("actuatorLength3", "platform", "actuator[3].length"),
-        port("actuatorLength4", "platform", "actuator[4].length"),
-        port("actuatorLength5", "platform", "actuator[5].length"),
-        port("actuatorLength6", "platform", "actuator[6].length"),
-        port("strokeMargin", "washout", "status.strokeMargin"),
-        port("tiltLimited", "washout", "status.tiltLimited"),
-        port("safetyActive", "washout", "status.safetyActive"),
-        port("actuatorLimited", "washout", "status.actuatorLimited"),
-        port("commandRefused", "platform", "status.commandRefused"),
-        port("driveLimited", "platform", "status.driveLimited"),
-        port("forceLimited", "platform", "status.forceLimited"),
-        port("atStop", "platform", "status.atStop"),
-    ],
+    outputs: OUTPUTS,
     parameters: include_str!("../../ssp/MotorcycleSimulator.toml"),
+    place: Place::Sets,
     stop_time: 45.0,
     step_size: 0.001,
 };
+
+/// The simulator on a lap: the motorcycle follows the path by itself, and the washout knows what
+/// comes.
+pub const MOTORCYCLE_LAP: System = System {
+    name: "MotorcycleLap",
+    text: "A motorcycle that rides a lap by itself, the washout filter with a preview of it, and the Stewart platform",
+    components: &[
+        motorcycle(&["vehicle.position", "vehicle.acceleration", "steer.angle", "path", "status"]),
+        WASHOUT_PART,
+        PLATFORM_PART,
+    ],
+    connections: || simulator_connections(Preview::Connected),
+    inputs: &[],
+    outputs: OUTPUTS,
+    parameters: include_str!("../../ssp/MotorcycleLap.toml"),
+    place: Place::StartValues,
+    stop_time: 100.0,
+    step_size: 0.001,
+};
+
+const fn motorcycle(shown: &'static [&'static str]) -> Component {
+    Component { name: "motorcycle", model: &MOTORCYCLE, shown }
+}
+
+const WASHOUT_PART: Component = Component {
+    name: "washout",
+    model: &WASHOUT,
+    shown: &["rider.specificForce", "rider.angularVelocity", "tilt", "status"],
+};
+
+const PLATFORM_PART: Component = Component {
+    name: "platform",
+    model: &STEWART_PLATFORM,
+    shown: &[
+        "platform.position",
+        "platform.orientation",
+        "actuator[1].length",
+        "actuator[2].length",
+        "actuator[3].length",
+        "actuator[4].length",
+        "actuator[5].length",
+        "actuator[6].length",
+        "actuator[1].force",
+        "actuator[2].force",
+        "actuator[3].force",
+        "actuator[4].force",
+        "actuator[5].force",
+        "actuator[6].force",
+        "rider.specificForce",
+        "rider.angularVelocity",
+        "status",
+    ],
+};
+
+const OUTPUTS: &[Port] = &[
+    port("speed", "motorcycle", "vehicle.speed"),
+    port("feltSpecificForceX", "platform", "rider.specificForce.x"),
+    port("feltSpecificForceY", "platform", "rider.specificForce.y"),
+    port("feltSpecificForceZ", "platform", "rider.specificForce.z"),
+    port("feltAngularVelocityX", "platform", "rider.angularVelocity.x"),
+    port("feltAngularVelocityY", "platform", "rider.angularVelocity.y"),
+    port("feltAngularVelocityZ", "platform", "rider.angularVelocity.z"),
+    port("actuatorLength1", "platform", "actuator[1].length"),
+    port("actuatorLength2", "platform", "actuator[2].length"),
+    port("actuatorLength3", "platform", "actuator[3].length"),
+    port("actuatorLength4", "platform", "actuator[4].length"),
+    port("actuatorLength5", "platform", "actuator[5].length"),
+    port("actuatorLength6", "platform", "actuator[6].length"),
+    port("strokeMargin", "washout", "status.strokeMargin"),
+    port("tiltLimited", "washout", "status.tiltLimited"),
+    port("safetyActive", "washout", "status.safetyActive"),
+    port("actuatorLimited", "washout", "status.actuatorLimited"),
+    port("commandRefused", "platform", "status.commandRefused"),
+    port("driveLimited", "platform", "status.driveLimited"),
+    port("forceLimited", "platform", "status.forceLimited"),
+    port("atStop", "platform", "status.atStop"),
+];
 
 const fn port(name: &'static str, component: &'static str, variable: &'static str) -> Port {
     Port { name, component, variable }
 }
 
+/// Connections of the preview: none without a path, where there is no preview.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Preview {
+    No,
+    Connected,
+}
+
 /// The motorcycle to the washout, name by name; the washout's legs to the platform's; the rider's
 /// lean to both.
-fn simulator_connections() -> Vec<Connection> {
+fn simulator_connections(preview: Preview) -> Vec<Connection> {
     let connect = |(from, output): (&'static str, String), (to, input): (&'static str, String)| Connection {
         from: (from, output),
         to: (to, input),
     };
     let delivered = names(&MOTORCYCLE.functions.identity, Causality::Output);
-    // Without a path there is no preview.
+    let is_taken = |name: &String| preview == Preview::Connected || !name.starts_with("vehicle.preview.");
     let taken = names(&WASHOUT.functions.identity, Causality::Input)
         .into_iter()
-        .filter(|name| delivered.contains(name) && !name.starts_with("vehicle.preview."));
+        .filter(|name| delivered.contains(name) && is_taken(name));
     let mut connections: Vec<Connection> =
         taken.map(|name| connect(("motorcycle", name.clone()), ("washout", name))).collect();
     for quantity in ["length", "velocity"] {

@@ -1,0 +1,77 @@
+//! From a system's parameters in TOML to the start values of its FMUs.
+
+use moris_setup::{NamedValues, parameter_file};
+use toml::{Table, Value};
+
+use super::system::{Component, Place, System};
+use crate::{Error, Start};
+
+/// The start values of each component's FMU, in the components' order.
+///
+/// # Errors
+/// The text is no TOML, or names a component, a parameter or a value that there is not.
+pub fn read(system: &System) -> Result<Vec<Start>, Error> {
+    let tables: Table = match system.place {
+        Place::Sets => Table::new(),
+        Place::StartValues => system.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?,
+    };
+    if let Some(name) = tables.keys().find(|&name| system.components.iter().all(|component| component.name != name)) {
+        return Err(error(format!("there is no component {name}")));
+    }
+    system.components.iter().map(|component| start(component, &tables)).collect()
+}
+
+fn start(component: &Component, tables: &Table) -> Result<Start, Error> {
+    let rows = component.model.functions.identity.rows;
+    let values = match tables.get(component.name) {
+        Some(Value::Table(own)) => parameter_file::read(&own.to_string(), component.name, rows)?,
+        Some(_) => return Err(error(format!("{} must be a table of parameters", component.name))),
+        None => NamedValues::new(),
+    };
+    Start::with(component.model, &values)
+}
+
+fn error(reason: String) -> Error {
+    Error::Parameters { reason }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{MOTORCYCLE, WASHOUT};
+    use crate::ssp::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR};
+    use moris_setup::load_set;
+
+    #[test]
+    fn a_system_with_parameter_sets_has_the_models_own_start_values() {
+        assert!(read(&MOTORCYCLE_SIMULATOR).unwrap().iter().all(Start::is_own));
+    }
+
+    #[test]
+    fn the_lap_is_ridden_by_the_motorcycle_and_previewed_by_the_washout() {
+        let [motorcycle, washout, platform] = read(&MOTORCYCLE_LAP).unwrap().try_into().unwrap();
+        assert!(platform.is_own() && motorcycle.count() == 1);
+        let course = MOTORCYCLE.functions.identity.slot("path.course").unwrap();
+        assert_eq!(motorcycle.slots()[course], 6.0, "the last item of the courses");
+        let preset = load_set("preview", WASHOUT.functions.identity.rows).unwrap();
+        let preset = Start::with(&WASHOUT, &preset).unwrap();
+        let others: Vec<String> = (0..preset.slots().len())
+            .filter(|&slot| washout.slots()[slot] != preset.slots()[slot])
+            .map(|slot| WASHOUT.functions.identity.variable_name(slot))
+            .collect();
+        assert_eq!(others, ["scale.angularVelocity.x"]);
+    }
+
+    #[test]
+    fn what_cannot_be_a_start_value_is_named() {
+        for (parameters, named) in [
+            ("[car]\na = 1.0", "there is no component car"),
+            ("[washout]\n\"tilt.rate\" = 1.0", "tilt.rate"),
+            ("[motorcycle]\n\"path.course\" = \"mountain\"", "hairpin"),
+            ("[washout", "TOML"),
+        ] {
+            let reason = read(&System { parameters, ..MOTORCYCLE_LAP }).unwrap_err().to_string();
+            assert!(reason.contains(named), "{reason}");
+        }
+    }
+}
