@@ -2,8 +2,8 @@
  *
  *     host LIBRARY VERSION TOKEN
  *
- * VERSION is 2 or 3; TOKEN is the GUID or the instantiation token. Standard input has the number of inputs and their value
- * references, the number of outputs and their value references, the communication step in s, the number of steps, and for
+ * VERSION is 2 or 3; TOKEN is the GUID or the instantiation token. Standard input has the number of enumerations to set before
+ * initialization, the value reference and the item of each, the number of inputs and their value references, the number of outputs and their value references, the communication step in s, the number of steps, and for
  * each step the inputs to set before it. Standard output gets the outputs after each step, a line a step, with all their
  * digits.
  *
@@ -46,6 +46,8 @@ static void expect_ok(int status, const char *function) {
 /* A loaded library's one instance, whatever its version. */
 typedef struct {
     void *(*start)(void *library, const char *token);
+    void (*choose)(void *instance, unsigned reference, int item);
+    void (*initialize)(void *instance);
     void (*set)(void *instance, const unsigned *references, size_t count, const double *values);
     void (*step)(void *instance, double time, double step);
     void (*get)(void *instance, const unsigned *references, size_t count, double *values);
@@ -67,6 +69,7 @@ typedef struct {
     F(int, fmi2SetupExperiment, void *, int, double, double, int, double) \
     F(int, fmi2EnterInitializationMode, void *) \
     F(int, fmi2ExitInitializationMode, void *) \
+    F(int, fmi2SetInteger, void *, const unsigned *, size_t, const int *) \
     F(int, fmi2SetReal, void *, const unsigned *, size_t, const double *) \
     F(int, fmi2DoStep, void *, double, double, int) \
     F(int, fmi2GetReal, void *, const unsigned *, size_t, double *) \
@@ -91,10 +94,15 @@ static void *start2(void *library, const char *token) {
     FMI2(FIND)
     instance = fmi2Instantiate("host", CO_SIMULATION, token, NULL, &callbacks, FALSE_, FALSE_);
     if (!instance) stop("fmi2Instantiate");
+    return instance;
+}
+
+static void choose2(void *instance, unsigned reference, int item) { CALL(fmi2SetInteger, instance, &reference, 1, &item); }
+
+static void initialize2(void *instance) {
     CALL(fmi2SetupExperiment, instance, FALSE_, 0.0, 0.0, FALSE_, 0.0);
     CALL(fmi2EnterInitializationMode, instance);
     CALL(fmi2ExitInitializationMode, instance);
-    return instance;
 }
 
 static void set2(void *instance, const unsigned *references, size_t count, const double *values) {
@@ -121,6 +129,7 @@ typedef void (*LogMessage)(void *, int, const char *, const char *);
       const unsigned *, size_t, void *, LogMessage, void (*)(void)) \
     F(int, fmi3EnterInitializationMode, void *, bool, double, double, bool, double) \
     F(int, fmi3ExitInitializationMode, void *) \
+    F(int, fmi3SetInt64, void *, const unsigned *, size_t, const long long *, size_t) \
     F(int, fmi3SetFloat64, void *, const unsigned *, size_t, const double *, size_t) \
     F(int, fmi3DoStep, void *, double, double, bool, bool *, bool *, bool *, double *) \
     F(int, fmi3GetFloat64, void *, const unsigned *, size_t, double *, size_t) \
@@ -139,9 +148,17 @@ static void *start3(void *library, const char *token) {
     FMI3(FIND)
     instance = fmi3InstantiateCoSimulation("host", token, NULL, false, false, false, false, NULL, 0, NULL, log3_message, NULL);
     if (!instance) stop("fmi3InstantiateCoSimulation");
+    return instance;
+}
+
+static void choose3(void *instance, unsigned reference, int item) {
+    const long long value = item;
+    CALL(fmi3SetInt64, instance, &reference, 1, &value, 1);
+}
+
+static void initialize3(void *instance) {
     CALL(fmi3EnterInitializationMode, instance, false, 0.0, 0.0, false, 0.0);
     CALL(fmi3ExitInitializationMode, instance);
-    return instance;
 }
 
 static void set3(void *instance, const unsigned *references, size_t count, const double *values) {
@@ -182,7 +199,8 @@ static unsigned *references(size_t *count) {
 }
 
 int main(int argc, char **argv) {
-    static const Version versions[] = {{start2, set2, step2, get2, end2}, {start3, set3, step3, get3, end3}};
+    static const Version versions[] = {{start2, choose2, initialize2, set2, step2, get2, end2},
+                                       {start3, choose3, initialize3, set3, step3, get3, end3}};
     const Version *version;
     void *library, *instance;
     size_t input_count, output_count, k, n, steps;
@@ -194,6 +212,13 @@ int main(int argc, char **argv) {
     library = load(argv[1]);
     if (!library) stop("the library cannot be loaded");
 
+    instance = version->start(library, argv[3]);
+    for (k = (size_t)number(); k > 0; k--) {
+        const unsigned reference = (unsigned)number();
+        version->choose(instance, reference, (int)number());
+    }
+    version->initialize(instance);
+
     inputs = references(&input_count);
     outputs = references(&output_count);
     step = number();
@@ -201,7 +226,6 @@ int main(int argc, char **argv) {
     in = malloc((input_count + 1) * sizeof *in);
     out = malloc((output_count + 1) * sizeof *out);
 
-    instance = version->start(library, argv[3]);
     for (n = 0; n < steps; n++) {
         for (k = 0; k < input_count; k++) in[k] = number();
         version->set(instance, inputs, input_count, in);
