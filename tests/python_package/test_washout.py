@@ -99,8 +99,8 @@ def through_the_fmu(fmu, unpacked, parameters, rows, slopes, previews=None):
 @pytest.mark.parametrize("slopes", [True, False])
 @pytest.mark.parametrize(
     "parameters",
-    [{}, {"strategy": "optimal", "splitter.x.omega1": 1.5, "tilt.rateLimit": 0.03}, {"strategy": "predictive"}],
-    ids=["default", "optimal", "predictive"],
+    [{}, {"strategy": "adaptive"}, {"strategy": "optimal", "splitter.x.omega1": 1.5, "tilt.rateLimit": 0.03}, {"strategy": "predictive"}],
+    ids=["default", "adaptive", "optimal", "predictive"],
 )
 def test_arrays_give_the_fmus_outputs_to_the_bit(fmu, unpacked, parameters, slopes):
     t, force, rate, angles, speed, lean = samples()
