@@ -2,6 +2,22 @@
 //!
 //! The structs here are the Rust API, and their rows are the FMU's variables. The names are fixed:
 //! users and their scripts rely on them. A new variable goes at the end of its group.
+//!
+//! ```
+//! use moris_washout::interface::{Input, Parameters, StrategyKind};
+//! use moris_washout::{Washout, nalgebra::Vector3};
+//!
+//! let mut parameters = Parameters::default();
+//! parameters.structure.strategy = StrategyKind::Predictive; // the FMU's `strategy`
+//! parameters.tilt.rate_limit = 0.04; // `tilt.rateLimit`, in rad/s
+//! let mut washout = Washout::new(&parameters)?;
+//! let braking = Input { specific_force: Vector3::new(-2.0, 0.0, 9.80665), ..Input::default() };
+//! for _ in 0..1000 {
+//!     washout.step(&braking, 0.001);
+//! }
+//! assert!(washout.output().tilt_pitch > 0.0, "nose down");
+//! # Ok::<(), moris_washout::ParameterError>(())
+//! ```
 
 use moris_interface::units::{ANGULAR_FREQUENCY, M, M_PER_S, M_PER_S2, RAD, RAD_PER_S, RAD_PER_S2, S};
 use moris_interface::{enumeration, interface, interface_tree};

@@ -5,9 +5,11 @@
 //! Avizzano, Bergamasco: *Washout Filter Design for a Motorcycle Simulator*; equations are
 //! cited by its numbers.
 //!
-//! Data flows one way, through the blocks of the paper's Fig. 4, which are the modules of
-//! [`cueing`], and through the [`platform`]'s kinematics and actuator guard. They rest on
-//! [`filter`] and [`motion`].
+//! Data flows one way, through the blocks of the paper's Fig. 4, which are the files of
+//! `src/cueing`, and through the [`platform`]'s kinematics and actuator guard.
+//!
+//! [`Washout`] is the whole of it. [`interface`] has its inputs, outputs and parameters,
+//! [`presets`] sets of parameters, [`platform`] the kinematics alone.
 //!
 //! Frames: the base frame and the platform frame have x forward, y left, z up; roll, pitch and yaw
 //! turn about x, y and z, so that positive pitch is nose down. All quantities are in SI units.
@@ -19,8 +21,12 @@
 
 #![forbid(unsafe_code)]
 
+// The blocks and their filters: public for the workspace's other models and for tests, and no part of
+// the crate's interface.
+#[doc(hidden)]
 pub mod cueing;
 mod default_rig;
+#[doc(hidden)]
 pub mod filter;
 mod input;
 pub mod interface;

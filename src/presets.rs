@@ -1,4 +1,14 @@
 //! Parameter sets shipped beside the default, as names and values of the interface's variables.
+//!
+//! ```
+//! use moris_washout::presets::{self, MOTORCYCLE, PREDICTIVE};
+//! use moris_washout::Washout;
+//!
+//! let classical = Washout::new(&presets::parameters(MOTORCYCLE))?;
+//! let predictive = Washout::new(&presets::parameters(PREDICTIVE))?;
+//! assert_eq!(classical.output().length, predictive.output().length, "both are at rest");
+//! # Ok::<(), moris_washout::ParameterError>(())
+//! ```
 
 use moris_interface::{Causality, Model, SlotModel};
 

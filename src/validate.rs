@@ -7,6 +7,15 @@ use crate::platform::{Geometry, Pose, check_torso, leg_lengths, stroke_reserve, 
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
+/// ```
+/// use moris_washout::{Parameters, check};
+///
+/// let mut parameters = Parameters::default();
+/// assert!(check(&parameters).is_ok());
+/// parameters.tilt.rate_limit = -1.0;
+/// assert!(check(&parameters).unwrap_err().to_string().contains("tilt.rateLimit"));
+/// ```
+///
 /// # Errors
 /// The first parameter that cannot be used, and why.
 pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
@@ -28,6 +37,13 @@ pub fn check_change(from: &Parameters, to: &Parameters) -> Result<(), ParameterE
 
 /// Checks a rig that is stepped in internal steps of `longest_step` \[s\] at most: the order of the
 /// stroke's ends, the pose at neutral, and that no pose is singular.
+///
+/// ```
+/// use moris_washout::{Rig, check_rig};
+///
+/// let rig = Rig { neutral_height: 1.6, ..Rig::default() };
+/// assert!(check_rig(&rig, 0.001).unwrap_err().to_string().contains("rig.neutralHeight"));
+/// ```
 ///
 /// # Errors
 /// The first parameter that cannot be used, and why.

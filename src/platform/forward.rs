@@ -25,6 +25,21 @@ pub struct NotConverged {
 
 /// The pose in which the legs have these lengths \[m\], on the branch of the pose `guess`.
 ///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::platform::{Geometry, Pose, forward_kinematics};
+///
+/// let rig = Rig::default();
+/// let (geometry, neutral) = (Geometry::from(&rig), Pose::neutral(&rig));
+/// // All legs as long as they can be: the platform is at its highest, and level.
+/// let highest = forward_kinematics(&geometry, &[rig.max_length; 6], &neutral)?;
+/// assert!(highest.position.z > neutral.position.z + 0.3);
+/// assert!(highest.orientation.angles.roll.abs() < 1e-9);
+/// // No pose has a leg of 10 m beside five of 1.3 m.
+/// assert!(forward_kinematics(&geometry, &[10.0, 1.3, 1.3, 1.3, 1.3, 1.3], &neutral).is_err());
+/// # Ok::<(), moris_washout::platform::NotConverged>(())
+/// ```
+///
 /// # Errors
 /// If Newton's method does not converge within [`MAX_ITERATIONS`].
 pub fn forward_kinematics(geometry: &Geometry, lengths: &[f64; 6], guess: &Pose) -> Result<Pose, NotConverged> {
@@ -63,6 +78,27 @@ fn moved(pose: &Pose, twist: &Vector6<f64>) -> Pose {
 
 /// The platform's motion from the legs' motion, `accelerations` of their lengths included: pose by
 /// [`forward_kinematics`] from `guess`, velocities and accelerations by the Jacobian.
+///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::nalgebra::Vector3;
+/// use moris_washout::platform::{
+///     Geometry, PlatformMotion, Pose, inverse_kinematics, leg_accelerations, motion_of_legs,
+/// };
+///
+/// let rig = Rig::default();
+/// let (geometry, neutral) = (Geometry::from(&rig), Pose::neutral(&rig));
+/// let surging = PlatformMotion {
+///     velocity: Vector3::new(0.4, 0.0, 0.0),
+///     acceleration: Vector3::new(-2.0, 0.0, 0.0),
+///     ..PlatformMotion::at_rest(neutral)
+/// };
+/// let legs = inverse_kinematics(&geometry, &surging);
+/// let found = motion_of_legs(&geometry, &legs, &leg_accelerations(&geometry, &surging), &neutral)?;
+/// assert!((found.velocity - surging.velocity).norm() < 1e-9);
+/// assert!((found.acceleration - surging.acceleration).norm() < 1e-9);
+/// # Ok::<(), moris_washout::platform::NotConverged>(())
+/// ```
 ///
 /// # Errors
 /// As [`forward_kinematics`].

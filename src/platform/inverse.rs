@@ -15,6 +15,21 @@ pub struct Legs {
 const SHORTEST: f64 = 1e-9;
 
 /// Lengths and rates of the legs for a motion of the platform.
+///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::nalgebra::Vector3;
+/// use moris_washout::platform::{Geometry, PlatformMotion, Pose, inverse_kinematics};
+///
+/// let rig = Rig::default();
+/// // The platform rises through neutral at 0.1 m/s; all legs lengthen alike.
+/// let rising = PlatformMotion {
+///     velocity: Vector3::new(0.0, 0.0, 0.1),
+///     ..PlatformMotion::at_rest(Pose::neutral(&rig))
+/// };
+/// let legs = inverse_kinematics(&Geometry::from(&rig), &rising);
+/// assert!(legs.velocity.iter().all(|rate| (rate - legs.velocity[0]).abs() < 1e-3 && *rate > 0.05));
+/// ```
 #[inline(always)]
 pub fn inverse_kinematics(geometry: &Geometry, motion: &PlatformMotion) -> Legs {
     let Geometry { base, platform } = geometry;
@@ -73,11 +88,35 @@ pub fn leg_motion(geometry: &Geometry, motion: &PlatformMotion) -> LegMotion {
 }
 
 /// Accelerations of the legs' lengths \[m/s2\] for a motion of the platform.
+///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::nalgebra::Vector3;
+/// use moris_washout::platform::{Geometry, PlatformMotion, Pose, leg_accelerations};
+///
+/// let rig = Rig::default();
+/// // The platform yaws through neutral at a constant rate: the joints' centripetal acceleration and
+/// // the legs' turning lengthen the legs.
+/// let yawing = PlatformMotion {
+///     angular_velocity: Vector3::new(0.0, 0.0, 0.5),
+///     ..PlatformMotion::at_rest(Pose::neutral(&rig))
+/// };
+/// assert!(leg_accelerations(&Geometry::from(&rig), &yawing).iter().all(|of_a_leg| *of_a_leg > 0.0));
+/// ```
 pub fn leg_accelerations(geometry: &Geometry, motion: &PlatformMotion) -> [f64; 6] {
     leg_motion(geometry, motion).acceleration
 }
 
-/// Lengths of the legs in a pose.
+/// Lengths of the legs in a pose \[m\].
+///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::platform::{Geometry, Pose, leg_lengths};
+///
+/// let rig = Rig::default();
+/// let lengths = leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig));
+/// assert!(lengths.iter().all(|length| (length - 1.3).abs() < 1e-3));
+/// ```
 pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
     std::array::from_fn(|i| {
         (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()

@@ -9,6 +9,19 @@ use super::{Geometry, Joints, Pose};
 pub type Jacobian = Matrix6<f64>;
 
 /// The Jacobian in a pose: row i is (n_i, R a_i x n_i), with n_i the direction of leg i.
+///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::nalgebra::Vector6;
+/// use moris_washout::platform::{Geometry, Pose, jacobian};
+///
+/// let rig = Rig::default();
+/// let jacobian = jacobian(&Geometry::from(&rig), &Pose::neutral(&rig));
+/// // The force that holds 500 kg at neutral, shared by the six legs: their axial forces add up to it.
+/// let weight = Vector6::new(0.0, 0.0, 500.0 * 9.80665, 0.0, 0.0, 0.0);
+/// let forces = jacobian.transpose().lu().solve(&weight).expect("not singular");
+/// assert!((forces.dot(&jacobian.column(2)) - weight[2]).abs() < 1e-6);
+/// ```
 pub fn jacobian(geometry: &Geometry, pose: &Pose) -> Jacobian {
     let Geometry { base, platform } = geometry;
     let (arm, p) = (platform.turned(&pose.orientation.rotation), pose.position);

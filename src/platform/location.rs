@@ -8,6 +8,18 @@ use serde::{Deserialize, Serialize};
 use crate::interface::{StructureParameters, WashoutLocation};
 
 /// The washout location and the axes of the frame there, seen from the platform.
+///
+/// ```
+/// use moris_washout::Parameters;
+/// use moris_washout::nalgebra::Vector3;
+/// use moris_washout::platform::LocationFrame;
+///
+/// // A rider who leans to the right by 0.3 rad: the head moves to the right, which is -y.
+/// let head = LocationFrame::new(&Parameters::default().structure, 0.3);
+/// assert!(head.point.y < 0.0);
+/// // In the head's axes, gravity at rest pulls to the head's right as well.
+/// assert!(head.to_location_axes(Vector3::new(0.0, 0.0, -9.80665)).y < 0.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LocationFrame {
     /// The location in the platform frame \[m\].

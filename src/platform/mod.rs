@@ -1,4 +1,23 @@
 //! The Stewart platform: its geometry, and the way from pose to legs and back.
+//!
+//! ```
+//! use moris_washout::Rig;
+//! use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
+//! use moris_washout::nalgebra::Vector3;
+//! use moris_washout::platform::{Geometry, Pose, forward_kinematics, leg_lengths};
+//!
+//! let rig = Rig::default();
+//! let (geometry, neutral) = (Geometry::from(&rig), Pose::neutral(&rig));
+//! // The platform is 0.1 m forward of neutral and pitched nose up by 0.2 rad.
+//! let orientation = Orientation::new(RollPitchYaw { pitch: -0.2, ..RollPitchYaw::default() });
+//! let pose = Pose { position: neutral.position + Vector3::new(0.1, 0.0, 0.0), orientation };
+//! let lengths = leg_lengths(&geometry, &pose);
+//!
+//! let found = forward_kinematics(&geometry, &lengths, &neutral)?;
+//! assert!((found.position - pose.position).norm() < 1e-9);
+//! assert!((found.orientation.angles.pitch + 0.2).abs() < 1e-9);
+//! # Ok::<(), moris_washout::platform::NotConverged>(())
+//! ```
 
 mod coordinates;
 mod forward;
@@ -13,9 +32,9 @@ mod survey;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-pub use coordinates::PlatformCoordinates;
+pub(crate) use coordinates::PlatformCoordinates;
 pub use forward::{MAX_ITERATIONS, NotConverged, forward_kinematics, motion_of_legs};
-pub use guard::{ActuatorGuard, stroke_reserve};
+pub(crate) use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;

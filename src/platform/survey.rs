@@ -37,6 +37,17 @@ pub struct SurveyFailed {
 /// conditioned and its determinant of the sign it has at neutral: a change of sign tells of
 /// a singularity between the points.
 ///
+/// ```
+/// use moris_washout::Rig;
+/// use moris_washout::platform::survey;
+///
+/// let rig = Rig::default();
+/// assert!(survey(&rig).expect("not singular").worst_condition < 4.0);
+/// // Legs between two hexagons alike hold no platform.
+/// let parallel = Rig { platform: rig.base, ..rig };
+/// assert!(survey(&parallel).is_err());
+/// ```
+///
 /// # Errors
 /// The first leg lengths found at which the platform is singular.
 pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
