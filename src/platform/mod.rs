@@ -138,3 +138,29 @@ impl PlatformMotion {
         Pose { position: self.position, orientation: self.orientation }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+
+    /// With a constant axis the rotation is known; what the second order leaves is of the third.
+    #[test]
+    fn the_rotation_to_come_is_exact_to_second_order() {
+        let orientation = Orientation::new(RollPitchYaw { roll: 0.3, pitch: -0.2, yaw: 0.5 });
+        let pose = Pose { position: Vector3::zeros(), orientation };
+        let axis = Vector3::new(0.6, -0.48, 0.64);
+        let (rate, acceleration) = (2.0, 30.0);
+        let motion = PlatformMotion {
+            angular_velocity: rate * axis,
+            angular_acceleration: acceleration * axis,
+            ..PlatformMotion::at_rest(pose)
+        };
+        for step in [1e-3, 1e-2, 3e-2] {
+            let angle: f64 = rate * step + 0.5 * acceleration * step * step;
+            let exact = Rotation3::new(angle * axis).matrix() * orientation.rotation;
+            let error = (motion.rotation_after(step) - exact).norm();
+            assert!(error > 0.0 && error < 0.3 * angle.powi(3), "{error} after {step} s, {angle} rad");
+        }
+    }
+}
