@@ -38,7 +38,7 @@ pub struct Options {
     pub folds: Option<usize>,
 
     /// Parameters to tune, separated by commas
-    #[arg(long, value_name = "GROUPS", value_delimiter = ',', default_values = ["splitter", "angular", "scale"])]
+    #[arg(long, value_name = "GROUPS", value_delimiter = ',', default_values = ["splitter", "angular", "scale", "strategy"])]
     pub tune: Vec<Group>,
 
     /// Weights of the errors of specific force x, y, z and angular velocity x, y, z

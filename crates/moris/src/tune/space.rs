@@ -1,6 +1,7 @@
 //! Search variables: logarithms of break frequencies, dampings and scales.
 
 use moris_washout::Parameters;
+use moris_washout::interface::StrategyKind;
 use moris_washout::motion::orientation::RollPitchYaw;
 use moris_washout::nalgebra::{DVector, Vector3};
 
@@ -17,6 +18,8 @@ pub enum Group {
     Cutoff,
     /// Tilt's limits of rate (to 3 deg/s), acceleration and angle
     Tilt,
+    /// Weights, gains and poles of the strategy in use; the classical one has none
+    Strategy,
 }
 
 /// Range of a parameter that makes sense for a washout.
@@ -25,6 +28,12 @@ const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
 const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
 /// Nobody wants more than the vehicle does.
 const SCALES: Range = Range { min: 0.01, max: 1.0 };
+
+/// Weights of a strategy's cost, and rates at which gains follow its gradient.
+const WEIGHTS: Range = Range { min: 1e-5, max: 1e3 };
+/// Gains of the adaptive strategy: a part of the force as travel, and a tilt rate for it.
+const GAINS: Range = Range { min: 1e-3, max: 2.0 };
+const SPLIT_TIMES: Range = Range { min: 0.01, max: 2.0 };
 
 /// Tilt that riders hardly perceive, and not so slow that it is none.
 const TILT_RATES: Range = Range { min: 0.02, max: 0.053 };
@@ -162,6 +171,47 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
         act(&mut tilt.acceleration_limit, TILT_ACCELERATIONS, None);
         act(&mut tilt.angle_limit, TILT_ANGLES, None);
     }
+    if groups.contains(&Group::Strategy) {
+        visit_strategy(parameters, &mut |value, range| act(value, range, None));
+    }
+}
+
+/// Visits the parameters of the strategy in use that are tuned.
+fn visit_strategy(parameters: &mut Parameters, act: &mut impl FnMut(&mut f64, Range)) {
+    let Parameters { structure, adaptive, optimal, predictive, .. } = parameters;
+    match structure.strategy {
+        StrategyKind::Classical => {}
+        StrategyKind::Adaptive => {
+            act(&mut adaptive.omega, FREQUENCIES);
+            act(&mut adaptive.zeta, DAMPINGS);
+            act(&mut adaptive.gain1, WEIGHTS);
+            act(&mut adaptive.gain2, WEIGHTS);
+            act(&mut adaptive.nominal1, GAINS);
+            act(&mut adaptive.nominal2, GAINS);
+            act(&mut adaptive.weight_position, WEIGHTS);
+            act(&mut adaptive.weight_velocity, WEIGHTS);
+            act(&mut adaptive.weight_tilt_rate, WEIGHTS);
+            act(&mut adaptive.pull1, WEIGHTS);
+            act(&mut adaptive.pull2, WEIGHTS);
+        }
+        StrategyKind::Optimal => {
+            act(&mut optimal.weight_position, WEIGHTS);
+            act(&mut optimal.weight_velocity, WEIGHTS);
+            act(&mut optimal.weight_tilt_rate, WEIGHTS);
+            act(&mut optimal.weight_tilt_acceleration, WEIGHTS);
+            act(&mut optimal.slow_pole, FREQUENCIES);
+            act(&mut optimal.fast_pole, FREQUENCIES);
+            act(&mut optimal.split_time, SPLIT_TIMES);
+        }
+        StrategyKind::Predictive => {
+            act(&mut predictive.weight_position, WEIGHTS);
+            act(&mut predictive.weight_velocity, WEIGHTS);
+            act(&mut predictive.weight_tilt_rate, WEIGHTS);
+            act(&mut predictive.weight_tilt_acceleration, WEIGHTS);
+            act(&mut predictive.slow_pole, FREQUENCIES);
+            act(&mut predictive.fast_pole, FREQUENCIES);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -197,6 +247,33 @@ mod tests {
         moved.dedup();
         assert_eq!(moved.len(), 30);
         assert!(moved.iter().all(|name| ["splitter", "angular", "scale"].contains(&name.split('.').next().unwrap())));
+    }
+
+    #[test]
+    fn the_strategy_in_use_is_tuned_within_what_it_accepts() {
+        for (strategy, prefix, count) in [
+            (StrategyKind::Classical, "", 0),
+            (StrategyKind::Adaptive, "adaptive.", 11),
+            (StrategyKind::Optimal, "optimal.", 7),
+            (StrategyKind::Predictive, "predictive.", 6),
+        ] {
+            let mut start = Parameters::default();
+            start.structure.strategy = strategy;
+            let space = Space::new(&start, &[Group::Strategy]);
+            assert_eq!(space.dimension(), count);
+            for sign in [-1.0, 1.0] {
+                let (edge, _) = space.clamped(&DVector::from_element(count, 100.0 * sign));
+                let moved = space.parameters(&edge);
+                assert!(moris_washout::check(&moved).is_ok());
+                let changed: Vec<(String, f64)> = moris_setup::all(&moved)
+                    .into_iter()
+                    .zip(moris_setup::all(&start))
+                    .filter_map(|(after, before)| (after.1 != before.1).then_some(after))
+                    .collect();
+                assert_eq!(changed.len(), count);
+                assert!(changed.iter().all(|(name, _)| name.starts_with(prefix)), "{changed:?}");
+            }
+        }
     }
 
     #[test]

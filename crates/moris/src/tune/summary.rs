@@ -207,11 +207,15 @@ fn channels(results: &[RideResult]) -> String {
     table(["thresholds, desired: error before → after", x, y, z, p, q, r], results.iter().map(row))
 }
 
+/// A number with three decimals, or with three digits where that leaves too few.
+fn significant(value: f64) -> String {
+    if value != 0.0 && value.abs() < 0.1 { format!("{value:.2e}") } else { format!("{value:.3}") }
+}
+
 fn parameters(before: &Setup, tuned: &Setup) -> String {
     let pairs = all(&before.parameters).into_iter().zip(all(&tuned.parameters));
     let changed = pairs.filter(|(old, new)| old.1 != new.1);
-    let row =
-        |((name, old), (_, new)): ((String, f64), (String, f64))| [name, format!("{old:.3}"), format!("{new:.3}")];
+    let row = |((name, old), (_, new)): ((String, f64), (String, f64))| [name, significant(old), significant(new)];
     table(["parameter", "before", "tuned"], changed.map(row))
 }
 

@@ -336,7 +336,7 @@ def tune(
     *,
     hold_out: _Source | Iterable[_Source] = (),
     folds: int | None = None,
-    groups: Sequence[str] = ("splitter", "angular", "scale"),
+    groups: Sequence[str] = ("splitter", "angular", "scale", "strategy"),
     weights: Sequence[float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
     stroke_reserve: float = 0.01,
     evaluations: int = 3000,

@@ -52,7 +52,7 @@ def tune(
     *,
     hold_out=(),
     folds=None,
-    groups=("splitter", "angular", "scale"),
+    groups=("splitter", "angular", "scale", "strategy"),
     weights=(1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
     stroke_reserve=0.01,
     evaluations=3000,
@@ -68,7 +68,8 @@ def tune(
     recordings: to tune on. hold_out: recordings to try the result on only. folds: without them, the number of groups of
         recordings that are left out in turn; by default each recording by itself, and 0 leaves none out.
     rig, parameters, strategy: as for Washout; the search starts from these parameters.
-    groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt".
+    groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy" (weights, gains and poles of the
+        strategy in use; the classical one has none).
     weights: of the errors of specific force x, y, z and angular velocity x, y, z. stroke_reserve: of each actuator [m].
     evaluations: parameter sets of each search after its coarse scan. seed: of the random numbers.
     progress: True, False, None or a function of (done, total, text).
