@@ -35,3 +35,23 @@ impl From<&[Vector3<f64>; 6]> for Joints {
         Joints { x: joints.map(|joint| joint.x), y: joints.map(|joint| joint.y), z: joints.map(|joint| joint.z) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::orientation::{Orientation, RollPitchYaw};
+
+    /// Joints out of their plane, too, as some rigs have them.
+    #[test]
+    fn turned_joints_are_the_rotations_of_each() {
+        let joints: [Vector3<f64>; 6] = std::array::from_fn(|i| {
+            let angle = i as f64;
+            Vector3::new(0.7 * angle.cos(), 0.5 * angle.sin(), 0.05 * (1.0 + angle))
+        });
+        let rotation = Orientation::new(RollPitchYaw { roll: 0.3, pitch: -0.4, yaw: 1.1 }).rotation;
+        let turned = Joints::from(&joints).turned(&rotation);
+        for (i, joint) in joints.iter().enumerate() {
+            assert!((turned.joint(i) - rotation * joint).norm() < 1e-15);
+        }
+    }
+}
