@@ -15,23 +15,36 @@ use crate::common::cases;
 use crate::common::random::Random;
 use crate::common::rotation::{Vec3, to_base, turn};
 
+/// How far the joints of the base and of the platform are above their planes \[m\].
+const BASE_HEIGHTS: [f64; 6] = [0.02, -0.03, 0.0, 0.04, -0.01, 0.03];
+const PLATFORM_HEIGHTS: [f64; 6] = [-0.02, 0.01, 0.03, 0.0, -0.04, 0.02];
+
+/// The default rig with joints out of their planes.
 fn geometry() -> Geometry {
-    Geometry::from(&Rig::default())
+    let mut rig = Rig::default();
+    for i in 0..6 {
+        rig.base[i].z = BASE_HEIGHTS[i];
+        rig.platform[i].z = PLATFORM_HEIGHTS[i];
+    }
+    Geometry::from(&rig)
 }
 
 fn pose([x, y, z]: Vec3, [roll, pitch, yaw]: Vec3) -> Pose {
     Pose { position: Vector3::new(x, y, z), orientation: Orientation::new(RollPitchYaw::new(roll, pitch, yaw)) }
 }
 
-/// Joint positions from the default rig's description: radius and angle in degrees.
-fn joints(radius: f64, degrees: [f64; 6]) -> [Vec3; 6] {
-    degrees.map(|angle: f64| [radius * angle.to_radians().cos(), radius * angle.to_radians().sin(), 0.0])
+/// Joint positions from the default rig's description: radius and angle in degrees; and heights.
+fn joints(radius: f64, degrees: [f64; 6], heights: [f64; 6]) -> [Vec3; 6] {
+    std::array::from_fn(|i| {
+        let (sin, cos) = degrees[i].to_radians().sin_cos();
+        [radius * cos, radius * sin, heights[i]]
+    })
 }
 
 /// The legs' lengths, with joints and rotations of this test's own.
 fn lengths(position: Vec3, angles: Vec3) -> [f64; 6] {
-    let base = joints(1.0, [-8.0, 8.0, 112.0, 128.0, 232.0, 248.0]);
-    let platform = joints(0.85, [-52.0, 52.0, 68.0, 172.0, 188.0, 292.0]);
+    let base = joints(1.0, [-8.0, 8.0, 112.0, 128.0, 232.0, 248.0], BASE_HEIGHTS);
+    let platform = joints(0.85, [-52.0, 52.0, 68.0, 172.0, 188.0, 292.0], PLATFORM_HEIGHTS);
     std::array::from_fn(|i| {
         let turned = to_base(angles, platform[i]);
         let leg: Vec3 = std::array::from_fn(|k| position[k] + turned[k] - base[i][k]);
@@ -184,6 +197,26 @@ fn forward_kinematics_inverts_at_random_points_of_the_box() {
     for _ in 0..20_000 {
         let target = std::array::from_fn(|_| random.between(1.0, 1.6));
         inverts(target, &mut random);
+    }
+}
+
+/// Rounding keeps legs of hundreds of metres from the tolerance; what is reached is accepted.
+#[test]
+fn forward_kinematics_of_a_huge_rig_ends_where_rounding_does() {
+    const SIZE: f64 = 2000.0;
+    let mut rig = Rig::default();
+    for joint in rig.base.iter_mut().chain(&mut rig.platform) {
+        *joint *= SIZE;
+    }
+    let geometry = Geometry::from(&rig);
+    let neutral = pose([0.0, 0.0, 1.091 * SIZE], [0.0; 3]);
+    let mut random = Random::new(5);
+    for _ in 0..200 {
+        let mut off = |most: f64| std::array::from_fn(|_| random.between(-most, most));
+        let [x, y, z]: Vec3 = off(0.3);
+        let target = pose([x, y, 1.091 * SIZE + z], off(1e-4));
+        let found = forward_kinematics(&geometry, &leg_lengths(&geometry, &target), &neutral).expect("a pose");
+        assert!((found.position - target.position).norm() < 1e-9);
     }
 }
 
