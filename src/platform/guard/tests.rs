@@ -270,3 +270,13 @@ fn a_plan_followed_in_parts_is_the_plan() {
     assert!((rest.angles.position - Vector3::new(0.0, 0.005, -0.005)).amax() < 1e-15);
     assert_eq!((rest.linear.velocity, rest.angles.velocity), (Vector3::zeros(), Vector3::zeros()));
 }
+
+/// A leg at the end of its certified stroke is drawn back by a hundred-thousandth of it.
+#[test]
+fn legs_pursue_their_demands_a_little_inside_the_certified_stroke() {
+    let machine = Machine::new(&Rig::default(), 1e-3);
+    let (certified, pursued) = (machine.limits, machine.pursuit_limits());
+    let inset = 1e-5 * (certified.max - certified.min);
+    assert!((pursued.min - certified.min - inset).abs() < 1e-12 && (certified.max - pursued.max - inset).abs() < 1e-12);
+    assert_eq!(pursued.acceleration, certified.acceleration);
+}
