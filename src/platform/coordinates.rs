@@ -48,3 +48,30 @@ impl PlatformCoordinates {
         PlatformCoordinates { linear: coasted(&self.linear), angles: coasted(&self.angles) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn coordinates_between_two_have_the_velocity_between_and_the_acceleration_to_it() {
+        let motions = |position: f64, velocity: f64| Motions {
+            position: Vector3::new(position, 0.0, -position),
+            velocity: Vector3::new(0.0, velocity, 2.0 * velocity),
+            acceleration: Vector3::zeros(),
+        };
+        let coordinates = |position, velocity| PlatformCoordinates {
+            linear: motions(position, velocity),
+            angles: motions(2.0 * position, 3.0 * velocity),
+        };
+        let (step, before) = (0.004, coordinates(0.1, 0.2));
+        let between = coordinates(0.11, 0.22).towards(&coordinates(0.15, 0.3), 0.25, &before, step);
+        let expected = |found: f64, value: f64| assert!((found - value).abs() < 1e-12, "{found}, not {value}");
+        expected(between.linear.position.x, 0.12);
+        expected(between.linear.velocity.y, 0.24);
+        expected(between.linear.acceleration.z, 2.0 * (0.24 - 0.2) / step);
+        expected(between.angles.position.z, -0.24);
+        expected(between.angles.acceleration.y, 3.0 * (0.24 - 0.2) / step);
+    }
+}
