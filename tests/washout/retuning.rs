@@ -126,6 +126,26 @@ fn retuning_with_the_same_parameters_changes_nothing() {
     assert!((a.orientation.to_vector() - b.orientation.to_vector()).amax() < 1e-12);
 }
 
+/// The filters of the rates remember what they were driven by, low-passed rates included.
+#[test]
+fn a_change_elsewhere_leaves_the_angular_channel_as_it_is() {
+    let mut changed = washout(&[]);
+    let mut unchanged = changed.clone();
+    for k in 0..4000 {
+        // The rates change fastest here, and their low-pass is farthest behind.
+        if k == 1047 {
+            let mut parameters = *changed.parameters();
+            parameters.adaptive.gain1 *= 2.0;
+            changed.retune(&parameters).unwrap();
+        }
+        let input = moving(k as f64 * STEP);
+        changed.step(&input, STEP);
+        unchanged.step(&input, STEP);
+        let [a, b] = [&changed, &unchanged].map(|washout| washout.motion().orientation.angles.to_vector());
+        assert!((a - b).amax() < 1e-12, "{} rad after {k} steps", (a - b).amax());
+    }
+}
+
 #[test]
 fn after_retuning_the_steady_state_is_the_new_parameters() {
     let mut changed = washout(&[]);
