@@ -6,11 +6,12 @@ use std::thread;
 use std::time::Duration;
 
 use moris::tune::cost::{Constraints, Cost, Objective};
+use moris::tune::folds;
 use moris::tune::search::{Budget, Evaluate, evaluate_here};
 use moris::tune::space::{Group, Space};
-use moris::tune::summary::{self, RideResult};
+use moris::tune::summary;
+use moris::tune::tested::{Tested, tune_tested};
 use moris::tune::tuner::{NoFeasibleParameters, Tuner};
-use moris::tune::{folds, results};
 use moris_setup::{NamedValues, Setup, all, overlaid};
 use moris_washout::Parameters;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -164,7 +165,7 @@ impl PyTuning {
             return Err(error);
         }
         let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
-        let (tuned, results) = done.map_err(|reason| {
+        let Tested { setup: tuned, results, fraction } = done.map_err(|reason| {
             if reason.is::<NoFeasibleParameters>() {
                 error::nothing_found(py, &reason)
             } else {
@@ -172,7 +173,7 @@ impl PyTuning {
             }
         })?;
         let was_interrupted = interrupted.load(Ordering::Relaxed);
-        let text = summary::text(&self.before, &tuned, &results, was_interrupted);
+        let text = summary::text(&self.before, &tuned, &results, fraction, was_interrupted);
         let errors = results.iter().map(|result| {
             let error = |cost: Option<Cost>| cost.map(|cost| cost.error);
             (result.name.clone(), result.before.error, error(result.tuned), error(result.unseen))
@@ -180,7 +181,7 @@ impl PyTuning {
         Ok((
             parameter_dict(py, &tuned.parameters)?,
             text,
-            summary::first_line(&results),
+            summary::first_line(&results, fraction),
             summary::is_worse(&results),
             was_interrupted,
             errors.collect(),
@@ -189,16 +190,11 @@ impl PyTuning {
 }
 
 impl PyTuning {
-    fn tune(&self, tuner: &Tuner, groups: usize) -> Result<(Setup, Vec<RideResult>), Reason> {
+    fn tune(&self, tuner: &Tuner, groups: usize) -> Result<Tested, Reason> {
         let (tuned_on, held_out) = self.judges.split_at(self.judges.len() - self.held_out);
         let tuned_on: Vec<&Objective> = tuned_on.iter().collect();
         let held_out: Vec<&Objective> = held_out.iter().collect();
-        let tuned = tuner.tune(&tuned_on, "all rides")?;
-        let mut results = results(tuner, &tuned_on, &held_out, &tuned)?;
-        for fold in folds::folds(tuned_on.len(), groups) {
-            tuner.leave_out(&tuned_on, &fold, &mut results)?;
-        }
-        Ok((tuned, results))
+        tune_tested(tuner, &tuned_on, &held_out, &folds::folds(tuned_on.len(), groups))
     }
 }
 

@@ -10,6 +10,7 @@ mod options;
 pub mod search;
 pub mod space;
 pub mod summary;
+pub mod tested;
 pub mod tuner;
 
 use std::fs;
@@ -31,7 +32,7 @@ use crate::run::{Outcome, write_page};
 use cost::Objective;
 pub use options::Options;
 use space::Space;
-use summary::RideResult;
+use tested::{Tested, tune_tested};
 use tuner::Tuner;
 
 /// A recording that is cut out of a longer ride begins in motion, and the platform at rest: no
@@ -48,7 +49,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let before = options.setup.load()?;
     let tuned_on = judges(options, &options.rides, &before)?;
     let held_out = judges(options, &options.hold_out, &before)?;
-    let folds = folds::folds(tuned_on.len(), number_of_folds(options));
+    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(options.rides.len()));
 
     let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
     bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
@@ -62,15 +63,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         bar,
     };
     let everything: Vec<&Objective> = tuned_on.iter().collect();
-    let tuned = tuner.tune(&everything, "all rides")?;
-    let mut results = results(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &tuned)?;
-    for fold in &folds {
-        tuner.leave_out(&everything, fold, &mut results)?;
-    }
+    let Tested { setup: tuned, results, fraction } =
+        tune_tested(&tuner, &everything, &held_out.iter().collect::<Vec<_>>(), &folds)?;
     tuner.bar.finish_and_clear();
-    save(options, &before, &tuned, &summary::first_line(&results))?;
+    save(options, &before, &tuned, &summary::first_line(&results, fraction))?;
 
-    let text = summary::text(&before, &tuned, &results, tuner.was_interrupted());
+    let text = summary::text(&before, &tuned, &results, fraction, tuner.was_interrupted());
     write!(out, "{text}")?;
     writeln!(out, "wrote {}", options.output.display())?;
     for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[tuned, before])? {
@@ -82,12 +80,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 /// Exit status where the tuned parameters are written and are worse than before on some ride; see
 /// [`summary::is_worse`].
 const WORSE: u8 = 2;
-
-/// One for each ride unless another number is wanted, and none where there are rides
-/// that are held out anyway.
-fn number_of_folds(options: &Options) -> usize {
-    if options.hold_out.is_empty() { options.folds.unwrap_or(options.rides.len()) } else { 0 }
-}
 
 fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
@@ -111,31 +103,6 @@ fn listen() -> Result<Arc<AtomicBool>> {
     ctrlc::set_handler(handler).context("cannot listen for Ctrl-C")?;
     eprintln!("searching; Ctrl-C ends it and keeps the best so far");
     Ok(interrupted)
-}
-
-/// Every ride before and after, those that were not tuned on among them.
-///
-/// # Errors
-/// The parameters cannot be used.
-pub fn results(
-    tuner: &Tuner,
-    judges: &[&Objective],
-    held_out: &[&Objective],
-    tuned: &Setup,
-) -> Result<Vec<RideResult>> {
-    let result = |judge: &&Objective, is_held_out: bool| {
-        let after = tuner::full_cost(judge, tuned)?;
-        Ok(RideResult {
-            name: judge.name().to_owned(),
-            desired: *judge.desired_rms(),
-            before: tuner::full_cost(judge, tuner.setup)?,
-            tuned: (!is_held_out).then_some(after),
-            unseen: is_held_out.then_some(after),
-            nothing_found_without: false,
-        })
-    };
-    let tuned_on = judges.par_iter().map(|judge| result(judge, false));
-    tuned_on.chain(held_out.par_iter().map(|judge| result(judge, true))).collect()
 }
 
 /// Writes the parameter file: whatever makes, laid over the rig alone, the tuned parameters.

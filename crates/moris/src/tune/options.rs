@@ -33,8 +33,9 @@ pub struct Options {
     #[arg(long, value_name = "RIDE", num_args = 1..)]
     pub hold_out: Vec<PathBuf>,
 
-    /// Number of groups of recordings to leave out, in place of one at a time; 0 leaves none out
-    #[arg(long, value_name = "NUMBER", conflicts_with = "hold_out")]
+    /// Number of groups of recordings to leave out in turn, in place of one at a time; 0 leaves
+    /// none out, and the result goes all the way to the best parameters for the recordings tuned on
+    #[arg(long, value_name = "NUMBER")]
     pub folds: Option<usize>,
 
     /// Parameters to tune, separated by commas

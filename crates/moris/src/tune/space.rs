@@ -122,6 +122,20 @@ impl Space {
         self.clamped(&moved).0
     }
 
+    /// This fraction of the way from the start to parameters that were found in this space, by
+    /// logarithms. What was found to be 0 is 0.
+    pub fn towards(&self, found: &Parameters, fraction: f64) -> Parameters {
+        let mut values = Vec::new();
+        visit(&mut found.clone(), &self.groups, &mut |value, _, _| values.push(*value));
+        let mut values = values.into_iter();
+        let mut parameters = self.start;
+        visit(&mut parameters, &self.groups, &mut |value, _, _| {
+            let end = values.next().unwrap_or(*value);
+            *value = if end > 0.0 { *value * (end / *value).powf(fraction) } else { end };
+        });
+        parameters
+    }
+
     /// The parameters at a point.
     pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
         let mut parameters = self.start;
@@ -247,6 +261,23 @@ mod tests {
         moved.dedup();
         assert_eq!(moved.len(), 30);
         assert!(moved.iter().all(|name| ["splitter", "angular", "scale"].contains(&name.split('.').next().unwrap())));
+    }
+
+    #[test]
+    fn a_fraction_of_the_way_is_by_logarithms() {
+        let mut start = Parameters::default();
+        start.conditioning.rate_scale.x = 0.0;
+        let space = Space::new(&start, &DEFAULT);
+        let mut found = start;
+        found.splitter.omega1.x *= 4.0;
+        found.conditioning.force_scale.y *= 0.25;
+        let half = space.towards(&found, 0.5);
+        assert!((half.splitter.omega1.x / start.splitter.omega1.x - 2.0).abs() < 1e-12);
+        assert!((half.conditioning.force_scale.y / start.conditioning.force_scale.y - 0.5).abs() < 1e-12);
+        assert_eq!(half.conditioning.rate_scale.x, 0.0);
+        let close = |(a, b): (&(String, f64), &(String, f64))| (a.1 - b.1).abs() < 1e-12;
+        let all_the_way = moris_setup::all(&space.towards(&found, 1.0));
+        assert!(all_the_way.iter().zip(&moris_setup::all(&found)).all(close));
     }
 
     #[test]

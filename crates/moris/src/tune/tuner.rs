@@ -14,7 +14,6 @@ use rayon::prelude::*;
 use super::cost::{Cost, Objective};
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
-use super::summary::RideResult;
 use crate::run::Recording;
 
 /// No parameters were found that keep the constraints; the text says where, and what to do.
@@ -130,36 +129,9 @@ impl Tuner<'_> {
         Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
     }
 
-    /// Tunes without these rides and adds to their results what they come to then, or that nothing
-    /// was found: what was tuned on all rides is worth no less for it. Does nothing once the user
-    /// wants it to end: a search that was broken off says nothing.
-    ///
-    /// # Errors
-    /// Parameters cannot be used.
-    pub fn leave_out(&self, judges: &[&Objective], fold: &[usize], results: &mut [RideResult]) -> Result<()> {
-        let others: Vec<&Objective> =
-            judges.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, judge)| *judge).collect();
-        let names: Vec<&str> = fold.iter().map(|&k| judges[k].name()).collect();
-        if self.was_interrupted() {
-            return Ok(());
-        }
-        let tuned = self.tune(&others, &format!("without {}", names.join(", ")));
-        if self.was_interrupted() {
-            return Ok(());
-        }
-        match tuned {
-            Ok(tuned) => {
-                for &k in fold {
-                    results[k].unseen = Some(full_cost(judges[k], &tuned)?);
-                }
-                Ok(())
-            }
-            Err(error) if error.is::<NoFeasibleParameters>() => {
-                fold.iter().for_each(|&k| results[k].nothing_found_without = true);
-                Ok(())
-            }
-            Err(error) => Err(error),
-        }
+    /// This fraction of the way, by logarithms, from the initial parameters to tuned ones.
+    pub fn towards(&self, tuned: &Setup, fraction: f64) -> Setup {
+        Setup { parameters: self.space.towards(&tuned.parameters, fraction), ..tuned.clone() }
     }
 }
 
@@ -173,12 +145,16 @@ const TRIES: i32 = 32;
 /// Factor by which a ride's error may grow, at most, without a word.
 pub const WORST_RATIO: f64 = 1.05;
 
-fn full_costs(judges: &[&Objective], setup: &Setup) -> Result<Vec<Cost>> {
+/// Costs of recordings, each as by [`full_cost`].
+///
+/// # Errors
+/// The parameters cannot be used.
+pub fn full_costs(judges: &[&Objective], setup: &Setup) -> Result<Vec<Cost>> {
     judges.par_iter().map(|judge| full_cost(judge, setup)).collect()
 }
 
 /// The largest ratio of a ride's error to that before.
-fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
+pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
     before.iter().zip(after).map(|(before, after)| after.error / before.error).fold(0.0, f64::max)
 }
 

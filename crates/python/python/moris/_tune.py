@@ -65,8 +65,9 @@ def tune(
 ):
     """Searches for parameters with a small sensed error on all recordings, such that no limit of the platform is active.
 
-    recordings: to tune on. hold_out: recordings to try the result on only. folds: without them, the number of groups of
-        recordings that are left out in turn; by default each recording by itself, and 0 leaves none out.
+    recordings: to tune on. hold_out: recordings to try the result on only. folds: number of groups of recordings that are
+        left out in turn, which decides how far the result goes from the initial parameters; by default each recording by
+        itself. 0 leaves none out, and the result goes all the way to the best parameters for the recordings.
     rig, parameters, strategy: as for Washout; the search starts from these parameters.
     groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy" (weights, gains and poles of the
         strategy in use; the classical one has none).
@@ -92,7 +93,7 @@ def tune(
     for name, value, least in (("evaluations", evaluations, 1), ("patience", patience, 1), ("folds", folds, 0), ("seed", seed, 0)):
         if value is not None and value < least:
             raise ValueError(f"{name} is {value}, but must be {least} at least")
-    folds = 0 if held_out else len(tuned_on) if folds is None else folds
+    folds = len(tuned_on) if folds is None else folds
     arguments = (
         [ride._native for ride in rides], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,
     )  # fmt: skip
