@@ -3,7 +3,6 @@
 
 use anyhow::Result;
 use moris_setup::Setup;
-use rayon::prelude::*;
 
 use super::cost::{Cost, Objective};
 use super::summary::RideResult;
