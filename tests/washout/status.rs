@@ -39,6 +39,29 @@ fn blows(k: usize, force: f64, rate: f64) -> Input {
     }
 }
 
+/// Their derivatives, which a host may ask for, are differences of the legs'
+/// velocities over a step.
+#[test]
+fn legs_that_are_limited_have_the_accelerations_of_their_velocities() {
+    const STEP: f64 = 0.001;
+    let mut washout = washout(&[]);
+    let mut limited = 0;
+    for k in 0..4000 {
+        let before = washout.output().leg_velocity;
+        washout.step(&blows(k, 60.0, 6.0), STEP);
+        let after = washout.output();
+        if after.actuator_limited {
+            limited += 1;
+            let told = washout.output_derivative().leg_velocity;
+            for i in 0..6 {
+                let difference = (after.leg_velocity[i] - before[i]) / STEP;
+                assert!((told[i] - difference).abs() < 1e-6, "{} and {difference} m/s2 at step {k}", told[i]);
+            }
+        }
+    }
+    assert!(limited > 100, "{limited}");
+}
+
 fn flags(output: &Output) -> [bool; 3] {
     [output.tilt_limited, output.safety_active, output.actuator_limited]
 }
