@@ -13,6 +13,10 @@ pub mod system;
 
 use std::path::Path;
 
+use crate::archive::{self, Contents};
+use crate::contents::LICENCES;
+use crate::fmu::{fmu_with, write_whole};
+use crate::{Built, Error, FmiVersion, Platform, compile_together};
 pub use start_values::read as start_values;
 use system::Place;
 pub use system::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR, SYSTEMS, System};
@@ -26,11 +30,6 @@ pub enum Form {
     /// libcosim.
     Flat,
 }
-
-use crate::archive::{self, Contents};
-use crate::contents::LICENCES;
-use crate::fmu::{fmu_with, write_whole};
-use crate::{Built, Error, FmiVersion, Platform, compile_together};
 
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";

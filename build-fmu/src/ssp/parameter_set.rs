@@ -5,7 +5,7 @@ use toml::{Table, Value};
 
 use super::describe::unit_name;
 use super::schema;
-use super::system::System;
+use super::system::{Component, System};
 use crate::Error;
 
 /// Parameters by the name of their component.
@@ -16,22 +16,16 @@ pub type ByComponent = Vec<(String, Vec<schema::Parameter>)>;
 /// # Errors
 /// The text is no TOML, or names a component, a parameter or a value that there is not.
 pub fn read(system: &System) -> Result<ByComponent, Error> {
-    let tables: Table = system.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?;
-    let mut by_component = ByComponent::new();
-    for (name, values) in &tables {
-        let component = system.components.iter().find(|component| component.name == name);
-        let identity =
-            component.ok_or_else(|| error(format!("there is no component {name}")))?.model.functions.identity;
-        let values = values.as_table().ok_or_else(|| error(format!("{name} must be a table of parameters")))?;
-        let mut parameters = Vec::new();
-        for (variable, value) in values {
-            let value =
-                typed(&identity, variable, value).map_err(|reason| error(format!("{name}.{variable} {reason}")))?;
-            parameters.push(schema::Parameter { name: variable.clone(), value });
-        }
-        by_component.push((name.clone(), parameters));
-    }
-    Ok(by_component)
+    let parameters = |(component, values): (&Component, Table)| {
+        let (name, identity) = (component.name, &component.model.functions.identity);
+        let parameter = |(variable, value): (String, Value)| {
+            let value = typed(identity, &variable, &value)
+                .map_err(|reason| Error::Parameters { reason: format!("{name}.{variable} {reason}") })?;
+            Ok(schema::Parameter { name: variable, value })
+        };
+        Ok((name.to_owned(), values.into_iter().map(parameter).collect::<Result<_, Error>>()?))
+    };
+    system.parameter_tables()?.into_iter().map(parameters).collect()
 }
 
 /// All parameters, each with its component's name before its own.
@@ -41,10 +35,6 @@ pub fn of_all(parameters: &ByComponent) -> Vec<schema::Parameter> {
         value: parameter.value.clone(),
     };
     parameters.iter().flat_map(|(name, own)| own.iter().map(move |parameter| named(name, parameter))).collect()
-}
-
-fn error(reason: String) -> Error {
-    Error::Parameters { reason }
 }
 
 /// A value as the model's variable has it, or why it cannot be one.

@@ -1,7 +1,6 @@
 //! From a system's parameters in TOML to the start values of its FMUs.
 
 use moris_setup::{NamedValues, parameter_file};
-use toml::{Table, Value};
 
 use super::system::{Component, Place, System};
 use crate::{Error, Start};
@@ -11,28 +10,19 @@ use crate::{Error, Start};
 /// # Errors
 /// The text is no TOML, or names a component, a parameter or a value that there is not.
 pub fn read(system: &System) -> Result<Vec<Start>, Error> {
-    let tables: Table = match system.place {
-        Place::Sets => Table::new(),
-        Place::StartValues => system.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?,
+    let tables = match system.place {
+        Place::Sets => Vec::new(),
+        Place::StartValues => system.parameter_tables()?,
     };
-    if let Some(name) = tables.keys().find(|&name| system.components.iter().all(|component| component.name != name)) {
-        return Err(error(format!("there is no component {name}")));
-    }
-    system.components.iter().map(|component| start(component, &tables)).collect()
-}
-
-fn start(component: &Component, tables: &Table) -> Result<Start, Error> {
-    let rows = component.model.functions.identity.rows;
-    let values = match tables.get(component.name) {
-        Some(Value::Table(own)) => parameter_file::read(&own.to_string(), component.name, rows)?,
-        Some(_) => return Err(error(format!("{} must be a table of parameters", component.name))),
-        None => NamedValues::new(),
+    let start = |component: &Component| {
+        let rows = component.model.functions.identity.rows;
+        let values = match tables.iter().find(|(of, _)| of.name == component.name) {
+            Some((_, own)) => parameter_file::read(&own.to_string(), component.name, rows)?,
+            None => NamedValues::new(),
+        };
+        Start::with(component.model, &values)
     };
-    Start::with(component.model, &values)
-}
-
-fn error(reason: String) -> Error {
-    Error::Parameters { reason }
+    system.components.iter().map(start).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! The systems of which there are packages.
 
 use moris_interface::{Causality, Identity};
+use toml::{Table, Value};
 
+use crate::Error;
 use crate::model::{MOTORCYCLE, Model, STEWART_PLATFORM, WASHOUT};
 
 /// FMUs and how they are connected.
@@ -205,6 +207,26 @@ fn simulator_connections(preview: Preview) -> Vec<Connection> {
 pub fn names(identity: &Identity, causality: Causality) -> Vec<String> {
     let is_such = |&slot: &usize| identity.row(slot).causality == causality;
     (0..identity.slots.len()).filter(is_such).map(|slot| identity.variable_name(slot)).collect()
+}
+
+impl System {
+    /// The components that the parameters name, each with its table.
+    ///
+    /// # Errors
+    /// The text is no TOML, names a component that there is not, or has no table for one.
+    pub fn parameter_tables(&self) -> Result<Vec<(&'static Component, Table)>, Error> {
+        let error = |reason: String| Error::Parameters { reason };
+        let tables: Table = self.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?;
+        let of_component = |(name, values): (String, Value)| {
+            let component = self.components.iter().find(|component| component.name == name);
+            let component = component.ok_or_else(|| error(format!("there is no component {name}")))?;
+            match values {
+                Value::Table(own) => Ok((component, own)),
+                _ => Err(error(format!("{name} must be a table of parameters"))),
+            }
+        };
+        tables.into_iter().map(of_component).collect()
+    }
 }
 
 impl Component {

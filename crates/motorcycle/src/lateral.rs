@@ -39,6 +39,15 @@ pub type State = SVector<f64, SIZE>;
 /// A matrix that acts on the lateral state.
 pub type StateMatrix = SMatrix<f64, SIZE, SIZE>;
 
+/// Units of a state that begins with the lateral one, in which all its numbers are of about the
+/// same size: forces in kN.
+pub fn units<const N: usize>() -> SVector<f64, N> {
+    let mut units = SVector::repeat(1.0);
+    units[place::REAR_FORCE] = 1e3;
+    units[place::FRONT_FORCE] = 1e3;
+    units
+}
+
 /// A tyre: forces for slip and camber, and how far it rolls until they are there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tyre {

@@ -35,6 +35,7 @@ pub mod path;
 pub mod pose;
 pub mod riccati;
 pub mod rider;
+mod speeds;
 pub mod state;
 pub mod suspension;
 pub mod whipple;

@@ -13,7 +13,7 @@ use crate::lateral::{self, Actions, Lateral, Wheels, foot_support, place};
 use crate::longitudinal::{Accelerations, Forces, Longitudinal, Situation};
 use crate::output_rate::{mean_rate, rest_rate};
 use crate::path::follower::{Ahead, Follower};
-use crate::path::forerun::{self, Forerun, PREVIEW_STEP, Record};
+use crate::path::forerun::{Forerun, PREVIEW_STEP, Record};
 use crate::path::grip::{self, Friction};
 use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
@@ -141,22 +141,21 @@ impl Model for Motorcycle {
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
         let fastest = fastest(parameters, &longitudinal)?;
+        let State { rider: state, lateral, speed, .. } = &self.ride.state;
         let same_gains = parameters.rider.torque_weight == self.parameters.rider.torque_weight;
-        let follower;
-        if same_gains && fastest <= self.rider.fastest() {
+        let (rider, error) = if same_gains && fastest <= self.rider.fastest() {
             check_step(parameters, &suspension)?;
             let mut rider = self.rider.clone();
             rider.set_limits(parameters);
-            follower = Follower::new(parameters, &self.lateral, &rider, &longitudinal)?;
-            self.rider = rider;
+            (rider, state.error)
         } else {
-            let (_, rider) = design_rider(parameters, &suspension, fastest.max(self.ride.state.speed))?;
-            follower = Follower::new(parameters, &self.lateral, &rider, &longitudinal)?;
-            let State { rider: state, lateral, speed, .. } = &self.ride.state;
+            let (_, rider) = design_rider(parameters, &suspension, fastest.max(*speed))?;
             let error = rider.error_for_torque_of(&self.rider, state, lateral, *speed);
-            self.ride.state.rider.error = error;
-            self.rider = rider;
-        }
+            (rider, error)
+        };
+        let follower = Follower::new(parameters, &self.lateral, &rider, &longitudinal)?;
+        self.ride.state.rider.error = error;
+        self.rider = rider;
         self.longitudinal = longitudinal;
         self.suspension = suspension;
         self.parameters = *parameters;
@@ -185,9 +184,7 @@ impl Model for Motorcycle {
         for k in 0..steps as u32 {
             let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
             let inputs = [at(0.0), at(0.5), at(1.0)];
-            let mut ride = self.ride;
-            self.advance(&mut ride, &inputs, size);
-            self.ride = ride;
+            self.ride = self.advanced(&self.ride, &inputs, size);
             self.look_ahead(&inputs[2], size);
         }
         let before = self.output;
@@ -233,7 +230,7 @@ impl Motorcycle {
     }
 
     /// One step by the classical Runge-Kutta rule. A speed below zero becomes zero.
-    fn advance(&self, ride: &mut Ride, [start, middle, end]: &[Input; 3], size: f64) {
+    fn advanced(&self, ride: &Ride, [start, middle, end]: &[Input; 3], size: f64) -> Ride {
         let Ride { state, stage, .. } = *ride;
         let ahead = self.ahead(&state, stage);
         let motion = |state: &State, input: &Input| self.motion(state, input, stage, &ahead);
@@ -243,13 +240,14 @@ impl Motorcycle {
         let last = motion(&state.plus(&k3, size), end);
         let k4 = last.derivative;
         let end = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
-        ride.state = end.flush_small();
+        let mut ride = Ride { state: end.flush_small(), ..*ride };
         ride.state.speed = ride.state.speed.max(0.0);
         if let Some(limits) = last.grip {
             (ride.state.lateral, _) = held(&ride.state.lateral, limits);
             ride.grip_limited = last.grip_limited;
-            ride.stage = self.stage(ride);
+            ride.stage = self.stage(&ride);
         }
+        ride
     }
 
     /// The rider's actions for the path ahead; none without one.
@@ -326,13 +324,14 @@ impl Motorcycle {
             }
             loads = self.normal_loads(&on_tyres, &loads);
         }
+        let lateral_forces = Wheels { front: on_tyres[place::FRONT_FORCE], rear: on_tyres[place::REAR_FORCE] };
         let forces = self.longitudinal.forces(&Situation {
             speed,
             throttle: state.throttle,
             brake: state.brake,
             wind: input.wind.x,
             loads,
-            lateral: Wheels { front: on_tyres[place::FRONT_FORCE], rear: on_tyres[place::REAR_FORCE] },
+            lateral: lateral_forces,
         });
         let (mut heave, moment) = self.suspension.push(&state.suspension, extra_weight, input.wind.z);
         let mut accelerations = self.longitudinal.accelerations(&forces, moment);
@@ -357,7 +356,6 @@ impl Motorcycle {
             brake: (brake - state.brake) / p.longitudinal.brake_time,
             place,
         };
-        let lateral_forces = Wheels { front: on_tyres[place::FRONT_FORCE], rear: on_tyres[place::REAR_FORCE] };
         Dynamics { derivative, forces, accelerations, loads, lateral_forces, torque, feet, grip: limits, grip_limited }
     }
 
@@ -392,16 +390,15 @@ impl Motorcycle {
         if self.follower.is_none() {
             return;
         }
-        let State { place, speed, .. } = self.ride.state;
-        let here = forerun::Place { distance: place.distance, speed, deviation: place.deviation };
+        let here = self.ride.state;
         let ended = self.ride.stage != Stage::Riding;
         if ended || self.forerun.as_ref().is_none_or(|forerun| forerun.is_wrong(&here)) {
             self.begin_forerun(input);
         }
         if let Some(mut forerun) = self.forerun.take() {
             let inputs = [*input; 3];
-            let advance = |ride: &mut Ride, size: f64| self.advance(ride, &inputs, size);
-            forerun.follow(step, self.parameters.run.max_step, &here, advance, |ride| self.record(ride, input));
+            let advanced = |ride: &Ride, size: f64| self.advanced(ride, &inputs, size);
+            forerun.follow(step, self.parameters.run.max_step, &here, advanced, |ride| self.record(ride, input));
             self.forerun = Some(forerun);
         }
     }

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use crate::interface::{self, Parameters};
 use crate::lateral::{self, Lateral, foot_support, place};
 use crate::riccati::lqr_gain;
+use crate::speeds::Speeds;
 
 /// The lateral state, and the accumulated error of the lean.
 const SIZE: usize = lateral::SIZE + 1;
@@ -64,8 +65,7 @@ pub struct State {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rider {
     gains: SVector<GainSet, SPEEDS>,
-    slowest: f64,
-    fastest: f64,
+    speeds: Speeds,
     parameters: interface::Rider,
     /// Largest tangent of the lean: of the rider's limit, and of what the tyres hold.
     largest_lean: f64,
@@ -81,8 +81,7 @@ impl Rider {
         let limits = &parameters.rider;
         let mut rider = Rider {
             gains: SVector::repeat(GainSet::none()),
-            slowest: SLOWEST_FRACTION * limits.feet_speed,
-            fastest,
+            speeds: Speeds { slowest: SLOWEST_FRACTION * limits.feet_speed, fastest },
             parameters: *limits,
             largest_lean: 0.0,
             steer_lock: 0.0,
@@ -112,7 +111,7 @@ impl Rider {
 
     /// The speed \[m/s\] up to which there are gains.
     pub fn fastest(&self) -> f64 {
-        self.fastest
+        self.speeds.fastest
     }
 
     /// The speed \[m/s\] below which feet support the motorcycle.
@@ -141,18 +140,15 @@ impl Rider {
         if change.is_finite() { state.error + within(change, LARGEST) } else { state.error }
     }
 
-    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed: each
-    /// is faster than the one before by the same factor.
+    /// Speed \[m/s\] of the knot number `k`, below [`SPEEDS`], for which gains were computed.
     pub fn knot(&self, k: usize) -> f64 {
-        self.slowest * libm::pow(self.fastest / self.slowest, k as f64 / (SPEEDS - 1) as f64)
+        self.speeds.knot(k, SPEEDS)
     }
 
     /// Gains at a speed \[m/s\]: interpolated between two knots.
     pub fn gains(&self, speed: f64) -> GainSet {
-        let place = libm::log(speed / self.slowest) / libm::log(self.fastest / self.slowest) * (SPEEDS - 1) as f64;
-        let place = place.max(0.0).min((SPEEDS - 1) as f64);
-        let k = (place as usize).min(SPEEDS - 2);
-        self.gains[k].interpolated(&self.gains[k + 1], place - k as f64)
+        let (k, fraction) = self.speeds.find(speed, SPEEDS);
+        self.gains[k].interpolated(&self.gains[k + 1], fraction)
     }
 
     /// Torque on the bars to the right \[N m\], with foot support from 0 to 1.
@@ -217,8 +213,8 @@ impl Rider {
 const SLOWEST_FRACTION: f64 = 0.3;
 /// The reference lean needs at most this fraction of the friction.
 const FRICTION_FRACTION: f64 = 0.9;
-/// Time constant with which foot support discharges the accumulated error \[s\].
-const FORGETTING: f64 = 0.5;
+/// Time constant with which foot support discharges accumulated errors \[s\].
+pub(crate) const FORGETTING: f64 = 0.5;
 
 /// Rates at which a reference lean on a path nears its limit, and its rate the fastest \[1/s\].
 const LIMIT_APPROACH: f64 = 8.0;
@@ -227,7 +223,7 @@ const LIMIT_RATE: f64 = 30.0;
 const UPRIGHT: f64 = 4.0;
 
 /// The limited value: at most `limit` to either side.
-fn within(value: f64, limit: f64) -> f64 {
+pub(crate) fn within(value: f64, limit: f64) -> f64 {
     value.max(-limit).min(limit)
 }
 
@@ -237,10 +233,7 @@ fn within(value: f64, limit: f64) -> f64 {
 fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<GainSet> {
     let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
     let (a, torque) = plant(lateral, speed, limits.feet_speed);
-    // Forces in kN: then all numbers are of about the same size.
-    let mut unit = SVector::<f64, SIZE>::repeat(1.0);
-    unit[place::REAR_FORCE] = 1e3;
-    unit[place::FRONT_FORCE] = 1e3;
+    let unit = lateral::units::<SIZE>();
     let (scale, inverse) = (SMatrix::from_diagonal(&unit), SMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
     let mut cost = SVector::<f64, SIZE>::zeros();
     cost[place::LEAN] = 100.0;

@@ -61,14 +61,6 @@ pub struct Found {
     point: Vec<f64>,
 }
 
-impl Found {
-    /// The parameters a part of the way from the start of the search to this
-    /// set, by the logarithms.
-    pub fn part_of_the_way(&self, space: &Space, fraction: f64) -> Parameters {
-        space.parameters(&(fraction * nalgebra::DVector::from_column_slice(&self.point)))
-    }
-}
-
 /// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Searched {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use moris_setup::{Setup, all};
 
-use super::cost::{Channels, Cost};
+use super::cost::{Channels, Cost, Objective};
 use super::tuner::WORST_RATIO;
 
 /// A ride before and after.
@@ -22,6 +22,14 @@ pub struct RideResult {
     pub unseen: Option<Cost>,
     /// No parameters that keep the limits were found without this ride.
     pub nothing_found_without: bool,
+}
+
+impl RideResult {
+    /// A ride with its cost before, and nothing else yet.
+    pub fn new(judge: &Objective, before: Cost) -> Self {
+        let (name, desired) = (judge.name().to_owned(), *judge.desired_rms());
+        RideResult { name, desired, before, tuned: None, unseen: None, nothing_found_without: false }
+    }
 }
 
 /// The channels' names.

@@ -6,7 +6,7 @@ use moris_setup::Setup;
 
 use super::cost::{Cost, Objective};
 use super::summary::RideResult;
-use super::tuner::{NoFeasibleParameters, Tuner, WORST_RATIO, full_cost, full_costs, worst_ratio};
+use super::tuner::{NoFeasibleParameters, Tuner, WORST_RATIO, full_cost, full_costs, smaller, worst_ratio};
 
 /// Fractions of the way from the initial parameters to the best ones for the rides tuned on, by
 /// logarithms.
@@ -50,64 +50,77 @@ pub fn tune_tested(
 ) -> Result<Tested> {
     let best = tuner.tune(judges, "all rides")?;
     let before = full_costs(judges, tuner.setup)?;
-    let mut trials: Vec<Option<Trials>> = vec![None; judges.len()];
-    let mut nothing_found = vec![false; judges.len()];
+    let left_out = leave_out_in_turn(tuner, judges, folds)?;
+    let pairs: Vec<(Cost, Trials)> =
+        before.iter().zip(&left_out).filter_map(|(cost, of)| Some((*cost, of.trials?))).collect();
+    let (setup, fraction) = as_far_as_serves(tuner, judges, &before, &pairs, best)?;
+    let after = full_costs(judges, &setup)?;
+    let index = FRACTIONS.iter().position(|&of| of == fraction);
+    let mut results = Vec::new();
+    for (k, judge) in judges.iter().enumerate() {
+        let unseen = left_out[k].trials.and_then(|costs| index.map_or(Some(before[k]), |index| costs[index]));
+        results.push(RideResult {
+            tuned: Some(after[k]),
+            // Rides that are held out are the better test.
+            unseen: unseen.filter(|_| held_out.is_empty()),
+            nothing_found_without: left_out[k].nothing_found,
+            ..RideResult::new(judge, before[k])
+        });
+    }
+    for judge in held_out {
+        let unseen = Some(full_cost(judge, &setup)?);
+        results.push(RideResult { unseen, ..RideResult::new(judge, full_cost(judge, tuner.setup)?) });
+    }
+    Ok(Tested { setup, results, fraction })
+}
+
+/// Result of tuning without a ride.
+#[derive(Clone, Copy, Default)]
+struct LeftOut {
+    /// None where it was not left out, or nothing was found without it.
+    trials: Option<Trials>,
+    nothing_found: bool,
+}
+
+/// Tunes without each of the folds. A search that was broken off says nothing.
+fn leave_out_in_turn(tuner: &Tuner, judges: &[&Objective], folds: &[Vec<usize>]) -> Result<Vec<LeftOut>> {
+    let mut left_out = vec![LeftOut::default(); judges.len()];
     for fold in folds {
         if tuner.was_interrupted() {
             break;
         }
         match leave_out(tuner, judges, fold) {
-            // A search that was broken off says nothing.
             _ if tuner.was_interrupted() => break,
-            Ok(of_fold) => fold.iter().zip(of_fold).for_each(|(&k, costs)| trials[k] = Some(costs)),
+            Ok(of_fold) => fold.iter().zip(of_fold).for_each(|(&k, costs)| left_out[k].trials = Some(costs)),
             // All rides together are worth no less for it.
-            Err(error) if error.is::<NoFeasibleParameters>() => fold.iter().for_each(|&k| nothing_found[k] = true),
+            Err(error) if error.is::<NoFeasibleParameters>() => {
+                fold.iter().for_each(|&k| left_out[k].nothing_found = true);
+            }
             Err(error) => return Err(error),
         }
     }
-    let pairs: Vec<(Cost, Trials)> =
-        before.iter().zip(&trials).filter_map(|(cost, of)| Some((*cost, (*of)?))).collect();
-    let mut result = None;
-    for index in serving(&pairs) {
+    Ok(left_out)
+}
+
+/// As much of the way to the best parameters as serves the rides that were left out, and makes no
+/// ride much worse; and how much that is.
+fn as_far_as_serves(
+    tuner: &Tuner,
+    judges: &[&Objective],
+    before: &[Cost],
+    pairs: &[(Cost, Trials)],
+    best: Setup,
+) -> Result<(Setup, f64)> {
+    for index in serving(pairs) {
         let Some(setup) = within_limits(tuner, judges, &best, FRACTIONS[index])? else { continue };
-        if worst_ratio(&before, &full_costs(judges, &setup)?) <= WORST_RATIO {
-            result = Some((setup, FRACTIONS[index]));
-            break;
+        if worst_ratio(before, &full_costs(judges, &setup)?) <= WORST_RATIO {
+            return Ok((setup, FRACTIONS[index]));
         }
     }
-    let (setup, fraction) = match result {
-        Some(found) => found,
-        None if !pairs.is_empty() && before.iter().all(|cost| cost.violated <= TOLERATED) => {
-            (Setup { parameters: tuner.setup.parameters, ..best }, 0.0)
-        }
-        None => (best, 1.0),
-    };
-    let index = FRACTIONS.iter().position(|&of| of == fraction);
-    let after = full_costs(judges, &setup)?;
-    let mut results = Vec::new();
-    for (k, judge) in judges.iter().enumerate() {
-        let left_out = trials[k].and_then(|costs| index.map_or(Some(before[k]), |index| costs[index]));
-        results.push(RideResult {
-            name: judge.name().to_owned(),
-            desired: *judge.desired_rms(),
-            before: before[k],
-            tuned: Some(after[k]),
-            // Rides that are held out are the better test.
-            unseen: left_out.filter(|_| held_out.is_empty()),
-            nothing_found_without: nothing_found[k],
-        });
+    if !pairs.is_empty() && before.iter().all(|cost| cost.violated <= TOLERATED) {
+        return Ok((Setup { parameters: tuner.setup.parameters, ..best }, 0.0));
     }
-    for judge in held_out {
-        results.push(RideResult {
-            name: judge.name().to_owned(),
-            desired: *judge.desired_rms(),
-            before: full_cost(judge, tuner.setup)?,
-            tuned: None,
-            unseen: Some(full_cost(judge, &setup)?),
-            nothing_found_without: false,
-        });
-    }
-    Ok(Tested { setup, results, fraction })
+    Ok((best, 1.0))
 }
 
 /// Costs of the rides of a fold, at each fraction of the way to the best parameters for the others.
@@ -133,9 +146,8 @@ fn within_limits(tuner: &Tuner, judges: &[&Objective], best: &Setup, fraction: f
         return Ok(Some(best.clone()));
     }
     for k in 0..=TRIES {
-        let mut setup = tuner.towards(best, fraction);
-        setup.parameters.conditioning.force_scale *= SMALLER.powi(k);
-        setup.parameters.conditioning.rate_scale *= SMALLER.powi(k);
+        let towards = tuner.space.towards(&best.parameters, fraction);
+        let setup = Setup { parameters: smaller(&towards, SMALLER.powi(k)), ..best.clone() };
         if full_costs(judges, &setup)?.iter().all(Cost::is_feasible) {
             return Ok(Some(setup));
         }

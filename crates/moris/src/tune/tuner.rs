@@ -102,17 +102,12 @@ impl Tuner<'_> {
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
         let tries = if self.space.has_scales() { TRIES } else { 0 };
-        let smaller = (1..=tries).map(move |k| {
-            let mut parameters = best;
-            parameters.conditioning.force_scale *= SMALLER.powi(k);
-            parameters.conditioning.rate_scale *= SMALLER.powi(k);
-            parameters
-        });
+        let smaller = (1..=tries).map(move |k| smaller(&best, SMALLER.powi(k)));
         let nearer = searched
             .best
             .first()
             .into_iter()
-            .flat_map(|found| PARTS_OF_THE_WAY.map(|fraction| found.part_of_the_way(&self.space, fraction)));
+            .flat_map(|found| PARTS_OF_THE_WAY.map(|fraction| self.space.towards(&found.parameters, fraction)));
         let found = searched.best.iter().map(|found| found.parameters);
         found.chain(nearer).collect::<Vec<_>>().into_iter().chain(smaller)
     }
@@ -128,11 +123,14 @@ impl Tuner<'_> {
         }
         Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
     }
+}
 
-    /// This fraction of the way, by logarithms, from the initial parameters to tuned ones.
-    pub fn towards(&self, tuned: &Setup, fraction: f64) -> Setup {
-        Setup { parameters: self.space.towards(&tuned.parameters, fraction), ..tuned.clone() }
-    }
+/// The parameters with all scales times a factor.
+pub fn smaller(parameters: &Parameters, factor: f64) -> Parameters {
+    let mut parameters = *parameters;
+    parameters.conditioning.force_scale *= factor;
+    parameters.conditioning.rate_scale *= factor;
+    parameters
 }
 
 /// Where, between the start and the best set found, others are tried that make no ride much worse.

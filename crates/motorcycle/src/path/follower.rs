@@ -9,7 +9,7 @@ use super::table::Table;
 use crate::interface::Parameters;
 use crate::lateral::{Lateral, place};
 use crate::longitudinal::Longitudinal;
-use crate::rider::Rider;
+use crate::rider::{FORGETTING, Rider, within};
 use crate::state::{Place, State};
 
 /// A path, the plan of the speed along it, and the gains of the rider who follows it.
@@ -184,10 +184,3 @@ const LARGEST_HEADING: f64 = 0.3;
 const LARGEST_ACCUMULATED: f64 = 0.3;
 /// Least distance from the path's centre of curvature, relative to its radius.
 const INNERMOST: f64 = 0.1;
-/// Time constant with which foot support discharges the integral \[s\].
-const FORGETTING: f64 = 0.5;
-
-/// The limited value: at most `limit` to either side.
-fn within(value: f64, limit: f64) -> f64 {
-    value.max(-limit).min(limit)
-}

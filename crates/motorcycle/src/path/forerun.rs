@@ -11,6 +11,7 @@ use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use crate::motorcycle::Ride;
+use crate::state::State;
 
 /// Time between two elements of the preview \[s\].
 pub const PREVIEW_STEP: f64 = 0.2;
@@ -73,13 +74,13 @@ impl Forerun {
     }
 
     /// Follows a step of the motorcycle of `step` seconds, in internal steps of at most `longest`
-    /// seconds: `advance` makes one, and `record` a record.
+    /// seconds: `advanced` makes one, and `record` a record.
     pub fn follow(
         &mut self,
         step: f64,
         longest: f64,
-        here: &Place,
-        mut advance: impl FnMut(&mut Ride, f64),
+        here: &State,
+        advanced: impl Fn(&Ride, f64) -> Ride,
         record: impl Fn(&Ride) -> Record,
     ) {
         self.find(step, here);
@@ -87,7 +88,7 @@ impl Forerun {
         let size = RECORD / per_record;
         self.allowance = (self.allowance + PACE * step).min(PACE * step + RECORD);
         while self.last as f64 * RECORD < self.now + LEAD && self.allowance >= size {
-            advance(&mut self.ride, size);
+            self.ride = advanced(&self.ride, size);
             self.allowance -= size;
             self.steps += 1;
             if f64::from(self.steps) >= per_record {
@@ -99,33 +100,34 @@ impl Forerun {
     }
 
     /// Finds when the second ride was where the motorcycle is now.
-    fn find(&mut self, step: f64, here: &Place) {
+    fn find(&mut self, step: f64, here: &State) {
         self.now = (self.now + step).min(self.last as f64 * RECORD);
         if here.speed < SLOW {
             return;
         }
+        let distance = here.place.distance;
         let mut number = (self.now / RECORD) as usize;
         let oldest = (self.last + 1).saturating_sub(RECORDS);
-        while number > oldest && self.record(number).distance > here.distance {
+        while number > oldest && self.record(number).distance > distance {
             number -= 1;
         }
-        while number + 1 < self.last && self.record(number + 1).distance <= here.distance {
+        while number + 1 < self.last && self.record(number + 1).distance <= distance {
             number += 1;
         }
         let (before, after) = (self.record(number), self.record((number + 1).min(self.last)));
         let covered = after.distance - before.distance;
         if covered > 0.0 {
-            let fraction = ((here.distance - before.distance) / covered).clamp(0.0, 1.0);
+            let fraction = ((distance - before.distance) / covered).clamp(0.0, 1.0);
             self.now = (number as f64 + fraction) * RECORD;
         }
     }
 
     /// True if the motorcycle's motion is another than the second ride's was at this distance.
-    pub fn is_wrong(&self, here: &Place) -> bool {
+    pub fn is_wrong(&self, here: &State) -> bool {
         let then = self.at(self.now);
         self.now > LEAST_TIME
             && ((then.speed - here.speed).abs() > LARGEST_SPEED_ERROR
-                || (then.deviation - here.deviation).abs() > LARGEST_DEVIATION_ERROR)
+                || (then.deviation - here.place.deviation).abs() > LARGEST_DEVIATION_ERROR)
     }
 
     /// The preview from now on, for the force in surge and sway that the head feels now \[m/s2\]:
@@ -158,14 +160,6 @@ impl Forerun {
         let fraction = (along - number as f64).clamp(0.0, 1.0);
         self.record(number).toward(self.record((number + 1).min(self.last)), fraction)
     }
-}
-
-/// Where the motorcycle is, and how fast.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
-    pub distance: f64,
-    pub speed: f64,
-    pub deviation: f64,
 }
 
 /// Time constant with which a difference between the rides is expected to fade \[s\].

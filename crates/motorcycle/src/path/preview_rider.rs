@@ -21,6 +21,7 @@ use serde::{Deserialize, Serialize};
 use crate::lateral::{self, Actions, Lateral, place};
 use crate::riccati::cost_to_go;
 use crate::rider::{GainSet, Rider};
+use crate::speeds::Speeds;
 
 /// Coordinates of the plant: the lateral state, the accumulated error of the lean, the reference
 /// lean (its tangent) and its rate, the torso's lean and its rate, deviation from the path to the
@@ -115,36 +116,31 @@ pub fn plant_state(parts: &Parts) -> Plant {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PreviewRider {
     gains: SVector<PreviewGains, SPEEDS>,
-    slowest: f64,
-    fastest: f64,
+    speeds: Speeds,
 }
 
 impl PreviewRider {
     /// The preview rider of a motorcycle with this rider; `None` where no reference lean keeps it
     /// on a path.
     pub fn new(lateral: &Lateral, rider: &Rider) -> Option<Self> {
-        let slowest = rider.feet_speed();
-        let fastest = rider.fastest();
+        let speeds = Speeds { slowest: rider.feet_speed(), fastest: rider.fastest() };
         let none = PreviewGains {
             gain: Plant::zeros(),
             preview: SVector::zeros(),
             turn: Plant::zeros(),
             lean_per_acceleration: 0.0,
         };
-        let mut designed = PreviewRider { gains: SVector::repeat(none), slowest, fastest };
+        let mut designed = PreviewRider { gains: SVector::repeat(none), speeds };
         for k in 0..SPEEDS {
-            let speed = slowest * libm::pow(fastest / slowest, k as f64 / (SPEEDS - 1) as f64);
-            designed.gains[k] = design(lateral, rider, speed)?;
+            designed.gains[k] = design(lateral, rider, speeds.knot(k, SPEEDS))?;
         }
         Some(designed)
     }
 
     /// Gains at a speed \[m/s\]: interpolated between two knots.
     pub fn gains(&self, speed: f64) -> PreviewGains {
-        let place = libm::log(speed / self.slowest) / libm::log(self.fastest / self.slowest) * (SPEEDS - 1) as f64;
-        let place = place.max(0.0).min((SPEEDS - 1) as f64);
-        let k = (place as usize).min(SPEEDS - 2);
-        self.gains[k].interpolated(&self.gains[k + 1], place - k as f64)
+        let (k, fraction) = self.speeds.find(speed, SPEEDS);
+        self.gains[k].interpolated(&self.gains[k + 1], fraction)
     }
 
     /// The matrix of motorcycle, rider and path in closed loop at a speed \[m/s\].
@@ -224,10 +220,7 @@ fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
 fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> {
     let a = plant(lateral, rider, &rider.gains(speed), speed);
     let (turn, yaw_rate) = steady_turn(&a)?;
-    // Forces in kN: then all numbers are of about the same size.
-    let mut unit = Plant::repeat(1.0);
-    unit[place::REAR_FORCE] = 1e3;
-    unit[place::FRONT_FORCE] = 1e3;
+    let unit = lateral::units::<SIZE>();
     let (scale, inverse) = (PlantMatrix::from_diagonal(&unit), PlantMatrix::from_diagonal(&unit.map(|u| 1.0 / u)));
     let scaled = inverse * a * scale;
     let mut cost = Plant::zeros();
@@ -251,9 +244,7 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
 }
 
 /// Deviations that cost the same, as does a control of 1 / sqrt([`EASE`]).
-pub const WEIGHTS: [(usize, f64); 4] =
-    [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTERVAL_OF_DEVIATION, 0.3)];
-const INTERVAL_OF_DEVIATION: usize = INTEGRAL;
+pub const WEIGHTS: [(usize, f64); 4] = [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL, 0.3)];
 pub const EASE: f64 = 16.0;
 /// See [`cost_to_go`] \[1/s\].
 const CAYLEY_SHIFT: f64 = 20.0;
