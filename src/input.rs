@@ -8,9 +8,9 @@ use crate::interface::Input;
 use crate::motion::orientation::RollPitchYaw;
 
 impl Input {
-    /// The input at a `share` of the way to `end`, from 0 to 1; engaged or not as this one.
-    pub fn towards(&self, end: &Input, share: f64) -> Input {
-        self.map2(end, |from, to| from + share * (to - from))
+    /// The input at a `fraction` of the way to `end`, from 0 to 1; engaged or not as this one.
+    pub fn towards(&self, end: &Input, fraction: f64) -> Input {
+        self.map2(end, |from, to| from + fraction * (to - from))
     }
 
     /// The input from which one goes linearly to `end`, if this one came before it: as it is, its

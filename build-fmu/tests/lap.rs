@@ -81,7 +81,7 @@ fn surge_and_sway_of_the_lap_are_near_the_bound() {
     }
     let [rest, errors] = squares.map(|of| of.map(|sum: f64| (sum / steps as f64).sqrt()));
     println!("RMS of surge and sway: at rest {rest:.3?}, felt {errors:.3?} m/s²; steps with a limit: {flagged:?}");
-    assert!(rest[0] > 1.8 && rest[1] > 0.3, "the lap is ridden: {rest:?}");
+    assert!(rest[0] > 1.8 && rest[1] > 0.3, "the lap is brisk: {rest:?}");
     for (error, bound) in errors.into_iter().zip(BOUND) {
         assert!(error <= f64::max(1.25 * bound + 0.05, 0.10), "{errors:?} m/s²");
     }

@@ -50,15 +50,15 @@ const SMOOTHING: f64 = 0.2;
 const LEAST_DECELERATION: f64 = 0.5;
 /// The fraction of the force for which the platform is still tilted at the stop: so much error
 /// before it as after it.
-const SHARE_AT_STOP: f64 = 0.45;
+const FRACTION_AT_STOP: f64 = 0.45;
 /// The surge is launched so long before the stop, and recovers in the same time \[s\].
 const LAUNCH_TIME: f64 = 1.5;
-/// The shares of the safety limits that the launch uses.
-const SHARE_OF_POSITION: f64 = 0.9;
-const SHARE_OF_VELOCITY: f64 = 0.8;
+/// The fractions of the safety limits that the launch uses.
+const FRACTION_OF_POSITION: f64 = 0.9;
+const FRACTION_OF_VELOCITY: f64 = 0.8;
 /// The fraction of the way back that the launch is planned for: the stop may
 /// come later than foreseen.
-const SHARE_OF_ROOM: f64 = 0.9;
+const FRACTION_OF_ROOM: f64 = 0.9;
 /// The platform is moved forward from so long before the stop \[s\] ...
 const POSITIONING_TIME: f64 = 9.0;
 /// ... with an acceleration that riders hardly perceive \[m/s2\], and not fast \[m/s\].
@@ -113,7 +113,7 @@ impl StopPreaction {
     /// Force for tilt, and force for the splitter, in place of this force.
     pub fn tilted_force(&self, force: f64) -> f64 {
         if self.time_left.is_finite() {
-            force.max(SHARE_AT_STOP * force - self.slew * self.time_left)
+            force.max(FRACTION_AT_STOP * force - self.slew * self.time_left)
         } else {
             force + self.carried
         }
@@ -130,7 +130,7 @@ impl StopPreaction {
     }
 
     fn move_surge(&mut self, force: f64, safety: &SafetyParameters, step: f64) {
-        let farthest = SHARE_OF_POSITION * safety.position_limit.x;
+        let farthest = FRACTION_OF_POSITION * safety.position_limit.x;
         // Recovering from here takes a third of its time at this speed.
         let room = (self.surge.position + farthest).max(0.0);
         let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * room;
@@ -141,8 +141,8 @@ impl StopPreaction {
             Phase::Recovering { .. } if self.surge.velocity > -RECOVERED => Phase::Waiting,
             Phase::Waiting if launching => {
                 // Both halves together go 1/3 of acceleration times time squared, at most half of it times time fast.
-                let fastest = SHARE_OF_VELOCITY * safety.velocity_limit.x;
-                let room = SHARE_OF_ROOM * room;
+                let fastest = FRACTION_OF_VELOCITY * safety.velocity_limit.x;
+                let room = FRACTION_OF_ROOM * room;
                 let acceleration = (3.0 * room / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
                 Phase::Launching { acceleration: acceleration.min(safety.acceleration_limit.x) }
             }

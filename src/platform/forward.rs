@@ -69,10 +69,12 @@ const LARGEST_CHANGE: f64 = 0.3;
 fn moved(pose: &Pose, twist: &Vector6<f64>) -> Pose {
     let angles = pose.orientation.changes(twist.fixed_rows::<3>(3).into()).to_vector();
     let position: Vector3<f64> = twist.fixed_rows::<3>(0).into();
-    let share = (LARGEST_CHANGE / position.amax().max(angles.amax())).min(1.0);
+    let fraction = (LARGEST_CHANGE / position.amax().max(angles.amax())).min(1.0);
     Pose {
-        position: pose.position + share * position,
-        orientation: Orientation::new(RollPitchYaw::from_vector(pose.orientation.angles.to_vector() + share * angles)),
+        position: pose.position + fraction * position,
+        orientation: Orientation::new(RollPitchYaw::from_vector(
+            pose.orientation.angles.to_vector() + fraction * angles,
+        )),
     }
 }
 

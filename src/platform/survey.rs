@@ -111,8 +111,8 @@ fn level_length(rig: &Rig, level: usize) -> f64 {
 fn follow(geometry: &Geometry, pose: &Pose, from: &[f64; 6], to: &[f64; 6]) -> Option<Pose> {
     let mut pose = *pose;
     for part in 1..=PARTS {
-        let share = part as f64 / PARTS as f64;
-        let lengths = std::array::from_fn(|i| from[i] + share * (to[i] - from[i]));
+        let fraction = part as f64 / PARTS as f64;
+        let lengths = std::array::from_fn(|i| from[i] + fraction * (to[i] - from[i]));
         pose = forward_kinematics(geometry, &lengths, &pose).ok()?;
     }
     Some(pose)

@@ -60,16 +60,16 @@ def pip(*packages):
     """An installer of Python packages: several when they are needed together, the importer's own first."""
 
     def install():
-        wanted = " ".join(packages)
+        needed = " ".join(packages)
         mark = VENV / f"{packages[0]}.installed"
-        if not mark.exists() or mark.read_text() != wanted:
+        if not mark.exists() or mark.read_text() != needed:
             done = subprocess.run(
                 [PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--prefer-binary", *packages],
                 capture_output=True, text=True,
             )  # fmt: skip
             if done.returncode != 0:
                 raise Missing(f"pip cannot install it: {last_error(done.stderr)}")
-            mark.write_text(wanted)
+            mark.write_text(needed)
         return []
 
     return install
@@ -286,11 +286,11 @@ def main():
     parser.add_argument("--require", action="store_true", help="an importer that a registry has must not be missing")
     arguments = parser.parse_args()
     directory = arguments.fmus.resolve()
-    wanted = [directory / f"{model}.{kind}" for kind in ("fmu", "fmi3.fmu") for model in MODELS]
-    wanted += [directory / f"{system}.{kind}" for system in simulator.SYSTEMS for kind in ("ssp", "flat.ssp")]
-    if lacking := [path for path in wanted if not path.exists()]:
+    needed = [directory / f"{model}.{kind}" for kind in ("fmu", "fmi3.fmu") for model in MODELS]
+    needed += [directory / f"{system}.{kind}" for system in simulator.SYSTEMS for kind in ("ssp", "flat.ssp")]
+    if lacking := [path for path in needed if not path.exists()]:
         sys.exit(f"{lacking[0]} is missing: run `cargo build-fmu`, with --fmi 3 too, and `cargo build-ssp`, with --flat and --system MotorcycleLap too")
-    fmus = ",".join(str(path) for path in wanted if path.suffix == ".fmu")
+    fmus = ",".join(str(path) for path in needed if path.suffix == ".fmu")
     if not PYTHON.exists():
         venv.create(VENV, with_pip=True)
     print(f"{'importer':30}{'what was run':52}{'difference':>10}  verdict")

@@ -217,7 +217,7 @@ def report(name, by, answers, largest, limit, of_what):
 
 
 def largest_difference(rows, expected):
-    return max(abs(a - b) for row, wanted in zip(rows, expected, strict=True) for a, b in zip(row, wanted, strict=True))
+    return max(abs(a - b) for row, reference in zip(rows, expected, strict=True) for a, b in zip(row, wanted, strict=True))
 
 
 def compare():
@@ -245,8 +245,8 @@ def compare():
             print(f"{other.name:15}missing ({reason})", flush=True)
             complete = False
             continue
-        for answers, wanted in zip(rides, expected, strict=True):
-            largest = largest_difference(answers.rows, wanted.rows)
+        for answers, reference in zip(rides, expected, strict=True):
+            largest = largest_difference(answers.rows, reference.rows)
             passed &= report(other.name, by, answers, largest, 0.0, "linux64")
     return passed, complete
 

@@ -39,7 +39,7 @@ fn quantities(output: &Output) -> Vec<f64> {
 
 /// Rides 20 s; `parts` gives the shares of each 50 ms that the steps in it take. Returns the
 /// output at every 50 ms.
-fn ridden(mut parts: impl FnMut() -> Vec<f64>) -> Vec<Vec<f64>> {
+fn simulated(mut parts: impl FnMut() -> Vec<f64>) -> Vec<Vec<f64>> {
     let mut washout = washout(&[]);
     let mut seen = Vec::new();
     for k in 0..400 {
@@ -57,14 +57,14 @@ fn ridden(mut parts: impl FnMut() -> Vec<f64>) -> Vec<Vec<f64>> {
 
 #[test]
 fn steps_of_1_5_10_ms_and_irregular_ones_agree() {
-    let reference = ridden(|| vec![1.0; 50]);
+    let reference = simulated(|| vec![1.0; 50]);
     let mut random = Random::new(7);
     let others = [
-        ("5 ms", ridden(|| vec![1.0; 10])),
-        ("10 ms", ridden(|| vec![1.0; 5])),
-        ("50 ms", ridden(|| vec![1.0])),
-        ("irregular coarse", ridden(|| (0..8).map(|_| random.between(1.0, 10.0)).collect())),
-        ("irregular fine", ridden(|| (0..80).map(|_| random.between(1.0, 2.0)).collect())),
+        ("5 ms", simulated(|| vec![1.0; 10])),
+        ("10 ms", simulated(|| vec![1.0; 5])),
+        ("50 ms", simulated(|| vec![1.0])),
+        ("irregular coarse", simulated(|| (0..8).map(|_| random.between(1.0, 10.0)).collect())),
+        ("irregular fine", simulated(|| (0..80).map(|_| random.between(1.0, 2.0)).collect())),
     ];
     for (name, other) in others {
         for (k, (a, b)) in reference.iter().zip(&other).enumerate() {

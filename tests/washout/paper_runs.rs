@@ -9,7 +9,7 @@ const STEP: f64 = 0.001;
 
 /// Rides a run with the default parameters, and checks what holds in all of
 /// them. Returns the outputs.
-fn ridden(duration: f64, input: impl Fn(f64) -> Input) -> Vec<Output> {
+fn simulated(duration: f64, input: impl Fn(f64) -> Input) -> Vec<Output> {
     let mut washout = washout(&[]);
     let tilt = parameters(&[]).tilt;
     let mut outputs: Vec<Output> = vec![washout.output()];
@@ -42,7 +42,7 @@ fn felt_surge(outputs: &[Output]) -> Vec<f64> {
 
 #[test]
 fn accelerating_and_braking_is_tracked() {
-    let outputs = ridden(ACCELERATE_AND_BRAKE_TIME, surging(accelerate_and_brake));
+    let outputs = simulated(ACCELERATE_AND_BRAKE_TIME, surging(accelerate_and_brake));
     let (felt, desired) = (felt_surge(&outputs), desired(ACCELERATE_AND_BRAKE_TIME, accelerate_and_brake));
     let (correlation, error) = (correlation(&felt, &desired), rms_difference(&felt, &desired));
     println!("run a: correlation {correlation}, rms error {error}");
@@ -52,13 +52,13 @@ fn accelerating_and_braking_is_tracked() {
 
 #[test]
 fn accelerating_and_braking_briskly_stays_in_the_stroke() {
-    let outputs = ridden(ACCELERATE_AND_BRAKE_TIME, surging(accelerate_and_brake_briskly));
+    let outputs = simulated(ACCELERATE_AND_BRAKE_TIME, surging(accelerate_and_brake_briskly));
     assert!(from_neutral(&outputs[outputs.len() - 1]).norm() < 1e-3);
 }
 
 #[test]
 fn a_brusque_stop_is_hardly_simulated_and_ends_at_neutral() {
-    let outputs = ridden(BRUSQUE_STOP_TIME, surging(brusque_stop));
+    let outputs = simulated(BRUSQUE_STOP_TIME, surging(brusque_stop));
     let (felt, desired) = (felt_surge(&outputs), desired(BRUSQUE_STOP_TIME, brusque_stop));
     let after = ((STOP + 0.01) / STEP) as usize;
     let peak = felt[after..].iter().zip(&desired[after..]).map(|(f, d)| (f - d).abs()).fold(0.0, f64::max);
@@ -73,7 +73,7 @@ fn a_brusque_stop_is_hardly_simulated_and_ends_at_neutral() {
 
 #[test]
 fn the_wake_is_ridden_inside_the_stroke_with_the_default_set() {
-    ridden(WAKE_TIME, wake_with_roll);
+    simulated(WAKE_TIME, wake_with_roll);
 }
 
 #[test]

@@ -19,7 +19,7 @@ fn preaction(on: bool) -> Parameters {
 type Motion = fn(f64) -> (f64, f64);
 
 /// Rides from rest at `preaction` on or off. Returns the accelerations asked for and the outputs.
-fn ridden(on: bool, duration: f64, motion: Motion) -> (Vec<f64>, Vec<Output>) {
+fn simulated(on: bool, duration: f64, motion: Motion) -> (Vec<f64>, Vec<Output>) {
     let mut washout = Washout::new(&preaction(on)).unwrap();
     let mut watch = Watch::new(washout.parameters(), &washout.output());
     let steps = (1..=(duration / STEP).round() as usize).map(|k| {
@@ -74,7 +74,7 @@ fn a_brusque_stop_is_felt_with_less_than_half_of_the_error() {
     let stop = (STOP / STEP) as usize;
     let (around, after) = (stop - 5000..stop + 5000, stop + 1..stop + 8000);
     let measured = [false, true].map(|on| {
-        let (asked, outputs) = ridden(on, 50.0, run_c);
+        let (asked, outputs) = simulated(on, 50.0, run_c);
         assert!(outputs.iter().all(|output| !output.actuator_limited && !output.safety_active));
         assert!(displacement(outputs.last().unwrap()) < 1e-3);
         let whole = errors(&asked, &outputs, 0..outputs.len());
@@ -88,15 +88,15 @@ fn a_brusque_stop_is_felt_with_less_than_half_of_the_error() {
 
 #[test]
 fn a_braking_released_early_changes_nothing() {
-    let on = ridden(true, 20.0, braked::<0>);
-    assert_eq!(on.1, ridden(false, 20.0, braked::<0>).1);
+    let on = simulated(true, 20.0, braked::<0>);
+    assert_eq!(on.1, simulated(false, 20.0, braked::<0>).1);
 }
 
 #[test]
 fn a_braking_released_with_the_stop_in_sight_is_felt_as_without() {
     // 5 s before it would stand the platform has been moved forward, and nothing else.
-    let (_, on) = ridden(true, 40.0, braked::<50>);
-    let (_, off) = ridden(false, 40.0, braked::<50>);
+    let (_, on) = simulated(true, 40.0, braked::<50>);
+    let (_, off) = simulated(false, 40.0, braked::<50>);
     let mut moved = 0.0_f64;
     for (on, off) in on.iter().zip(&off) {
         let difference = (on.felt_specific_force - off.felt_specific_force).amax();
@@ -109,8 +109,8 @@ fn a_braking_released_with_the_stop_in_sight_is_felt_as_without() {
 
 #[test]
 fn a_braking_released_at_the_last_moment_is_forgotten() {
-    let (asked, outputs) = ridden(true, 40.0, braked::<80>);
-    let (_, without) = ridden(false, 40.0, braked::<80>);
+    let (asked, outputs) = simulated(true, 40.0, braked::<80>);
+    let (_, without) = simulated(false, 40.0, braked::<80>);
     assert!(outputs.iter().all(|output| !output.actuator_limited && !output.safety_active));
     // No worse than without: letting go is as brusque as a stop.
     let all = 0..outputs.len();

@@ -79,8 +79,8 @@ fn assert_no_jump(a: &Output, b: &Output, what: &str) {
 
 #[test]
 fn no_tunable_parameter_makes_anything_jump() {
-    let mut ridden = washout(&[]);
-    ride(&mut ridden, 6.0, STEP, moving, |_, _| {});
+    let mut started = washout(&[]);
+    ride(&mut started, 6.0, STEP, moving, |_, _| {});
     let changes = changes();
     assert!(changes.len() > 50, "{}", changes.len());
     for (slot, values) in changes {
@@ -88,7 +88,7 @@ fn no_tunable_parameter_makes_anything_jump() {
             let what = format!("{} = {value}", Washout::IDENTITY.variable_name(slot));
             let mut slots = start_slots();
             slots[slot] = value;
-            let (mut changed, mut unchanged) = (ridden.clone(), ridden.clone());
+            let (mut changed, mut unchanged) = (started.clone(), started.clone());
             changed.retune_from(&slots).unwrap_or_else(|refusal| panic!("{refusal}"));
             let mut after = |changed: &mut Washout| {
                 changed.step(&moving(6.0), STEP);

@@ -52,10 +52,10 @@ fn legs_that_are_limited_have_the_accelerations_of_their_velocities() {
         let after = washout.output();
         if after.actuator_limited {
             limited += 1;
-            let told = washout.output_derivative().leg_velocity;
+            let given = washout.output_derivative().leg_velocity;
             for i in 0..6 {
                 let difference = (after.leg_velocity[i] - before[i]) / STEP;
-                assert!((told[i] - difference).abs() < 1e-6, "{} and {difference} m/s2 at step {k}", told[i]);
+                assert!((given[i] - difference).abs() < 1e-6, "{} and {difference} m/s2 at step {k}", given[i]);
             }
         }
     }

@@ -38,7 +38,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lap_is_ridden_by_the_motorcycle_and_previewed_by_the_washout() {
+    fn the_motorcycle_has_the_lap_and_the_washout_the_preview() {
         let [motorcycle, washout, platform] = read(&MOTORCYCLE_LAP).unwrap().try_into().unwrap();
         assert!(platform.is_own() && motorcycle.count() == 1);
         let course = MOTORCYCLE.functions.identity.slot("path.course").unwrap();

@@ -1,5 +1,5 @@
-//! A batch gives what single rides give, whatever the number of cores, and refuses what cannot be
-//! ridden.
+//! A batch gives what single simulations give, whatever the number of cores, and rejects
+//! what cannot be simulated.
 
 use moris_batch::{Fit, Manoeuvre, simulate, simulations};
 use moris_washout::{Input, Parameters, Washout};

@@ -111,15 +111,15 @@ fn hunt(arguments: &Arguments) -> Result<bool> {
     };
     eprintln!("hunting with seed {}: {} steps on {} threads", plan.seed, plan.steps, plan.threads);
     let shows_progress = std::io::stderr().is_terminal();
-    let mut told = 0;
+    let mut printed = 0;
     let mut progress = |summary: &Summary| {
-        for (number, found) in summary.found.iter().enumerate().skip(told) {
+        for (number, found) in summary.found.iter().enumerate().skip(printed) {
             eprintln!();
             if let Err(error) = tell(arguments, number, found) {
                 eprintln!("error: {error:#}");
             }
         }
-        told = summary.found.len();
+        printed = summary.found.len();
         if shows_progress {
             eprint!("\r{}   ", line(summary));
             _ = std::io::stderr().flush();

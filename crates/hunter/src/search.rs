@@ -131,12 +131,12 @@ pub fn search<T: Target>(
                 })
             })
             .collect();
-        let mut told = (Instant::now(), 0);
+        let mut reported = (Instant::now(), 0);
         while shared.running.load(Ordering::Relaxed) > 0 {
             std::thread::sleep(Duration::from_millis(20));
             let found = lock(&shared.found).len();
-            if told.0.elapsed() >= Duration::from_secs(1) || found > told.1 {
-                told = (Instant::now(), found);
+            if reported.0.elapsed() >= Duration::from_secs(1) || found > reported.1 {
+                reported = (Instant::now(), found);
                 progress(&shared.summary(started));
             }
         }

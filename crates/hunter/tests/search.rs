@@ -76,7 +76,7 @@ fn is_found(breaks: fn(&mut Sample)) -> Quantity {
 
 #[test]
 fn a_leg_beyond_its_stroke_is_found_and_shrunk() {
-    // A leg that is told to be a tenth longer than it is, where it is long.
+    // A leg that is taken to be a tenth longer than it is, where it is long.
     let quantity = is_found(|sample| {
         let length = &mut sample.length[2];
         *length += 0.1 * (*length - 1.45).max(0.0);

@@ -24,14 +24,14 @@ pub struct Cues {
 /// Compares what is sensed in the vehicle and on the platform.
 pub fn cues(desired: &[f64], felt: &[f64], threshold: f64) -> Cues {
     let perceived = |value: f64| if value.abs() >= threshold { value.signum() } else { 0.0 };
-    let share = |holds: fn(f64, f64) -> bool| {
+    let fraction = |holds: fn(f64, f64) -> bool| {
         let held = desired.iter().zip(felt).filter(|&(&d, &f)| holds(perceived(d), perceived(f)));
         held.count() as f64 / desired.len().max(1) as f64
     };
     Cues {
-        desired: share(|desired, _| desired != 0.0),
-        false_cues: share(|desired, felt| felt != 0.0 && felt != desired),
-        missing_cues: share(|desired, felt| desired != 0.0 && felt == 0.0),
+        desired: fraction(|desired, _| desired != 0.0),
+        false_cues: fraction(|desired, felt| felt != 0.0 && felt != desired),
+        missing_cues: fraction(|desired, felt| desired != 0.0 && felt == 0.0),
     }
 }
 

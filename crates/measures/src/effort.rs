@@ -37,9 +37,9 @@ pub fn effort(platform: &Platform) -> Effort {
         longest_leg,
         stroke_used: (longest_leg - shortest_leg) / (longest - shortest),
         smallest_margin: (shortest_leg - shortest).min(longest - longest_leg),
-        tilt_limited: share(platform.limited, |limited| limited.tilt),
-        safety_active: share(platform.limited, |limited| limited.safety),
-        actuator_limited: share(platform.limited, |limited| limited.actuator),
+        tilt_limited: fraction(platform.limited, |limited| limited.tilt),
+        safety_active: fraction(platform.limited, |limited| limited.safety),
+        actuator_limited: fraction(platform.limited, |limited| limited.actuator),
         largest_tilt_rate: platform.tilt_rate.iter().flatten().fold(0.0, |largest, rate| rate.abs().max(largest)),
         final_distance: platform.displacement.last().map_or(0.0, |[x, y, z]| (x * x + y * y + z * z).sqrt()),
     }
@@ -47,7 +47,7 @@ pub fn effort(platform: &Platform) -> Effort {
 
 /// Fraction of the steps in which a limit was active, 0 to 1. The first sample is
 /// none: no step led to it.
-pub fn share(limited: &[Limited], at_work: impl Fn(&Limited) -> bool) -> f64 {
+pub fn fraction(limited: &[Limited], at_work: impl Fn(&Limited) -> bool) -> f64 {
     match limited {
         [] | [_] => 0.0,
         [_, steps @ ..] => steps.iter().filter(|limited| at_work(limited)).count() as f64 / steps.len() as f64,

@@ -123,10 +123,10 @@ impl Signal {
 }
 
 fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
-    let row = |name, share: f64, definition| Row {
+    let row = |name, fraction: f64, definition| Row {
         subject: subject.clone(),
         name,
-        value: Some(100.0 * share),
+        value: Some(100.0 * fraction),
         unit: "%",
         decimals: 1,
         definition,
@@ -166,7 +166,7 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
         definition,
         source: BOUND,
     };
-    let share = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
+    let fraction = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
     [
         row(
             "bound",
@@ -185,12 +185,12 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
         ),
         row(
             "error, of what is desired",
-            share(felt),
+            fraction(felt),
             "%",
             1,
             "RMS error as a fraction of the RMS of the desired specific force without gravity: 100 % is to stand still.",
         ),
-        row("bound, of what is desired", share(bound.rms_error), "%", 1, "The bound as the same share."),
+        row("bound, of what is desired", fraction(bound.rms_error), "%", 1, "The bound as the same fraction."),
     ]
 }
 

@@ -1,4 +1,4 @@
-//! The options by which every command is told of a rig and parameters.
+//! The options by which every command takes a rig and parameters.
 
 use std::path::PathBuf;
 

@@ -108,10 +108,10 @@ pub fn values(array: &Bound<PyAny>, name: &str, rows: Option<usize>, columns: Op
     };
     if !fits || rows.is_some_and(|rows| shape[0] != rows) {
         let rows = rows.map_or("N".to_owned(), |rows| rows.to_string());
-        let wanted = columns.map_or_else(|| format!("({rows},)"), |columns| format!("({rows}, {columns})"));
+        let expected = columns.map_or_else(|| format!("({rows},)"), |columns| format!("({rows}, {columns})"));
         let transposed = columns.is_some_and(|columns| shape.len() == 2 && shape[0] == columns && shape[1] != columns);
         let remedy = if transposed { "; transpose it: a row a sample" } else { "" };
-        return Err(wrong_shape(py, name, shape, &format!("{wanted}{remedy}")));
+        return Err(wrong_shape(py, name, shape, &format!("{expected}{remedy}")));
     }
     Ok(array.as_slice()?.to_vec())
 }
@@ -128,10 +128,10 @@ pub fn numbers<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<PyReadon
     Ok(array.cast::<PyArrayDyn<f64>>()?.try_readonly()?)
 }
 
-/// The error of an array of another shape than the wanted one.
-pub fn wrong_shape(py: Python, name: &str, shape: &[usize], wanted: &str) -> PyErr {
+/// The error of an array of another shape than the expected one.
+pub fn wrong_shape(py: Python, name: &str, shape: &[usize], expected: &str) -> PyErr {
     let shape: Vec<String> = shape.iter().map(usize::to_string).collect();
     // A tuple of one has a comma in Python.
     let comma = if shape.len() == 1 { "," } else { "" };
-    error::recording(py, format!("{name} has the shape ({}{comma}), but must have {wanted}", shape.join(", ")))
+    error::recording(py, format!("{name} has the shape ({}{comma}), but must have {expected}", shape.join(", ")))
 }

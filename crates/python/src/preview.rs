@@ -44,8 +44,8 @@ impl Previews {
         };
         let Some(count) = count.filter(|count| *count <= PREVIEW_SAMPLES) else {
             let rows = rows.map_or(String::new(), |rows| format!("{rows}, "));
-            let wanted = format!("({rows}K, 2), K at most {PREVIEW_SAMPLES}: elements, each along x and y");
-            return Err(wrong_shape(py, "preview", shape, &wanted));
+            let expected = format!("({rows}K, 2), K at most {PREVIEW_SAMPLES}: elements, each along x and y");
+            return Err(wrong_shape(py, "preview", shape, &expected));
         };
         Ok(Previews { forces: array.as_slice()?.to_vec(), count, step })
     }

@@ -44,7 +44,7 @@ pub struct Coordinated {
     pub limited: bool,
     dropped_force: [f64; 2],
     /// Fraction of the law in force; the rest returns to neutral.
-    share: f64,
+    fraction: f64,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,7 +104,7 @@ impl Coordinated {
             tilt: [Motion::default(); 2],
             limited: false,
             dropped_force: [0.0; 2],
-            share: 1.0,
+            fraction: 1.0,
         })
     }
 
@@ -170,7 +170,7 @@ impl Coordinated {
                 decisions
             }
         };
-        let share = if decisions.is_some() { engagement } else { 0.0 };
+        let fraction = if decisions.is_some() { engagement } else { 0.0 };
         let decisions = decisions.unwrap_or_default();
         let tilt = &parameters.tilt;
         let longest_step = parameters.structure.max_step;
@@ -180,13 +180,13 @@ impl Coordinated {
             let now = self.tilt[k];
             let level = limits.follow(&now, &Motion::default(), tilt.acceleration_limit, step);
             let decided = now.velocity + decision.tilt_acceleration * step;
-            let next = limits.at_velocity(&now, share * decided + (1.0 - share) * level.velocity, step);
+            let next = limits.at_velocity(&now, fraction * decided + (1.0 - fraction) * level.velocity, step);
             self.limited |= next.position.abs() >= NEARLY * tilt.angle_limit;
             self.limited |= next.velocity.abs() >= NEARLY * tilt.rate_limit;
             self.tilt[k] = flushed(&next);
             self.dropped_force[k] = decision.dropped_force;
         }
-        self.share = share;
+        self.fraction = fraction;
     }
 
     /// Surge and sway at the end of a step, so that the rider feels the cue less the dropped force;
@@ -216,7 +216,7 @@ impl Coordinated {
         [0, 1].map(|k: usize| {
             let now = now.axis(k);
             let homewards = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
-            let acceleration = self.share * accelerations[k] + (1.0 - self.share) * homewards;
+            let acceleration = self.fraction * accelerations[k] + (1.0 - self.fraction) * homewards;
             let limits = Limits::safety(&parameters.safety, k, parameters.structure.max_step);
             flushed(&limits.at_velocity(&now, now.velocity + acceleration * step, step))
         })

@@ -65,9 +65,9 @@ impl Optimal {
     /// Decision for a step of `step` seconds that begins in these states, with these
     /// references at its end.
     pub fn decide(&mut self, states: &[AxisState; 2], references: [f64; 2], step: f64) -> [Decision; 2] {
-        let share = 1.0 - libm::exp(-step / self.tuning.split_time);
+        let fraction = 1.0 - libm::exp(-step / self.tuning.split_time);
         [0, 1].map(|k: usize| {
-            self.slow[k] = at_rest_if_tiny(self.slow[k] + share * (references[k] - self.slow[k]));
+            self.slow[k] = at_rest_if_tiny(self.slow[k] + fraction * (references[k] - self.slow[k]));
             let AxisState { position, velocity, tilt, tilt_rate } = states[k];
             let (slow, fast) = (self.slow[k], references[k] - self.slow[k]);
             let state = State::new(position, velocity, tilt, tilt_rate, slow, fast);

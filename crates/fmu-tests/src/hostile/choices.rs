@@ -47,7 +47,7 @@ impl Choices<'_> {
     }
 
     /// A number from 0 to 1.
-    pub fn share(&mut self) -> f64 {
+    pub fn fraction(&mut self) -> f64 {
         self.below(65536) as f64 / 65535.0
     }
 

@@ -25,8 +25,8 @@ const NASTY: [f64; 16] = [
 /// A real near `start`, anywhere in the usual, or nasty.
 pub fn real(choices: &mut Choices, start: f64) -> f64 {
     match choices.below(16) {
-        0..8 => start * (0.5 + choices.share()) + (choices.share() - 0.5),
-        8..12 => 40.0 * (choices.share() - 0.5),
+        0..8 => start * (0.5 + choices.fraction()) + (choices.fraction() - 0.5),
+        8..12 => 40.0 * (choices.fraction() - 0.5),
         12..15 => choices.of(&NASTY),
         _ => f64::from_bits(choices.bits()),
     }

@@ -22,7 +22,7 @@ pub fn do_step(world: &mut World, who: usize) -> i32 {
     let mut step = match choices.below(8) {
         0..5 => 1e-3,
         5 => choices.of(&[1e-9, 1e-4, 0.01, 0.004]),
-        _ => 0.05 * choices.share() + 1e-6,
+        _ => 0.05 * choices.fraction() + 1e-6,
     };
     step = step.min(MOST_INTERNAL_STEPS * max_step);
     let mut right = vec![OK];

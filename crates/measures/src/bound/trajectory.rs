@@ -52,9 +52,9 @@ impl Trajectory {
             let k = (sample / steps).min(last);
             let begin = (sample - k * steps) as f64 * step;
             // The error is quadratic in time, its square quartic: three points of Gauss are exact.
-            let square = |share: f64| {
-                let wanted = pair[0] + share * (pair[1] - pair[0]);
-                (self.felt_within(k, begin + share * step) - wanted).powi(2)
+            let square = |fraction: f64| {
+                let desired = pair[0] + fraction * (pair[1] - pair[0]);
+                (self.felt_within(k, begin + fraction * step) - desired).powi(2)
             };
             let outer = 0.5 * 0.6_f64.sqrt();
             (5.0 * square(0.5 - outer) + 8.0 * square(0.5) + 5.0 * square(0.5 + outer)) / 18.0

@@ -64,15 +64,15 @@ fn two_runs() -> Report {
         runs: vec![
             Run {
                 findings: vec![finding(Weight::Good, "No leg comes to the end of its stroke.")],
-                ..ridden("default", &shipped, 60.0, 10)
+                ..simulated("default", &shipped, 60.0, 10)
             },
             Run {
                 findings: vec![finding(Weight::Note, "The brusque stop is felt for four seconds less.")],
-                ..ridden("soft", &soft, 60.0, 10)
+                ..simulated("soft", &soft, 60.0, 10)
             },
             Run {
                 findings: vec![finding(Weight::Warning, "The safety units hold the platform back.")],
-                ..ridden("small-motions", &small_motions, 60.0, 10)
+                ..simulated("small-motions", &small_motions, 60.0, 10)
             },
         ],
         selected: 0,
@@ -84,7 +84,7 @@ fn finding(weight: Weight, text: &str) -> Finding {
 }
 
 fn hostile() -> Report {
-    let mut run = ridden(HOSTILE, &Parameters::default(), 5.0, 10);
+    let mut run = simulated(HOSTILE, &Parameters::default(), 5.0, 10);
     run.measures.push(Measure {
         group: HOSTILE.into(),
         name: HOSTILE.into(),
@@ -118,7 +118,7 @@ fn long() -> Report {
     Report {
         title: "Two minutes at 1 kHz".into(),
         rig: (&parameters).into(),
-        runs: vec![ridden("default", &parameters, 120.0, 1)],
+        runs: vec![simulated("default", &parameters, 120.0, 1)],
         ..Report::default()
     }
 }
@@ -147,7 +147,7 @@ fn input(t: f64) -> Input {
 }
 
 /// The ride, stepped at 1 kHz; every so many steps are kept.
-fn ridden(name: &str, parameters: &Parameters, duration: f64, every: usize) -> Run {
+fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -> Run {
     const STEP: f64 = 0.001;
     let mut washout = Washout::new(parameters).expect("the shipped parameters are good");
     let mut run = Run { name: name.into(), limits: limits(parameters), ..Run::default() };

@@ -13,7 +13,7 @@ use crate::encode::{f32_series, f64_series, flags};
 pub struct Report {
     /// The heading, for instance the ride's name.
     pub title: String,
-    /// One line below the heading: what was ridden, on which rig, with which parameters.
+    /// One line below the heading: which recording, on which rig, with which parameters.
     pub subtitle: String,
     /// Findings that hold for every run, below those of the run.
     pub findings: Vec<Finding>,
@@ -103,7 +103,7 @@ pub struct Run {
     /// Tilt coordination's part of roll and pitch \[rad\].
     #[serde(serialize_with = "f32_series::many")]
     pub tilt: [Vec<f64>; 2],
-    /// Rates of that share \[rad/s\].
+    /// Rates of that part \[rad/s\].
     #[serde(serialize_with = "f32_series::many")]
     pub tilt_rate: [Vec<f64>; 2],
     /// The rider's lean, positive to the right \[rad\]; empty where nobody leans.

@@ -169,7 +169,7 @@ where
 
 /// A measurement: hollow where something limited.
 fn dot(point: (f64, f64), response: &Response) -> Circle<(f64, f64), i32> {
-    let limited = response.limited.iter().any(|&share| share > 0.0);
+    let limited = response.limited.iter().any(|&fraction| fraction > 0.0);
     Circle::new(point, 5, if limited { LIMITED } else { TEST }.filled())
 }
 

@@ -56,7 +56,7 @@ fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
     let input = response.input;
     // What is not felt has neither phase nor distortion.
     let felt = modulus(response, output) > NOTHING;
-    let [tilt, safety, actuator] = response.limited.map(|share| format!("{share:.4}"));
+    let [tilt, safety, actuator] = response.limited.map(|fraction| format!("{fraction:.4}"));
     [
         signal.into(),
         input.name().into(),

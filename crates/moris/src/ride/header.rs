@@ -289,7 +289,7 @@ impl Header {
             let like = nearest(name, names()).first().map(|&like| format!(" (is it {}?)", quoted(like)));
             format!("{}{}", quoted(name), like.unwrap_or_default())
         };
-        let wanted: Vec<String> = missing.iter().map(|(_, name)| like(name)).collect();
+        let expected: Vec<String> = missing.iter().map(|(_, name)| like(name)).collect();
         let mut present: Vec<String> = (0..self.width()).take(MOST_LISTED).map(|place| self.shown(place)).collect();
         if self.width() > MOST_LISTED {
             present.push(format!("{} more", self.width() - MOST_LISTED));
@@ -297,9 +297,9 @@ impl Header {
         let keys: Vec<String> = missing.iter().map(|(key, _)| format!("{key}=NAME")).collect();
         let reason = format!(
             "there {} no column{} {}; there are {}; name what is called otherwise with --columns {}",
-            if wanted.len() == 1 { "is" } else { "are" },
-            if wanted.len() == 1 { "" } else { "s" },
-            wanted.join(", "),
+            if expected.len() == 1 { "is" } else { "are" },
+            if expected.len() == 1 { "" } else { "s" },
+            expected.join(", "),
             present.join(", "),
             keys.join(",")
         );

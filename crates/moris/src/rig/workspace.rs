@@ -70,8 +70,11 @@ impl Workspace {
 impl Volume {
     /// Of a box of this size, where so many of the points tried were inside.
     fn of(inside: u32, samples: u32, size: f64) -> Self {
-        let share = f64::from(inside) / f64::from(samples);
-        Volume { size: share * size, standard_error: size * (share * (1.0 - share) / f64::from(samples)).sqrt() }
+        let fraction = f64::from(inside) / f64::from(samples);
+        Volume {
+            size: fraction * size,
+            standard_error: size * (fraction * (1.0 - fraction) / f64::from(samples)).sqrt(),
+        }
     }
 }
 
@@ -118,8 +121,8 @@ fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Found 
     let level = Orientation::new(RollPitchYaw::default());
     let mut found = Found::nothing();
     for _ in 0..BLOCK {
-        let share = Vector3::from_fn(|_, _| unit(&mut random));
-        let position = low + share.component_mul(&(high - low));
+        let fraction = Vector3::from_fn(|_, _| unit(&mut random));
+        let position = low + fraction.component_mul(&(high - low));
         let pose = Pose { position, orientation: level };
         if stroke_margin(rig, &pose) < 0.0 || sign(&pose) != neutral {
             continue;

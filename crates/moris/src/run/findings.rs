@@ -11,7 +11,7 @@ use moris_washout::Output;
 const WORTH_SAYING: f64 = 0.1;
 /// Less error than this fraction of what is desired, and it is felt as it should be.
 const FAITHFUL: f64 = 0.25;
-/// More than this share, and not cueing at all would be as good: a platform at rest has 1.
+/// More than this fraction, and not cueing at all would be as good: a platform at rest has 1.
 const USELESS: f64 = 1.0;
 
 /// The findings, the most important first: did it fit, what limited it, how well was it felt.
@@ -30,7 +30,7 @@ fn finding(weight: Weight, text: String) -> Finding {
 fn fits(outcome: &Outcome) -> Finding {
     let effort = &outcome.measures.effort;
     let recording = &outcome.recording;
-    let told: Vec<String> = [
+    let sentences: Vec<String> = [
         held("The actuators' limits", recording, |output| output.actuator_limited),
         held("The safety units", recording, |output| output.safety_active),
     ]
@@ -42,9 +42,11 @@ fn fits(outcome: &Outcome) -> Finding {
         100.0 * effort.stroke_used,
         1000.0 * effort.smallest_margin
     );
-    match told.as_slice() {
+    match sentences.as_slice() {
         [] => finding(Weight::Good, format!("The ride fits the rig: {used}.")),
-        told => finding(Weight::Warning, format!("The ride does not fit the rig. {} ({used}.)", told.join(" "))),
+        sentences => {
+            finding(Weight::Warning, format!("The ride does not fit the rig. {} ({used}.)", sentences.join(" ")))
+        }
     }
 }
 
@@ -57,14 +59,14 @@ fn held(what: &str, recording: &Recording, holds: impl Fn(&Output) -> bool) -> O
 }
 
 fn tilt(outcome: &Outcome) -> Option<Finding> {
-    let share = outcome.measures.effort.tilt_limited;
+    let fraction = outcome.measures.effort.tilt_limited;
     let limits = &outcome.setup.parameters.tilt;
-    (share > 0.0).then(|| {
+    (fraction > 0.0).then(|| {
         finding(
             Weight::Note,
             format!(
                 "Tilt coordination lagged behind for {:.0} % of the ride: at {:.1}°/s, {:.1}°/s² or {:.0}° it may go no faster or farther.",
-                100.0 * share,
+                100.0 * fraction,
                 limits.rate_limit.to_degrees(),
                 limits.acceleration_limit.to_degrees(),
                 limits.angle_limit.to_degrees()
@@ -81,10 +83,10 @@ fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
     if desired < WORTH_SAYING {
         return None;
     }
-    let share = rms_error / desired;
-    let (weight, verdict) = if share <= FAITHFUL {
+    let fraction = rms_error / desired;
+    let (weight, verdict) = if fraction <= FAITHFUL {
         (Weight::Good, "is felt as it should be")
-    } else if share < USELESS {
+    } else if fraction < USELESS {
         (Weight::Note, "is felt in part")
     } else {
         (Weight::Warning, "is felt wrongly, and a platform at rest would be nearer to it")
@@ -102,7 +104,7 @@ fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
         weight,
         format!(
             "{name} {verdict}: {correlation}an RMS error of {rms_error:.2} m/s², {:.0} % of what is desired.{bound}",
-            100.0 * share
+            100.0 * fraction
         ),
     ))
 }

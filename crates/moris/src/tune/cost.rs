@@ -64,8 +64,8 @@ pub struct Objective {
     coarse: Washout,
 }
 
-/// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits
-/// act a little more coarsely, which is why the result is ridden again with the internal step that
+/// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits act
+/// a little more coarsely, which is why the result is simulated again with the internal step that
 /// it will be used with.
 const LONGEST_STEP: f64 = 0.02;
 

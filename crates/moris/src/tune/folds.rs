@@ -19,8 +19,8 @@ mod tests {
     #[test]
     fn every_ride_is_left_out_once_and_never_all_of_them() {
         for count in 2..12 {
-            for wanted in 1..15 {
-                let groups = folds(count, wanted);
+            for asked in 1..15 {
+                let groups = folds(count, asked);
                 let mut all: Vec<usize> = groups.concat();
                 all.sort_unstable();
                 assert_eq!(all, (0..count).collect::<Vec<_>>());

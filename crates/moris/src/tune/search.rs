@@ -72,7 +72,7 @@ pub struct Searched {
 
 /// Searches for parameters with the smallest objective over these rides that keep all constraints.
 ///
-/// `evaluate` computes the costs, here or on other machines. `progress` is told after each
+/// `evaluate` computes the costs, here or on other machines. `progress` is called after each
 /// generation how many sets have been tried and what the least error is so far, and says whether
 /// to go on.
 ///

@@ -26,7 +26,7 @@ pub enum Group {
 const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
 const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
 const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
-/// Nobody wants more than the vehicle does.
+/// More than the vehicle does is of no use.
 const SCALES: Range = Range { min: 0.01, max: 1.0 };
 
 /// Weights of a strategy's cost, and rates at which gains follow its gradient.

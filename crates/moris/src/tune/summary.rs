@@ -219,7 +219,7 @@ fn errors(results: &[RideResult]) -> String {
 fn with_limits(cost: &Cost) -> String {
     match cost.violated {
         0.0 => format!("{:.3}", cost.error),
-        share => format!("{:.3} (limits {:.2} %)", cost.error, 100.0 * share),
+        fraction => format!("{:.3} (limits {:.2} %)", cost.error, 100.0 * fraction),
     }
 }
 

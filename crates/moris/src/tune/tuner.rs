@@ -41,7 +41,7 @@ pub struct Tuner<'a> {
     /// Receives the progress of each search: its name, the parameter sets tried, and the least
     /// error so far. Ends the search by returning false.
     pub observe: &'a (dyn Fn(&str, usize, Option<f64>) -> bool + Sync),
-    /// Set when the user wants it to end.
+    /// Set when the user breaks it off.
     pub interrupted: Arc<AtomicBool>,
     /// Counts parameter sets.
     pub bar: ProgressBar,
@@ -114,14 +114,18 @@ impl Tuner<'_> {
 
     /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
     fn held_up(&self, judges: &[&Objective], setup: &Setup) -> Result<String> {
-        let mut told = Vec::new();
+        let mut limited = Vec::new();
         for judge in judges {
-            let share = full_cost(judge, setup)?.violated;
-            if share > 0.0 {
-                told.push(format!("{} for {:.2} % of its time", judge.name(), 100.0 * share));
+            let fraction = full_cost(judge, setup)?.violated;
+            if fraction > 0.0 {
+                limited.push(format!("{} for {:.2} % of its time", judge.name(), 100.0 * fraction));
             }
         }
-        Ok(if told.is_empty() { String::new() } else { format!(" (what came nearest did not: {})", told.join(", ")) })
+        Ok(if limited.is_empty() {
+            String::new()
+        } else {
+            format!(" (what came nearest did not: {})", limited.join(", "))
+        })
     }
 }
 

@@ -158,7 +158,7 @@ fn control() -> Plant {
 
 /// The plant's matrix at a speed, without feet on the road.
 fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> PlantMatrix {
-    let (share, frequency) = rider.torso();
+    let (fraction, frequency) = rider.torso();
     let mut a = PlantMatrix::zeros();
     for column in 0..SIZE {
         let mut unit = Plant::zeros();
@@ -168,7 +168,7 @@ fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> Plant
         deviation[place::LEAN_RATE] -= unit[REFERENCE_RATE];
         let torque = gains.turn_torque * unit[REFERENCE] - gains.gain.dot(&deviation) - gains.error_gain * unit[ERROR];
         let torso_acceleration =
-            frequency * (frequency * (share * unit[REFERENCE] - unit[TORSO]) - 2.0 * unit[TORSO_RATE]);
+            frequency * (frequency * (fraction * unit[REFERENCE] - unit[TORSO]) - 2.0 * unit[TORSO_RATE]);
         let actions = Actions { torque, torso: unit[TORSO], torso_acceleration, wind: 0.0 };
         let derivative = plant_state(&Parts {
             lateral: &lateral.derivative(&motion, speed, 0.0, &actions),

@@ -56,18 +56,18 @@ proptest! {
         speed in 0.0..100.0_f64,
         inputs in prop::collection::vec((input(), 1_u32..1500), 1..30),
     ) {
-        let mut ridden = motorcycle(&at_speed(speed));
+        let mut vehicle = motorcycle(&at_speed(speed));
         for (input, steps) in inputs {
             for _ in 0..steps {
-                ridden.step(&input, 0.002);
-                assert_sane(&ridden.output());
+                vehicle.step(&input, 0.002);
+                assert_sane(&vehicle.output());
             }
         }
         // Left alone, it comes to rest.
         for _ in 0..4000 {
-            ridden.step(&Input { brake: 0.5, ..Input::default() }, 0.005);
+            vehicle.step(&Input { brake: 0.5, ..Input::default() }, 0.005);
         }
-        let output = ridden.output();
+        let output = vehicle.output();
         prop_assert_eq!(output.speed, 0.0);
         prop_assert!((output.specific_force - Vector3::new(0.0, 0.0, 9.80665)).norm() < 1e-3, "{:?}", output);
     }
@@ -82,13 +82,13 @@ proptest! {
             values[place] *= factor;
         }
         let parameters = Parameters::read(&mut moris_interface::Reader::new(&values));
-        if let Ok(mut ridden) = moris_motorcycle::Motorcycle::new(&parameters, &Input::default()) {
+        if let Ok(mut vehicle) = moris_motorcycle::Motorcycle::new(&parameters, &Input::default()) {
             for k in 0..6000 {
                 let throttle = if k < 3000 { 0.5 } else { 0.0 };
                 let brake = if k < 4000 { 0.0 } else { 0.5 };
                 let lean = 0.3 * (0.002 * f64::from(k)).sin();
-                ridden.step(&Input { throttle, brake, lean, ..Input::default() }, 0.001);
-                let output = ridden.output();
+                vehicle.step(&Input { throttle, brake, lean, ..Input::default() }, 0.001);
+                let output = vehicle.output();
                 prop_assert!(output.specific_force.norm().is_finite() && output.orientation.roll.abs() < 1.5, "{:?}", output);
             }
         }

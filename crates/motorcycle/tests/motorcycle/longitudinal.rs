@@ -138,11 +138,11 @@ fn neither_full_throttle_nor_full_brakes_lift_a_wheel_or_slide_a_tyre() {
 
 #[test]
 fn braking_in_a_turn_leaves_the_tyres_what_they_need_sideways() {
-    let mut ridden = motorcycle(&at_speed(25.0));
+    let mut vehicle = motorcycle(&at_speed(25.0));
     for k in 0..4000 {
         let brake = if k < 2500 { 0.0 } else { 1.0 };
-        ridden.step(&Input { lean: 0.6, brake, ..Input::default() }, 0.001);
-        let o = ridden.output();
+        vehicle.step(&Input { lean: 0.6, brake, ..Input::default() }, 0.001);
+        let o = vehicle.output();
         for (along, sideways, load) in
             [(o.front_longitudinal, o.front_lateral, o.front_load), (o.rear_longitudinal, o.rear_lateral, o.rear_load)]
         {
@@ -160,35 +160,35 @@ fn energy_is_what_forces_put_in_and_dampers_and_drag_take_out() {
     let parameters = at_speed(15.0);
     let longitudinal = Longitudinal::new(&parameters);
     let suspension = Suspension::new(&parameters);
-    let mut ridden = motorcycle(&parameters);
+    let mut vehicle = motorcycle(&parameters);
     let p = parameters.longitudinal;
     let step = 1e-4;
-    let energy = |ridden: &moris_motorcycle::Motorcycle| {
-        let state = ridden.state();
+    let energy = |vehicle: &moris_motorcycle::Motorcycle| {
+        let state = vehicle.state();
         longitudinal.kinetic_energy(state.speed, state.suspension.velocity.y) + suspension.energy(&state.suspension)
     };
-    let power = |ridden: &moris_motorcycle::Motorcycle| {
-        let (state, output) = (ridden.state(), ridden.output());
+    let power = |vehicle: &moris_motorcycle::Motorcycle| {
+        let (state, output) = (vehicle.state(), vehicle.output());
         let drag = 0.5 * p.air_density * p.drag_area * state.speed * state.speed;
         (output.front_longitudinal + output.rear_longitudinal) * state.speed
             - drag * (state.speed + p.aero_height * state.suspension.velocity.y)
             - suspension.damping_power(&state.suspension)
     };
-    let begin = energy(&ridden);
+    let begin = energy(&vehicle);
     let (mut work, mut largest) = (0.0, 0.0_f64);
-    let mut before = power(&ridden);
+    let mut before = power(&vehicle);
     for k in 0..40_000 {
         let input = match k {
             0..15_000 => Input { throttle: 0.8, ..Input::default() },
             15_000..20_000 => Input::default(),
             _ => Input { brake: 0.5, ..Input::default() },
         };
-        ridden.step(&input, step);
-        let after = power(&ridden);
+        vehicle.step(&input, step);
+        let after = power(&vehicle);
         work += 0.5 * step * (before + after);
         before = after;
-        largest = largest.max((energy(&ridden) - begin - work).abs());
+        largest = largest.max((energy(&vehicle) - begin - work).abs());
     }
-    assert!(ridden.output().speed > 1.0, "the ride is meant to go on to the end");
-    assert!(largest < 1e-4 * energy(&ridden).max(begin), "{largest} J of {begin} J");
+    assert!(vehicle.output().speed > 1.0, "the ride is meant to go on to the end");
+    assert!(largest < 1e-4 * energy(&vehicle).max(begin), "{largest} J of {begin} J");
 }

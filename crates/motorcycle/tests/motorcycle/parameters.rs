@@ -40,11 +40,11 @@ fn other_motorcycles_can_be_ridden() {
         let mut parameters = Parameters::default();
         change(&mut parameters);
         parameters.run.initial_speed = 15.0;
-        let mut ridden = Motorcycle::new(&parameters, &Input::default()).unwrap();
+        let mut vehicle = Motorcycle::new(&parameters, &Input::default()).unwrap();
         for _ in 0..6000 {
-            ridden.step(&Input { lean: 0.2, throttle: 0.1, ..Input::default() }, 0.001);
+            vehicle.step(&Input { lean: 0.2, throttle: 0.1, ..Input::default() }, 0.001);
         }
-        let roll = ridden.output().orientation.roll;
+        let roll = vehicle.output().orientation.roll;
         assert!((roll - 0.2).abs() < 0.02, "{roll}");
     }
 }

@@ -37,11 +37,11 @@ fn custom(rows: &[[f64; 3]]) -> Path {
 
 /// The outputs at each step.
 fn ride(motorcycle: &mut Motorcycle, seconds: f64, step: f64, input: impl Fn(f64) -> Input) -> Vec<Output> {
-    let ridden = (0..(seconds / step).round() as u32).map(|k| {
+    let vehicle = (0..(seconds / step).round() as u32).map(|k| {
         motorcycle.step(&input(f64::from(k) * step), step);
         motorcycle.output()
     });
-    ridden.collect()
+    vehicle.collect()
 }
 
 fn calm(_time: f64) -> Input {
@@ -111,14 +111,14 @@ fn points(text: &str, step: f64) -> Vec<Vector2<f64>> {
 fn its_deviation_is_the_distance_from_the_path_in_the_world() {
     let lap = points(include_str!("../../paths/lap.csv"), 0.05);
     assert!((lap[0] - lap[lap.len() - 1]).norm() < 0.01, "the lap closes");
-    let mut ridden = motorcycle(&on(Course::Lap, 20.0));
+    let mut vehicle = motorcycle(&on(Course::Lap, 20.0));
     let mut gusts = calm(0.0);
     let mut deviations = 0.0_f64;
     for k in 0..50_000 {
         gusts.wind.y = if k % 6000 < 1500 { 400.0 } else { 0.0 };
-        ridden.step(&gusts, STEP);
+        vehicle.step(&gusts, STEP);
         if k % 500 == 0 {
-            let output = ridden.output();
+            let output = vehicle.output();
             let position = output.position.xy();
             let nearest = lap.iter().map(|point| (point - position).norm()).fold(f64::MAX, f64::min);
             assert!((nearest - output.path_deviation.abs()).abs() < 0.03, "{nearest} {}", output.path_deviation);
@@ -130,11 +130,11 @@ fn its_deviation_is_the_distance_from_the_path_in_the_world() {
 
 #[test]
 fn from_3_to_50_m_s_motorcycle_rider_and_path_are_stable() {
-    let ridden = motorcycle(&on(Course::Lap, 0.0));
-    let rider = ridden.follower().unwrap().rider();
+    let vehicle = motorcycle(&on(Course::Lap, 0.0));
+    let rider = vehicle.follower().unwrap().rider();
     for k in 30..=500 {
         let speed = 0.1 * f64::from(k);
-        let poles = rider.closed_loop(ridden.lateral(), ridden.rider(), speed).complex_eigenvalues();
+        let poles = rider.closed_loop(vehicle.lateral(), vehicle.rider(), speed).complex_eigenvalues();
         let slowest = poles.iter().map(|pole| pole.re).fold(f64::MIN, f64::max);
         assert!(slowest < -0.3, "{slowest} 1/s at {speed} m/s");
         for pole in poles.iter() {
@@ -158,8 +158,8 @@ fn from_3_to_50_m_s_it_changes_lanes() {
         }
         let length = rows[rows.len() - 1][0];
         let parameters = Parameters { path: custom(&rows), ..on(Course::Custom, speed) };
-        let mut ridden = motorcycle(&parameters);
-        let outputs = ride(&mut ridden, 1.15 * length / speed + 8.0, STEP, calm);
+        let mut vehicle = motorcycle(&parameters);
+        let outputs = ride(&mut vehicle, 1.15 * length / speed + 8.0, STEP, calm);
         let deviation = largest(&outputs, |o| o.path_deviation);
         assert!(deviation < 0.1, "{deviation} m at {speed} m/s");
         let end = outputs[outputs.len() - 1];
@@ -173,11 +173,11 @@ fn from_3_to_50_m_s_it_changes_lanes() {
 /// The control's cost in a change of the steady lean is least: no addition to it saves anything.
 #[test]
 fn its_preview_minimises_the_cost() {
-    let ridden = motorcycle(&on(Course::Lap, 0.0));
-    let rider = ridden.follower().unwrap().rider();
+    let vehicle = motorcycle(&on(Course::Lap, 0.0));
+    let rider = vehicle.follower().unwrap().rider();
     for speed in [5.0, 15.0, 30.0] {
         let gains = rider.gains(speed);
-        let closed_loop = rider.closed_loop(ridden.lateral(), ridden.rider(), speed);
+        let closed_loop = rider.closed_loop(vehicle.lateral(), vehicle.rider(), speed);
         let size = 1e-3;
         let steps = 14_000;
         // From 6 s to 8 s the steady lean grows by 0.2.
@@ -255,9 +255,9 @@ fn the_commands_do_nothing_on_a_path_and_the_wind_does() {
 
 #[test]
 fn without_a_path_there_is_no_preview_and_no_place() {
-    let mut ridden = motorcycle(&Parameters { path: Path::default(), ..on(Course::None, 20.0) });
-    ridden.step(&Input { lean: 0.3, ..Input::default() }, 1.0);
-    let output = ridden.output();
+    let mut vehicle = motorcycle(&Parameters { path: Path::default(), ..on(Course::None, 20.0) });
+    vehicle.step(&Input { lean: 0.3, ..Input::default() }, 1.0);
+    let output = vehicle.output();
     assert_eq!((output.preview_count, output.preview_step, output.path_distance), (0, 0.2, 0.0));
     assert!(output.preview_surge.iter().chain(&output.preview_sway).all(|&force| force == 0.0));
 }
@@ -276,9 +276,9 @@ fn assert_within_friction(output: &Output, friction: f64, ratio: f64) {
 }
 
 /// Ends the ride: within 30 s the motorcycle has stopped, and then feels gravity alone.
-fn assert_comes_to_rest(ridden: &mut Motorcycle) {
-    ride(ridden, 40.0, STEP, calm);
-    let output = ridden.output();
+fn assert_comes_to_rest(vehicle: &mut Motorcycle) {
+    ride(vehicle, 40.0, STEP, calm);
+    let output = vehicle.output();
     assert_eq!(output.speed, 0.0);
     assert!((output.specific_force.norm() - GRAVITY).abs() < 1e-2, "{}", output.specific_force);
     assert_eq!(output.preview_count, 0);
@@ -288,8 +288,8 @@ fn assert_comes_to_rest(ridden: &mut Motorcycle) {
 fn a_bend_that_is_much_too_fast_ends_beside_the_path() {
     let rows = [[0.0, 0.0, 50.0], [30.0, 0.0, 50.0], [40.0, 0.08, 50.0], [80.0, 0.08, 50.0], [90.0, 0.0, 50.0]];
     let parameters = Parameters { path: custom(&rows), ..on(Course::Custom, 40.0) };
-    let mut ridden = motorcycle(&parameters);
-    let outputs = ride(&mut ridden, 4.0, STEP, calm);
+    let mut vehicle = motorcycle(&parameters);
+    let outputs = ride(&mut vehicle, 4.0, STEP, calm);
     let end = outputs[outputs.len() - 1];
     assert!(end.off_path && !end.fallen, "{end:?}");
     assert!(outputs.iter().any(|output| output.friction_limited || output.wheel_lift_limited || output.grip_limited));
@@ -297,20 +297,20 @@ fn a_bend_that_is_much_too_fast_ends_beside_the_path() {
         assert_within_friction(output, 1.2, 1.0);
         assert!(output.orientation.roll.abs() < 0.9 && output.specific_force.norm() < 40.0);
     }
-    assert_comes_to_rest(&mut ridden);
-    let output = ridden.output();
+    assert_comes_to_rest(&mut vehicle);
+    let output = vehicle.output();
     assert!(output.off_path && output.orientation.roll.abs() < 0.01);
 }
 
 #[test]
 fn ice_in_a_bend_ends_in_a_fall() {
-    let mut ridden = motorcycle(&on(Course::Hairpin, 0.0));
-    ride(&mut ridden, 15.8, STEP, calm);
-    assert!(ridden.output().orientation.roll > 0.4);
-    let mut ice = *ridden.parameters();
+    let mut vehicle = motorcycle(&on(Course::Hairpin, 0.0));
+    ride(&mut vehicle, 15.8, STEP, calm);
+    assert!(vehicle.output().orientation.roll > 0.4);
+    let mut ice = *vehicle.parameters();
     ice.tyres.friction = 0.1;
-    ridden.retune(&ice).unwrap();
-    let outputs = ride(&mut ridden, 4.0, STEP, calm);
+    vehicle.retune(&ice).unwrap();
+    let outputs = ride(&mut vehicle, 4.0, STEP, calm);
     let first = outputs.iter().position(|output| output.grip_limited).unwrap();
     let fall = outputs.iter().position(|output| output.fallen).unwrap();
     assert!(first < fall, "{first} {fall}");
@@ -318,8 +318,8 @@ fn ice_in_a_bend_ends_in_a_fall() {
         assert!(output.orientation.roll.abs() < 1.5 && output.specific_force.norm() < 100.0, "{output:?}");
     }
     outputs[..fall].iter().for_each(|output| assert_within_friction(output, 0.1, 1.0));
-    assert_comes_to_rest(&mut ridden);
-    assert!(ridden.output().fallen);
+    assert_comes_to_rest(&mut vehicle);
+    assert!(vehicle.output().fallen);
 }
 
 #[test]
@@ -338,9 +338,9 @@ fn rain_from_the_beginning_makes_it_slower() {
 #[test]
 fn a_path_that_ends_with_speed_0_ends_there() {
     let rows = [[0.0, 0.0, 20.0], [100.0, 0.0, 20.0], [130.0, 0.02, 20.0], [160.0, 0.0, 20.0], [260.0, 0.0, 0.0]];
-    let mut ridden = motorcycle(&Parameters { path: custom(&rows), ..on(Course::Custom, 0.0) });
-    ride(&mut ridden, 60.0, STEP, calm);
-    let output = ridden.output();
+    let mut vehicle = motorcycle(&Parameters { path: custom(&rows), ..on(Course::Custom, 0.0) });
+    ride(&mut vehicle, 60.0, STEP, calm);
+    let output = vehicle.output();
     assert_eq!(output.speed, 0.0);
     assert!((output.path_distance - 260.0).abs() < 1.0, "{}", output.path_distance);
     assert!((output.specific_force - Vector3::new(0.0, 0.0, GRAVITY)).norm() < 1e-3);
@@ -348,8 +348,8 @@ fn a_path_that_ends_with_speed_0_ends_there() {
 
 #[test]
 fn limits_change_in_flight_and_the_path_does_not() {
-    let mut ridden = motorcycle(&on(Course::Lap, 20.0));
-    ride(&mut ridden, 12.0, STEP, calm);
+    let mut vehicle = motorcycle(&on(Course::Lap, 20.0));
+    ride(&mut vehicle, 12.0, STEP, calm);
     let changes: [fn(&mut Parameters); 5] = [
         |p| p.path.lateral_acceleration = 3.0,
         |p| p.path.deceleration = 4.0,
@@ -358,20 +358,20 @@ fn limits_change_in_flight_and_the_path_does_not() {
         |p| p.tyres.friction = 0.8,
     ];
     for change in changes {
-        let mut parameters = *ridden.parameters();
+        let mut parameters = *vehicle.parameters();
         change(&mut parameters);
-        let before = ridden.output();
-        ridden.retune(&parameters).unwrap();
-        let outputs = ride(&mut ridden, 5.0, STEP, calm);
+        let before = vehicle.output();
+        vehicle.retune(&parameters).unwrap();
+        let outputs = ride(&mut vehicle, 5.0, STEP, calm);
         // The reference's acceleration jumps with the plan.
         assert!((outputs[0].steer_torque - before.steer_torque).abs() < 2.0);
         assert!((outputs[0].orientation.roll - before.orientation.roll).abs() < 2e-3);
         assert!(largest(&outputs, |o| o.path_deviation) < 0.5);
         assert_eq!(outputs[1500].preview_count, 20);
     }
-    let mut parameters = *ridden.parameters();
+    let mut parameters = *vehicle.parameters();
     parameters.path.course = Course::Slalom;
-    assert_eq!(ridden.retune(&parameters).unwrap_err().variable, "path.course");
+    assert_eq!(vehicle.retune(&parameters).unwrap_err().variable, "path.course");
 }
 
 #[test]
@@ -417,14 +417,14 @@ fn csv_files_are_read_or_refused_with_the_line() {
 
 #[test]
 fn steps_on_a_path_allocate_nothing_and_go_on_from_saved_bytes() {
-    let mut ridden = motorcycle(&on(Course::Lap, 25.0));
-    ride(&mut ridden, 8.0, STEP, calm);
-    let bytes = postcard::to_allocvec(&ridden).unwrap();
+    let mut vehicle = motorcycle(&on(Course::Lap, 25.0));
+    ride(&mut vehicle, 8.0, STEP, calm);
+    let bytes = postcard::to_allocvec(&vehicle).unwrap();
     let mut restored: Motorcycle = postcard::from_bytes(&bytes).unwrap();
-    let counted = allocation_counter::measure(|| (0..3000).for_each(|_| ridden.step(&calm(0.0), STEP)));
+    let counted = allocation_counter::measure(|| (0..3000).for_each(|_| vehicle.step(&calm(0.0), STEP)));
     assert_eq!(counted.count_total, 0);
     (0..3000).for_each(|_| restored.step(&calm(0.0), STEP));
-    assert_eq!(ridden.output(), restored.output());
+    assert_eq!(vehicle.output(), restored.output());
 }
 
 fn assert_sane(output: &Output) {
@@ -461,12 +461,12 @@ proptest! {
         parameters.path.lateral_acceleration = lateral;
         parameters.path.friction_ratio = ratio;
         parameters.tyres.friction = friction;
-        let mut ridden = motorcycle(&parameters);
+        let mut vehicle = motorcycle(&parameters);
         for k in 0..4000 {
             let mut input = calm(0.0);
             input.wind.y = if k % 3000 > 2000 { wind } else { 0.0 };
-            ridden.step(&input, 0.002);
-            assert_sane(&ridden.output());
+            vehicle.step(&input, 0.002);
+            assert_sane(&vehicle.output());
         }
     }
 }

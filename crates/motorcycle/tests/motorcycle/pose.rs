@@ -27,12 +27,12 @@ fn rotation(output: &Output) -> Rotation3<f64> {
 fn three_by_three(step: f64, steps: u32, mut check: impl FnMut(&[Output; 3])) {
     let mut parameters = at_speed(15.0);
     parameters.run.max_step = step;
-    let mut ridden: Motorcycle = motorcycle(&parameters);
-    let mut last = [ridden.output(); 3];
+    let mut vehicle: Motorcycle = motorcycle(&parameters);
+    let mut last = [vehicle.output(); 3];
     for k in 0..steps {
         let time = f64::from(k) * step;
-        ridden.step_between(&ride(time), &ride(time + step), step);
-        last = [last[1], last[2], ridden.output()];
+        vehicle.step_between(&ride(time), &ride(time + step), step);
+        last = [last[1], last[2], vehicle.output()];
         if k > 200 {
             check(&last);
         }

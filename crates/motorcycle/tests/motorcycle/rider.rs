@@ -36,15 +36,15 @@ fn what_cannot_be_controlled_has_no_gain() {
 #[test]
 fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
     let parameters = Parameters::default();
-    let ridden = motorcycle(&parameters);
+    let vehicle = motorcycle(&parameters);
     let cost = [0.0, 0.0, 4.0, 0.25, 100.0, 25.0, 0.0, 0.0, 100.0];
     let ease = parameters.rider.torque_weight * parameters.rider.torque_weight;
     for knot in [32, 36, 40, 46] {
-        let speed = ridden.rider().knot(knot);
+        let speed = vehicle.rider().knot(knot);
         assert!(speed > 3.0, "no feet on the road at {speed} m/s");
-        let skill = ridden.rider().gains(speed);
-        let state_matrix = ridden.lateral().state_matrix(speed, 0.0);
-        let torque = ridden.lateral().torque;
+        let gains = vehicle.rider().gains(speed);
+        let state_matrix = vehicle.lateral().state_matrix(speed, 0.0);
+        let torque = vehicle.lateral().torque;
         for frequency in [0.1, 0.5, 1.0, 3.0, 10.0, 30.0, 100.0] {
             let matrix = SMatrix::<Complex<f64>, 9, 9>::from_fn(|i, j| {
                 let a = if i < 8 && j < 8 { state_matrix[(i, j)] } else { f64::from(i == 8 && j == place::LEAN) };
@@ -52,7 +52,7 @@ fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
             });
             let b = SVector::<Complex<f64>, 9>::from_fn(|i, _| Complex::from(if i < 8 { torque[i] } else { 0.0 }));
             let g = matrix.lu().solve(&b).unwrap();
-            let gain = skill.gain.push(skill.error_gain);
+            let gain = gains.gain.push(gains.error_gain);
             let returned: Complex<f64> = (0..9).map(|i| g[i] * gain[i]).sum();
             let expected = 1.0 + ease * (0..9).map(|i| cost[i] * g[i].norm_sqr()).sum::<f64>();
             assert_near(
@@ -67,10 +67,10 @@ fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
 
 #[test]
 fn at_every_speed_motorcycle_and_rider_are_stable() {
-    let ridden = motorcycle(&Parameters::default());
+    let vehicle = motorcycle(&Parameters::default());
     for k in 0..=1000 {
         let speed = 0.1 * f64::from(k);
-        let poles = ridden.rider().closed_loop(ridden.lateral(), speed).complex_eigenvalues();
+        let poles = vehicle.rider().closed_loop(vehicle.lateral(), speed).complex_eigenvalues();
         let slowest = poles.iter().map(|pole| pole.re).fold(f64::MIN, f64::max);
         // Where the feet come off, the accumulated error is forgotten slowly; else everything is over within seconds.
         let limit = if speed < 2.5 { -0.1 } else { -0.5 };
@@ -86,12 +86,12 @@ fn at_every_speed_motorcycle_and_rider_are_stable() {
 fn a_commanded_lean_is_there_within_seconds_at_any_speed() {
     for speed in [4.0, 7.0, 12.0, 20.0, 35.0, 50.0] {
         let lean = if speed < 5.0 { 0.1 } else { 0.35 };
-        let mut ridden = motorcycle(&at_speed(speed));
+        let mut vehicle = motorcycle(&at_speed(speed));
         let mut largest: f64 = 0.0;
         for k in 0..8000 {
-            let throttle = cruise(&ridden, speed);
-            ridden.step(&Input { lean, throttle, ..Input::default() }, 0.001);
-            let roll = ridden.output().orientation.roll;
+            let throttle = cruise(&vehicle, speed);
+            vehicle.step(&Input { lean, throttle, ..Input::default() }, 0.001);
+            let roll = vehicle.output().orientation.roll;
             largest = largest.max(roll);
             if k > 5000 {
                 assert!((roll - lean).abs() < 0.02 * lean, "{roll} at {speed} m/s after {k} ms");
@@ -103,42 +103,42 @@ fn a_commanded_lean_is_there_within_seconds_at_any_speed() {
 
 #[test]
 fn to_lean_to_the_right_he_first_steers_to_the_left() {
-    let mut ridden = motorcycle(&at_speed(20.0));
+    let mut vehicle = motorcycle(&at_speed(20.0));
     for _ in 0..50 {
-        ridden.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
+        vehicle.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
     }
-    let output = ridden.output();
+    let output = vehicle.output();
     assert!(output.steer_torque > 1.0, "torque {}", output.steer_torque);
     assert!(output.steer_angle > 0.0, "steer {}", output.steer_angle);
     for _ in 0..3000 {
-        ridden.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
+        vehicle.step(&Input { lean: 0.3, ..Input::default() }, 0.001);
     }
-    assert!(ridden.output().steer_angle < 0.0, "in the turn the rider steers into it");
+    assert!(vehicle.output().steer_angle < 0.0, "in the turn the rider steers into it");
 }
 
 #[test]
 fn a_gust_from_the_side_is_held() {
-    let mut ridden = motorcycle(&at_speed(25.0));
+    let mut vehicle = motorcycle(&at_speed(25.0));
     let mut wind = Input::default();
     wind.wind.y = 300.0;
     for _ in 0..10_000 {
-        wind.throttle = cruise(&ridden, 25.0);
-        ridden.step(&wind, 0.001);
+        wind.throttle = cruise(&vehicle, 25.0);
+        vehicle.step(&wind, 0.001);
     }
     // It has been blown away to the left, and turned there while it leant into the wind.
-    assert!(ridden.output().position.y > 1.0, "{}", ridden.output().position.y);
+    assert!(vehicle.output().position.y > 1.0, "{}", vehicle.output().position.y);
     // The error's integral brings the lean back to what is commanded, wind or not; then the path is bent by the wind.
-    assert!(ridden.output().orientation.roll.abs() < 1e-3);
+    assert!(vehicle.output().orientation.roll.abs() < 1e-3);
 }
 
 #[test]
 fn a_torso_that_leans_to_the_right_turns_the_motorcycle_to_the_right_upright() {
-    let mut ridden = motorcycle(&at_speed(15.0));
+    let mut vehicle = motorcycle(&at_speed(15.0));
     for _ in 0..8000 {
-        let throttle = cruise(&ridden, 15.0);
-        ridden.step(&Input { rider_lean: 0.2, throttle, ..Input::default() }, 0.001);
+        let throttle = cruise(&vehicle, 15.0);
+        vehicle.step(&Input { rider_lean: 0.2, throttle, ..Input::default() }, 0.001);
     }
-    let output = ridden.output();
+    let output = vehicle.output();
     assert!(output.orientation.roll.abs() < 1e-3, "roll {}", output.orientation.roll);
     // The weight of the torso out of the plane, against the centripetal force of all masses and the wheels' spin.
     let static_moment = 221.0 * 0.669 + 22.0 * 0.767 + 12.0 * 0.294 + 15.0 * 0.299;
@@ -149,9 +149,9 @@ fn a_torso_that_leans_to_the_right_turns_the_motorcycle_to_the_right_upright() {
 
 #[test]
 fn his_torso_leans_as_told_and_into_the_turn() {
-    let mut ridden = motorcycle(&at_speed(20.0));
+    let mut vehicle = motorcycle(&at_speed(20.0));
     for _ in 0..4000 {
-        ridden.step(&Input { lean: 0.3, rider_lean: -0.1, ..Input::default() }, 0.001);
+        vehicle.step(&Input { lean: 0.3, rider_lean: -0.1, ..Input::default() }, 0.001);
     }
-    assert_near(ridden.output().lean, 0.1 * 0.3 - 0.1, 1e-6, "torso");
+    assert_near(vehicle.output().lean, 0.1 * 0.3 - 0.1, 1e-6, "torso");
 }

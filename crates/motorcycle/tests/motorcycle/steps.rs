@@ -14,20 +14,20 @@ fn input(time: f64) -> Input {
 }
 
 /// The state after some seconds in steps of this size, with internal steps of at most that size.
-fn ridden(seconds: f64, step: f64, internal: f64) -> Motorcycle {
+fn vehicle(seconds: f64, step: f64, internal: f64) -> Motorcycle {
     let mut parameters = at_speed(10.0);
     parameters.run.max_step = internal;
-    let mut ridden = motorcycle(&parameters);
+    let mut vehicle = motorcycle(&parameters);
     for k in 0..(seconds / step).round() as u32 {
         let time = f64::from(k) * step;
-        ridden.step_between(&input(time), &input(time + step), step);
+        vehicle.step_between(&input(time), &input(time + step), step);
     }
-    ridden
+    vehicle
 }
 
 #[test]
 fn halving_the_step_changes_next_to_nothing() {
-    let (coarse, fine) = (ridden(4.5, 1e-3, 1e-3), ridden(4.5, 1e-3, 2.5e-4));
+    let (coarse, fine) = (vehicle(4.5, 1e-3, 1e-3), vehicle(4.5, 1e-3, 2.5e-4));
     let (coarse, fine) = (coarse.output(), fine.output());
     assert!((coarse.head_position - fine.head_position).norm() < 1e-6);
     assert!((coarse.specific_force - fine.specific_force).norm() < 1e-5);
@@ -36,7 +36,7 @@ fn halving_the_step_changes_next_to_nothing() {
 
 #[test]
 fn a_step_that_is_none_does_nothing() {
-    let mut motorcycle = ridden(1.0, 1e-3, 1e-3);
+    let mut motorcycle = vehicle(1.0, 1e-3, 1e-3);
     let before = motorcycle.clone();
     for step in [f64::NAN, 0.0, -0.0, -1.0, f64::NEG_INFINITY, 1e-13] {
         motorcycle.step(&input(1.0), step);
@@ -68,7 +68,7 @@ fn a_long_communication_step_is_divided() {
 
 #[test]
 fn a_stop_ends_at_the_same_place_for_any_step() {
-    let (coarse, fine) = (ridden(9.0, 1e-3, 1e-3), ridden(9.0, 1e-3, 1e-4));
+    let (coarse, fine) = (vehicle(9.0, 1e-3, 1e-3), vehicle(9.0, 1e-3, 1e-4));
     assert_eq!(coarse.output().speed, 0.0);
     assert_eq!(fine.output().speed, 0.0);
     let off = (coarse.output().position - fine.output().position).norm();
@@ -77,21 +77,21 @@ fn a_stop_ends_at_the_same_place_for_any_step() {
 
 #[test]
 fn steps_allocate_nothing() {
-    let mut ridden = motorcycle(&Parameters::default());
+    let mut vehicle = motorcycle(&Parameters::default());
     let input = Input { throttle: 1.0, lean: 0.5, ..Input::default() };
-    let counted = allocation_counter::measure(|| (0..1000).for_each(|_| ridden.step(&input, 0.004)));
+    let counted = allocation_counter::measure(|| (0..1000).for_each(|_| vehicle.step(&input, 0.004)));
     assert_eq!(counted.count_total, 0);
 }
 
 #[test]
 fn from_saved_bytes_the_ride_goes_on_bit_for_bit() {
-    let mut ridden = ridden(3.0, 1e-3, 1e-3);
-    let bytes = postcard::to_allocvec(&ridden).unwrap();
+    let mut vehicle = vehicle(3.0, 1e-3, 1e-3);
+    let bytes = postcard::to_allocvec(&vehicle).unwrap();
     let mut restored: Motorcycle = postcard::from_bytes(&bytes).unwrap();
     for k in 3000..6000 {
         let input = input(f64::from(k) * 1e-3);
-        ridden.step(&input, 1e-3);
+        vehicle.step(&input, 1e-3);
         restored.step(&input, 1e-3);
-        assert_eq!(ridden.output(), restored.output());
+        assert_eq!(vehicle.output(), restored.output());
     }
 }

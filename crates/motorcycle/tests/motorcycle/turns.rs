@@ -15,12 +15,12 @@ fn turning_with(body_lean_share: f64, speed: f64, lean: f64) -> Motorcycle {
     let mut parameters = at_speed(speed);
     parameters.rider.body_lean_share = body_lean_share;
     parameters.rider.lean_limit = 0.9;
-    let mut ridden = motorcycle(&parameters);
+    let mut vehicle = motorcycle(&parameters);
     for _ in 0..12_000 {
-        let throttle = cruise(&ridden, speed);
-        ridden.step(&Input { lean, throttle, ..Input::default() }, 0.001);
+        let throttle = cruise(&vehicle, speed);
+        vehicle.step(&Input { lean, throttle, ..Input::default() }, 0.001);
     }
-    ridden
+    vehicle
 }
 
 const GRAVITY: f64 = 9.80665;
@@ -43,8 +43,8 @@ fn the_lean_is_that_of_speed_and_radius() {
 
 #[test]
 fn the_lean_beyond_a_point_masss_is_the_documented_one() {
-    let excess = |share: f64, speed: f64| {
-        let output = turning_with(share, speed, 0.3).output();
+    let excess = |fraction: f64, speed: f64| {
+        let output = turning_with(fraction, speed, 0.3).output();
         let point_mass = output.speed * output.angular_velocity.z.abs() / GRAVITY;
         100.0 * (output.orientation.roll.tan() / point_mass - 1.0)
     };
@@ -57,8 +57,8 @@ fn the_lean_beyond_a_point_masss_is_the_documented_one() {
 #[test]
 fn moments_about_the_road_balance_with_the_wheels_spin() {
     for speed in [8.0, 20.0] {
-        let ridden = turning(speed, 0.4);
-        let o = ridden.output();
+        let vehicle = turning(speed, 0.4);
+        let o = vehicle.output();
         let turn_right = -o.angular_velocity.z * o.speed;
         let static_moment = 221.0 * 0.669 + 22.0 * 0.767 + 12.0 * 0.294 + 15.0 * 0.299;
         let spin = 0.8 / 0.299 + 0.6 / 0.294;
@@ -74,8 +74,8 @@ fn moments_about_the_road_balance_with_the_wheels_spin() {
 
 #[test]
 fn tyres_give_the_centripetal_force_and_no_moment_of_yaw() {
-    let ridden = turning(20.0, 0.4);
-    let o = ridden.output();
+    let vehicle = turning(20.0, 0.4);
+    let o = vehicle.output();
     let to_left = o.angular_velocity.z * o.speed;
     assert_near((o.front_lateral + o.rear_lateral) / (270.0 * to_left), 1.0, 1e-4, "force");
     let static_x = 221.0 * 0.642 + 22.0 * 1.205 + 12.0 * 1.448;

@@ -37,12 +37,12 @@ fn without_gravity_the_washout_is_left_with_the_heads_acceleration_and_the_angle
     tuning.force_limit = Vector3::repeat(1e6);
     tuning.rate_limit = Vector3::repeat(1e6);
     let step = 5e-4;
-    let mut ridden = motorcycle(&at_speed(15.0));
-    let mut last = [ridden.output(); 3];
+    let mut vehicle = motorcycle(&at_speed(15.0));
+    let mut last = [vehicle.output(); 3];
     for k in 0..20_000 {
         let time = f64::from(k) * step;
-        ridden.step_between(&ride(time), &ride(time + step), step);
-        last = [last[1], last[2], ridden.output()];
+        vehicle.step_between(&ride(time), &ride(time + step), step);
+        last = [last[1], last[2], vehicle.output()];
         let [before, now, after] = &last;
         // Differences take no notice of the instants at which the throttle jumps.
         if k < 10 || (time - 3.0).abs() < 0.01 {
@@ -62,16 +62,16 @@ fn without_gravity_the_washout_is_left_with_the_heads_acceleration_and_the_angle
 #[test]
 fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
     let mut washout = Washout::new(&Tuning::default()).unwrap();
-    let mut ridden = motorcycle(&at_speed(0.0));
+    let mut vehicle = motorcycle(&at_speed(0.0));
     for k in 0..30_000 {
-        let before = connected(&ridden.output());
+        let before = connected(&vehicle.output());
         let time = f64::from(k) * 1e-3;
-        ridden.step(&ride(time), 1e-3);
-        washout.step_between(&before, &connected(&ridden.output()), 1e-3);
+        vehicle.step(&ride(time), 1e-3);
+        washout.step_between(&before, &connected(&vehicle.output()), 1e-3);
         let output = washout.output();
         assert!(output.length.iter().all(|length| (1.0..=1.6).contains(length)));
         if time > 20.0 {
-            assert_eq!(ridden.output().speed, 0.0);
+            assert_eq!(vehicle.output().speed, 0.0);
         }
     }
     // More than ten seconds after the stop surge and heave are back; sway follows the rider, who goes on balancing.
@@ -83,15 +83,15 @@ fn on_a_whole_ride_the_washout_keeps_the_legs_in_their_stroke() {
 /// the surge force felt \[m/s2\] every millisecond.
 fn errors_of_a_stop(brake: f64, set: &[(&str, f64)]) -> (usize, Vec<f64>) {
     let mut washout = Washout::new(&presets::parameters(&[presets::PAPER, set].concat())).unwrap();
-    let mut ridden = motorcycle(&at_speed(30.0));
+    let mut vehicle = motorcycle(&at_speed(30.0));
     let mut stop = None;
     let errors = (0..40_000).map(|k| {
-        let before = connected(&ridden.output());
+        let before = connected(&vehicle.output());
         let time = 1e-3 * k as f64;
         let throttle = if time < 3.0 { 0.15 } else { 0.0 };
         let brake = brake * ((time - 3.0) / 3.0).clamp(0.0, 1.0);
-        ridden.step(&Input { throttle, brake, ..Input::default() }, 1e-3);
-        let asked = connected(&ridden.output());
+        vehicle.step(&Input { throttle, brake, ..Input::default() }, 1e-3);
+        let asked = connected(&vehicle.output());
         washout.step_between(&before, &asked, 1e-3);
         if asked.speed == 0.0 {
             stop.get_or_insert(k);

@@ -21,7 +21,7 @@ fn seal(state: &mut [u8]) {
     head[CHECKSUM..].copy_from_slice(&checksum.to_le_bytes());
 }
 
-fn ridden() -> (Instance, Vec<u8>) {
+fn instance_in_motion() -> (Instance, Vec<u8>) {
     let mut instance = initialized(&[]);
     ride(&mut instance, 0, 100);
     let bytes = bytes(&mut instance);
@@ -30,7 +30,7 @@ fn ridden() -> (Instance, Vec<u8>) {
 
 #[test]
 fn a_state_that_is_sealed_again_is_taken() {
-    let (mut instance, good) = ridden();
+    let (mut instance, good) = instance_in_motion();
     let mut bytes = good.clone();
     bytes[LENGTH..BODY].fill(0);
     seal(&mut bytes);
@@ -41,7 +41,7 @@ fn a_state_that_is_sealed_again_is_taken() {
 
 #[test]
 fn a_state_of_another_kind_is_refused_with_the_reason() {
-    let (mut instance, good) = ridden();
+    let (mut instance, good) = instance_in_motion();
     let before = bytes(&mut instance);
     let mut refuse = |bytes: &[u8], reason: &str| {
         assert!(instance.deserialize(bytes).is_err());
@@ -80,7 +80,7 @@ fn a_state_of_another_kind_is_refused_with_the_reason() {
 /// every call, and lives on after a reset.
 #[test]
 fn a_forged_state_does_no_harm() {
-    let (mut instance, good) = ridden();
+    let (mut instance, good) = instance_in_motion();
     let mut choices = Choices::Seed(5);
     let mut taken = 0;
     for _ in 0..20_000 {
