@@ -407,7 +407,7 @@ interface! {
     /// The predictive strategy, for surge and sway together.
     pub struct PredictiveParameters: Parameter, Tunable {
         /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
-        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 3.2e-4;
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 1e-3;
         /// Price of the travel's velocity at its limit.
         "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 2.6e-2;
         /// Price of the tilt rate at its limit.

@@ -280,6 +280,20 @@ fn a_ride_that_ends_leads_back_to_neutral() {
 }
 
 #[test]
+fn after_a_long_push_the_predictive_strategy_comes_back_from_its_whole_travel() {
+    let mut washout = washout(&[("strategy", PREDICTIVE)]);
+    let positions: Vec<f64> = (0..4500)
+        .map(|k| {
+            let force = if k < 2000 { 4.0 } else { 0.0 };
+            washout.step(&accelerating(force, 0.0, 0.0), 0.01);
+            from_neutral(&washout.output()).amax()
+        })
+        .collect();
+    assert!(positions[1999] > 0.3, "{} m at the end of the push", positions[1999]);
+    assert!(positions[4499] < 0.015, "{} m after 25 s", positions[4499]);
+}
+
+#[test]
 fn disengaged_the_platform_is_at_neutral_within_ten_seconds_and_stays() {
     for strategy in COORDINATED {
         let mut washout = washout(&[("strategy", strategy)]);

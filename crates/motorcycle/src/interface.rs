@@ -126,7 +126,7 @@ enumeration! {
         "slalom" Slalom,
         /// A bend of 180 degrees with a radius of 12 m between straights of 150 m.
         "hairpin" Hairpin,
-        /// A closed circuit of 1634 m with nine bends, repeated without end.
+        /// A closed circuit of 1634 m with eight bends, repeated without end.
         "lap" Lap,
     }
 }

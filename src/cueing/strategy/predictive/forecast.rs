@@ -55,8 +55,8 @@ const RIDGE: f64 = 3e-3;
 const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
 /// The least squared error that an expert is taken to have \[(m/s2)^2\].
 const LEAST_ERROR: f64 = 1e-4;
-/// The squared error that a forecast without preview is taken to have before any
-/// is known \[(m/s2)^2\].
+/// The squared error that a forecast without preview is taken to have beside what shows
+/// \[(m/s2)^2\]: while nothing happens, neither errs, and what comes is known to the preview alone.
 const DOUBT: f64 = 0.005;
 /// Time constants with which the squared errors beside a preview follow larger
 /// and smaller ones \[s\].
@@ -291,7 +291,7 @@ impl Forecaster {
             forecast: Forecast::default(),
             course: Course::default(),
             beside: 0.0,
-            preview_errors: [SVector::repeat(DOUBT), SVector::repeat(LEAST_ERROR)],
+            preview_errors: [SVector::repeat(LEAST_ERROR); 2],
         }
     }
 
@@ -358,14 +358,14 @@ impl Forecaster {
     /// shorter than what a preview resolves.
     fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
         let [learned, previewed] = &self.preview_errors;
-        let ratios = previewed.component_div(learned);
+        let ratios = previewed.component_div(&learned.add_scalar(DOUBT));
         let own_ends = Horizon::Near.ends();
         let ends = horizon.ends();
         SVector::from_fn(|k, _| {
             let block = own_ends.iter().position(|end| *end >= ends[k]).unwrap_or(BLOCKS - 1);
             let first = block.min(RESOLVED);
             let ratio = CAUTION * ratios.rows(first, block + 1 - first).max();
-            1.0 / (1.0 + ratio * ratio * ratio)
+            1.0 / (1.0 + ratio * ratio * ratio * ratio)
         })
     }
 
