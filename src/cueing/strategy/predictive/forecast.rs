@@ -58,6 +58,8 @@ const LEAST_ERROR: f64 = 1e-4;
 /// The squared error that a forecast without preview is taken to have beside what shows
 /// \[(m/s2)^2\]: while nothing happens, neither errs, and what comes is known to the preview alone.
 const DOUBT: f64 = 0.005;
+/// The squared error that a preview is taken to have before any is known \[(m/s2)^2\].
+const UNPROVED: f64 = 0.002;
 /// Time constants with which the squared errors beside a preview follow larger
 /// and smaller ones \[s\].
 const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
@@ -291,7 +293,7 @@ impl Forecaster {
             forecast: Forecast::default(),
             course: Course::default(),
             beside: 0.0,
-            preview_errors: [SVector::repeat(LEAST_ERROR); 2],
+            preview_errors: [LEAST_ERROR, UNPROVED].map(SVector::repeat),
         }
     }
 
