@@ -149,6 +149,34 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
 }
 
 #[test]
+fn the_search_takes_the_order_that_serves_best() {
+    let judge = judge(weaving(), NO_RESERVE);
+    let budget = Budget { evaluations: 120, seed: 1 };
+    let best = |order: i32, groups: &[Group]| {
+        let mut start = Parameters::default();
+        start.structure.splitter_order = order;
+        let space = Space::new(&start, groups);
+        search(&[&judge], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].clone()
+    };
+    let errors = [2, 3, 4].map(|order| best(order, &[Group::Scale]).error);
+    assert!(errors[0] > errors[1] + 0.005 && errors[1] > errors[2] + 0.005, "{errors:?}");
+    let free = best(2, &[Group::Scale, Group::Order]);
+    assert_eq!(free.parameters.structure.splitter_order, 4);
+    assert!((free.error - errors[2]).abs() < 0.005, "{} {errors:?}", free.error);
+}
+
+#[test]
+fn groups_without_a_number_to_search_are_an_error_with_a_remedy() {
+    let judge = judge(weaving(), NO_RESERVE);
+    for group in [Group::Order, Group::Strategy] {
+        let space = Space::new(&Parameters::default(), &[group]);
+        let budget = Budget { evaluations: 10, seed: 1 };
+        let error = search(&[&judge], &evaluate_here, &space, budget, |_, _| true).unwrap_err();
+        assert!(error.to_string().contains("--tune"), "{error}");
+    }
+}
+
+#[test]
 fn a_search_that_is_broken_off_keeps_what_it_has() {
     let judge = judge(weaving(), NO_RESERVE);
     let space = Space::new(&Parameters::default(), &DEFAULT);

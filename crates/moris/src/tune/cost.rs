@@ -17,6 +17,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, ParameterError, Parameters, Washout};
 
+use super::space::ORDERS;
 use crate::ride::Ride;
 use crate::run::Recording;
 
@@ -74,7 +75,7 @@ const LONGEST_STEP: f64 = 0.02;
 const RESERVE_OF_ACCELERATION: f64 = 0.85;
 
 impl Objective {
-    /// Prepares to judge parameters that have the fixed ones of these on a ride.
+    /// Prepares to judge parameters on a ride that have the fixed ones of these, orders aside.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -118,12 +119,20 @@ impl Objective {
     /// # Errors
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
-        let mut washout = self.coarse.clone();
-        let mut parameters = self.ride.parameters(parameters);
-        let Parameters { structure, rig, .. } = washout.parameters();
-        (parameters.structure, parameters.rig) = (*structure, *rig);
-        parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
-        washout.retune(&parameters)?;
+        let mut coarse = self.ride.parameters(parameters);
+        let Parameters { structure, rig, .. } = *self.coarse.parameters();
+        (coarse.structure, coarse.rig) = (structure, rig);
+        for order in ORDERS {
+            *order(&mut coarse) = *order(&mut parameters.clone());
+        }
+        coarse.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
+        let washout = if coarse.structure == structure {
+            let mut washout = self.coarse.clone();
+            washout.retune(&coarse)?;
+            washout
+        } else {
+            Washout::new(&coarse)?
+        };
         let mut washout = washout.starting_with(&self.ride.inputs()[0]);
         let mut tally = CostAccumulator::new(self);
         tally.add(&washout.output());

@@ -3,14 +3,14 @@
 
 use std::sync::Mutex;
 
-use anyhow::{Result, anyhow};
+use anyhow::{Result, anyhow, ensure};
 use cmaes::{CMAESOptions, DVector};
 use moris_washout::Parameters;
 use moris_washout::nalgebra;
 use rayon::prelude::*;
 
 use super::cost::{Cost, Objective};
-use super::space::Space;
+use super::space::{ORDERS, Space};
 
 /// Length and start of a search.
 #[derive(Clone, Copy, Debug)]
@@ -85,11 +85,15 @@ pub fn search(
     budget: Budget,
     mut progress: impl FnMut(usize, Option<f64>) -> bool,
 ) -> Result<Searched> {
-    let best = Mutex::new(Best::default());
+    ensure!(
+        space.dimension() > 0,
+        "the groups to tune have no number to search: the classical strategy has none of its own, and orders go with others; \
+         add one, such as --tune splitter,order"
+    );
     let rides = &Rides::new(judges, evaluate, space)?;
-    let cost = |point: &DVector<f64>| price(rides, space, point.as_slice(), &best);
-    let start = first_point(rides, space, |point| cost(&DVector::from(point.as_slice().to_vec())));
-    let mut search = CMAESOptions::new(start, FIRST_STEP)
+    let Beginning { space, best, point: start, .. } = &beginning(rides, space);
+    let cost = |point: &DVector<f64>| price(rides, space, point.as_slice(), best);
+    let mut search = CMAESOptions::new(start.clone(), FIRST_STEP)
         .seed(budget.seed)
         .max_function_evals(budget.evaluations)
         .tol_fun(TOLERANCE)
@@ -107,8 +111,7 @@ pub fn search(
         }
     }
     let nearest = search.overall_best_individual().map(|best| at(space, best.point.as_slice()));
-    drop(search);
-    let mut best = best.into_inner().expect("no evaluation panics").0;
+    let mut best = best.lock().expect("no evaluation panics").0.clone();
     if let Some(first) = best.first() {
         let tidied = tidied(rides, space, first);
         best.insert(0, tidied);
@@ -122,8 +125,35 @@ pub fn search(
 const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
 const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
-/// Where the search begins: the best of a coarse scan from the start, channel by channel.
-fn first_point(rides: &Rides, space: &Space, cost: impl Fn(&nalgebra::DVector<f64>) -> f64 + Sync) -> Vec<f64> {
+/// Where a search begins.
+struct Beginning {
+    /// With the orders with which it goes on.
+    space: Space,
+    point: Vec<f64>,
+    cost: f64,
+    /// The best sets of the scan with these orders.
+    best: Mutex<Best>,
+}
+
+/// The best beginning: first with the start's orders, then with others in their place where they
+/// are tuned.
+fn beginning(rides: &Rides, space: &Space) -> Beginning {
+    let mut first = scan(rides, space);
+    for order in ORDERS {
+        for other in first.space.with_other(order) {
+            let scanned = scan(rides, &other);
+            if scanned.cost < first.cost {
+                first = scanned;
+            }
+        }
+    }
+    first
+}
+
+/// The best point of a coarse scan from the start, channel by channel.
+fn scan(rides: &Rides, space: &Space) -> Beginning {
+    let found = Mutex::new(Best::default());
+    let cost = |point: &nalgebra::DVector<f64>| price(rides, space, point.as_slice(), &found);
     let mut best = nalgebra::DVector::from(start_within_limits(rides, space));
     let mut least = cost(&best);
     for channel in 0..6 {
@@ -136,7 +166,7 @@ fn first_point(rides: &Rides, space: &Space, cost: impl Fn(&nalgebra::DVector<f6
             }
         }
     }
-    best.as_slice().to_vec()
+    Beginning { space: space.clone(), point: best.as_slice().to_vec(), cost: least, best: found }
 }
 
 /// Factor between successive trials, and their number: down to a hundredth.

@@ -1,4 +1,4 @@
-//! Search variables: logarithms of break frequencies, dampings and scales.
+//! Search variables: logarithms of break frequencies, dampings and scales, and orders.
 
 use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
@@ -20,7 +20,15 @@ pub enum Group {
     Tilt,
     /// Weights, gains and poles of the strategy in use; the classical one has none
     Strategy,
+    /// The orders of the splitter's and the angular channel's high-passes, 2 to 4
+    Order,
 }
+
+/// The order of a high-pass in parameters.
+pub type OrderOf = fn(&mut Parameters) -> &mut i32;
+
+/// The orders that may be tuned: the splitter's, and the angular channel's.
+pub const ORDERS: [OrderOf; 2] = [|p| &mut p.structure.splitter_order, |p| &mut p.structure.angular_order];
 
 /// Range of a parameter that makes sense for a washout.
 const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
@@ -122,13 +130,28 @@ impl Space {
         self.clamped(&moved).0
     }
 
+    /// The spaces in which an order has its other values; none unless orders are tuned.
+    pub fn with_other(&self, order: OrderOf) -> Vec<Space> {
+        if !self.groups.contains(&Group::Order) {
+            return Vec::new();
+        }
+        let own = *order(&mut self.start.clone());
+        let with = |value: i32| {
+            let mut space = self.clone();
+            *order(&mut space.start) = value;
+            space
+        };
+        (2..=4).filter(|value| *value != own).map(with).collect()
+    }
+
     /// This fraction of the way from the start to parameters that were found in this space, by
-    /// logarithms. What was found to be 0 is 0.
+    /// logarithms. What was found to be 0 is 0, and orders are those found.
     pub fn towards(&self, found: &Parameters, fraction: f64) -> Parameters {
         let mut values = Vec::new();
         visit(&mut found.clone(), &self.groups, &mut |value, _, _| values.push(*value));
         let mut values = values.into_iter();
         let mut parameters = self.start;
+        ORDERS.iter().for_each(|order| *order(&mut parameters) = *order(&mut found.clone()));
         visit(&mut parameters, &self.groups, &mut |value, _, _| {
             let end = values.next().unwrap_or(*value);
             *value = if end > 0.0 { *value * (end / *value).powf(fraction) } else { end };
@@ -264,20 +287,33 @@ mod tests {
     }
 
     #[test]
-    fn a_fraction_of_the_way_is_by_logarithms() {
+    fn a_fraction_of_the_way_is_by_logarithms_with_the_orders_found() {
         let mut start = Parameters::default();
         start.conditioning.rate_scale.x = 0.0;
         let space = Space::new(&start, &DEFAULT);
         let mut found = start;
+        found.structure.splitter_order = 2;
         found.splitter.omega1.x *= 4.0;
         found.conditioning.force_scale.y *= 0.25;
         let half = space.towards(&found, 0.5);
         assert!((half.splitter.omega1.x / start.splitter.omega1.x - 2.0).abs() < 1e-12);
         assert!((half.conditioning.force_scale.y / start.conditioning.force_scale.y - 0.5).abs() < 1e-12);
-        assert_eq!(half.conditioning.rate_scale.x, 0.0);
+        assert_eq!((half.conditioning.rate_scale.x, half.structure.splitter_order), (0.0, 2));
         let close = |(a, b): (&(String, f64), &(String, f64))| (a.1 - b.1).abs() < 1e-12;
         let all_the_way = moris_setup::all(&space.towards(&found, 1.0));
         assert!(all_the_way.iter().zip(&moris_setup::all(&found)).all(close));
+    }
+
+    #[test]
+    fn orders_have_their_other_values_where_they_are_tuned() {
+        let start = Parameters::default();
+        assert!(ORDERS.iter().all(|order| Space::new(&start, &DEFAULT).with_other(*order).is_empty()));
+        let space = Space::new(&start, &[Group::Order, Group::Splitter]);
+        let orders = |order: OrderOf| {
+            let others = space.with_other(order);
+            others.iter().map(|other| *order(&mut other.parameters(&DVector::zeros(12)))).collect::<Vec<i32>>()
+        };
+        assert_eq!((orders(ORDERS[0]), orders(ORDERS[1])), (vec![2, 4], vec![3, 4]));
     }
 
     #[test]

@@ -70,7 +70,7 @@ def tune(
         itself. 0 leaves none out, and the result goes all the way to the best parameters for the recordings.
     rig, parameters, strategy: as for Washout; the search starts from these parameters.
     groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy" (weights, gains and poles of the
-        strategy in use; the classical one has none).
+        strategy in use; the classical one has none), "order" (of the splitter's and the angular channel's high-passes).
     weights: of the errors of specific force x, y, z and angular velocity x, y, z. stroke_reserve: of each actuator [m].
     evaluations: parameter sets of each search after its coarse scan. seed: of the random numbers.
     progress: True, False, None or a function of (done, total, text).
