@@ -25,7 +25,7 @@ def check(function):
 
 @contextmanager
 def opened(browser, name, *, quiet=True, text=None, **options):
-    """A page from its file; fails if it says anything on the console or asks for anything but itself."""
+    """A page from its file, drawn; fails if it says anything on the console or asks for anything but itself."""
     context = browser.new_context(viewport=options.pop("viewport", LAPTOP), **options)
     page = context.new_page()
     said, asked = [], []
@@ -38,6 +38,8 @@ def opened(browser, name, *, quiet=True, text=None, **options):
         file = PAGES / f"{name}-changed.html"
         file.write_text(text)
     page.goto(file.as_uri())
+    if options.get("java_script_enabled", True):
+        page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
     yield page
     context.close()
     if quiet:
@@ -420,7 +422,7 @@ def a_failing_script_is_not_silent(browser):
     """A script that fails, data that are cut off, and no scripts at all: the page says so."""
     text = (PAGES / "hostile.html").read_text()
     broken = text.replace("const report = {", "const report = nothing + {", 1)
-    cut = text.replace('"times":"', '"times":"!', 1)
+    cut = text.replace('"deflated":"', '"deflated":"!', 1)
     assert text not in (broken, cut)
     for changed in (broken, cut):
         with opened(browser, "hostile", quiet=False, text=changed) as page:

@@ -295,7 +295,7 @@ fn a_preview_is_simulated_beside_the_strategy_without_it() {
     assert!(text(&refused.stderr).contains("--preview is for the predictive strategy alone"), "{refused:?}");
 }
 
-/// A minute at 1 kHz and a page that opens: every curve keeps its extremes.
+/// A minute at 1 kHz: two sets are shown with every sample, five with the extremes of intervals.
 #[test]
 fn a_long_recording_makes_a_page_of_less_than_three_megabytes() {
     let directory = tempfile::tempdir().unwrap();
@@ -306,16 +306,19 @@ fn a_long_recording_makes_a_page_of_less_than_three_megabytes() {
         writeln!(long, "{t:.3},{:.4},{:.4},{},0,0,0", blow + (0.6 * t).sin(), 0.5 * (0.9 * t).sin(), 9.80665).unwrap();
     }
     fs::write(directory.path().join("long.csv"), long).unwrap();
-    let output = moris(directory.path(), &["simulate", "long.csv", "--no-bound", "--compare", "car"]);
-    assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(&output.stderr));
-    let page = fs::read_to_string(directory.path().join("moris-report/long.html")).unwrap();
-    assert!(page.len() < 3_000_000, "{} bytes", page.len());
-    let data = page.split("id=\"data\">").nth(1).unwrap().split("</script>").next().unwrap();
-    let data: serde_json::Value = serde_json::from_str(data).unwrap();
-    let encoded = data["report"]["runs"][0]["desired"]["specific_force"][0].as_str().unwrap();
-    // Four letters hold three bytes, four bytes hold a number.
-    assert!(encoded.len() / 16 * 3 <= 6_100, "{}", encoded.len());
-    assert!(page.contains("least and greatest value of every 20 ms"), "the resolution is stated");
+    let page = |sets: &[&str]| {
+        let compared = sets.iter().flat_map(|set| ["--compare", set]);
+        let arguments: Vec<&str> = ["simulate", "long.csv", "--no-bound"].into_iter().chain(compared).collect();
+        let output = moris(directory.path(), &arguments);
+        assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(&output.stderr));
+        let page = fs::read_to_string(directory.path().join("moris-report/long.html")).unwrap();
+        assert!(page.len() < 3_000_000, "{} bytes", page.len());
+        page
+    };
+    assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
+    let thinned = page(&["car", "motorcycle", "small-motions", "paper"]);
+    let resolution = thinned.split("\"Curves\",\"").nth(1).unwrap().split(";").next().unwrap();
+    assert_eq!(resolution, "least and greatest value of every 6 ms", "as much as fits");
 }
 
 #[test]

@@ -1,28 +1,50 @@
-// Data: the report as it travels in the page, decoded.
+// Data: the report as it travels in the page, decoded as src/encode.rs encodes it.
 
 const page = JSON.parse(document.getElementById("data").textContent);
 
-function bytes(text) {
-  const letters = atob(text);
-  const decoded = new Uint8Array(letters.length);
-  for (let i = 0; i < letters.length; i += 1) decoded[i] = letters.charCodeAt(i);
-  return decoded;
+/** Bytes from deflated ones in base64. */
+async function inflated(text) {
+  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-const numbers32 = (text) => new Float32Array(bytes(text).buffer);
-const numbers64 = (text) => new Float64Array(bytes(text).buffer);
+/** Values of a series from its second differences; null without one. */
+async function decoded(encoded, Numbers = Float32Array) {
+  if (encoded === null) return null;
+  const bytes = await inflated(encoded.deflated);
+  if (encoded.power === null) return new Float32Array(bytes.buffer);
+  const values = new Numbers(bytes.reduce((count, byte) => count + (byte < 0x80), 0));
+  let [at, last, slope] = [0, 0, 0];
+  for (let k = 0; k < values.length; k += 1) {
+    // Products, because shifts are of 32 bits.
+    let [number, factor] = [0, 1];
+    for (; bytes[at] >= 0x80; at += 1, factor *= 0x80) number += (bytes[at] & 0x7f) * factor;
+    number += bytes[at] * factor;
+    at += 1;
+    slope += number % 2 ? -(number + 1) / 2 : number / 2;
+    last += slope;
+    values[k] = last * 2 ** encoded.power;
+  }
+  return values;
+}
 
 /** Dashes of the runs' curves, beside their colours. */
 const RUN_DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4]];
 
-/** A run with typed arrays in place of base64. */
-function decodedRun(run, events, index) {
-  const each = (list) => list.map(numbers32);
-  const cues = (one) => ({
-    specific_force: each(one.specific_force),
-    angular_velocity: each(one.angular_velocity),
+/** A run with typed arrays in place of text. */
+async function decodedRun(run, events, index) {
+  const each = (list) => Promise.all(list.map((one) => decoded(one)));
+  const cues = async (one) => ({
+    specific_force: await each(one.specific_force),
+    angular_velocity: await each(one.angular_velocity),
   });
-  const times = numbers64(run.times);
+  const chart = async (one) => ({
+    ...one,
+    times: await decoded(one.times, Float64Array) ?? times,
+    lines: await Promise.all(one.lines.map(async (line) => ({ ...line, values: await decoded(line.values) }))),
+  });
+  const times = await decoded(run.times, Float64Array);
   return {
     ...run,
     index,
@@ -30,28 +52,25 @@ function decodedRun(run, events, index) {
     times,
     colour: `--run-${index % 4 + 1}`,
     dash: RUN_DASHES[index % RUN_DASHES.length],
-    desired: cues(run.desired),
-    felt: cues(run.felt),
-    position: each(run.position),
-    orientation: each(run.orientation),
-    legs: each(run.legs),
-    tilt: each(run.tilt),
-    tilt_rate: each(run.tilt_rate),
-    lean: run.lean === "" ? null : numbers32(run.lean),
+    desired: await cues(run.desired),
+    felt: await cues(run.felt),
+    position: await each(run.position),
+    orientation: await each(run.orientation),
+    legs: await each(run.legs),
+    tilt: await each(run.tilt),
+    tilt_rate: await each(run.tilt_rate),
+    lean: await decoded(run.lean),
     limited: {
-      tilt: bytes(run.limited.tilt),
-      safety: bytes(run.limited.safety),
-      actuator: bytes(run.limited.actuator),
+      tilt: await inflated(run.limited.tilt),
+      safety: await inflated(run.limited.safety),
+      actuator: await inflated(run.limited.actuator),
     },
-    charts: run.charts.map((chart) => ({
-      ...chart,
-      times: chart.times === "" ? times : numbers64(chart.times),
-      lines: chart.lines.map((line) => ({ ...line, values: numbers32(line.values) })),
-    })),
+    charts: await Promise.all(run.charts.map(chart)),
   };
 }
 
-const report = { ...page.report, runs: page.report.runs.map((run, i) => decodedRun(run, page.events[i], i)) };
+const decodedRuns = page.report.runs.map((run, i) => decodedRun(run, page.events[i], i));
+const report = { ...page.report, runs: await Promise.all(decodedRuns) };
 
 /** The index of the last of the ascending times that is not after `time`; 0 if all are. */
 function indexAt(times, time) {

@@ -6,7 +6,7 @@
 use moris_washout::Parameters;
 use serde::Serialize;
 
-use crate::encode::{f32_series, f64_series, flags};
+use crate::encode::{curve, flags, times};
 
 /// The whole page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -85,29 +85,29 @@ pub struct Run {
     /// Findings, in order of importance.
     pub findings: Vec<Finding>,
     /// \[s\], ascending.
-    #[serde(serialize_with = "f64_series::one")]
+    #[serde(serialize_with = "times")]
     pub times: Vec<f64>,
     /// Desired: motion at the head of the vehicle's rider.
     pub desired: Cues,
     /// Felt: motion at the head of the rider on the platform.
     pub felt: Cues,
     /// Position of the platform frame's origin in the base frame: x, y, z \[m\].
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub position: [Vec<f64>; 3],
     /// Orientation of the platform: roll, pitch, yaw \[rad\].
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub orientation: [Vec<f64>; 3],
     /// The legs' lengths \[m\].
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub legs: [Vec<f64>; 6],
     /// Tilt coordination's part of roll and pitch \[rad\].
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub tilt: [Vec<f64>; 2],
     /// Rates of that part \[rad/s\].
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub tilt_rate: [Vec<f64>; 2],
     /// The rider's lean, positive to the right \[rad\]; empty where nobody leans.
-    #[serde(serialize_with = "f32_series::one")]
+    #[serde(serialize_with = "curve::one")]
     pub lean: Vec<f64>,
     pub limited: Limited,
     pub limits: Limits,
@@ -122,10 +122,10 @@ pub struct Run {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Cues {
     /// x, y, z \[m/s2\]; (0, 0, 9.81) at rest.
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub specific_force: [Vec<f64>; 3],
     /// x, y, z \[rad/s\].
-    #[serde(serialize_with = "f32_series::many")]
+    #[serde(serialize_with = "curve::many")]
     pub angular_velocity: [Vec<f64>; 3],
 }
 
@@ -224,7 +224,7 @@ pub struct Chart {
     /// Label of the vertical axis, with its unit.
     pub quantity: String,
     /// Times of the lines' values \[s\]; empty: the run's.
-    #[serde(serialize_with = "f64_series::one")]
+    #[serde(serialize_with = "times")]
     pub times: Vec<f64>,
     pub lines: Vec<Line>,
     /// Values drawn as dashed lines across the chart.
@@ -236,6 +236,6 @@ pub struct Chart {
 pub struct Line {
     pub label: String,
     /// One value for each time; a value that is not a number is a gap.
-    #[serde(serialize_with = "f32_series::one")]
+    #[serde(serialize_with = "curve::one")]
     pub values: Vec<f64>,
 }

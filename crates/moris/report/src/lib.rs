@@ -20,4 +20,4 @@ pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Rep
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::html;
-pub use thinning::{MOST_SAMPLES, Thinning};
+pub use thinning::Thinning;

@@ -1,8 +1,5 @@
 //! Fewer samples than a recording has, so that a page of any length opens.
 
-/// Most samples of all runs of a page together. One takes about 220 bytes: 3 MB in all.
-pub const MOST_SAMPLES: usize = 12_000;
-
 /// Intervals of samples, of each of which two values are kept.
 ///
 /// Of a curve these are the least and the greatest value in the order in which they come: peaks

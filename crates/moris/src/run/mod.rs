@@ -340,7 +340,7 @@ fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Ve
 /// The file cannot be written.
 pub fn write_page(directory: &Path, name: &str, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
     let file = directory.join(format!("{name}.html"));
-    let html = moris_report::html(&page::report(ride, outcomes)).context("the report does not fit together")?;
+    let html = page::html(ride, outcomes).context("the report does not fit together")?;
     fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

@@ -4,7 +4,7 @@ use std::array;
 
 use moris_measures::Row;
 use moris_report::{
-    Better, Chart, Cues, Finding, Limited, Limits, Line, MOST_SAMPLES, Measure, Report, Run, Thinning, Weight,
+    Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, ReportError, Run, Thinning, Weight,
 };
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::{Output, Parameters};
@@ -12,10 +12,35 @@ use moris_washout::{Output, Parameters};
 use super::{Outcome, Recording, findings};
 use crate::ride::Ride;
 
-/// The report of a ride with one or several sets of parameters, of which the first is shown first.
-pub fn report(ride: &Ride, outcomes: &[Outcome]) -> Report {
+/// Largest page \[bytes\].
+const LARGEST: usize = 3_000_000;
+/// Samples that fit into the largest page if their curves are smooth, and the least that are worth
+/// showing, of all sets together.
+const MOST_SAMPLES: usize = 150_000;
+const LEAST_SAMPLES: usize = 4_000;
+
+/// The page of a ride with one or several sets of parameters, with as many samples as fit into it.
+///
+/// # Errors
+/// The report does not fit together.
+pub fn html(ride: &Ride, outcomes: &[Outcome]) -> Result<String, ReportError> {
+    let samples = outcomes[0].recording.inputs.len() * outcomes.len();
+    let mut most = samples.min(MOST_SAMPLES);
+    loop {
+        let page = moris_report::html(&report(ride, outcomes, most / outcomes.len()))?;
+        if page.len() <= LARGEST || most <= LEAST_SAMPLES {
+            return Ok(page);
+        }
+        let fitting = 0.95 * most as f64 * LARGEST as f64 / page.len() as f64;
+        most = (fitting as usize).max(LEAST_SAMPLES);
+    }
+}
+
+/// The report of a ride with one or several sets of parameters, of which the first is shown first,
+/// with at most so many samples of each.
+pub fn report(ride: &Ride, outcomes: &[Outcome], most: usize) -> Report {
     let first = &outcomes[0];
-    let thinning = Thinning::new(first.recording.inputs.len(), MOST_SAMPLES / outcomes.len());
+    let thinning = Thinning::new(first.recording.inputs.len(), most);
     let remarks = ride.remarks.iter().map(|remark| Finding { weight: Weight::Warning, text: remark.clone() });
     Report {
         title: ride.name.clone(),
