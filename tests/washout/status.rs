@@ -42,24 +42,36 @@ fn blows(k: usize, force: f64, rate: f64) -> Input {
 /// Their derivatives, which a host may ask for, are differences of the legs'
 /// velocities over a step.
 #[test]
-fn legs_that_are_limited_have_the_accelerations_of_their_velocities() {
+fn a_limited_platform_has_the_accelerations_of_its_velocities() {
     const STEP: f64 = 0.001;
-    let mut washout = washout(&[]);
-    let mut limited = 0;
-    for k in 0..4000 {
-        let before = washout.output().leg_velocity;
-        washout.step(&blows(k, 60.0, 6.0), STEP);
-        let after = washout.output();
-        if after.actuator_limited {
-            limited += 1;
-            let given = washout.output_derivative().leg_velocity;
-            for i in 0..6 {
-                let difference = (after.leg_velocity[i] - before[i]) / STEP;
-                assert!((given[i] - difference).abs() < 1e-6, "{} and {difference} m/s2 at step {k}", given[i]);
+    let slow = ("actuator.accelerationLimit", 3.0);
+    // With limits that become too tight for the motion the platform follows its plan to rest.
+    let tight = [("safety.x.accelerationLimit", 0.2), ("safety.y.accelerationLimit", 0.2)];
+    for (set, tightened) in [(&[][..], &[][..]), (&[slow], &[slow]), (&[], &tight)] {
+        let mut washout = washout(set);
+        let mut limited = 0;
+        for k in 0..4000 {
+            if k % 400 == 300 {
+                washout.retune(&parameters(tightened)).unwrap();
+            } else if k % 400 == 0 {
+                washout.retune(&parameters(set)).unwrap();
+            }
+            let (before, legs_before) = (*washout.motion(), washout.output().leg_velocity);
+            washout.step(&blows(k, 60.0, 6.0), STEP);
+            let (after, output) = (*washout.motion(), washout.output());
+            if output.actuator_limited {
+                limited += 1;
+                let given = washout.output_derivative().leg_velocity;
+                for i in 0..6 {
+                    let difference = (output.leg_velocity[i] - legs_before[i]) / STEP;
+                    assert!((given[i] - difference).abs() < 1e-6, "{} and {difference} m/s2 at step {k}", given[i]);
+                }
+                let difference = (after.velocity - before.velocity) / STEP;
+                assert!((after.acceleration - difference).amax() < 1e-9, "{difference} at step {k}");
             }
         }
+        assert!(limited > 100, "{limited}");
     }
-    assert!(limited > 100, "{limited}");
 }
 
 fn flags(output: &Output) -> [bool; 3] {

@@ -111,3 +111,18 @@ fn farthest<T>(certified: impl Fn(f64) -> Option<T>) -> Option<T> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::farthest;
+
+    #[test]
+    fn the_farthest_is_found_to_a_part_in_sixty_four() {
+        for edge in [0.01, 0.1, 0.33, 0.5, 0.7, 0.99] {
+            let found = farthest(|fraction| (fraction <= edge).then_some(fraction)).unwrap_or(0.0);
+            assert!(found <= edge && edge - found <= 1.0 / 64.0, "{found}, not {edge}");
+        }
+        assert_eq!(farthest(Some), Some(1.0));
+        assert_eq!(farthest(|_| None::<f64>), None);
+    }
+}
