@@ -15,7 +15,7 @@ use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::coordinated::Circumstances;
 use crate::cueing::strategy::predictive::preview::Course;
 use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction, StrategyKind};
-use crate::motion::Motions;
+use crate::motion::Motion;
 use crate::motion::extremes::{max, min};
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
@@ -286,7 +286,7 @@ impl Washout {
             Strategy::Coordinated(coordinated) => {
                 let heave = coordinated.heave(&demand.axis(2));
                 let [surge, sway] = coordinated.travel(&circumstances(), &turning, &heave, step);
-                demand = Motions::from_axes(|k| [surge, sway, heave][k]);
+                demand = Motion::from_axes(|k| [surge, sway, heave][k]);
             }
         }
         let linear = self.direct_linear.advance_within_limits(&demand, safety, step);

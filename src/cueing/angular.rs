@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::filter::bumpless::Bump;
 use crate::filter::chain::{Chains, Denominator};
 use crate::interface::AngularParameters;
-use crate::motion::Motions;
+use crate::motion::Motion;
 
 /// The angular channel with its state: roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,14 +39,14 @@ impl AngularChannel {
     ///
     /// The acceleration is the mean over the step, from one step's rate to the next one's: the
     /// accelerations add up to the rates, also where the input jumps between two steps.
-    pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Motions {
+    pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Motion<Vector3<f64>> {
         let (bump_start, bump_end) = self.bump.advance(step);
         let end = end + bump_end;
         self.chains.advance(start + bump_start, end, step);
         let rates = self.chains.high_pass(end);
         let acceleration = (rates - self.rates) / step;
         self.rates = rates;
-        Motions { position: self.chains.first_integral(), velocity: rates, acceleration }
+        Motion { position: self.chains.first_integral(), velocity: rates, acceleration }
     }
 }
 

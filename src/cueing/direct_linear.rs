@@ -9,7 +9,7 @@ use crate::cueing::splitter::high_pass_denominators;
 use crate::filter::bumpless::Bump;
 use crate::filter::chain::Chains;
 use crate::interface::{SafetyParameters, SplitterParameters};
-use crate::motion::Motions;
+use crate::motion::Motion;
 
 /// The linear channel with its state: surge, sway and heave, along x, y and z of the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,11 +38,11 @@ impl DirectLinearMotion {
     /// Advances the filters by `step` seconds while the input, a force in the base frame,
     /// goes linearly from `start` to `end`. Returns the surge, sway and heave from
     /// neutral that they demand.
-    pub fn advance_filters(&mut self, [start, end]: [Vector3<f64>; 2], step: f64) -> Motions {
+    pub fn advance_filters(&mut self, [start, end]: [Vector3<f64>; 2], step: f64) -> Motion<Vector3<f64>> {
         let (bump_start, bump_end) = self.bump.advance(step);
         let end = end + bump_end;
         self.chains.advance(start + bump_start, end, step);
-        Motions {
+        Motion {
             position: self.chains.second_integral(),
             velocity: self.chains.first_integral(),
             acceleration: self.chains.high_pass(end),
@@ -51,24 +51,29 @@ impl DirectLinearMotion {
 
     /// Surge, sway and heave `step` seconds later that keep the safety limits and come
     /// nearest to the demand.
-    pub fn advance_within_limits(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) -> &Motions {
+    pub fn advance_within_limits(
+        &mut self,
+        demand: &Motion<Vector3<f64>>,
+        limits: &SafetyParameters,
+        step: f64,
+    ) -> &Motion<Vector3<f64>> {
         self.safety.advance(demand, limits, step);
         self.motion()
     }
 
     /// Goes on from the motion that the platform really makes.
-    pub fn continue_from(&mut self, real: &Motions) {
+    pub fn continue_from(&mut self, real: &Motion<Vector3<f64>>) {
         self.safety.continue_from(real);
     }
 
     /// Surge, sway and heave now.
-    pub fn motion(&self) -> &Motions {
+    pub fn motion(&self) -> &Motion<Vector3<f64>> {
         self.safety.motion()
     }
 
     /// Continues from the platform's real motion if the safety units' own is beyond limits
     /// that have become tighter.
-    pub fn stay_within(&mut self, limits: &SafetyParameters, real: &Motions) {
+    pub fn stay_within(&mut self, limits: &SafetyParameters, real: &Motion<Vector3<f64>>) {
         if self.safety.beyond_limits(limits) {
             self.safety.continue_from(real);
         }

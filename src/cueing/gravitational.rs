@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::interface::TiltParameters;
-use crate::motion::braking_law::{Limits, Motion};
+use crate::motion::Motion;
+use crate::motion::braking_law::Limits;
 
 /// The tilt of the platform that the gravitational strategy commands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -10,7 +10,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{SafetyParameters, TiltParameters};
-use crate::motion::braking_law::{Limits, Motion};
+use crate::motion::Motion;
+use crate::motion::braking_law::Limits;
 
 /// Watches the vehicle brake, and acts ahead of its stop.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,11 +4,12 @@
 #[cfg(test)]
 mod tests;
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use wide::f64x4;
 
 use crate::interface::SafetyParameters;
-use crate::motion::Motions;
+use crate::motion::Motion;
 use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, REJOIN_DISTANCE, ROUNDING, WITH_ROUNDING};
 use crate::motion::lanes::lanes;
 
@@ -17,7 +18,7 @@ use crate::motion::lanes::lanes;
 pub struct SafetyUnits {
     /// The longest step that may ever be taken \[s\].
     longest_step: f64,
-    motion: Motions,
+    motion: Motion<Vector3<f64>>,
     /// True on each axis whose motion is not the demanded one.
     following: [bool; 3],
     /// True on each axis that a safety limit keeps from its demand.
@@ -35,11 +36,11 @@ impl Limits {
 impl SafetyUnits {
     /// At rest at neutral, not active.
     pub fn new(longest_step: f64) -> Self {
-        SafetyUnits { longest_step, motion: Motions::default(), following: [false; 3], active: [false; 3] }
+        SafetyUnits { longest_step, motion: Motion::default(), following: [false; 3], active: [false; 3] }
     }
 
     /// The motion now.
-    pub fn motion(&self) -> &Motions {
+    pub fn motion(&self) -> &Motion<Vector3<f64>> {
         &self.motion
     }
 
@@ -50,7 +51,7 @@ impl SafetyUnits {
 
     /// Continues from the platform's real motion, where that is not the one that the units gave.
     #[cold]
-    pub fn continue_from(&mut self, motion: &Motions) {
+    pub fn continue_from(&mut self, motion: &Motion<Vector3<f64>>) {
         self.motion = *motion;
         self.following = [true; 3];
     }
@@ -58,7 +59,7 @@ impl SafetyUnits {
     /// True if the motion is beyond its limits, or could not stop within them:
     /// they have become tighter.
     pub fn beyond_limits(&self, limits: &SafetyParameters) -> bool {
-        let Motions { position, velocity, .. } = &self.motion;
+        let Motion { position, velocity, .. } = &self.motion;
         (0..3).any(|k| {
             let outward = if velocity[k].is_sign_negative() { -position[k] } else { position[k] };
             let ahead = limits.position_limit[k] - outward;
@@ -69,7 +70,7 @@ impl SafetyUnits {
     }
 
     /// Advances by one step at whose end the motion `demand` is.
-    pub fn advance(&mut self, demand: &Motions, limits: &SafetyParameters, step: f64) {
+    pub fn advance(&mut self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) {
         let keep = self.keep_limits(demand, limits, step);
         self.motion = if self.following == [false; 3] && keep == [true; 3] {
             *demand
@@ -81,13 +82,19 @@ impl SafetyUnits {
     /// Axis by axis: the demanded motion where it keeps the limits, and what comes nearest to
     /// it where it does not.
     #[cold]
-    fn followed(&mut self, demand: &Motions, keep: [bool; 3], limits: &SafetyParameters, step: f64) -> Motions {
+    fn followed(
+        &mut self,
+        demand: &Motion<Vector3<f64>>,
+        keep: [bool; 3],
+        limits: &SafetyParameters,
+        step: f64,
+    ) -> Motion<Vector3<f64>> {
         for (k, keeps) in keep.into_iter().enumerate() {
             let joins = keeps && (!self.following[k] || self.has_caught_up(k, demand, limits, step));
             self.active[k] = !joins && (self.active[k] || !self.following[k]);
             self.following[k] = !joins;
         }
-        Motions::from_axes(|k| {
+        Motion::from_axes(|k| {
             let target = demand.axis(k);
             if !self.following[k] {
                 return target;
@@ -99,7 +106,7 @@ impl SafetyUnits {
 
     /// True if the motion on this axis can go over to the demanded one: their positions differ
     /// from what the velocities account for by next to nothing.
-    fn has_caught_up(&self, k: usize, demand: &Motions, limits: &SafetyParameters, step: f64) -> bool {
+    fn has_caught_up(&self, k: usize, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * limits.acceleration_limit[k] * step * step;
         let expected = self.motion.position[k] + 0.5 * (self.motion.velocity[k] + demand.velocity[k]) * step;
         (demand.position[k] - expected).abs() <= near
@@ -110,7 +117,7 @@ impl SafetyUnits {
     ///
     /// The gap between the positions' difference and the mean velocity times the step h counts as
     /// an acceleration of 2 gap/h², for who sees positions only.
-    fn keep_limits(&self, demand: &Motions, limits: &SafetyParameters, step: f64) -> [bool; 3] {
+    fn keep_limits(&self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> [bool; 3] {
         let (farthest, fastest) = (lanes(&limits.position_limit), lanes(&limits.velocity_limit));
         let most = lanes(&limits.acceleration_limit);
         let (position, velocity) = (lanes(&demand.position), lanes(&demand.velocity));

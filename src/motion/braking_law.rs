@@ -8,22 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::motion::Motion;
 use crate::motion::extremes::{max, min};
-
-/// Position, velocity and acceleration of something that moves along a line, in SI units.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Motion {
-    pub position: f64,
-    pub velocity: f64,
-    pub acceleration: f64,
-}
-
-impl Motion {
-    /// At rest at this position.
-    pub fn at_rest(position: f64) -> Self {
-        Motion { position, velocity: 0.0, acceleration: 0.0 }
-    }
-}
 
 /// Limits of a motion along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

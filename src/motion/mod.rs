@@ -1,6 +1,6 @@
 //! Motion along lines and about axes, and the braking law that keeps it within limits.
 //!
-//! [`Motions`] has three motions side by side: along x, y, z or in roll, pitch, yaw.
+//! [`Motion`] is that of one thing, or of three side by side.
 
 pub mod braking_law;
 pub(crate) mod extremes;
@@ -10,17 +10,23 @@ pub mod orientation;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::motion::braking_law::Motion;
-
-/// Position, velocity and acceleration of three things that move along lines, in SI units.
+/// Position, velocity and acceleration of something that moves along a line, in SI units; with
+/// vectors those of three things side by side, along x, y, z or in roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Motions {
-    pub position: Vector3<f64>,
-    pub velocity: Vector3<f64>,
-    pub acceleration: Vector3<f64>,
+pub struct Motion<T = f64> {
+    pub position: T,
+    pub velocity: T,
+    pub acceleration: T,
 }
 
-impl Motions {
+impl Motion {
+    /// At rest at this position.
+    pub fn at_rest(position: f64) -> Self {
+        Motion { position, velocity: 0.0, acceleration: 0.0 }
+    }
+}
+
+impl Motion<Vector3<f64>> {
     /// One of them.
     pub fn axis(&self, k: usize) -> Motion {
         Motion { position: self.position[k], velocity: self.velocity[k], acceleration: self.acceleration[k] }
@@ -29,7 +35,7 @@ impl Motions {
     /// Each from its axis.
     pub fn from_axes(motion: impl Fn(usize) -> Motion) -> Self {
         let axes = [motion(0), motion(1), motion(2)];
-        Motions {
+        Motion {
             position: axes.map(|axis| axis.position).into(),
             velocity: axes.map(|axis| axis.velocity).into(),
             acceleration: axes.map(|axis| axis.acceleration).into(),
@@ -45,7 +51,7 @@ impl Motions {
 
     /// The motions after `step` seconds of the steady accelerations that lead to these velocities.
     pub fn at_velocity(&self, velocity: Vector3<f64>, step: f64) -> Self {
-        Motions {
+        Motion {
             position: self.position + 0.5 * step * (self.velocity + velocity),
             velocity,
             acceleration: (velocity - self.velocity) / step,

@@ -4,7 +4,7 @@ use moris_interface::{Field, Kind, units};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::motion::Motions;
+use crate::motion::Motion;
 
 /// Roll about x, pitch about y (nose down is positive), yaw about z, or three
 /// quantities that belong to them.
@@ -124,13 +124,13 @@ pub struct RotationalMotion {
 
 impl RotationalMotion {
     /// From roll, pitch and yaw as they move.
-    pub fn new(angles: &Motions) -> Self {
+    pub fn new(angles: &Motion<Vector3<f64>>) -> Self {
         RotationalMotion::with_orientation(Orientation::new(RollPitchYaw::from_vector(angles.position)), angles)
     }
 
     /// As [`RotationalMotion::new`], where the orientation at these angles is known.
     #[inline(always)]
-    pub fn with_orientation(orientation: Orientation, angles: &Motions) -> Self {
+    pub fn with_orientation(orientation: Orientation, angles: &Motion<Vector3<f64>>) -> Self {
         let rates = RollPitchYaw::from_vector(angles.velocity);
         let accelerations = RollPitchYaw::from_vector(angles.acceleration);
         RotationalMotion {

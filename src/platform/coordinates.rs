@@ -1,16 +1,17 @@
 //! The platform's six coordinates, each with its velocity and acceleration.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::PlatformMotion;
-use crate::motion::Motions;
+use crate::motion::Motion;
 use crate::motion::orientation::RotationalMotion;
 
 /// Surge, sway and heave from neutral in the base frame \[m\]; roll, pitch and yaw \[rad\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlatformCoordinates {
-    pub linear: Motions,
-    pub angles: Motions,
+    pub linear: Motion<Vector3<f64>>,
+    pub angles: Motion<Vector3<f64>>,
 }
 
 impl PlatformCoordinates {
@@ -28,9 +29,9 @@ impl PlatformCoordinates {
         before: &PlatformCoordinates,
         step: f64,
     ) -> Self {
-        let between = |from: &Motions, to: &Motions, before: &Motions| {
+        let between = |from: &Motion<Vector3<f64>>, to: &Motion<Vector3<f64>>, before: &Motion<Vector3<f64>>| {
             let velocity = from.velocity.lerp(&to.velocity, fraction);
-            Motions {
+            Motion {
                 position: from.position.lerp(&to.position, fraction),
                 velocity,
                 acceleration: (velocity - before.velocity) / step,
@@ -44,7 +45,7 @@ impl PlatformCoordinates {
 
     /// The coordinates after `step` seconds at the velocities they have.
     pub fn coasted(&self, step: f64) -> Self {
-        let coasted = |motions: &Motions| motions.at_velocity(motions.velocity, step);
+        let coasted = |motions: &Motion<Vector3<f64>>| motions.at_velocity(motions.velocity, step);
         PlatformCoordinates { linear: coasted(&self.linear), angles: coasted(&self.angles) }
     }
 }
@@ -56,7 +57,7 @@ mod tests {
 
     #[test]
     fn coordinates_between_two_have_the_velocity_between_and_the_acceleration_to_it() {
-        let motions = |position: f64, velocity: f64| Motions {
+        let motions = |position: f64, velocity: f64| Motion {
             position: Vector3::new(position, 0.0, -position),
             velocity: Vector3::new(0.0, velocity, 2.0 * velocity),
             acceleration: Vector3::zeros(),

@@ -42,7 +42,7 @@ pub use location::{LocationFrame, check_torso};
 pub use survey::{Survey, SurveyFailed, survey};
 
 use crate::interface::Rig;
-use crate::motion::Motions;
+use crate::motion::Motion;
 use crate::motion::orientation::{Orientation, RollPitchYaw, RotationalMotion};
 
 /// Where the joints are: on the base in the base frame, on the platform in the
@@ -87,7 +87,7 @@ pub struct PlatformMotion {
 
 impl PlatformMotion {
     /// From surge, sway and heave, and how the platform turns.
-    pub fn new(linear: &Motions, turning: &RotationalMotion, neutral_height: f64) -> Self {
+    pub fn new(linear: &Motion<Vector3<f64>>, turning: &RotationalMotion, neutral_height: f64) -> Self {
         PlatformMotion {
             position: Vector3::new(linear.position.x, linear.position.y, neutral_height + linear.position.z),
             orientation: turning.orientation,

@@ -4,8 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::PlatformCoordinates;
-use crate::motion::Motions;
-use crate::motion::braking_law::Motion;
+use crate::motion::Motion;
 use crate::motion::extremes::max;
 
 /// A trajectory of the platform from a moving state to rest, and the time already spent on it.
@@ -79,8 +78,8 @@ impl StopPlan {
     pub fn at(&self, time: f64) -> PlatformCoordinates {
         let StopPlan { start, durations, .. } = self;
         PlatformCoordinates {
-            linear: Motions::from_axes(|k| stopping(&start.linear.axis(k), durations.linear[k], time)),
-            angles: Motions::from_axes(|k| stopping(&start.angles.axis(k), durations.angular, time)),
+            linear: Motion::from_axes(|k| stopping(&start.linear.axis(k), durations.linear[k], time)),
+            angles: Motion::from_axes(|k| stopping(&start.angles.axis(k), durations.angular, time)),
         }
     }
 }

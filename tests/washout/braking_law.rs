@@ -5,8 +5,8 @@ use moris_washout::cueing::direct_linear::DirectLinearMotion;
 use moris_washout::cueing::safety::SafetyUnits;
 use moris_washout::filter::chain::Denominator;
 use moris_washout::interface::SafetyParameters;
-use moris_washout::motion::Motions;
-use moris_washout::motion::braking_law::{Motion, approach_velocity};
+use moris_washout::motion::Motion;
+use moris_washout::motion::braking_law::approach_velocity;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
@@ -33,9 +33,9 @@ fn hostile_target(random: &mut Random, last: &Motion, step: f64) -> Motion {
 }
 
 /// Next demand on the units, different on each axis.
-fn hostile_targets(random: &mut Random, last: &Motions, step: f64) -> Motions {
+fn hostile_targets(random: &mut Random, last: &Motion<Vector3<f64>>, step: f64) -> Motion<Vector3<f64>> {
     let targets = [0, 1, 2].map(|k| hostile_target(random, &last.axis(k), step));
-    Motions::from_axes(|k| targets[k])
+    Motion::from_axes(|k| targets[k])
 }
 
 proptest! {
@@ -53,7 +53,7 @@ proptest! {
         };
         let mut units = SafetyUnits::new(longest);
         let mut random = Random::new(seed);
-        let mut target = Motions::default();
+        let mut target = Motion::default();
         let mut last_mean: Option<(Vector3<f64>, f64)> = None;
         for k in 0..2000 {
             let step = random.between(0.01, 1.0) * longest;
@@ -86,12 +86,12 @@ proptest! {
     fn a_target_at_rest_is_reached_and_kept(seed: u64, goal in -0.4..0.4, step in 0.0005..0.01) {
         let limits = SafetyParameters::default();
         let mut units = SafetyUnits::new(0.01);
-        let (mut random, mut target) = (Random::new(seed), Motions::default());
+        let (mut random, mut target) = (Random::new(seed), Motion::default());
         for _ in 0..500 {
             target = hostile_targets(&mut random, &target, step);
             units.advance(&target, &limits, step);
         }
-        let rest = Motions { position: goal * Vector3::new(1.0, -1.0, 0.5), ..Motions::default() };
+        let rest = Motion { position: goal * Vector3::new(1.0, -1.0, 0.5), ..Motion::default() };
         for _ in 0..(4.0 / step) as usize {
             units.advance(&rest, &limits, step);
         }

@@ -3,7 +3,7 @@
 use moris_washout::cueing::compensation::compensated;
 use moris_washout::cueing::gravitational::Tilt;
 use moris_washout::interface::Compensation;
-use moris_washout::motion::Motions;
+use moris_washout::motion::Motion;
 use moris_washout::motion::orientation::RotationalMotion;
 use nalgebra::Vector3;
 
@@ -13,12 +13,12 @@ use crate::common::rotation::to_base;
 const ARM: [f64; 3] = [0.3, -0.2, 1.2];
 
 /// Angles that turn at these rates and change them.
-fn turning(rates: Vector3<f64>, accelerations: Vector3<f64>) -> Motions {
-    Motions { position: Vector3::new(0.2, -0.3, 0.5), velocity: rates, acceleration: accelerations }
+fn turning(rates: Vector3<f64>, accelerations: Vector3<f64>) -> Motion<Vector3<f64>> {
+    Motion { position: Vector3::new(0.2, -0.3, 0.5), velocity: rates, acceleration: accelerations }
 }
 
 /// The acceleration of the arm's end, by a second difference of its positions.
-fn by_differences(angles: &Motions) -> Vector3<f64> {
+fn by_differences(angles: &Motion<Vector3<f64>>) -> Vector3<f64> {
     const H: f64 = 1e-4;
     let at = |t: f64| {
         let turned = angles.position + t * angles.velocity + 0.5 * t * t * angles.acceleration;
@@ -27,7 +27,7 @@ fn by_differences(angles: &Motions) -> Vector3<f64> {
     (at(H) - 2.0 * at(0.0) + at(-H)) / (H * H)
 }
 
-fn compensation(item: Compensation, angles: &Motions) -> Vector3<f64> {
+fn compensation(item: Compensation, angles: &Motion<Vector3<f64>>) -> Vector3<f64> {
     let turning = RotationalMotion::new(angles);
     let arm = turning.orientation.rotation * Vector3::from(ARM);
     let tilt = Tilt { roll: angles.position.x, pitch: angles.position.y };

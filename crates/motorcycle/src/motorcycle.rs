@@ -2,7 +2,7 @@
 
 use moris_interface::{Group, Identity, Model, ParameterError, SHORTEST_STEP};
 use moris_washout::interface::AngularVelocityFrame;
-use moris_washout::motion::braking_law::Motion;
+use moris_washout::motion::Motion;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 

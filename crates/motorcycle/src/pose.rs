@@ -9,8 +9,7 @@
 //! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, heave) + R (head - (x_c, 0, 0)), and the head's
 //! own axes are R Rx(torso's lean).
 
-use moris_washout::motion::Motions;
-use moris_washout::motion::braking_law::Motion;
+use moris_washout::motion::Motion;
 use moris_washout::motion::orientation::{Orientation, RotationalMotion};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -147,5 +146,5 @@ impl std::ops::Add for Point {
 
 /// Something that turns by roll, pitch and yaw, as these move.
 fn turning(angles: [Motion; 3]) -> RotationalMotion {
-    RotationalMotion::new(&Motions::from_axes(|k| angles[k]))
+    RotationalMotion::new(&Motion::from_axes(|k| angles[k]))
 }

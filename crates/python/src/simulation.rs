@@ -7,7 +7,7 @@ use moris::ride::Ride;
 use moris::ride::preview::LONGEST_PREVIEW;
 use moris::run::{AxisBound, Outcome, Recording, bounds, findings, fits_the_rig, page};
 use moris_interface::{Group, Writer, slot_count};
-use moris_measures::{Axes, Row, bound_rows};
+use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
 use moris_washout::{Input, Output};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -114,21 +114,14 @@ impl PySimulation {
     /// The measures, and the bound's where it was computed.
     #[getter]
     fn measures(&self) -> Vec<Measure> {
-        let Outcome { measures, bounds, .. } = &self.outcome;
-        let on_axis = |axis: usize| {
-            let bound = bounds[axis].as_ref()?;
-            let felt = measures.force[axis]?.rms_error;
-            Some(bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
-        };
-        let bounds = (0..3).filter_map(on_axis).flatten();
-        measures.rows().into_iter().chain(bounds).map(measure).collect()
+        self.outcome.rows().into_iter().map(measure).collect()
     }
 
     /// The report's page, with other simulations of the same recording beside this one.
     fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> PyResult<String> {
         let outcomes: Vec<Outcome> =
             std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
-        moris_report::html(&page::report(&self.ride, &outcomes))
+        page::html(&self.ride, &outcomes)
             .map_err(|reason| error::recording(py, format!("the report does not fit together: {reason}")))
     }
 }

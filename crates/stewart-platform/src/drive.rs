@@ -1,7 +1,8 @@
 //! A leg's drive: a second-order response to the command, within limits of speed, acceleration and
 //! stroke.
 
-use moris_washout::motion::braking_law::{Limits, Motion, approach_velocity};
+use moris_washout::motion::Motion;
+use moris_washout::motion::braking_law::{Limits, approach_velocity};
 
 use crate::interface::Parameters;
 

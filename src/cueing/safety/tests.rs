@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::SafetyUnits;
 use crate::interface::SafetyParameters;
-use crate::motion::Motions;
-use crate::motion::braking_law::{Limits, Motion, REJOIN_DISTANCE};
+use crate::motion::Motion;
+use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
 
 const STEP: f64 = 0.001;
 const LONGEST_STEP: f64 = 0.004;
@@ -22,8 +22,8 @@ fn limits() -> SafetyParameters {
 }
 
 /// A motion at rest at neutral, but on one axis.
-fn on_axis(k: usize, motion: Motion) -> Motions {
-    Motions::from_axes(|axis| if axis == k { motion } else { Motion::default() })
+fn on_axis(k: usize, motion: Motion) -> Motion<Vector3<f64>> {
+    Motion::from_axes(|axis| if axis == k { motion } else { Motion::default() })
 }
 
 fn motion(position: f64, velocity: f64, acceleration: f64) -> Motion {
@@ -31,7 +31,7 @@ fn motion(position: f64, velocity: f64, acceleration: f64) -> Motion {
 }
 
 /// Units that move as `before` says and are not behind a demand.
-fn moving(before: Motions) -> SafetyUnits {
+fn moving(before: Motion<Vector3<f64>>) -> SafetyUnits {
     SafetyUnits { motion: before, ..SafetyUnits::new(LONGEST_STEP) }
 }
 
@@ -160,7 +160,7 @@ fn positions_that_differ_by_rounding_are_no_acceleration() {
 }
 
 /// A demand that jumps by 0.2 m on one axis and stays there.
-fn jump(k: usize) -> Motions {
+fn jump(k: usize) -> Motion<Vector3<f64>> {
     on_axis(k, motion(0.2, 0.0, 0.0))
 }
 
@@ -213,11 +213,11 @@ fn an_axis_joins_its_demand_within_a_hundredth_of_a_step_s_acceleration() {
 
 #[test]
 fn going_on_from_the_real_motion_is_not_a_limit_of_the_units() {
-    let real = Motions::from_axes(|k| motion(0.1 + 0.05 * k as f64, 0.02, 0.0));
+    let real = Motion::from_axes(|k| motion(0.1 + 0.05 * k as f64, 0.02, 0.0));
     let mut units = SafetyUnits::new(LONGEST_STEP);
     units.continue_from(&real);
     assert_eq!(*units.motion(), real);
-    units.advance(&Motions::default(), &limits(), STEP);
+    units.advance(&Motion::default(), &limits(), STEP);
     assert!(!units.active());
     for k in 0..3 {
         let law = Limits::safety(&limits(), k, LONGEST_STEP);

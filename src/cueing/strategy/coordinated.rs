@@ -27,8 +27,8 @@ use super::regulator::AxisModel;
 use super::{AxisState, at_rest_if_tiny};
 use crate::cueing::compensation::{centripetal, tangential};
 use crate::interface::{Parameters, StrategyKind};
-use crate::motion::Motions;
-use crate::motion::braking_law::{Limits, Motion};
+use crate::motion::Motion;
+use crate::motion::braking_law::Limits;
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
 use crate::platform::{ActuatorGuard, Geometry};
@@ -64,7 +64,7 @@ pub struct Circumstances<'a> {
     /// The cue at the step's end, in head axes \[m/s2\].
     pub force: Vector3<f64>,
     /// Roll, pitch and yaw beside the tilt, at the step's end.
-    pub angles: &'a Motions,
+    pub angles: &'a Motion<Vector3<f64>>,
     /// The rider's lean as far as the platform makes up for it \[rad\].
     pub lean: f64,
     /// 1: engaged, 0: disengaged, between them: on the way.

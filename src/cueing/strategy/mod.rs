@@ -25,7 +25,7 @@ use self::coordinated::Coordinated;
 use self::predictive::{Plan, Predictive};
 use crate::cueing::gravitational::Tilt;
 use crate::interface::{Parameters, StrategyKind};
-use crate::motion::braking_law::Motion;
+use crate::motion::Motion;
 
 /// The strategy in use, with its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

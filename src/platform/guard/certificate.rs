@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bounds::JointBounds;
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::Motions;
+use crate::motion::Motion;
 use crate::motion::braking_law::{Limits, ROUNDING, WITH_ROUNDING};
 use crate::motion::extremes::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
@@ -177,7 +177,7 @@ impl Machine {
     /// The stop from the candidate within the safety limits: all coordinates in one duration that
     /// suits the fastest leg and the safety limits of acceleration, an axis with less room sooner.
     fn stop_plan(&self, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
-        let Motions { position, velocity, .. } = to.coordinates.linear;
+        let Motion { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
         let duration = (0..3).fold(fastest_leg * self.stop_time_per_speed, |duration, k| {
             max(velocity[k].abs() / safety.acceleration_limit[k], duration)
@@ -320,18 +320,18 @@ impl Machine {
 
 /// The trajectory of three coordinates over a step, without the gap at its end.
 struct Transition {
-    start: Motions,
-    end: Motions,
+    start: Motion<Vector3<f64>>,
+    end: Motion<Vector3<f64>>,
     gap: Vector3<f64>,
 }
 
 impl Transition {
-    fn new(now: &Motions, next: &Motions, step: f64) -> Self {
+    fn new(now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>, step: f64) -> Self {
         let (change, gap) = change_and_gap(now, next, step);
         let acceleration = change / step;
         Transition {
-            start: Motions { acceleration, ..*now },
-            end: Motions { position: next.position - gap, velocity: next.velocity, acceleration },
+            start: Motion { acceleration, ..*now },
+            end: Motion { position: next.position - gap, velocity: next.velocity, acceleration },
             gap: gap.map(without_rounding),
         }
     }
@@ -379,7 +379,7 @@ fn turning_point(position: f64, before: f64, after: f64, acceleration: f64) -> f
 /// Change of velocity over a step, and what the positions' difference has beyond the mean
 /// velocity times the step.
 #[inline(always)]
-fn change_and_gap(now: &Motions, next: &Motions, step: f64) -> (Vector3<f64>, Vector3<f64>) {
+fn change_and_gap(now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>, step: f64) -> (Vector3<f64>, Vector3<f64>) {
     let gap = next.position - now.position - (now.velocity + next.velocity) * (0.5 * step);
     (next.velocity - now.velocity, gap)
 }

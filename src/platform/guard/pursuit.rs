@@ -6,8 +6,8 @@ use nalgebra::{Vector3, Vector6};
 use super::ActuatorGuard;
 use super::certificate::Candidate;
 use crate::interface::SafetyParameters;
-use crate::motion::Motions;
-use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits, Motion};
+use crate::motion::Motion;
+use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits};
 use crate::platform::stop_plan::StopPlan;
 use crate::platform::{Legs, PlatformCoordinates, PlatformMotion, inverse_kinematics, jacobian};
 
@@ -73,7 +73,7 @@ impl ActuatorGuard {
         let rates = angles.velocity.lerp(&rates, fraction);
         let longest_step = self.pursuit.longest_step;
         PlatformCoordinates {
-            linear: Motions::from_axes(|k| {
+            linear: Motion::from_axes(|k| {
                 Limits::safety(safety, k, longest_step).at_velocity(&linear.axis(k), velocity[k], step)
             }),
             angles: angles.at_velocity(rates, step),

@@ -13,7 +13,7 @@ use super::bounds::JointBounds;
 use super::certificate::{Candidate, Machine, Speed, State};
 use super::*;
 use crate::interface::Rig;
-use crate::motion::Motions;
+use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::platform::inverse::leg_motion;
 
@@ -27,16 +27,16 @@ fn vector(scale: f64) -> impl Strategy<Value = Vector3<f64>> {
 }
 
 /// Three coordinates that move with a steady acceleration.
-fn moving(position: f64, velocity: f64, acceleration: f64) -> impl Strategy<Value = Motions> {
-    (vector(position), vector(velocity), vector(acceleration)).prop_map(|(position, velocity, acceleration)| Motions {
+fn moving(position: f64, velocity: f64, acceleration: f64) -> impl Strategy<Value = Motion<Vector3<f64>>> {
+    (vector(position), vector(velocity), vector(acceleration)).prop_map(|(position, velocity, acceleration)| Motion {
         position,
         velocity,
         acceleration,
     })
 }
 
-fn after(motions: &Motions, time: f64) -> Motions {
-    Motions {
+fn after(motions: &Motion<Vector3<f64>>, time: f64) -> Motion<Vector3<f64>> {
+    Motion {
         position: motions.position + (motions.velocity + motions.acceleration * (0.5 * time)) * time,
         velocity: motions.velocity + motions.acceleration * time,
         acceleration: motions.acceleration,
@@ -142,7 +142,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
     search(200_000)
         .run(&cases, |(machine, safety, (linear, angles), step, size)| {
             let step = 10.0_f64.powf(step).min(machine.limits.longest_step);
-            let scaled = |motions: &Motions| Motions {
+            let scaled = |motions: &Motion<Vector3<f64>>| Motion {
                 position: motions.position,
                 velocity: size * motions.velocity,
                 acceleration: size * motions.acceleration,
@@ -250,8 +250,8 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
 #[test]
 fn a_plan_followed_in_parts_is_the_plan() {
     let start = PlatformCoordinates {
-        linear: Motions { velocity: Vector3::new(0.3, -0.2, 0.0), ..Motions::default() },
-        angles: Motions { velocity: Vector3::new(0.0, 0.1, -0.1), ..Motions::default() },
+        linear: Motion { velocity: Vector3::new(0.3, -0.2, 0.0), ..Motion::default() },
+        angles: Motion { velocity: Vector3::new(0.0, 0.1, -0.1), ..Motion::default() },
     };
     let durations = StopDurations { linear: Vector3::new(0.1, 0.05, 0.1), angular: 0.1 };
     let plan = StopPlan::new(&start, durations);

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_report::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Run, Value, Weight, html};
+use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, Run, Value, Weight, html};
 use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 
@@ -150,7 +150,7 @@ fn input(t: f64) -> Input {
 fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -> Run {
     const STEP: f64 = 0.001;
     let mut washout = Washout::new(parameters).expect("the shipped parameters are good");
-    let mut run = Run { name: name.into(), limits: limits(parameters), ..Run::default() };
+    let mut run = Run { name: name.into(), limits: parameters.into(), ..Run::default() };
     let mut limited = [false; 3];
     let steps = (duration / STEP).round() as usize;
     for k in 0..=steps {
@@ -194,20 +194,6 @@ fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bo
     tilt.push(limited[0]);
     safety.push(limited[1]);
     actuator.push(limited[2]);
-}
-
-fn limits(parameters: &Parameters) -> Limits {
-    let Parameters { tilt, safety, rig, .. } = parameters;
-    Limits {
-        tilt_angle: tilt.angle_limit,
-        tilt_rate: tilt.rate_limit,
-        tilt_acceleration: tilt.acceleration_limit,
-        safety_position: safety.position_limit.into(),
-        safety_velocity: safety.velocity_limit.into(),
-        safety_acceleration: safety.acceleration_limit.into(),
-        actuator_velocity: rig.velocity_limit,
-        actuator_acceleration: rig.acceleration_limit,
-    }
 }
 
 /// A few rows for the table.

@@ -164,6 +164,22 @@ pub struct Limits {
     pub actuator_acceleration: f64,
 }
 
+impl From<&Parameters> for Limits {
+    fn from(parameters: &Parameters) -> Self {
+        let Parameters { tilt, safety, rig, .. } = parameters;
+        Limits {
+            tilt_angle: tilt.angle_limit,
+            tilt_rate: tilt.rate_limit,
+            tilt_acceleration: tilt.acceleration_limit,
+            safety_position: safety.position_limit.into(),
+            safety_velocity: safety.velocity_limit.into(),
+            safety_acceleration: safety.acceleration_limit.into(),
+            actuator_velocity: rig.velocity_limit,
+            actuator_acceleration: rig.acceleration_limit,
+        }
+    }
+}
+
 /// One row of the table of measures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Measure {

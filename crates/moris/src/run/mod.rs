@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_measures::{Axes, Measures};
+use moris_measures::{Axes, Measures, Row, bound_rows};
 use moris_setup::Setup;
 use moris_washout::Washout;
 use moris_washout::interface::StrategyKind;
@@ -131,6 +131,16 @@ impl Outcome {
         let measures = measured::measures(&recording)?;
         let bounds = [const { None }; 3];
         Ok(Outcome { setup: Setup { parameters: recording.parameters, ..setup.clone() }, recording, measures, bounds })
+    }
+
+    /// The rows of its measures, and of its bounds beside what is felt.
+    pub fn rows(&self) -> Vec<Row> {
+        let on_axis = |axis: usize| {
+            let bound = self.bounds[axis].as_ref()?;
+            let felt = self.measures.force[axis]?.rms_error;
+            Some(bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
+        };
+        self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten()).collect()
     }
 
     /// The bounds of its recording on its rig.

@@ -3,11 +3,9 @@
 use std::array;
 
 use moris_measures::Row;
-use moris_report::{
-    Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, ReportError, Run, Thinning, Weight,
-};
+use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, ReportError, Run, Thinning, Weight};
+use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::{Output, Parameters};
 
 use super::{Outcome, Recording, findings};
 use crate::ride::Ride;
@@ -38,7 +36,7 @@ pub fn html(ride: &Ride, outcomes: &[Outcome]) -> Result<String, ReportError> {
 
 /// The report of a ride with one or several sets of parameters, of which the first is shown first,
 /// with at most so many samples of each.
-pub fn report(ride: &Ride, outcomes: &[Outcome], most: usize) -> Report {
+fn report(ride: &Ride, outcomes: &[Outcome], most: usize) -> Report {
     let first = &outcomes[0];
     let thinning = Thinning::new(first.recording.inputs.len(), most);
     let remarks = ride.remarks.iter().map(|remark| Finding { weight: Weight::Warning, text: remark.clone() });
@@ -84,7 +82,7 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
 }
 
 fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
-    let Outcome { setup, recording, measures, .. } = outcome;
+    let Outcome { setup, recording, .. } = outcome;
     let Recording { inputs, outputs, .. } = recording;
     let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
     let desired_rates = recording.desired_rates();
@@ -113,20 +111,10 @@ fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
             safety: thinning.any(|k| outputs[k].safety_active),
             actuator: thinning.any(|k| outputs[k].actuator_limited),
         },
-        limits: limits(recording),
-        measures: measures.rows().into_iter().chain(bound_rows(outcome)).map(measure).collect(),
+        limits: (&recording.parameters).into(),
+        measures: outcome.rows().into_iter().map(measure).collect(),
         charts: bound_charts(outcome, thinning),
     }
-}
-
-/// The bounds' rows, beside what was felt.
-fn bound_rows(outcome: &Outcome) -> Vec<Row> {
-    let on_axis = |axis: usize| {
-        let bound = outcome.bounds[axis].as_ref()?;
-        let felt = outcome.measures.force[axis]?.rms_error;
-        Some(moris_measures::bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
-    };
-    (0..3).filter_map(on_axis).flatten().collect()
 }
 
 /// The bound, axis by axis.
@@ -150,20 +138,6 @@ fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
         })
     };
     (0..3).filter_map(chart).collect()
-}
-
-fn limits(recording: &Recording) -> Limits {
-    let Parameters { tilt, safety, rig, .. } = &recording.parameters;
-    Limits {
-        tilt_angle: tilt.angle_limit,
-        tilt_rate: tilt.rate_limit,
-        tilt_acceleration: tilt.acceleration_limit,
-        safety_position: safety.position_limit.into(),
-        safety_velocity: safety.velocity_limit.into(),
-        safety_acceleration: safety.acceleration_limit.into(),
-        actuator_velocity: rig.velocity_limit,
-        actuator_acceleration: rig.acceleration_limit,
-    }
 }
 
 fn measure(row: Row) -> Measure {

@@ -10,8 +10,8 @@ use proptest::prelude::*;
 
 use super::{JointBounds, after, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::Motions;
-use crate::motion::braking_law::{self, Motion};
+use crate::motion::Motion;
+use crate::motion::braking_law;
 use crate::platform::guard::certificate::{Candidate, Machine, Speed, State, stroke_reserve};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
@@ -73,8 +73,8 @@ fn cases(gap: f64) -> impl Strategy<Value = Case> {
     let states = (vector(0.2), vector(0.3), vector(1.0), vector(1.0), vector(1.0), vector(1.0));
     let gaps = (vector(1.0), vector(1.0), vector(1.0));
     (scales, states, gaps).prop_map(move |([v, w, s, e, step], (p, q, pv, qv, ps, qs), (d, twist, shown))| {
-        let linear = Motions { position: p, velocity: v * pv, acceleration: s * ps };
-        let angles = Motions { position: q, velocity: w * qv, acceleration: e * qs };
+        let linear = Motion { position: p, velocity: v * pv, acceleration: s * ps };
+        let angles = Motion { position: q, velocity: w * qv, acceleration: e * qs };
         let now = PlatformCoordinates { linear, angles };
         let mut next = PlatformCoordinates { linear: after(&linear, step), angles: after(&angles, step) };
         next.linear.position += gap * s * step * step * d;
@@ -140,7 +140,7 @@ impl Conditions {
     }
 
     /// Gap of three coordinates beyond their mean velocity times the step.
-    fn gap(&self, now: &Motions, next: &Motions) -> Vector3<f64> {
+    fn gap(&self, now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>) -> Vector3<f64> {
         next.position - now.position - self.case.step * (now.velocity + next.velocity) / 2.0
     }
 
@@ -247,7 +247,7 @@ impl Conditions {
     fn transition_keeps(&self) -> bool {
         let Case { now, next, step: h } = &self.case;
         // The way with a steady acceleration, which ends short of the candidate by the gap.
-        let steady = |now: &Motions, next: &Motions| Motions {
+        let steady = |now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>| Motion {
             position: now.position,
             velocity: now.velocity,
             acceleration: (next.velocity - now.velocity) / *h,
