@@ -96,3 +96,34 @@ fn stopping(start: &Motion, duration: f64, time: f64) -> Motion {
         acceleration: -velocity / duration,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn velocities_and_accelerations_are_the_derivatives_of_positions() {
+        let start = PlatformCoordinates {
+            linear: Motion {
+                position: Vector3::new(0.1, -0.2, 0.05),
+                velocity: Vector3::new(0.8, -0.3, 0.0),
+                ..Motion::default()
+            },
+            angles: Motion { velocity: Vector3::new(0.2, -0.1, 0.4), ..Motion::default() },
+        };
+        let plan = StopPlan::new(&start, StopDurations { linear: Vector3::new(0.5, 0.3, 0.2), angular: 0.4 });
+        assert_eq!(plan.at(0.0).linear.velocity, start.linear.velocity);
+        assert_eq!(plan.at(1.0).angles.velocity, Vector3::zeros());
+        let near = |found: Vector3<f64>, expected: Vector3<f64>| assert!((found - expected).amax() < 1e-8, "{found}");
+        let h = 1e-4;
+        for time in [0.05, 0.15, 0.25, 0.35, 0.45, 0.6] {
+            let [before, now, after] = [time - h, time, time + h].map(|time| plan.at(time));
+            for (before, now, after) in
+                [(before.linear, now.linear, after.linear), (before.angles, now.angles, after.angles)]
+            {
+                near(now.velocity, (after.position - before.position) / (2.0 * h));
+                near(now.acceleration, (after.velocity - before.velocity) / (2.0 * h));
+            }
+        }
+    }
+}
