@@ -217,7 +217,7 @@ def report(name, by, answers, largest, limit, of_what):
 
 
 def largest_difference(rows, expected):
-    return max(abs(a - b) for row, reference in zip(rows, expected, strict=True) for a, b in zip(row, wanted, strict=True))
+    return max(abs(a - b) for row, reference in zip(rows, expected, strict=True) for a, b in zip(row, reference, strict=True))
 
 
 def compare():

@@ -118,7 +118,7 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"groups": ["splitters"]}, "there is no group splitters; there are splitter, angular, scale, cutoff, tilt, strategy"),
+        ({"groups": ["splitters"]}, "there is no group splitters; there are splitter, angular, scale, cutoff, tilt, strategy, order"),
         ({"weights": [0, 0, 0, 0, 0, 0]}, "must be six numbers, none below 0 and not all 0"),
         ({"stroke_reserve": -0.1}, "stroke_reserve is -0.1 m"),
         ({"evaluations": 0}, "evaluations is 0, but must be 1 at least"),

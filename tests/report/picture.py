@@ -23,6 +23,7 @@ def picture(page_file, time):
         chromium = playwright.chromium.launch(executable_path=browser())
         page = chromium.new_page(viewport=SIZE)
         page.goto(Path(page_file).resolve().as_uri())
+        page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
         slider = page.locator("input[type=range]").first
         slider.evaluate("(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }", time)
         page.wait_for_timeout(500)

@@ -1,9 +1,9 @@
 //! Encoding of series in the page, which `page/data.js` decodes.
 //!
-//! Values are whole multiples of a quantum. Their second differences, small where a curve is
-//! smooth, are written as variable-length numbers, deflated, in base64: about a byte a
-//! sample, a fifth of 32-bit numbers in base64. A series with a value that is not a number
-//! has its 32-bit numbers.
+//! Values are whole multiples of a quantum, six digits of the largest. Their second differences,
+//! small where a curve is smooth, are written as variable-length numbers, deflated, in base64:
+//! about a byte a sample, a fifth of 32-bit numbers in base64. A series with a value that is not a
+//! number has its 32-bit numbers.
 
 use std::io::Write;
 
@@ -21,8 +21,11 @@ struct Series {
     deflated: String,
 }
 
-/// The power of the quantum of times: a nanosecond.
+/// The power of the quantum of times: a nanosecond, or more where times are longer than some days.
 const OF_TIMES: i32 = -30;
+/// Powers between the quantum and the largest time, with which all differences are whole numbers
+/// in a script.
+const OF_LONG_TIMES: i32 = 49;
 /// Powers between the quantum and the largest value of a series: six digits.
 const RESOLUTION: i32 = 21;
 /// Values below this power of two count as zero.
@@ -44,14 +47,23 @@ impl Series {
 
     /// A series to look at.
     fn looked_at(values: &[f64]) -> Self {
-        let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let largest = largest(values);
         if values.iter().all(|value| value.is_finite()) {
-            Series::of(values, (largest.log2().ceil() as i32).max(SMALLEST) - RESOLUTION)
+            Series::of(values, power_of(largest) - RESOLUTION)
         } else {
             let bytes: Vec<u8> = values.iter().flat_map(|&value| (value as f32).to_le_bytes()).collect();
             Series { power: None, deflated: deflated(&bytes) }
         }
     }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}
+
+/// The power of two that is at least this.
+fn power_of(value: f64) -> i32 {
+    (value.log2().ceil() as i32).max(SMALLEST)
 }
 
 /// Appends a number in groups of seven bits, the lowest first; all but the last byte have their
@@ -97,12 +109,13 @@ pub mod curve {
     }
 }
 
-/// Times, to a nanosecond. None are null.
+/// Times. None are null.
 ///
 /// # Errors
 /// The serializer's.
 pub fn times<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
-    (!values.is_empty()).then(|| Series::of(values, OF_TIMES)).serialize(serializer)
+    let power = OF_TIMES.max(power_of(largest(values)) - OF_LONG_TIMES);
+    (!values.is_empty()).then(|| Series::of(values, power)).serialize(serializer)
 }
 
 /// Flags, one byte each, deflated.
@@ -170,6 +183,15 @@ pub(crate) mod tests {
             assert!(found.iter().zip(&values).all(|(found, value)| (found - value).abs() <= 4e-6 * size), "{size}");
         }
         assert_eq!(through(&[0.0; 3]).0, [0.0; 3]);
+    }
+
+    #[test]
+    fn times_are_a_nanosecond_s_and_those_of_a_calendar_a_microsecond_s() {
+        for (first, error) in [(0.0, 1e-9), (1.7e9, 4e-6), (-1e10, 3e-5)] {
+            let values: Vec<f64> = (0..1000).map(|k| first + 0.01 * f64::from(k)).collect();
+            let found = decoded(&times(&values, serde_json::value::Serializer).unwrap());
+            assert!(found.iter().zip(&values).all(|(found, value)| (found - value).abs() <= error), "{first}");
+        }
     }
 
     #[test]

@@ -107,10 +107,10 @@ impl Sine<'_> {
 
     /// Angle and rate: the angle sways about 0, and the rate is its derivative, fading included.
     fn turning(&self, time: f64) -> (f64, f64) {
-        let (fraction, share_rate) = self.faded(time);
+        let (fraction, fraction_rate) = self.faded(time);
         let (sin, cos) = (self.frequency * time).sin_cos();
         let swing = self.amplitude / self.frequency;
-        (-swing * fraction * cos, self.amplitude * fraction * sin - swing * share_rate * cos)
+        (-swing * fraction * cos, self.amplitude * fraction * sin - swing * fraction_rate * cos)
     }
 
     /// Part of gravity in the specific force of a vehicle in this orientation.

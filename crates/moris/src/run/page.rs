@@ -75,7 +75,7 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
     match thinning.factor() {
         1.0 => "every sample".to_owned(),
         factor => format!(
-            "least and greatest value of every {:.0} ms; the table of outputs has every sample",
+            "least and greatest value of every {:.1} ms; the table of outputs has every sample",
             2e3 * factor * outcome.recording.step
         ),
     }

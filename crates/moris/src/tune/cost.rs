@@ -11,6 +11,8 @@
 //! everything down to nothing earns nothing, and false cues on channels on which nothing is desired
 //! cost what they are felt.
 
+use std::sync::OnceLock;
+
 use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
 use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -60,9 +62,11 @@ pub struct Objective {
     desired_rms: Channels<f64>,
     weights: Channels<f64>,
     constraints: Constraints,
-    /// At rest with the fixed parameters, the internal step being as long as the ride's: a new one
-    /// would have its rig surveyed each time.
-    coarse: Washout,
+    /// The fixed parameters, the internal step being as long as the ride's.
+    fixed: Parameters,
+    /// At rest with these by the orders of splitter and angular channel less 2: a new one would
+    /// have its rig surveyed each time.
+    coarse: [[OnceLock<Washout>; 3]; 3],
 }
 
 /// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits act
@@ -90,8 +94,18 @@ impl Objective {
         parameters.structure.max_step = ride.step().min(LONGEST_STEP).max(parameters.structure.max_step);
         parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], ride.step()));
-        let coarse = Washout::new(&parameters)?;
-        Ok(Objective { name: ride.name.clone(), ride, desired, desired_rms, weights: *weights, constraints, coarse })
+        let objective = Objective {
+            name: ride.name.clone(),
+            ride,
+            desired,
+            desired_rms,
+            weights: *weights,
+            constraints,
+            fixed: parameters,
+            coarse: Default::default(),
+        };
+        objective.coarse(&parameters)?;
+        Ok(objective)
     }
 
     /// The ride's name.
@@ -119,25 +133,34 @@ impl Objective {
     /// # Errors
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
-        let mut coarse = self.ride.parameters(parameters);
-        let Parameters { structure, rig, .. } = *self.coarse.parameters();
-        (coarse.structure, coarse.rig) = (structure, rig);
-        for order in ORDERS {
-            *order(&mut coarse) = *order(&mut parameters.clone());
-        }
-        coarse.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
-        let washout = if coarse.structure == structure {
-            let mut washout = self.coarse.clone();
-            washout.retune(&coarse)?;
-            washout
-        } else {
-            Washout::new(&coarse)?
-        };
+        let mut washout = self.coarse(parameters)?.clone();
+        let mut parameters = self.ride.parameters(parameters);
+        let Parameters { structure, rig, .. } = washout.parameters();
+        (parameters.structure, parameters.rig) = (*structure, *rig);
+        parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
+        washout.retune(&parameters)?;
         let mut washout = washout.starting_with(&self.ride.inputs()[0]);
         let mut tally = CostAccumulator::new(self);
         tally.add(&washout.output());
         self.ride.replay().run(&mut washout, |_, output| tally.add(output));
         Ok(tally.cost())
+    }
+
+    /// A washout at rest with the fixed parameters and the orders of these.
+    fn coarse(&self, parameters: &Parameters) -> Result<&Washout, ParameterError> {
+        let mut fixed = self.fixed;
+        let orders = ORDERS.map(|order| {
+            *order(&mut fixed) = *order(&mut parameters.clone());
+            (*order(&mut fixed)).clamp(2, 4) as usize - 2
+        });
+        let place = &self.coarse[orders[0]][orders[1]];
+        match place.get() {
+            Some(washout) => Ok(washout),
+            None => {
+                let washout = Washout::new(&fixed)?;
+                Ok(place.get_or_init(|| washout))
+            }
+        }
     }
 
     /// Cost of a simulation.

@@ -91,7 +91,7 @@ pub fn search(
          add one, such as --tune splitter,order"
     );
     let rides = &Rides::new(judges, evaluate, space)?;
-    let Beginning { space, best, point: start, .. } = &beginning(rides, space);
+    let Beginning { space, best, point: start, .. } = &beginning(rides, space, || progress(0, None));
     let cost = |point: &DVector<f64>| price(rides, space, point.as_slice(), best);
     let mut search = CMAESOptions::new(start.clone(), FIRST_STEP)
         .seed(budget.seed)
@@ -136,11 +136,14 @@ struct Beginning {
 }
 
 /// The best beginning: first with the start's orders, then with others in their place where they
-/// are tuned.
-fn beginning(rides: &Rides, space: &Space) -> Beginning {
+/// are tuned and as long as it is to go on.
+fn beginning(rides: &Rides, space: &Space, mut go_on: impl FnMut() -> bool) -> Beginning {
     let mut first = scan(rides, space);
     for order in ORDERS {
         for other in first.space.with_other(order) {
+            if !go_on() {
+                return first;
+            }
             let scanned = scan(rides, &other);
             if scanned.cost < first.cost {
                 first = scanned;

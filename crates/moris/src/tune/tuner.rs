@@ -109,7 +109,7 @@ impl Tuner<'_> {
             .into_iter()
             .flat_map(|found| PARTS_OF_THE_WAY.map(|fraction| self.space.towards(&found.parameters, fraction)));
         let found = searched.best.iter().map(|found| found.parameters);
-        found.chain(nearer).collect::<Vec<_>>().into_iter().chain(smaller)
+        found.chain(nearer).chain([self.setup.parameters]).collect::<Vec<_>>().into_iter().chain(smaller)
     }
 
     /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
@@ -138,7 +138,7 @@ pub fn smaller(parameters: &Parameters, factor: f64) -> Parameters {
 }
 
 /// Where, between the start and the best set found, others are tried that make no ride much worse.
-const PARTS_OF_THE_WAY: [f64; 4] = [0.75, 0.5, 0.25, 0.0];
+const PARTS_OF_THE_WAY: [f64; 3] = [0.75, 0.5, 0.25];
 
 /// Factor on the scales at a time, and largest number of times: down to a fifth.
 const SMALLER: f64 = 0.95;

@@ -37,11 +37,11 @@ fn custom(rows: &[[f64; 3]]) -> Path {
 
 /// The outputs at each step.
 fn ride(motorcycle: &mut Motorcycle, seconds: f64, step: f64, input: impl Fn(f64) -> Input) -> Vec<Output> {
-    let vehicle = (0..(seconds / step).round() as u32).map(|k| {
+    let outputs = (0..(seconds / step).round() as u32).map(|k| {
         motorcycle.step(&input(f64::from(k) * step), step);
         motorcycle.output()
     });
-    vehicle.collect()
+    outputs.collect()
 }
 
 fn calm(_time: f64) -> Input {

@@ -64,7 +64,7 @@ const UNPROVED: f64 = 0.002;
 /// and smaller ones \[s\].
 const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
 /// A preview counts as much as the forecast without it where its squared errors are smaller by
-/// this.
+/// this, [`DOUBT`] included in the forecast's.
 const CAUTION: f64 = 1.6;
 /// The first block that is as long as the elements of a preview usually are apart.
 const RESOLVED: usize = 3;
@@ -354,10 +354,10 @@ impl Forecaster {
 
     /// The weight of the preview in each block of a horizon, from 0 to 1.
     ///
-    /// It goes by the ratio of its error to that of the forecast without it. What is expected of
-    /// near blocks is compared first, and a preview that is worse there is not better later: the
-    /// ratio in a block is the largest up to there. The first blocks are left out, which are
-    /// shorter than what a preview resolves.
+    /// It goes by the ratio of its error to that of the forecast without it and [`DOUBT`]. What is
+    /// expected of near blocks is compared first, and a preview that is worse there is not better
+    /// later: the ratio in a block is the largest up to there. The first blocks are left out, which
+    /// are shorter than what a preview resolves.
     fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
         let [learned, previewed] = &self.preview_errors;
         let ratios = previewed.component_div(&learned.add_scalar(DOUBT));
