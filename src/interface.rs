@@ -110,7 +110,7 @@ interface! {
         "status.actuatorLimited" actuator_limited: bool = false;
         /// Smallest distance of an actuator from either end of its stroke.
         "status.strokeMargin" stroke_margin: f64 [M] = 0.0;
-        /// Whether the predictive strategy's last attempt at a new plan failed, so that the plan before is carried on with.
+        /// True if the predictive strategy's last attempt at a new plan failed and the previous plan continues.
         "status.planKept" plan_kept: bool = false;
         /// Time since the plan of the predictive strategy was begun.
         "predictive.planAge" plan_age: f64 [S] = 0.0;
@@ -328,7 +328,7 @@ interface! {
         "washoutPoint.@" washout_point: Vector3<f64> [M] { -10.0 ..= 10.0 } = Vector3::new(0.0, 0.0, 1.2);
         /// Longest internal step; a longer communication step is divided.
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
-        /// True if tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
+        /// Preaction: tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
         /// How the cue is divided between surge, sway and tilt.
         "strategy" strategy: StrategyKind = StrategyKind::Classical;
@@ -370,15 +370,15 @@ interface! {
         "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986;
         /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
         "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.17;
-        /// Price of travel, beside 1 for the error of the felt force.
+        /// Weight of travel; the error of the felt force has the weight 1.
         "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 10.6;
-        /// Price of the travel's velocity.
+        /// Weight of the travel's velocity.
         "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13;
-        /// Price of the tilt rate.
+        /// Weight of the tilt rate.
         "adaptive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.63;
-        /// Price of the distance of the gain from force to travel from its nominal value.
+        /// Weight of the distance of the gain from force to travel from its nominal value.
         "adaptive.pull1" pull1: f64 { 1e-9 ..= 1e6 } = 0.0115;
-        /// Price of the distance of the gain from force to tilt rate from its nominal value.
+        /// Weight of the distance of the gain from force to tilt rate from its nominal value.
         "adaptive.pull2" pull2: f64 { 1e-9 ..= 1e6 } = 0.349;
     }
 }
@@ -386,13 +386,13 @@ interface! {
 interface! {
     /// The optimal strategy, for surge and sway each.
     pub struct OptimalParameters: Parameter, Tunable {
-        /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
+        /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
         "optimal.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.209;
-        /// Price of the travel's velocity at its limit.
+        /// Weight of the travel's velocity at its limit.
         "optimal.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0105;
-        /// Price of the tilt rate at its limit.
+        /// Weight of the tilt rate at its limit.
         "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033;
-        /// Price of the tilt acceleration at its limit.
+        /// Weight of the tilt acceleration at its limit.
         "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242;
         /// How fast the slow part of the force is expected to fade.
         "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345;
@@ -406,13 +406,13 @@ interface! {
 interface! {
     /// The predictive strategy, for surge and sway together.
     pub struct PredictiveParameters: Parameter, Tunable {
-        /// Price of travel at its limit, beside 1 for a dropped force of 1 m/s2.
+        /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
         "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 1e-3;
-        /// Price of the travel's velocity at its limit.
+        /// Weight of the travel's velocity at its limit.
         "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 2.6e-2;
-        /// Price of the tilt rate at its limit.
+        /// Weight of the tilt rate at its limit.
         "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3;
-        /// Price of the tilt acceleration at its limit.
+        /// Weight of the tilt acceleration at its limit.
         "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4;
         /// How fast the slow part of the force is expected to fade beyond the plan.
         "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2;

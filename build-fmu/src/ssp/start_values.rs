@@ -53,6 +53,20 @@ mod tests {
     }
 
     #[test]
+    fn a_path_of_one_s_own_can_take_the_lap_s_place() {
+        let parameters = r#"
+            [motorcycle]
+            "path.course" = "custom"
+            "path.point.count" = 2
+            "path.point.distance[2]" = 400.0
+            "path.point.speed[1]" = 20.0
+            "path.point.speed[2]" = 20.0
+        "#;
+        let starts = read(&System { parameters, ..MOTORCYCLE_LAP }).unwrap();
+        assert_eq!(starts[0].count(), 5);
+    }
+
+    #[test]
     fn what_cannot_be_a_start_value_is_named() {
         for (parameters, named) in [
             ("[car]\na = 1.0", "there is no component car"),

@@ -18,7 +18,7 @@ use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use crate::ride::preview::parse_seconds;
-use crate::ride::{ConventionOptions, Ride};
+use crate::ride::{ConventionOptions, FADE_IN, Ride};
 use crate::run::{bounds, measured};
 use crate::setup_options::SetupOptions;
 use channel::{Channel, channels};
@@ -30,7 +30,7 @@ use targets::Targets;
 /// A line for each ride and channel: the error of a platform at rest, the bound where asked for,
 /// the RMS error, the RMS error as sensed, and the fractions of the time with a cue in the vehicle,
 /// with a false and with a missing one on the platform. Then what was limited on each ride, and the
-/// targets. Recordings are led in from rest over 1 s unless --fade-in says otherwise.
+/// targets. Recordings fade in from rest over 1 s; --fade-in changes it.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns
@@ -68,9 +68,6 @@ pub struct Options {
     #[command(flatten)]
     conventions: ConventionOptions,
 }
-
-/// Time over which recordings are led in from rest \[s\].
-const LEAD_IN: f64 = 1.0;
 
 /// The figures of a ride.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +116,7 @@ impl MeasuredRide {
 /// A ride, a rig or parameters that cannot be used.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
-    let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let host = Host { step: options.step, inputs: options.inputs, preview: options.preview };
     let measure = |file: &PathBuf| {
         let ride = Ride::read(file, &conventions)?;

@@ -89,6 +89,10 @@ impl From<RateFrame> for AngularVelocityFrame {
     }
 }
 
+/// Time over which commands fade recordings in from rest \[s\]: one that is cut out of a longer
+/// ride begins in motion, and the platform at rest.
+pub const FADE_IN: f64 = 1.0;
+
 /// Options that describe a recording.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]

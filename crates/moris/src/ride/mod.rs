@@ -44,7 +44,7 @@ use moris_batch::{Manoeuvre, Replay};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
-pub use conventions::{ConventionOptions, Conventions};
+pub use conventions::{ConventionOptions, Conventions, FADE_IN};
 pub use error::RideError;
 use table::Table;
 

@@ -29,13 +29,11 @@ use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
 use crate::ride::preview::{Previewer, parse_seconds};
-use crate::ride::{ConventionOptions, Conventions, Ride};
+use crate::ride::{ConventionOptions, Conventions, FADE_IN, Ride};
 use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
 pub use recording::Recording;
 
-/// Time over which recordings are faded in from rest \[s\].
-const FADE_IN: f64 = 1.0;
 /// Exit status where a recording does not fit the rig.
 const DOES_NOT_FIT: u8 = 3;
 

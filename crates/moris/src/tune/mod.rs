@@ -27,18 +27,13 @@ use moris_setup::{NamedValues, Setup, all, parameter_file};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::ride::Ride;
+use crate::ride::{FADE_IN, Ride};
 use crate::run::{Outcome, write_page};
 use cost::Objective;
 pub use options::Options;
 use space::Space;
 use tested::{Tested, tune_tested};
 use tuner::Tuner;
-
-/// A recording that is cut out of a longer ride begins in motion, and the platform at rest: no
-/// parameters could keep the limits at such a jump. It is led in from rest over this time unless
-/// another is said \[s\].
-const LEAD_IN: f64 = 1.0;
 
 /// Runs the command.
 ///
@@ -82,7 +77,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 const WORSE: u8 = 2;
 
 fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
-    let conventions = options.conventions.load_or_fade_in(LEAD_IN)?;
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let judge = |file: &PathBuf| {
         let ride = Ride::read(file, &conventions)?;
         Ok(Objective::new(ride, &setup.parameters, &options.weights, options.constraints())?)

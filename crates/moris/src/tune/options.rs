@@ -16,7 +16,7 @@ use crate::setup_options::SetupOptions;
 /// in quadrature over specific force and angular velocity along x, y, z, and divided by the same of
 /// the desired motion. 0 is perfect; a platform at rest scores 1.
 ///
-/// Rides are led in from rest over 1 s unless --fade-in says otherwise. The search starts from the
+/// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the
 /// parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result,
 /// however many cores there are.
 #[derive(Clone, Debug, clap::Args)]
@@ -28,8 +28,8 @@ pub struct Options {
     #[command(flatten)]
     pub setup: SetupOptions,
 
-    /// Recordings to try the result on, and not to tune on [default: each ride in turn is left out
-    /// of a tuning of its own]
+    /// Recordings that are only tested with the result; --folds, of the others, is independent of
+    /// it
     #[arg(long, value_name = "RIDE", num_args = 1..)]
     pub hold_out: Vec<PathBuf>,
 

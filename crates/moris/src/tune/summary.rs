@@ -81,7 +81,7 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], fraction: f64
     write!(text, "\n\n# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name)
         .expect("a string takes whatever is written");
     if interrupted {
-        text.push_str("The search was broken off: this is the best that it had found.\n\n");
+        text.push_str("The search was interrupted; this is the best result so far.\n\n");
     }
     if 0.0 < fraction && fraction < 1.0 {
         write!(
