@@ -166,7 +166,7 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
         definition,
         source: BOUND,
     };
-    let fraction = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
+    let percentage = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
     [
         row(
             "bound",
@@ -185,12 +185,12 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
         ),
         row(
             "error, of what is desired",
-            fraction(felt),
+            percentage(felt),
             "%",
             1,
             "RMS error as a fraction of the RMS of the desired specific force without gravity: 100 % is to stand still.",
         ),
-        row("bound, of what is desired", fraction(bound.rms_error), "%", 1, "The bound as the same fraction."),
+        row("bound, of what is desired", percentage(bound.rms_error), "%", 1, "The bound as the same fraction."),
     ]
 }
 

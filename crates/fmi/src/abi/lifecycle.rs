@@ -11,7 +11,7 @@ use crate::panics;
 pub unsafe fn free_instance<M: Model, H: Host>(component: *mut c_void) {
     // SAFETY: the host hands back what the version's `instantiate` made.
     let Some(component) = (unsafe { Component::<M, H>::at(component) }) else { return };
-    // A panic now has nobody left to report to.
+    // A panic now cannot be reported.
     // SAFETY: as above.
     let _ = panics::contain(|| unsafe { Component::free(component) });
 }

@@ -132,7 +132,7 @@ pub(crate) mod tests {
     use super::*;
     use std::io::Read;
 
-    pub fn inflated(text: &str) -> Vec<u8> {
+    fn inflated(text: &str) -> Vec<u8> {
         let bytes = STANDARD.decode(text).unwrap();
         let mut decoded = Vec::new();
         flate2::read::DeflateDecoder::new(bytes.as_slice()).read_to_end(&mut decoded).unwrap();

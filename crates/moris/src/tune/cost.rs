@@ -19,7 +19,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, ParameterError, Parameters, Washout};
 
-use super::space::ORDERS;
+use super::space::{orders, with_orders};
 use crate::ride::Ride;
 use crate::run::Recording;
 
@@ -148,19 +148,14 @@ impl Objective {
 
     /// A washout at rest with the fixed parameters and the orders of these.
     fn coarse(&self, parameters: &Parameters) -> Result<&Washout, ParameterError> {
-        let mut fixed = self.fixed;
-        let orders = ORDERS.map(|order| {
-            *order(&mut fixed) = *order(&mut parameters.clone());
-            (*order(&mut fixed)).clamp(2, 4) as usize - 2
-        });
-        let place = &self.coarse[orders[0]][orders[1]];
-        match place.get() {
-            Some(washout) => Ok(washout),
-            None => {
-                let washout = Washout::new(&fixed)?;
-                Ok(place.get_or_init(|| washout))
-            }
+        let orders = orders(parameters);
+        let [splitter, angular] = orders.map(|order| order.clamp(2, 4) as usize - 2);
+        let place = &self.coarse[splitter][angular];
+        if let Some(washout) = place.get() {
+            return Ok(washout);
         }
+        let washout = Washout::new(&with_orders(&self.fixed, orders))?;
+        Ok(place.get_or_init(|| washout))
     }
 
     /// Cost of a simulation.

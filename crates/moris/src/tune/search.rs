@@ -10,7 +10,7 @@ use moris_washout::nalgebra;
 use rayon::prelude::*;
 
 use super::cost::{Cost, Objective};
-use super::space::{ORDERS, Space};
+use super::space::Space;
 
 /// Length and start of a search.
 #[derive(Clone, Copy, Debug)]
@@ -136,11 +136,11 @@ struct Beginning {
 }
 
 /// The best beginning: first with the start's orders, then with others in their place where they
-/// are tuned and as long as it is to go on.
+/// are tuned, while `go_on` is true.
 fn beginning(rides: &Rides, space: &Space, mut go_on: impl FnMut() -> bool) -> Beginning {
     let mut first = scan(rides, space);
-    for order in ORDERS {
-        for other in first.space.with_other(order) {
+    for order in 0..2 {
+        for other in first.space.with_other_order(order) {
             if !go_on() {
                 return first;
             }

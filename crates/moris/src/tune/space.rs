@@ -24,11 +24,20 @@ pub enum Group {
     Order,
 }
 
-/// The order of a high-pass in parameters.
-pub type OrderOf = fn(&mut Parameters) -> &mut i32;
+/// The orders that may be tuned: of the splitter's high-passes and of the angular channel's.
+pub type Orders = [i32; 2];
 
-/// The orders that may be tuned: the splitter's, and the angular channel's.
-pub const ORDERS: [OrderOf; 2] = [|p| &mut p.structure.splitter_order, |p| &mut p.structure.angular_order];
+/// The orders in parameters.
+pub fn orders(parameters: &Parameters) -> Orders {
+    [parameters.structure.splitter_order, parameters.structure.angular_order]
+}
+
+/// The parameters with these orders.
+pub fn with_orders(parameters: &Parameters, orders: Orders) -> Parameters {
+    let mut parameters = *parameters;
+    [parameters.structure.splitter_order, parameters.structure.angular_order] = orders;
+    parameters
+}
 
 /// Range of a parameter that makes sense for a washout.
 const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
@@ -130,18 +139,19 @@ impl Space {
         self.clamped(&moved).0
     }
 
-    /// The spaces in which an order has its other values; none unless orders are tuned.
-    pub fn with_other(&self, order: OrderOf) -> Vec<Space> {
+    /// The spaces in which the order number `k` of [`Orders`] has its other values; none unless
+    /// orders are tuned.
+    pub fn with_other_order(&self, k: usize) -> Vec<Space> {
         if !self.groups.contains(&Group::Order) {
             return Vec::new();
         }
-        let own = *order(&mut self.start.clone());
-        let with = |value: i32| {
-            let mut space = self.clone();
-            *order(&mut space.start) = value;
-            space
+        let own = orders(&self.start);
+        let with = |order: i32| {
+            let mut orders = own;
+            orders[k] = order;
+            Space { start: with_orders(&self.start, orders), ..self.clone() }
         };
-        (2..=4).filter(|value| *value != own).map(with).collect()
+        (2..=4).filter(|order| *order != own[k]).map(with).collect()
     }
 
     /// This fraction of the way from the start to parameters that were found in this space, by
@@ -150,8 +160,7 @@ impl Space {
         let mut values = Vec::new();
         visit(&mut found.clone(), &self.groups, &mut |value, _, _| values.push(*value));
         let mut values = values.into_iter();
-        let mut parameters = self.start;
-        ORDERS.iter().for_each(|order| *order(&mut parameters) = *order(&mut found.clone()));
+        let mut parameters = with_orders(&self.start, orders(found));
         visit(&mut parameters, &self.groups, &mut |value, _, _| {
             let end = values.next().unwrap_or(*value);
             *value = if end > 0.0 { *value * (end / *value).powf(fraction) } else { end };
@@ -307,13 +316,13 @@ mod tests {
     #[test]
     fn orders_have_their_other_values_where_they_are_tuned() {
         let start = Parameters::default();
-        assert!(ORDERS.iter().all(|order| Space::new(&start, &DEFAULT).with_other(*order).is_empty()));
+        assert!((0..2).all(|k| Space::new(&start, &DEFAULT).with_other_order(k).is_empty()));
         let space = Space::new(&start, &[Group::Order, Group::Splitter]);
-        let orders = |order: OrderOf| {
-            let others = space.with_other(order);
-            others.iter().map(|other| *order(&mut other.parameters(&DVector::zeros(12)))).collect::<Vec<i32>>()
+        let others = |k: usize| {
+            let others = space.with_other_order(k);
+            others.iter().map(|other| orders(&other.parameters(&DVector::zeros(12)))).collect::<Vec<Orders>>()
         };
-        assert_eq!((orders(ORDERS[0]), orders(ORDERS[1])), (vec![2, 4], vec![3, 4]));
+        assert_eq!((others(0), others(1)), (vec![[2, 2], [4, 2]], vec![[3, 3], [3, 4]]));
     }
 
     #[test]

@@ -145,8 +145,8 @@ fn within_limits(tuner: &Tuner, judges: &[&Objective], best: &Setup, fraction: f
     if fraction == 1.0 {
         return Ok(Some(best.clone()));
     }
+    let towards = tuner.space.towards(&best.parameters, fraction);
     for k in 0..=TRIES {
-        let towards = tuner.space.towards(&best.parameters, fraction);
         let setup = Setup { parameters: smaller(&towards, SMALLER.powi(k)), ..best.clone() };
         if full_costs(judges, &setup)?.iter().all(Cost::is_feasible) {
             return Ok(Some(setup));

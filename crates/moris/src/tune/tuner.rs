@@ -97,8 +97,9 @@ impl Tuner<'_> {
         Err(NoFeasibleParameters(text).into())
     }
 
-    /// Candidates to verify in the final step size, one after the other: the best of the search,
-    /// and, where none of them holds, the best with its scales made smaller and smaller.
+    /// Candidates to verify in the final step size, one after the other: the best of the
+    /// search, sets on the way back to the initial one, that itself, and the best with its
+    /// scales made smaller and smaller.
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
         let tries = if self.space.has_scales() { TRIES } else { 0 };
