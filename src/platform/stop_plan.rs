@@ -69,6 +69,17 @@ impl StopPlan {
         StopPlan { elapsed: (self.elapsed + step).min(max(last, self.elapsed)), ..*self }
     }
 
+    /// Time from now until surge, sway and heave are no faster than these limits \[m/s\], zero if
+    /// they are so already \[s\].
+    pub fn time_until_within(&self, limits: &Vector3<f64>) -> f64 {
+        let StopPlan { start, durations, elapsed } = self;
+        (0..3).fold(0.0, |longest, k| {
+            // Zero from the start for an axis at rest, whose quotient is infinite.
+            let end = durations.linear[k] * (1.0 - limits[k] / start.linear.velocity[k].abs());
+            max(end - elapsed, longest)
+        })
+    }
+
     /// The state now.
     pub fn now(&self) -> PlatformCoordinates {
         self.at(self.elapsed)

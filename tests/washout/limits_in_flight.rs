@@ -59,6 +59,29 @@ fn a_tighter_limit_of_position_or_velocity_in_motion_throws_no_leg_out_of_its_st
     }
 }
 
+#[test]
+fn a_limit_of_velocity_below_the_speed_slows_the_platform_with_all_of_its_acceleration() {
+    let set = [("splitter.x.omega1", 1.0), ("splitter.x.omega2", 1.0)];
+    let (parameters_before, lowered) =
+        (parameters(&set), parameters(&[&set[..], &[("safety.x.velocityLimit", 0.7)]].concat()));
+    let mut washout = Washout::new(&parameters_before).unwrap();
+    let input = accelerating(6.0, 0.0, 0.0);
+    for _ in 0..230 {
+        washout.step(&input, 0.001);
+    }
+    let mut fastest = washout.output().velocity.x;
+    assert!(fastest > 0.85, "{fastest}");
+    washout.retune(&lowered).unwrap();
+    for _ in 0..100 {
+        washout.step(&input, 0.001);
+        let output = washout.output();
+        let expected = (fastest - 10.0 * 0.001).max(0.7);
+        assert!((output.velocity.x - expected).abs() < 1e-9, "{} m/s, not {expected}", output.velocity.x);
+        assert!(output.safety_active, "the limit shows in the status");
+        fastest = output.velocity.x;
+    }
+}
+
 /// Square waves far beyond the machine: the sign of a sine.
 fn square(amplitude: f64, omega: f64, time: f64) -> f64 {
     amplitude.copysign((omega * time).sin())

@@ -37,11 +37,11 @@
 //! - a position beyond the new limit keeps the old one, and once the axis has come to rest
 //!   it only comes nearer.
 //!
-//! An axis has settled after the longest time that a stop within the old limits takes,
-//! [`Oracle::settling_time`]. From then on velocity and acceleration keep the new limits. A
-//! position beyond its limit may stay there, but only comes nearer: nothing obliges a
-//! platform at rest to move. Of changes in quick succession the largest limits count until
-//! the last has settled.
+//! An axis has settled after the time that is left of any stop within the old limits that may
+//! have begun before the change, the settling time. From then on velocity and acceleration keep
+//! the new limits. A position beyond its limit may stay there, but only comes nearer: nothing
+//! obliges a platform at rest to move. Of changes in quick succession the largest limits count
+//! until the last has settled.
 
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +52,7 @@ pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 /// Roundings that a length, a coordinate or a velocity may have gone through, in units in the
 /// last place of its parts.
 pub const ROUNDINGS: f64 = 8.0;
-/// Stopping times that an axis is given to settle.
+/// Stopping times that an axis is given for a stop.
 const STOPPING_TIMES: f64 = 4.0;
 /// Longest steps that an axis is given to settle beside them.
 const SETTLING_STEPS: f64 = 8.0;
@@ -207,6 +207,8 @@ pub struct Oracle {
     /// is left for it \[s\].
     settling: bool,
     remaining: f64,
+    /// What is left of the longest stop that may have begun by now \[s\].
+    stopping: f64,
     before: Sample,
     /// Mean velocities over the last step, legs first, and how long that was;
     /// zero before the first.
@@ -228,13 +230,13 @@ impl Oracle {
             stopped: true,
         });
         let (mean, last_step) = ([0.0; 9], 0.0);
-        Oracle { machine, axes, settling: false, remaining: 0.0, before: *at_rest, mean, last_step }
+        Oracle { machine, axes, settling: false, remaining: 0.0, stopping: 0.0, before: *at_rest, mean, last_step }
     }
 
     /// Other safety limits from here on.
     pub fn change(&mut self, safety: &Safety) {
-        // The stop may have begun under any of the limits since the axes settled last.
-        self.remaining = self.remaining.max(self.settling_time());
+        let steps = SETTLING_STEPS * self.last_step.max(self.machine.longest_step);
+        self.remaining = self.remaining.max(self.stopping + steps);
         self.settling = true;
         for (k, axis) in self.axes.iter_mut().enumerate() {
             axis.position_limit = safety.position[k];
@@ -248,16 +250,14 @@ impl Oracle {
         }
     }
 
-    /// The longest time that coming to rest from here may take within the limits in force since
-    /// the axes settled last: the time to stop surge, sway and heave with their accelerations and
-    /// the joints with the legs', several times over, because the legs' acceleration is needed
-    /// for their turning, too.
-    pub fn settling_time(&self) -> f64 {
-        let Sample { velocity, angular_velocity, .. } = &self.before;
+    /// The longest time that a stop from this state may take within the limits in force since the
+    /// axes settled last: the time to stop surge, sway and heave with their accelerations and the
+    /// joints with the legs', several times over, because the legs' acceleration is needed for
+    /// their turning, too.
+    fn longest_stop(&self, Sample { velocity, angular_velocity, .. }: &Sample) -> f64 {
         let joints = norm(velocity) + norm(angular_velocity) * self.machine.radius;
         let axes = (0..3).map(|k| velocity[k].abs() / self.axes[k].slowest);
-        let stopping = axes.fold(joints / self.machine.acceleration, f64::max);
-        STOPPING_TIMES * stopping + SETTLING_STEPS * self.last_step.max(self.machine.longest_step)
+        STOPPING_TIMES * axes.fold(joints / self.machine.acceleration, f64::max)
     }
 
     /// Judges the outputs after a step of `step` seconds, and keeps the worst.
@@ -375,6 +375,8 @@ impl Oracle {
             }
             axis.velocity = axis.velocity_limit.max(axis.velocity.min(now.velocity[k].abs()));
         }
+        // A stop that began earlier, from a faster state, may still be going on.
+        self.stopping = self.longest_stop(now).max(self.stopping - step);
         self.last_step = step;
         self.before = *now;
     }

@@ -213,6 +213,17 @@ fn a_stop_under_the_old_limits_may_pass_neutral_and_leave_the_new_limits_on_the_
 }
 
 #[test]
+fn a_stop_that_began_faster_may_go_on() {
+    let tight = Safety { velocity: [0.001; 3], ..SAFETY };
+    let mut oracle = changed(0.1, 0.8, &SAFETY);
+    go_on(&mut oracle, 0.1, 0.8, &[(0.0875, -8.0)]).unwrap();
+    oracle.change(&tight);
+    let position = 0.1 + 0.5 * (0.8 + 0.1) * 0.0875;
+    go_on(&mut oracle.clone(), position, 0.1, &[(0.2, -0.5)]).unwrap();
+    go_on(&mut oracle, position, 0.1, &[(0.8, -0.1)]).unwrap_err();
+}
+
+#[test]
 fn an_axis_has_to_settle() {
     let tight = Safety { acceleration: [0.2; 3], velocity: [0.1; 3], ..SAFETY };
     let mut oracle = changed(0.1, 0.5, &tight);

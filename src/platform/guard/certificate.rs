@@ -354,7 +354,9 @@ pub fn axes_keep_limits(
         let most = safety.acceleration_limit[k] * WITH_ROUNDING;
         keeps &= start.acceleration[k].abs() + 2.0 * gap / (step * step) <= most;
         keeps &= next.acceleration[k].abs() <= most;
-        keeps &= max(before.abs(), after.abs()) + gap / step <= safety.velocity_limit[k] * WITH_ROUNDING;
+        // Beyond a tightened limit an axis may become slower, not faster.
+        let fastest = max(safety.velocity_limit[k] * WITH_ROUNDING, before.abs());
+        keeps &= max(before.abs(), after.abs()) + gap / step <= fastest;
         let (lowest, highest) = reachable(from, safety, k);
         keeps &= lowest <= min(next.position[k], turned) && max(next.position[k], turned) <= highest;
     }

@@ -25,7 +25,7 @@ use self::certificate::{Candidate, Machine, Speed, State};
 use super::stop_plan::{StopDurations, StopPlan};
 use super::{Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
-use crate::motion::braking_law::{Limits, REJOIN_DISTANCE};
+use crate::motion::braking_law::{Limits, REJOIN_DISTANCE, WITH_ROUNDING};
 use crate::motion::extremes::{max, min};
 
 /// The guard with the motion that the platform is commanded, and with its legs.
@@ -95,7 +95,7 @@ impl ActuatorGuard {
     #[cold]
     fn advance_in_doubt(&mut self, demand: Candidate, safety: &SafetyParameters, step: f64) {
         let joined = self.limited.is_none() || self.has_caught_up(demand, safety, step);
-        let plan = if joined { self.machine.certify(self.state(), demand, safety, step) } else { None };
+        let plan = if joined { self.certified(demand, safety, step) } else { None };
         if let Some(plan) = plan {
             self.accept(demand, plan);
             self.limited = None;
@@ -109,6 +109,14 @@ impl ActuatorGuard {
             coordinates: next.coordinates,
             leg_accelerations: std::array::from_fn(|i| (self.legs.velocity[i] - before.velocity[i]) / step),
         });
+    }
+
+    /// A certified stop plan from the candidate that keeps the limits of velocity no later than the
+    /// plan held does, where a tightened limit is not kept yet.
+    fn certified(&self, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
+        let plan = self.machine.certify(self.state(), to, safety, step)?;
+        let time_of = |plan: StopPlan| plan.time_until_within(&(WITH_ROUNDING * safety.velocity_limit));
+        (time_of(plan) <= time_of(self.plan.advanced(step))).then_some(plan)
     }
 
     /// True if the platform may go over to the demand from where it is: the positions differ from

@@ -37,7 +37,7 @@ impl ActuatorGuard {
         let pursued = self.pursued(now, demand.legs, safety, step);
         let certified = |fraction: f64| {
             let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
-            let plan = self.machine.certify(self.state(), trial.candidate(), safety, step)?;
+            let plan = self.certified(trial.candidate(), safety, step)?;
             Some((trial, plan))
         };
         farthest(certified).unwrap_or_else(|| {

@@ -236,9 +236,10 @@ impl Conditions {
                 now.linear.position[k]
             };
             let [lowest, highest] = self.reachable(now, k);
+            let fastest = most(self.safety.velocity_limit[k] * (1.0 + ROUNDING), before.abs());
             acceleration.abs() + 2.0 * gap / (h * h) <= allowed
                 && next.linear.acceleration[k].abs() <= allowed
-                && most(before.abs(), after.abs()) + gap / h <= self.safety.velocity_limit[k] * (1.0 + ROUNDING)
+                && most(before.abs(), after.abs()) + gap / h <= fastest
                 && [next.linear.position[k], turned].iter().all(|position| (lowest..=highest).contains(position))
         })
     }
