@@ -317,8 +317,8 @@ fn a_long_recording_makes_a_page_of_less_than_three_megabytes() {
     };
     assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
     let thinned = page(&["car", "motorcycle", "small-motions", "paper"]);
-    let resolution = thinned.split("\"Curves\",\"").nth(1).unwrap().split(";").next().unwrap();
-    assert_eq!(resolution, "least and greatest value of every 5.8 ms", "as much as fits");
+    assert!(thinned.contains("[\"Curves\",\"least and greatest value of every "), "the resolution is stated");
+    assert!(thinned.len() > 2_500_000, "as much as fits, not {} bytes", thinned.len());
 }
 
 #[test]
