@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use moris::ride::Ride;
-use moris::run::Recording;
+use moris::run::Simulation;
 use moris::tune::cost::{Constraints, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
@@ -50,8 +50,8 @@ fn judge(ride: Ride, constraints: Constraints) -> Objective {
     Objective::new(ride, &Parameters::default(), &EQUAL, constraints).unwrap()
 }
 
-fn recording(judge: &Objective, parameters: &Parameters) -> Recording {
-    Recording::of(&judge.ride().replay(), &judge.ride().parameters(parameters), || ()).unwrap()
+fn simulation(judge: &Objective, parameters: &Parameters) -> Simulation {
+    Simulation::of(&judge.ride().replay(), &judge.ride().parameters(parameters), || ()).unwrap()
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn a_platform_at_rest_scores_1() {
     let mut still = Parameters::default();
     still.conditioning.force_scale *= 0.0;
     still.conditioning.rate_scale *= 0.0;
-    let cost = judge.cost(&recording(&judge, &still));
+    let cost = judge.cost(&simulation(&judge, &still));
     assert!((cost.error - 1.0).abs() < 1e-12, "{cost:?}");
     assert!(cost.channels.iter().zip(judge.desired_rms()).all(|(error, desired)| (error - desired).abs() < 1e-12));
     assert!(cost.is_feasible());
@@ -69,7 +69,7 @@ fn a_platform_at_rest_scores_1() {
 #[test]
 fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
     let judge = judge(weaving(), NO_RESERVE);
-    let mut perfect = recording(&judge, &Parameters::default());
+    let mut perfect = simulation(&judge, &Parameters::default());
     for share in [1.0, 0.5] {
         for (input, output) in perfect.inputs.iter().zip(&mut perfect.outputs) {
             let rest = Input::default().specific_force;
@@ -85,7 +85,7 @@ fn only_channels_with_weight_count() {
     let mut weights = [0.0; 6];
     weights[1] = 2.0;
     let judge = Objective::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
-    let cost = judge.cost(&recording(&judge, &Parameters::default()));
+    let cost = judge.cost(&simulation(&judge, &Parameters::default()));
     assert!((cost.error - cost.channels[1] / judge.desired_rms()[1]).abs() < 1e-12);
 }
 
@@ -97,7 +97,7 @@ fn the_search_s_short_way_comes_to_what_a_recording_comes_to() {
     parameters.splitter.omega1.x = 1.3;
     parameters.angular.zeta2.roll = 0.6;
     parameters.conditioning.rate_scale.x = 0.4;
-    assert_eq!(judge.coarse_cost(&parameters).unwrap(), judge.cost(&recording(&judge, &parameters)));
+    assert_eq!(judge.coarse_cost(&parameters).unwrap(), judge.cost(&simulation(&judge, &parameters)));
 }
 
 #[test]
@@ -105,10 +105,10 @@ fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
     let wild = ride("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
     let tight = judge(wild.clone(), Constraints { stroke_reserve: 0.29 });
     let loose = judge(wild, NO_RESERVE);
-    let recording = recording(&loose, &Parameters::default());
-    let acted = recording.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
-    assert_eq!(loose.cost(&recording).violated, acted as f64 / recording.outputs.len() as f64);
-    assert!(tight.cost(&recording).violated > loose.cost(&recording).violated);
+    let simulation = simulation(&loose, &Parameters::default());
+    let acted = simulation.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
+    assert_eq!(loose.cost(&simulation).violated, acted as f64 / simulation.outputs.len() as f64);
+    assert!(tight.cost(&simulation).violated > loose.cost(&simulation).violated);
 }
 
 fn searched(threads: usize, seed: u64) -> Parameters {
@@ -142,7 +142,8 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
         true
     });
     let best = &searched.unwrap().best;
-    let (before, after) = (judge.cost(&recording(&judge, &start)), judge.cost(&recording(&judge, &best[0].parameters)));
+    let (before, after) =
+        (judge.cost(&simulation(&judge, &start)), judge.cost(&simulation(&judge, &best[0].parameters)));
     assert!(after.is_feasible() && after.error < 0.9 * before.error, "{} {}", before.error, after.error);
     assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 >= pair[1].1), "progress goes on and down");
     assert!(best[1..].windows(2).all(|pair| pair[0].error <= pair[1].error + 0.01));

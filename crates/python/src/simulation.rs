@@ -5,7 +5,7 @@ use std::sync::Arc;
 use moris::measure::host::Host;
 use moris::ride::Ride;
 use moris::ride::preview::LONGEST_PREVIEW;
-use moris::run::{AxisBound, Outcome, Recording, bounds, findings, fits_the_rig, page};
+use moris::run::{AxisBound, Outcome, Simulation, bounds, findings, fits_the_rig, page};
 use moris_interface::{Group, Writer, slot_count};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
@@ -55,7 +55,7 @@ impl PySimulation {
         let mut outcome = outcome.map_err(|reason| error::parameter(py, reason.to_string()))?;
         if bound {
             outcome.bounds =
-                py.detach(|| bounds::bounds(&outcome.recording)).map_err(|reason| error::bound(py, &reason))?;
+                py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
         }
         Ok(PySimulation { ride, outcome })
     }
@@ -93,7 +93,7 @@ impl PySimulation {
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>)> {
         const INPUTS: usize = slot_count(Input::ROWS);
         const COUNT: usize = INPUTS + slot_count(Output::ROWS);
-        let Recording { inputs, outputs, .. } = &self.outcome.recording;
+        let Simulation { inputs, outputs, .. } = &self.outcome.simulation;
         let mut rows = vec![0.0; outputs.len() * COUNT];
         for ((input, output), row) in inputs.iter().zip(outputs).zip(rows.chunks_exact_mut(COUNT)) {
             input.write(&mut Writer::new(&mut row[..INPUTS]));
@@ -101,12 +101,12 @@ impl PySimulation {
         }
         let names = [Input::ROWS, Output::ROWS].into_iter().flat_map(|rows| Variables::of(rows).names).collect();
         let rows = PyArray1::from_vec(py, rows).reshape([outputs.len(), COUNT])?;
-        Ok((PyArray1::from_vec(py, self.outcome.recording.times()), rows, names))
+        Ok((PyArray1::from_vec(py, self.outcome.simulation.times()), rows, names))
     }
 
     /// Angular velocity that the vehicle's rider feels, in head axes.
     fn desired_rates<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rates = self.outcome.recording.desired_rates();
+        let rates = self.outcome.simulation.desired_rates();
         let flat = rates.iter().flat_map(|rate| [rate.x, rate.y, rate.z]).collect();
         PyArray1::from_vec(py, flat).reshape([rates.len(), 3])
     }
@@ -159,7 +159,7 @@ pub fn bound<'py>(
     let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
     let ride = &recording.ride;
     let parameters = ride.parameters(&parameters);
-    let run = Recording { step: ride.step(), parameters, inputs: ride.inputs().to_vec(), outputs: Vec::new() };
+    let run = Simulation { step: ride.step(), parameters, inputs: ride.inputs().to_vec(), outputs: Vec::new() };
     let bounds: Axes<Option<AxisBound>> =
         py.detach(|| bounds::bounds(&run)).map_err(|reason| error::bound(py, &reason))?;
     let times = run.times();

@@ -103,8 +103,8 @@ pub fn sweep_chunk<'py>(
 fn measure(host: &Host, setup: &Setup, ride: &Ride, row: &mut [f64]) {
     let parameters = ride.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
-    let Ok(recording) = host.replay(ride, &parameters) else { return };
-    let Ok(measures) = measured::measures(&recording) else { return };
+    let Ok(simulation) = host.replay(ride, &parameters) else { return };
+    let Ok(measures) = measured::measures(&simulation) else { return };
     let mut places = MEASURES.iter().zip(row).peekable();
     for found in measures.rows() {
         // The rows come in the order of the list, which has all of them.

@@ -6,7 +6,7 @@ use moris_measures::{Axes, Measures};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use crate::run::{AxisBound, Recording};
+use crate::run::{AxisBound, Simulation};
 
 /// Quantity of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,10 +63,10 @@ impl Channel {
 }
 
 /// The channels of a ride on which something is desired or felt.
-pub fn channels(recording: &Recording, measures: &Measures, bounds: &Axes<Option<AxisBound>>) -> Vec<Channel> {
+pub fn channels(simulation: &Simulation, measures: &Measures, bounds: &Axes<Option<AxisBound>>) -> Vec<Channel> {
     let rest = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
-    let forces: Vec<Vector3<f64>> = recording.inputs.iter().map(|input| input.specific_force - rest).collect();
-    let rates = recording.desired_rates();
+    let forces: Vec<Vector3<f64>> = simulation.inputs.iter().map(|input| input.specific_force - rest).collect();
+    let rates = simulation.desired_rates();
     let rms = |desired: &[Vector3<f64>], axis: usize| {
         rms_error(&vec![0.0; desired.len()], &desired.iter().map(|sample| sample[axis]).collect::<Vec<_>>())
     };

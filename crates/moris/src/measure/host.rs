@@ -7,7 +7,7 @@ use moris_washout::{Parameters, Washout};
 
 use crate::ride::Ride;
 use crate::ride::preview::Previewer;
-use crate::run::Recording;
+use crate::run::Simulation;
 
 /// Input within a step, as given by the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -37,7 +37,7 @@ impl Host {
     /// # Errors
     /// The parameters cannot be used, or neither of the host's step and the recording's is a
     /// multiple of the other.
-    pub fn replay(&self, ride: &Ride, parameters: &Parameters) -> Result<Recording> {
+    pub fn replay(&self, ride: &Ride, parameters: &Parameters) -> Result<Simulation> {
         let sample = ride.step();
         let step = self.step.unwrap_or(sample);
         let replay = Replay::in_steps(&ride.manoeuvre, step, self.inputs == Inputs::Slopes).with_context(|| {
@@ -50,6 +50,6 @@ impl Host {
                 washout.preview(&previewer.at(time));
             }
         };
-        Ok(Recording::prepared(&replay, parameters, preview, || ())?)
+        Ok(Simulation::prepared(&replay, parameters, preview, || ())?)
     }
 }

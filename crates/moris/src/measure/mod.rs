@@ -93,16 +93,16 @@ impl MeasuredRide {
     /// # Errors
     /// The parameters cannot be used, the steps do not fit, or there is no bound.
     pub fn of(ride: &Ride, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
-        let recording = host.replay(ride, &ride.parameters(parameters))?;
-        let measures = measured::measures(&recording)?;
-        let bounds = if with_bound { bounds::bounds(&recording)? } else { [const { None }; 3] };
+        let simulation = host.replay(ride, &ride.parameters(parameters))?;
+        let measures = measured::measures(&simulation)?;
+        let bounds = if with_bound { bounds::bounds(&simulation)? } else { [const { None }; 3] };
         let effort = &measures.effort;
-        let steps = recording.outputs.len().max(2) - 1;
-        let limited = recording.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
+        let steps = simulation.outputs.len().max(2) - 1;
+        let limited = simulation.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
         Ok(MeasuredRide {
             name: ride.name.clone(),
             duration: ride.manoeuvre.duration(),
-            channels: channels(&recording, &measures, &bounds),
+            channels: channels(&simulation, &measures, &bounds),
             limits: [effort.tilt_limited, effort.safety_active, effort.actuator_limited],
             limited: limited.count() as f64 / steps as f64,
             stroke_used: effort.stroke_used,

@@ -8,7 +8,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 use rayon::prelude::*;
 
-use super::Recording;
+use super::Simulation;
 
 /// The bound on one axis, and the desired signal it belongs to.
 #[derive(Clone, Debug)]
@@ -41,14 +41,14 @@ const MOST_INTERVALS: f64 = 10_000.0;
 ///
 /// # Errors
 /// The ride is too short for a bound, or the solver fails.
-pub fn bounds(recording: &Recording) -> Result<Axes<Option<AxisBound>>, BoundError> {
-    let duration = recording.step * recording.inputs.len() as f64;
+pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundError> {
+    let duration = simulation.step * simulation.inputs.len() as f64;
     let interval = INTERVAL.max(duration / MOST_INTERVALS);
     let on_axis = |axis: usize| {
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
-        let desired: Vec<f64> = recording.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();
+        let desired: Vec<f64> = simulation.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();
         let bound = AxisBound {
-            bound: bound(&desired, recording.step, &limits(&recording.parameters, axis), interval)?,
+            bound: bound(&desired, simulation.step, &limits(&simulation.parameters, axis), interval)?,
             desired,
         };
         Ok((bound.desired_rms() >= WORTH_BOUNDING).then_some(bound))

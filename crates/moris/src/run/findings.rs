@@ -3,7 +3,7 @@
 use moris_measures::fidelity::Fidelity;
 use moris_report::{Finding, Weight};
 
-use super::{Outcome, Recording};
+use super::{Outcome, Simulation};
 use moris_washout::Output;
 
 /// Less than this of a signal is not worth a sentence: RMS of the desired specific force
@@ -29,10 +29,10 @@ fn finding(weight: Weight, text: String) -> Finding {
 /// Fit of the recording to the rig: active limits, their durations and first times.
 fn fits(outcome: &Outcome) -> Finding {
     let effort = &outcome.measures.effort;
-    let recording = &outcome.recording;
+    let simulation = &outcome.simulation;
     let sentences: Vec<String> = [
-        held("The actuators' limits", recording, |output| output.actuator_limited),
-        held("The safety units", recording, |output| output.safety_active),
+        held("The actuators' limits", simulation, |output| output.actuator_limited),
+        held("The safety units", simulation, |output| output.safety_active),
     ]
     .into_iter()
     .flatten()
@@ -51,10 +51,10 @@ fn fits(outcome: &Outcome) -> Finding {
 }
 
 /// Active limits with total duration and first time; none without any.
-fn held(what: &str, recording: &Recording, holds: impl Fn(&Output) -> bool) -> Option<String> {
-    let time = |samples: usize| samples as f64 * recording.step;
-    let first = recording.outputs.iter().position(&holds)?;
-    let all = recording.outputs.iter().filter(|output| holds(output)).count();
+fn held(what: &str, simulation: &Simulation, holds: impl Fn(&Output) -> bool) -> Option<String> {
+    let time = |samples: usize| samples as f64 * simulation.step;
+    let first = simulation.outputs.iter().position(&holds)?;
+    let all = simulation.outputs.iter().filter(|output| holds(output)).count();
     Some(format!("{what} limited the platform for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
 }
 
@@ -79,7 +79,7 @@ fn tilt(outcome: &Outcome) -> Option<Finding> {
 fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
     let name = ["Surge", "Sway", "Heave"][axis];
     let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;
-    let desired = deviation(outcome.recording.inputs.iter().map(|input| input.specific_force[axis]));
+    let desired = deviation(outcome.simulation.inputs.iter().map(|input| input.specific_force[axis]));
     if desired < WORTH_SAYING {
         return None;
     }

@@ -1,35 +1,35 @@
-//! The measures of a recording.
+//! The measures of a simulation.
 
 use moris_measures::{Limited, Measures, Platform, Run, RunError};
 use moris_washout::{Input, Output};
 
-use super::Recording;
+use super::Simulation;
 
-/// Measures a recording.
+/// Measures a simulation.
 ///
 /// # Errors
 /// It is too short to be measured.
-pub fn measures(recording: &Recording) -> Result<Measures, RunError> {
-    let inputs = |value: fn(&Input) -> [f64; 3]| recording.inputs.iter().map(value).collect::<Vec<_>>();
-    let outputs = |value: fn(&Output) -> [f64; 3]| recording.outputs.iter().map(value).collect::<Vec<_>>();
+pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
+    let inputs = |value: fn(&Input) -> [f64; 3]| simulation.inputs.iter().map(value).collect::<Vec<_>>();
+    let outputs = |value: fn(&Output) -> [f64; 3]| simulation.outputs.iter().map(value).collect::<Vec<_>>();
     let limited = |output: &Output| Limited {
         tilt: output.tilt_limited,
         safety: output.safety_active,
         actuator: output.actuator_limited,
     };
-    let rig = &recording.parameters.rig;
+    let rig = &simulation.parameters.rig;
     Measures::of(&Run {
-        step: recording.step,
+        step: simulation.step,
         desired_force: &inputs(|input| input.specific_force.into()),
         felt_force: &outputs(|output| output.felt_specific_force.into()),
-        desired_rate: &recording.desired_rates().into_iter().map(Into::into).collect::<Vec<_>>(),
+        desired_rate: &simulation.desired_rates().into_iter().map(Into::into).collect::<Vec<_>>(),
         felt_rate: &outputs(|output| output.felt_angular_velocity.into()),
         platform: Platform {
-            legs: &recording.outputs.iter().map(|output| output.length).collect::<Vec<_>>(),
+            legs: &simulation.outputs.iter().map(|output| output.length).collect::<Vec<_>>(),
             stroke: [rig.min_length, rig.max_length],
-            displacement: &recording.displacements().into_iter().map(Into::into).collect::<Vec<_>>(),
-            tilt_rate: &recording.outputs.iter().map(|o| [o.tilt_roll_rate, o.tilt_pitch_rate]).collect::<Vec<_>>(),
-            limited: &recording.outputs.iter().map(limited).collect::<Vec<_>>(),
+            displacement: &simulation.displacements().into_iter().map(Into::into).collect::<Vec<_>>(),
+            tilt_rate: &simulation.outputs.iter().map(|o| [o.tilt_roll_rate, o.tilt_pitch_rate]).collect::<Vec<_>>(),
+            limited: &simulation.outputs.iter().map(limited).collect::<Vec<_>>(),
         },
     })
 }

@@ -1,6 +1,6 @@
 //! `moris simulate`: simulates a recording on a rig and measures the cues.
 //!
-//! [`recording`] steps the washout; everything else reads its result: [`output_table`] writes it
+//! [`simulation`] steps the washout; everything else reads its result: [`output_table`] writes it
 //! down, [`measured`] measures it, [`bounds`] computes the least possible error, [`summary`] and
 //! [`json`] print it, [`findings`] puts it in sentences, [`page`] makes the report, [`index`] lists
 //! the reports of several recordings.
@@ -12,7 +12,7 @@ pub mod json;
 pub mod measured;
 pub mod output_table;
 pub mod page;
-pub mod recording;
+pub mod simulation;
 pub mod summary;
 
 use std::collections::BTreeMap;
@@ -32,7 +32,7 @@ use crate::ride::preview::{Previewer, parse_seconds};
 use crate::ride::{ConventionOptions, Conventions, FADE_IN, Ride};
 use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
-pub use recording::Recording;
+pub use simulation::Simulation;
 
 /// Exit status where a recording does not fit the rig.
 const DOES_NOT_FIT: u8 = 3;
@@ -90,7 +90,7 @@ pub struct Outcome {
     /// The rig and the parameters.
     pub setup: Setup,
     /// All inputs and outputs.
-    pub recording: Recording,
+    pub simulation: Simulation,
     /// The measures.
     pub measures: Measures,
     /// The bound, axis by axis; none without a desired signal or if not requested.
@@ -118,17 +118,22 @@ impl Outcome {
                 washout.preview(&previewer.at(time));
             }
         };
-        Outcome::measured(Recording::prepared(&ride.replay(), &parameters, prepare, progress)?, setup)
+        Outcome::measured(Simulation::prepared(&ride.replay(), &parameters, prepare, progress)?, setup)
     }
 
     /// Measures a simulation with this setup's rig.
     ///
     /// # Errors
     /// The simulation has too few samples.
-    pub fn measured(recording: Recording, setup: &Setup) -> Result<Self> {
-        let measures = measured::measures(&recording)?;
+    pub fn measured(simulation: Simulation, setup: &Setup) -> Result<Self> {
+        let measures = measured::measures(&simulation)?;
         let bounds = [const { None }; 3];
-        Ok(Outcome { setup: Setup { parameters: recording.parameters, ..setup.clone() }, recording, measures, bounds })
+        Ok(Outcome {
+            setup: Setup { parameters: simulation.parameters, ..setup.clone() },
+            simulation,
+            measures,
+            bounds,
+        })
     }
 
     /// The rows of its measures, and of its bounds beside what is felt.
@@ -146,7 +151,7 @@ impl Outcome {
     /// # Errors
     /// The recording is too short, or the solver fails.
     pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>> {
-        bounds::bounds(&self.recording).context("cannot compute the bound; --no-bound does without it")
+        bounds::bounds(&self.simulation).context("cannot compute the bound; --no-bound does without it")
     }
 }
 
@@ -335,7 +340,7 @@ fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Ve
     let mut written = Vec::new();
     for (index, outcome) in outcomes.iter().enumerate() {
         let file = directory.join(table_name(&ride.name, index, &outcome.setup));
-        output_table::write(&file, &outcome.recording)?;
+        output_table::write(&file, &outcome.simulation)?;
         written.push(file);
     }
     written.push(write_page(directory, &ride.name, ride, outcomes)?);

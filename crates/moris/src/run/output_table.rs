@@ -6,7 +6,7 @@ use anyhow::{Context, Result};
 use moris_interface::{Group, Writer, slot_count};
 use moris_washout::{Input, Output};
 
-use super::Recording;
+use super::Simulation;
 
 /// Digits after the point: micrometres, and no more than a sensor has.
 const DECIMALS: usize = 6;
@@ -16,13 +16,13 @@ const DECIMALS: usize = 6;
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write(file: &Path, recording: &Recording) -> Result<()> {
+pub fn write(file: &Path, simulation: &Simulation) -> Result<()> {
     let rows = || Input::ROWS.iter().chain(Output::ROWS);
     let names = rows().flat_map(|row| (0..row.slots()).map(|element| row.variable_name(element)));
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         table.write_record(std::iter::once("time".to_owned()).chain(names))?;
-        for ((time, input), output) in recording.times().iter().zip(&recording.inputs).zip(&recording.outputs) {
+        for ((time, input), output) in simulation.times().iter().zip(&simulation.inputs).zip(&simulation.outputs) {
             let values = std::iter::once(*time).chain(values(input)).chain(values(output));
             table.write_record(values.map(written))?;
         }

@@ -7,7 +7,7 @@ use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report,
 use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use super::{Outcome, Recording, findings};
+use super::{Outcome, Simulation, findings};
 use crate::ride::Ride;
 
 /// Largest page \[bytes\].
@@ -22,7 +22,7 @@ const LEAST_SAMPLES: usize = 4_000;
 /// # Errors
 /// The report does not fit together.
 pub fn html(ride: &Ride, outcomes: &[Outcome]) -> Result<String, ReportError> {
-    let samples = outcomes[0].recording.inputs.len() * outcomes.len();
+    let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
         let page = moris_report::html(&report(ride, outcomes, most / outcomes.len()))?;
@@ -38,7 +38,7 @@ pub fn html(ride: &Ride, outcomes: &[Outcome]) -> Result<String, ReportError> {
 /// with at most so many samples of each.
 fn report(ride: &Ride, outcomes: &[Outcome], most: usize) -> Report {
     let first = &outcomes[0];
-    let thinning = Thinning::new(first.recording.inputs.len(), most);
+    let thinning = Thinning::new(first.simulation.inputs.len(), most);
     let remarks = ride.remarks.iter().map(|remark| Finding { weight: Weight::Warning, text: remark.clone() });
     Report {
         title: ride.name.clone(),
@@ -76,21 +76,21 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
         1.0 => "every sample".to_owned(),
         factor => format!(
             "least and greatest value of every {:.1} ms; the table of outputs has every sample",
-            2e3 * factor * outcome.recording.step
+            2e3 * factor * outcome.simulation.step
         ),
     }
 }
 
 fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
-    let Outcome { setup, recording, .. } = outcome;
-    let Recording { inputs, outputs, .. } = recording;
+    let Outcome { setup, simulation, .. } = outcome;
+    let Simulation { inputs, outputs, .. } = simulation;
     let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
-    let desired_rates = recording.desired_rates();
+    let desired_rates = simulation.desired_rates();
     let leans = inputs.iter().any(|input| input.lean != 0.0);
     Run {
         name: setup.parameters_name.clone(),
         findings: findings::of(outcome),
-        times: thinning.at_times(|k| k as f64 * recording.step),
+        times: thinning.at_times(|k| k as f64 * simulation.step),
         desired: Cues {
             specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
             angular_velocity: array::from_fn(|axis| thinning.extremes(|k| desired_rates[k][axis])),
@@ -111,7 +111,7 @@ fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
             safety: thinning.any(|k| outputs[k].safety_active),
             actuator: thinning.any(|k| outputs[k].actuator_limited),
         },
-        limits: (&recording.parameters).into(),
+        limits: (&simulation.parameters).into(),
         measures: outcome.rows().into_iter().map(measure).collect(),
         charts: bound_charts(outcome, thinning),
     }
@@ -119,7 +119,7 @@ fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
 
 /// The bound, axis by axis.
 fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
-    let Recording { outputs, step, .. } = &outcome.recording;
+    let Simulation { outputs, step, .. } = &outcome.simulation;
     let chart = |axis: usize| {
         let bound = outcome.bounds[axis].as_ref()?;
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];

@@ -21,7 +21,7 @@ use moris_washout::{Output, ParameterError, Parameters, Washout};
 
 use super::space::{orders, with_orders};
 use crate::ride::Ride;
-use crate::run::Recording;
+use crate::run::Simulation;
 
 /// Six channels: specific force x, y, z, angular velocity x, y, z.
 pub type Channels<T> = [T; 6];
@@ -159,9 +159,9 @@ impl Objective {
     }
 
     /// Cost of a simulation.
-    pub fn cost(&self, recording: &Recording) -> Cost {
+    pub fn cost(&self, simulation: &Simulation) -> Cost {
         let mut tally = CostAccumulator::new(self);
-        recording.outputs.iter().for_each(|output| tally.add(output));
+        simulation.outputs.iter().for_each(|output| tally.add(output));
         tally.cost()
     }
 }
@@ -204,10 +204,11 @@ impl<'a> CostAccumulator<'a> {
 
 /// The desired channels, as deviations from rest.
 fn desired(ride: &Ride, parameters: &Parameters) -> Channels<Vec<f64>> {
-    let recording =
-        Recording { step: ride.step(), parameters: *parameters, inputs: ride.inputs().to_vec(), outputs: vec![] };
-    let rates = recording.desired_rates();
-    let samples = recording.inputs.iter().zip(rates).map(|(input, rate)| channels(input.specific_force - rest(), rate));
+    let simulation =
+        Simulation { step: ride.step(), parameters: *parameters, inputs: ride.inputs().to_vec(), outputs: vec![] };
+    let rates = simulation.desired_rates();
+    let samples =
+        simulation.inputs.iter().zip(rates).map(|(input, rate)| channels(input.specific_force - rest(), rate));
     let samples: Vec<Channels<f64>> = samples.collect();
     std::array::from_fn(|k| samples.iter().map(|sample| sample[k]).collect())
 }

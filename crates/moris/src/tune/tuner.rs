@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::cost::{Cost, Objective};
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
-use crate::run::Recording;
+use crate::run::Simulation;
 
 /// No parameters were found that keep the constraints; the text says where, and what to do.
 #[derive(Debug)]
@@ -167,5 +167,5 @@ pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 /// The parameters cannot be used.
 pub fn full_cost(judge: &Objective, setup: &Setup) -> Result<Cost> {
     let parameters = judge.ride().parameters(&setup.parameters);
-    Ok(judge.cost(&Recording::of(&judge.ride().replay(), &parameters, || ())?))
+    Ok(judge.cost(&Simulation::of(&judge.ride().replay(), &parameters, || ())?))
 }

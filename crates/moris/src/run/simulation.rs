@@ -8,9 +8,9 @@ use moris_washout::platform::LocationFrame;
 use moris_washout::platform::Pose;
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
-/// Every input and output of a ride.
+/// Every input and output of a simulation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Recording {
+pub struct Simulation {
     /// Time between samples \[s\].
     pub step: f64,
     /// Parameters of the simulation.
@@ -21,16 +21,16 @@ pub struct Recording {
     pub outputs: Vec<Output>,
 }
 
-impl Recording {
+impl Simulation {
     /// Replays a manoeuvre from rest at neutral. `progress` is called at each observation.
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.
     pub fn of(replay: &Replay, parameters: &Parameters, progress: impl FnMut()) -> Result<Self, ParameterError> {
-        Recording::prepared(replay, parameters, |_, _| (), progress)
+        Simulation::prepared(replay, parameters, |_, _| (), progress)
     }
 
-    /// As [`Recording::of`]; `prepare` is called before each step with the time at its start \[s\].
+    /// As [`Simulation::of`]; `prepare` is called before each step with the time at its start \[s\].
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.
@@ -48,7 +48,7 @@ impl Recording {
             outputs.push(*output);
             progress();
         });
-        Ok(Recording { step: replay.step(), parameters: *parameters, inputs, outputs })
+        Ok(Simulation { step: replay.step(), parameters: *parameters, inputs, outputs })
     }
 
     /// The time of each sample \[s\].
