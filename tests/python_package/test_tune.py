@@ -30,7 +30,7 @@ def test_tuning_lowers_the_error_and_keeps_the_limits(tuned, recordings):
         assert simulation.fits and simulation["status.strokeMargin"].min() >= 0.01
     groups = ("splitter.", "angular.", "scale.")
     assert tuned.changed and all(name.startswith(groups) for name in tuned.changed)
-    assert tuned.verdict.startswith("No ride was held out") and tuned.verdict in tuned.summary
+    assert tuned.verdict.startswith("No recording was held out") and tuned.verdict in tuned.summary
     assert list(tuned.to_pandas().columns) == ["before", "tuned", "unseen"]
 
 
@@ -111,7 +111,7 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
         "platform": {"radius": 0.85, "degrees": [-52, 52, 68, 172, 188, 292]},
         "actuator": {"minLength": 1.0, "maxLength": 1.6, "velocityLimit": 1.0, "accelerationLimit": 15.0},
     }
-    with pytest.raises(moris.NoParametersFound, match="no parameters were found with which every ride stays clear"):
+    with pytest.raises(moris.NoParametersFound, match="no parameters were found with which every recording stays clear"):
         moris.tune(recordings[:1], rig=rig, stroke_reserve=0.29, groups=["angular"], evaluations=20)
 
 

@@ -1,7 +1,7 @@
 //! The washout filter with the platform's kinematics.
 
 use moris_interface::SlotModel;
-use moris_setup::{NamedValues, contradiction};
+use moris_setup::{NamedValues, check_consistency};
 use moris_washout::Washout;
 
 use super::{ACTUATORS, Model, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
@@ -16,7 +16,7 @@ pub const WASHOUT: Model = Model {
     title: "MORIS washout: motion cueing for a motorcycle simulator",
     functions: ModelFns::from::<Washout>(),
     derived_start_values: |_| NamedValues::new(),
-    consistency: |start| contradiction(&Washout::parameters_in(start)),
+    consistency: |start| check_consistency(&Washout::parameters_in(start)),
     sections: &[
         Section {
             anchor: "what",

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use moris::{help, measure, parameters, respond, rig, run, schema, tune};
+use moris::{frequency_response, help, measure, parameters, rig, schema, simulate, tune};
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -18,12 +18,12 @@ struct Arguments {
 enum Command {
     #[command(subcommand)]
     Rig(rig::Command),
-    #[command(name = "simulate", alias = "run")]
-    Run(run::Options),
+    #[command(alias = "run")]
+    Simulate(simulate::Options),
     Measure(measure::Options),
     Tune(tune::Options),
-    #[command(name = "frequency-response", alias = "respond")]
-    Respond(respond::Options),
+    #[command(alias = "respond")]
+    FrequencyResponse(frequency_response::Options),
     Parameters(parameters::Options),
     Schema(schema::Options),
     Completions(help::CompletionOptions),
@@ -34,10 +34,10 @@ fn main() -> ExitCode {
     let out = &mut stdout();
     let result = match Arguments::parse().command {
         Command::Rig(command) => rig::main(&command, out),
-        Command::Run(options) => run::main(&options, out),
+        Command::Simulate(options) => simulate::main(&options, out),
         Command::Measure(options) => measure::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
-        Command::Respond(options) => respond::main(&options, out),
+        Command::FrequencyResponse(options) => frequency_response::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),
         Command::Schema(options) => schema::main(&options, out),
         Command::Completions(options) => help::completions(&options, Arguments::command(), out),

@@ -11,7 +11,7 @@ use moris_washout::Parameters;
 use schemars::schema_for;
 use serde_json::{Map, Value, json};
 
-use crate::ride::ConventionOptions;
+use crate::recording::ConventionOptions;
 
 /// Print the JSON schema of a kind of file
 ///

@@ -31,7 +31,7 @@ fn singular_rig(directory: &Path) -> String {
 }
 
 /// A ride of 4 s: accelerate gently, with some roll.
-fn ride() -> Vec<Input> {
+fn recording() -> Vec<Input> {
     (0..=400)
         .map(|k| {
             let t = 0.01 * f64::from(k);
@@ -43,9 +43,9 @@ fn ride() -> Vec<Input> {
         .collect()
 }
 
-fn write_ride(directory: &Path, name: &str) {
+fn write_recording(directory: &Path, name: &str) {
     let mut text = "time,ax,ay,az,wx,wy,wz\n".to_owned();
-    for (k, input) in ride().iter().enumerate() {
+    for (k, input) in recording().iter().enumerate() {
         let (f, w) = (input.specific_force, input.angular_velocity);
         writeln!(text, "{},{},{},{},{},{},{}", k as f64 / 100.0, f.x, f.y, f.z, w.x, w.y, w.z).unwrap();
     }
@@ -86,17 +86,17 @@ fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same
 #[test]
 fn a_run_leaves_the_crate_s_outputs_and_a_page() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     let output = moris(directory.path(), &["simulate", "ride.csv", "--report", "out", "--fade-in", "0"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
     let said = text(&output.stdout);
-    assert!(said.contains("The ride fits the rig") && said.contains("force x"), "{said}");
+    assert!(said.contains("The recording fits the rig") && said.contains("force x"), "{said}");
 
     // The table against the crate, stepped here.
     let mut parameters = Parameters::default();
     parameters.conditioning.angular_velocity_frame = moris_washout::interface::AngularVelocityFrame::Body;
     let mut washout = Washout::new(&parameters).unwrap();
-    let inputs = ride();
+    let inputs = recording();
     let mut table = csv::Reader::from_path(directory.path().join("out/ride.outputs.csv")).unwrap();
     let column = |name: &str, table: &mut csv::Reader<fs::File>| {
         table.headers().unwrap().iter().position(|header| header == name).unwrap_or_else(|| panic!("{name}"))
@@ -126,7 +126,7 @@ fn a_run_leaves_the_crate_s_outputs_and_a_page() {
 #[test]
 fn runs_with_other_parameters_stand_beside_the_first() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     let narrow = rigs().join("narrow.toml").display().to_string();
     let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "small-motions"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -146,7 +146,7 @@ fn runs_with_other_parameters_stand_beside_the_first() {
 fn a_recording_in_the_report_s_directory_is_left_as_it_is() {
     let directory = tempfile::tempdir().unwrap();
     fs::create_dir(directory.path().join("moris-report")).unwrap();
-    write_ride(directory.path(), "moris-report/ride.csv");
+    write_recording(directory.path(), "moris-report/ride.csv");
     let before = fs::read(directory.path().join("moris-report/ride.csv")).unwrap();
     let output = moris(directory.path(), &["simulate", "moris-report/ride.csv", "--no-bound"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
@@ -159,7 +159,7 @@ fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
     let here = directory.path();
     fs::create_dir(here.join("other")).unwrap();
     for name in ["ride.csv", "other/ride.csv", "ride.outputs.csv"] {
-        write_ride(here, name);
+        write_recording(here, name);
     }
     for arguments in [
         &["simulate", "ride.csv", "other/ride.csv"][..],
@@ -177,7 +177,7 @@ fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
 #[test]
 fn errors_say_what_to_do_and_fail() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     let failure = |arguments: &[&str]| {
         let output = moris(directory.path(), arguments);
         assert!(!output.status.success(), "{arguments:?}");
@@ -209,7 +209,7 @@ fn parameters_print_a_file_that_reads_back() {
 #[test]
 fn the_names_of_version_0_1_are_hidden_aliases() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     let printed = |arguments: &[&str]| {
         let output = moris(directory.path(), arguments);
         assert!(output.status.success(), "{arguments:?}: {}", text(&output.stderr));
@@ -226,7 +226,7 @@ fn the_names_of_version_0_1_are_hidden_aliases() {
 #[test]
 fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     fs::write(directory.path().join("broken.csv"), "time,ax\n0,1\n").unwrap();
     let output = moris(directory.path(), &["simulate", "missing.csv", "broken.csv", "ride.csv", "--no-bound"]);
     assert_eq!(output.status.code(), Some(1));
@@ -234,7 +234,7 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     let errors: Vec<&str> = said.lines().filter(|line| line.starts_with("error")).collect();
     assert_eq!(errors.len(), 2, "{said}");
     assert!(errors[0].contains("cannot read missing.csv") && errors[1].matches("broken.csv").count() == 1, "{said}");
-    assert!(text(&output.stdout).contains("The ride fits the rig"));
+    assert!(text(&output.stdout).contains("The recording fits the rig"));
     assert!(directory.path().join("moris-report/ride.html").exists());
 }
 
@@ -242,7 +242,7 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
 #[test]
 fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     let mut rough = "time,ax,ay,az,wx,wy,wz\n".to_owned();
     for k in 0..400 {
         let t = f64::from(k) / 100.0;
@@ -272,7 +272,7 @@ fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
 #[test]
 fn a_preview_is_simulated_beside_the_strategy_without_it() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), "ride.csv");
+    write_recording(directory.path(), "ride.csv");
     let simulate = |more: &[&str]| moris(directory.path(), &[&["simulate", "ride.csv"], more].concat());
     let output = simulate(&["--strategy", "predictive", "--preview", "1", "--json"]);
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));

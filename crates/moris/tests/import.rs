@@ -10,8 +10,8 @@ use std::process::{Command, Stdio};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use moris::ride::conventions::{ForceUnit, Quantity, RateUnit};
-use moris::ride::{ConventionOptions, Ride};
+use moris::recording::conventions::{ForceUnit, Quantity, RateUnit};
+use moris::recording::{ConventionOptions, Recording};
 
 const GRAVITY: f64 = 9.80665;
 
@@ -47,21 +47,21 @@ fn ms_g_degrees() -> [f64; 7] {
     [1e3, 1.0 / GRAVITY, 1.0 / GRAVITY, 1.0 / GRAVITY, degrees, degrees, degrees]
 }
 
-fn read_bytes(name: &str, bytes: &[u8], options: &ConventionOptions) -> Result<Ride, String> {
+fn read_bytes(name: &str, bytes: &[u8], options: &ConventionOptions) -> Result<Recording, String> {
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join(name);
     fs::write(&file, bytes).unwrap();
-    let ride = Ride::read(&file, &options.load().unwrap());
-    ride.map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+    let recording = Recording::read(&file, &options.load().unwrap());
+    recording.map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
 }
 
-fn read(text: &str) -> Result<Ride, String> {
+fn read(text: &str) -> Result<Recording, String> {
     read_bytes("drive.csv", text.as_bytes(), &ConventionOptions::default())
 }
 
-fn assert_is_the_car(ride: &Ride) {
-    assert!(!ride.inputs().is_empty());
-    for (sample, input) in car(20.0).iter().zip(ride.inputs()) {
+fn assert_is_the_car(recording: &Recording) {
+    assert!(!recording.inputs().is_empty());
+    for (sample, input) in car(20.0).iter().zip(recording.inputs()) {
         let found: Vec<f64> = input.specific_force.iter().chain(input.angular_velocity.iter()).copied().collect();
         for (found, expected) in found.iter().zip(&sample[1..]) {
             assert!((found - expected).abs() < 1e-9, "{found} is not {expected}");
@@ -80,8 +80,9 @@ fn units_in_the_header_are_read() {
         "time,ax,ay,az,wx,wy,wz\nms,g,g,g,deg/s,deg/s,deg/s",
         "time,ax,ay,az,wx,wy,wz\n[ms],[g],[g],[g],(°/s),(°/s),(°/s)",
     ] {
-        let ride = read(&csv(header, &samples, ms_g_degrees())).unwrap_or_else(|error| panic!("{header}: {error}"));
-        assert_is_the_car(&ride);
+        let recording =
+            read(&csv(header, &samples, ms_g_degrees())).unwrap_or_else(|error| panic!("{header}: {error}"));
+        assert_is_the_car(&recording);
     }
     // Latin-1, as loggers on Windows write it.
     let text = csv("time [ms],ax [g],ay [g],az [g],wx [°/s],wy [°/s],wz [°/s]", &samples, ms_g_degrees());
@@ -167,7 +168,7 @@ fn rates_that_are_plausible_only_in_degrees_are_rejected() {
     assert!(derivative.contains("57 times the derivative of roll"), "{derivative}");
 
     // In rad/s the same is accepted; rad/s that are given are not doubted.
-    assert!(read(&csv(header, &samples, SI)).unwrap().remarks.is_empty());
+    assert!(read(&csv(header, &samples, SI)).unwrap().warnings.is_empty());
     for rad in [
         read(&csv("time,ax,ay,az,wx [rad/s],wy [rad/s],wz [rad/s]", &samples, in_degrees)),
         read_bytes(
@@ -217,8 +218,8 @@ fn a_motorcycle_and_a_parking_car_are_plausible_in_radians() {
 #[test]
 fn names_are_found_in_any_case_and_each_once() {
     let samples = car(20.0);
-    let ride = read(&csv("TIME,Ax,aY,AZ,Wx,WY,wZ", &samples, SI)).unwrap();
-    assert_is_the_car(&ride);
+    let recording = read(&csv("TIME,Ax,aY,AZ,Wx,WY,wZ", &samples, SI)).unwrap();
+    assert_is_the_car(&recording);
     let text = csv("T,Acc X,Acc Y,Acc Z,Gyro X,Gyro Y,Gyro Z", &samples, SI);
     let message = read(&text).unwrap_err();
     for name in ["time", "ax", "ay", "az", "wx", "wy", "wz"] {
@@ -271,9 +272,9 @@ fn a_compressed_recording_is_read() {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
     encoder.write_all(text.as_bytes()).unwrap();
     let packed = encoder.finish().unwrap();
-    let ride = read_bytes("drive.csv.gz", &packed, &ConventionOptions::default()).unwrap();
-    assert_eq!(ride.name, "drive");
-    assert_is_the_car(&ride);
+    let recording = read_bytes("drive.csv.gz", &packed, &ConventionOptions::default()).unwrap();
+    assert_eq!(recording.name, "drive");
+    assert_is_the_car(&recording);
     let cut = read_bytes("drive.csv.gz", &packed[..packed.len() / 2], &ConventionOptions::default()).unwrap_err();
     assert!(cut.contains("cannot read drive.csv.gz"), "{cut}");
 }
@@ -337,7 +338,7 @@ fn files_that_are_no_csv_are_recognised_and_never_printed() {
         let message = read(text).unwrap_err();
         assert!(!message.chars().any(char::is_control), "{message:?}");
     }
-    assert!(Ride::read(Path::new("no/such.csv"), &ConventionOptions::default().load().unwrap()).is_err());
+    assert!(Recording::read(Path::new("no/such.csv"), &ConventionOptions::default().load().unwrap()).is_err());
 }
 
 /// In the manner of AiM, MoTeC and RaceChrono: facts about the session, the names, their units,
@@ -371,10 +372,10 @@ fn columns_in_memory_are_read_as_a_file() {
     }
     let conventions = ConventionOptions::default().load().unwrap();
     let in_memory = |columns: &[(String, Vec<f64>)]| {
-        Ride::of_columns("drive", columns, &conventions).map_err(|error| error.to_string())
+        Recording::of_columns("drive", columns, &conventions).map_err(|error| error.to_string())
     };
-    let (file, ride) = (read(&text).unwrap(), in_memory(&columns).unwrap());
-    assert_eq!((ride.name.as_str(), ride.step(), ride.inputs()), ("drive", file.step(), file.inputs()));
+    let (file, recording) = (read(&text).unwrap(), in_memory(&columns).unwrap());
+    assert_eq!((recording.name.as_str(), recording.step(), recording.inputs()), ("drive", file.step(), file.inputs()));
 
     let mut gap = columns.clone();
     gap[2].1[7] = f64::NAN;

@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use moris::ride::conventions::{EmptyFields, Format, Mounting, Quantity};
-use moris::ride::{ConventionOptions, Ride};
+use moris::recording::conventions::{EmptyFields, Format, Mounting, Quantity};
+use moris::recording::{ConventionOptions, Recording};
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Vector3};
 
@@ -39,9 +39,9 @@ fn mounting(degrees: [f64; 3]) -> Matrix3<f64> {
 }
 
 /// Checks that a recording is the car's from a time on.
-fn assert_is_the_car(ride: &Ride, from: f64, tolerance: f64) {
-    assert!(ride.manoeuvre.duration() > 15.0, "{}", ride.manoeuvre.duration());
-    for (time, input) in ride.times().zip(ride.inputs()) {
+fn assert_is_the_car(recording: &Recording, from: f64, tolerance: f64) {
+    assert!(recording.manoeuvre.duration() > 15.0, "{}", recording.manoeuvre.duration());
+    for (time, input) in recording.times().zip(recording.inputs()) {
         let (force, rate) = car(from + time);
         assert!((input.specific_force - force).norm() < tolerance, "{time}: {} is not {force}", input.specific_force);
         assert!((input.angular_velocity - rate).norm() < tolerance, "{time}: {}", input.angular_velocity);
@@ -52,11 +52,11 @@ fn with_format(format: Format) -> ConventionOptions {
     ConventionOptions { format: Some(format), ..ConventionOptions::default() }
 }
 
-fn read(path: &Path, options: &ConventionOptions) -> Result<Ride, String> {
-    Ride::read(path, &options.load().map_err(|error| error.to_string())?).map_err(|error| error.to_string())
+fn read(path: &Path, options: &ConventionOptions) -> Result<Recording, String> {
+    Recording::read(path, &options.load().map_err(|error| error.to_string())?).map_err(|error| error.to_string())
 }
 
-fn read_text(text: &str, options: &ConventionOptions) -> Result<Ride, String> {
+fn read_text(text: &str, options: &ConventionOptions) -> Result<Recording, String> {
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("drive.csv");
     fs::write(&file, text).unwrap();
@@ -103,17 +103,21 @@ fn phyphox_is_a_directory_of_files() {
     fs::create_dir(folder.join("meta")).unwrap();
     fs::write(folder.join("device.csv"), "\"property\",\"value\"\n\"version\",\"1.2.0\"\n").unwrap();
 
-    let ride = read(&folder, &with_format(Format::Phyphox)).unwrap();
-    assert_eq!(ride.name, "2026-05-01 commute");
-    assert_eq!(ride.step(), 0.01);
+    let recording = read(&folder, &with_format(Format::Phyphox)).unwrap();
+    assert_eq!(recording.name, "2026-05-01 commute");
+    assert_eq!(recording.step(), 0.01);
     // From the first time that both files have, by linear interpolation.
-    assert_is_the_car(&ride, ride.start, 0.01);
-    assert!((0.1..0.106).contains(&ride.start), "{}", ride.start);
-    assert!(ride.remarks.iter().any(|remark| remark.contains("the first acceleration")), "{:?}", ride.remarks);
+    assert_is_the_car(&recording, recording.start, 0.01);
+    assert!((0.1..0.106).contains(&recording.start), "{}", recording.start);
+    assert!(
+        recording.warnings.iter().any(|warning| warning.contains("the first acceleration")),
+        "{:?}",
+        recording.warnings
+    );
     // The files by name are the same recording; a format's name is found out.
     let both = format!("{}+{}", folder.join("Accelerometer.csv").display(), folder.join("Gyroscope.csv").display());
     let joined = read(Path::new(&both), &with_format(Format::Phyphox)).unwrap();
-    assert_eq!((joined.name.as_str(), joined.inputs()), ("Accelerometer+Gyroscope", ride.inputs()));
+    assert_eq!((joined.name.as_str(), joined.inputs()), ("Accelerometer+Gyroscope", recording.inputs()));
     let message = read(&folder, &ConventionOptions::default()).unwrap_err();
     assert!(message.contains("use --format phyphox"), "{message}");
 }
@@ -143,8 +147,8 @@ fn sensor_logger_is_read_on_both_systems() {
             write(&folder, "TotalAcceleration.csv", 100.0, &|t| turned(car(t).0));
         }
         fs::write(folder.join("Annotation.csv"), "time,seconds_elapsed,text\n1,2,start\n").unwrap();
-        let ride = read(&folder, &with_format(format)).unwrap_or_else(|error| panic!("{name}: {error}"));
-        assert_is_the_car(&ride, 0.0, 1e-6);
+        let recording = read(&folder, &with_format(format)).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_is_the_car(&recording, 0.0, 1e-6);
     }
 }
 
@@ -248,10 +252,14 @@ fn racechrono_is_read_with_its_gaps() {
         }
         text
     };
-    let ride = read_text(&text(), &with_format(Format::RaceChrono)).unwrap();
-    assert_eq!(ride.step(), 0.02);
-    assert_is_the_car(&ride, ride.start, 0.03);
-    assert!(ride.remarks.iter().any(|remark| remark.contains("the change of speed")), "{:?}", ride.remarks);
+    let recording = read_text(&text(), &with_format(Format::RaceChrono)).unwrap();
+    assert_eq!(recording.step(), 0.02);
+    assert_is_the_car(&recording, recording.start, 0.03);
+    assert!(
+        recording.warnings.iter().any(|warning| warning.contains("the change of speed")),
+        "{:?}",
+        recording.warnings
+    );
     // Without the format, it is recognised; without interpolation, the first gap is named.
     let message = read_text(&text(), &ConventionOptions::default()).unwrap_err();
     assert!(message.contains("use --format racechrono"), "{message}");
@@ -273,11 +281,11 @@ fn times_of_day_and_dates_are_read() {
     };
     let clock = |t: f64| format!("{:02}:{:02}:{:06.3}", (t / 3600.0) as u32 % 24, (t / 60.0) as u32 % 60, t % 60.0);
     // Past midnight.
-    let ride = read_text(&rows(&|t| clock(86_395.0 + t)), &ConventionOptions::default()).unwrap();
-    assert_is_the_car(&ride, 0.0, 1e-9);
-    assert!((ride.step() - 0.02).abs() < 1e-12, "{}", ride.step());
-    let ride = read_text(&rows(&|t| format!("2026-05-01T{}Z", clock(3600.0 + t))), &ConventionOptions::default());
-    assert_is_the_car(&ride.unwrap(), 0.0, 1e-9);
+    let recording = read_text(&rows(&|t| clock(86_395.0 + t)), &ConventionOptions::default()).unwrap();
+    assert_is_the_car(&recording, 0.0, 1e-9);
+    assert!((recording.step() - 0.02).abs() < 1e-12, "{}", recording.step());
+    let recording = read_text(&rows(&|t| format!("2026-05-01T{}Z", clock(3600.0 + t))), &ConventionOptions::default());
+    assert_is_the_car(&recording.unwrap(), 0.0, 1e-9);
     let with_unit = rows(&|t| clock(t)).replacen("time", "time [hh:mm:ss]", 1);
     assert_is_the_car(&read_text(&with_unit, &ConventionOptions::default()).unwrap(), 0.0, 1e-9);
     let wrong = rows(&|t| clock(t)).replacen("00:00:01.000", "one", 1);
@@ -348,8 +356,8 @@ fn a_turned_sensor_is_turned_back() {
         let found = read_text(&text(degrees), &with(Mounting::Auto)).unwrap();
         assert_is_the_car(&found, 0.0, 1e-6);
         // What it says gives the same.
-        let remark = found.remarks.iter().find_map(|remark| remark.split_once("--mounting=")).unwrap().1;
-        let said = Mounting::parse(remark.split_whitespace().next().unwrap()).unwrap();
+        let warning = found.warnings.iter().find_map(|warning| warning.split_once("--mounting=")).unwrap().1;
+        let said = Mounting::parse(warning.split_whitespace().next().unwrap()).unwrap();
         assert_is_the_car(&read_text(&text(degrees), &with(said)).unwrap(), 0.0, 0.03);
     }
     // A sensor on its side, without an option: what to do is said.
@@ -381,8 +389,8 @@ fn orientation_is_turned_with_the_sensor() {
     });
     let angles = RollPitchYaw::from_vector(Vector3::from(degrees).map(f64::to_radians));
     let options = ConventionOptions { mounting: Some(Mounting::Angles(angles)), ..ConventionOptions::default() };
-    let ride = read_text(&text, &options).unwrap();
-    let found = ride.inputs()[0].orientation;
+    let recording = read_text(&text, &options).unwrap();
+    let found = recording.inputs()[0].orientation;
     assert!((found.to_vector() - vehicle.to_vector()).norm() < 1e-9, "{found:?}");
 }
 

@@ -25,7 +25,7 @@ fn inputs() -> Vec<Input> {
         .collect()
 }
 
-fn write_ride(file: &Path) {
+fn write_recording(file: &Path) {
     let mut text = "time,ax,ay,az,wx,wy,wz\n".to_owned();
     for (k, input) in inputs().iter().enumerate() {
         let (f, w) = (input.specific_force, input.angular_velocity);
@@ -69,7 +69,7 @@ fn errors(advance: impl Fn(&mut Washout, &Input, &Input)) -> [f64; 2] {
 #[test]
 fn errors_are_those_of_the_washout_in_the_host_s_steps() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(&directory.path().join("ride.csv"));
+    write_recording(&directory.path().join("ride.csv"));
     let slopes = errors(|washout, from, to| washout.step_between(from, to, STEP));
     let values = errors(|washout, from, _| washout.step(from, STEP));
     let fine = errors(|washout, from, to| {
@@ -97,7 +97,7 @@ fn errors_are_those_of_the_washout_in_the_host_s_steps() {
 #[test]
 fn targets_that_are_missed_are_named_and_fail_a_check() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(&directory.path().join("ride.csv"));
+    write_recording(&directory.path().join("ride.csv"));
     let loose = ["--geometric-mean", "9", "--ratio", "9", "--heave", "9", "--limited", "1", "--cues", "1"];
     let (output, text) = measure(directory.path(), &[&["ride.csv", "--check"], &loose[..]].concat());
     assert!(output.status.success() && text.ends_with("All targets are met.\n"), "{text}");
@@ -118,7 +118,7 @@ fn a_folder_stands_for_its_recordings_and_the_bound_is_below_the_error() {
     let directory = tempfile::tempdir().unwrap();
     fs::create_dir(directory.path().join("rides")).unwrap();
     for name in ["b", "a"] {
-        write_ride(&directory.path().join(format!("rides/{name}.csv")));
+        write_recording(&directory.path().join(format!("rides/{name}.csv")));
     }
     let (output, text) = measure(directory.path(), &["rides", "--bound"]);
     assert!(output.status.success(), "{text}");
@@ -132,7 +132,7 @@ fn a_folder_stands_for_its_recordings_and_the_bound_is_below_the_error() {
 #[test]
 fn steps_that_do_not_fit_and_empty_folders_are_errors_with_a_remedy() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(&directory.path().join("ride.csv"));
+    write_recording(&directory.path().join("ride.csv"));
     fs::create_dir(directory.path().join("empty")).unwrap();
     for (arguments, expected) in [
         (&["ride.csv", "--step", "0.003"][..], "one must be a multiple of the other"),
@@ -158,7 +158,7 @@ fn gravity_is_no_cue() {
 #[test]
 fn a_preview_of_the_recording_lowers_the_errors_of_the_predictive_strategy() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(&directory.path().join("ride.csv"));
+    write_recording(&directory.path().join("ride.csv"));
     let error = |preview: &str| {
         let (output, text) =
             measure(directory.path(), &["ride.csv", "--parameters", "predictive", "--preview", preview]);

@@ -6,8 +6,8 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output};
 
-use moris::ride::Ride;
-use moris::run::Simulation;
+use moris::recording::Recording;
+use moris::simulate::Simulation;
 use moris::tune::cost::{Constraints, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
@@ -21,62 +21,62 @@ const EQUAL: [f64; 6] = [1.0; 6];
 const NO_RESERVE: Constraints = Constraints { stroke_reserve: 0.0 };
 const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
 
-fn ride(name: &str, duration: f64, input: impl Fn(f64, &mut Input)) -> Ride {
+fn recording(name: &str, duration: f64, input: impl Fn(f64, &mut Input)) -> Recording {
     let sampled = |time| {
         let mut sample = Input::default();
         input(time, &mut sample);
         sample
     };
-    Ride {
+    Recording {
         name: name.to_owned(),
         manoeuvre: Manoeuvre::sampled(STEP, duration, sampled),
         start: 0.0,
         angular_velocity_frame: AngularVelocityFrame::Body,
         has_orientation: false,
-        remarks: Vec::new(),
+        warnings: Vec::new(),
     }
 }
 
 /// Surge and some roll, from rest.
-fn weaving() -> Ride {
-    ride("weaving", 12.0, |t, input| {
+fn weaving() -> Recording {
+    recording("weaving", 12.0, |t, input| {
         input.specific_force.x = 1.2 * (0.9 * t).sin() * (t / 3.0).min(1.0);
         input.specific_force.y = 0.5 * (2.1 * t).sin() * (t / 3.0).min(1.0);
         input.angular_velocity.x = 0.1 * (2.1 * t).sin() * (t / 3.0).min(1.0);
     })
 }
 
-fn judge(ride: Ride, constraints: Constraints) -> Objective {
-    Objective::new(ride, &Parameters::default(), &EQUAL, constraints).unwrap()
+fn objective(recording: Recording, constraints: Constraints) -> Objective {
+    Objective::new(recording, &Parameters::default(), &EQUAL, constraints).unwrap()
 }
 
-fn simulation(judge: &Objective, parameters: &Parameters) -> Simulation {
-    Simulation::of(&judge.ride().replay(), &judge.ride().parameters(parameters), || ()).unwrap()
+fn simulation(objective: &Objective, parameters: &Parameters) -> Simulation {
+    Simulation::of(&objective.recording().replay(), &objective.recording().parameters(parameters), || ()).unwrap()
 }
 
 #[test]
 fn a_platform_at_rest_scores_1() {
-    let judge = judge(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE);
     let mut still = Parameters::default();
     still.conditioning.force_scale *= 0.0;
     still.conditioning.rate_scale *= 0.0;
-    let cost = judge.cost(&simulation(&judge, &still));
+    let cost = objective.cost(&simulation(&objective, &still));
     assert!((cost.error - 1.0).abs() < 1e-12, "{cost:?}");
-    assert!(cost.channels.iter().zip(judge.desired_rms()).all(|(error, desired)| (error - desired).abs() < 1e-12));
+    assert!(cost.channels.iter().zip(objective.desired_rms()).all(|(error, desired)| (error - desired).abs() < 1e-12));
     assert!(cost.is_feasible());
 }
 
 #[test]
 fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
-    let judge = judge(weaving(), NO_RESERVE);
-    let mut perfect = simulation(&judge, &Parameters::default());
+    let objective = objective(weaving(), NO_RESERVE);
+    let mut perfect = simulation(&objective, &Parameters::default());
     for share in [1.0, 0.5] {
         for (input, output) in perfect.inputs.iter().zip(&mut perfect.outputs) {
             let rest = Input::default().specific_force;
             output.felt_specific_force = rest + share * (input.specific_force - rest);
             output.felt_angular_velocity = share * input.angular_velocity;
         }
-        assert!((judge.cost(&perfect).error - (1.0 - share)).abs() < 1e-12);
+        assert!((objective.cost(&perfect).error - (1.0 - share)).abs() < 1e-12);
     }
 }
 
@@ -84,27 +84,27 @@ fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
 fn only_channels_with_weight_count() {
     let mut weights = [0.0; 6];
     weights[1] = 2.0;
-    let judge = Objective::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
-    let cost = judge.cost(&simulation(&judge, &Parameters::default()));
-    assert!((cost.error - cost.channels[1] / judge.desired_rms()[1]).abs() < 1e-12);
+    let objective = Objective::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
+    let cost = objective.cost(&simulation(&objective, &Parameters::default()));
+    assert!((cost.error - cost.channels[1] / objective.desired_rms()[1]).abs() < 1e-12);
 }
 
 #[test]
 fn the_search_s_short_way_comes_to_what_a_recording_comes_to() {
-    let judge = judge(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE);
     let mut parameters = Parameters::default();
     parameters.structure.max_step = STEP;
     parameters.splitter.omega1.x = 1.3;
     parameters.angular.zeta2.roll = 0.6;
     parameters.conditioning.rate_scale.x = 0.4;
-    assert_eq!(judge.coarse_cost(&parameters).unwrap(), judge.cost(&simulation(&judge, &parameters)));
+    assert_eq!(objective.coarse_cost(&parameters).unwrap(), objective.cost(&simulation(&objective, &parameters)));
 }
 
 #[test]
 fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
-    let wild = ride("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
-    let tight = judge(wild.clone(), Constraints { stroke_reserve: 0.29 });
-    let loose = judge(wild, NO_RESERVE);
+    let wild = recording("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
+    let tight = objective(wild.clone(), Constraints { stroke_reserve: 0.29 });
+    let loose = objective(wild, NO_RESERVE);
     let simulation = simulation(&loose, &Parameters::default());
     let acted = simulation.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
     assert_eq!(loose.cost(&simulation).violated, acted as f64 / simulation.outputs.len() as f64);
@@ -112,15 +112,15 @@ fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
 }
 
 fn searched(threads: usize, seed: u64) -> Parameters {
-    let (first, second) = (judge(weaving(), NO_RESERVE), judge(brisk(), NO_RESERVE));
+    let (first, second) = (objective(weaving(), NO_RESERVE), objective(brisk(), NO_RESERVE));
     let space = Space::new(&Parameters::default(), &DEFAULT);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
     let budget = Budget { evaluations: 120, seed };
     pool.install(|| search(&[&first, &second], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].parameters)
 }
 
-fn brisk() -> Ride {
-    ride("brisk", 10.0, |t, input| input.specific_force.x = 1.5 * ((t - 1.0) / 0.5).clamp(0.0, 1.0))
+fn brisk() -> Recording {
+    recording("brisk", 10.0, |t, input| input.specific_force.x = 1.5 * ((t - 1.0) / 0.5).clamp(0.0, 1.0))
 }
 
 #[test]
@@ -132,18 +132,18 @@ fn the_search_finds_the_same_however_many_threads_there_are_and_another_for_anot
 
 #[test]
 fn the_search_finds_something_better_that_keeps_the_limits() {
-    let judge = judge(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE);
     let start = Parameters::default();
     let space = Space::new(&start, &DEFAULT);
     let mut tried = Vec::new();
     let budget = Budget { evaluations: 600, seed: 3 };
-    let searched = search(&[&judge], &evaluate_here, &space, budget, |count, least| {
+    let searched = search(&[&objective], &evaluate_here, &space, budget, |count, least| {
         tried.push((count, least));
         true
     });
     let best = &searched.unwrap().best;
     let (before, after) =
-        (judge.cost(&simulation(&judge, &start)), judge.cost(&simulation(&judge, &best[0].parameters)));
+        (objective.cost(&simulation(&objective, &start)), objective.cost(&simulation(&objective, &best[0].parameters)));
     assert!(after.is_feasible() && after.error < 0.9 * before.error, "{} {}", before.error, after.error);
     assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 >= pair[1].1), "progress goes on and down");
     assert!(best[1..].windows(2).all(|pair| pair[0].error <= pair[1].error + 0.01));
@@ -151,13 +151,13 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
 
 #[test]
 fn the_search_takes_the_order_that_serves_best() {
-    let judge = judge(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE);
     let budget = Budget { evaluations: 120, seed: 1 };
     let best = |order: i32, groups: &[Group]| {
         let mut start = Parameters::default();
         start.structure.splitter_order = order;
         let space = Space::new(&start, groups);
-        search(&[&judge], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].clone()
+        search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap().best[0].clone()
     };
     let errors = [2, 3, 4].map(|order| best(order, &[Group::Scale]).error);
     assert!(errors[0] > errors[1] + 0.005 && errors[1] > errors[2] + 0.005, "{errors:?}");
@@ -168,22 +168,22 @@ fn the_search_takes_the_order_that_serves_best() {
 
 #[test]
 fn groups_without_a_number_to_search_are_an_error_with_a_remedy() {
-    let judge = judge(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE);
     for group in [Group::Order, Group::Strategy] {
         let space = Space::new(&Parameters::default(), &[group]);
         let budget = Budget { evaluations: 10, seed: 1 };
-        let error = search(&[&judge], &evaluate_here, &space, budget, |_, _| true).unwrap_err();
+        let error = search(&[&objective], &evaluate_here, &space, budget, |_, _| true).unwrap_err();
         assert!(error.to_string().contains("--tune"), "{error}");
     }
 }
 
 #[test]
 fn a_search_that_is_broken_off_keeps_what_it_has() {
-    let judge = judge(weaving(), NO_RESERVE);
+    let objective = objective(weaving(), NO_RESERVE);
     let space = Space::new(&Parameters::default(), &DEFAULT);
     let mut generations = 0;
     let budget = Budget { evaluations: 100_000, seed: 1 };
-    let searched = search(&[&judge], &evaluate_here, &space, budget, |_, _| {
+    let searched = search(&[&objective], &evaluate_here, &space, budget, |_, _| {
         generations += 1;
         generations < 3
     });
@@ -193,11 +193,11 @@ fn a_search_that_is_broken_off_keeps_what_it_has() {
 
 #[test]
 fn what_the_rides_have_nothing_to_say_about_stays_as_it_was() {
-    let judge = judge(brisk(), NO_RESERVE);
+    let objective = objective(brisk(), NO_RESERVE);
     let start = Parameters::default();
     let space = Space::new(&start, &DEFAULT);
     let best =
-        search(&[&judge], &evaluate_here, &space, Budget { evaluations: 300, seed: 1 }, |_, _| true).unwrap().best;
+        search(&[&objective], &evaluate_here, &space, Budget { evaluations: 300, seed: 1 }, |_, _| true).unwrap().best;
     let tuned = best[0].parameters;
     assert_eq!(tuned.splitter.omega1.y, start.splitter.omega1.y);
     assert_eq!(tuned.angular.omega1.yaw, start.angular.omega1.yaw);
@@ -209,21 +209,21 @@ fn moris(directory: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_moris")).args(arguments).current_dir(directory).output().unwrap()
 }
 
-fn write_ride(directory: &Path, ride: &Ride) {
+fn write_recording(directory: &Path, recording: &Recording) {
     let mut text = "time,ax,ay,az,wx,wy,wz\n".to_owned();
-    for (time, input) in ride.times().zip(ride.inputs()) {
+    for (time, input) in recording.times().zip(recording.inputs()) {
         let (f, w) = (input.specific_force, input.angular_velocity);
         writeln!(text, "{time},{},{},{},{},{},{}", f.x, f.y, f.z, w.x, w.y, w.z).unwrap();
     }
-    fs::write(directory.join(format!("{}.csv", ride.name)), text).unwrap();
+    fs::write(directory.join(format!("{}.csv", recording.name)), text).unwrap();
 }
 
 #[test]
 fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_tuned_on_it() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    write_ride(here, &weaving());
-    write_ride(here, &brisk());
+    write_recording(here, &weaving());
+    write_recording(here, &brisk());
     let output = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--report", "out"]);
     let said = String::from_utf8(output.stdout).unwrap();
     // Two rides that have little in common: what is tuned on one may be worse on the other, and then it is said first.
@@ -232,7 +232,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     let status = if first.starts_with("WORSE") { 2 } else { 0 };
     assert_eq!(output.status.code(), Some(status), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(fs::read_to_string(here.join("tuned.toml")).unwrap().starts_with(&format!("# {first}")));
-    assert!(said.contains("On rides that it was not tuned on, the mean error goes from"), "{said}");
+    assert!(said.contains("On recordings that it was not tuned on, the mean error goes from"), "{said}");
     assert!(!said.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{said}");
     let tuned = Setup::load(None, &[here.join("tuned.toml").display().to_string()]).unwrap();
     assert_ne!(tuned.parameters, Parameters::default());
@@ -248,17 +248,17 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
 fn rides_that_are_held_out_are_not_tuned_on() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    write_ride(here, &weaving());
-    write_ride(here, &brisk());
+    write_recording(here, &weaving());
+    write_recording(here, &brisk());
     let alone = moris(here, &["tune", "weaving.csv", "--evaluations", "60", "--output", "alone.toml"]);
     let said = String::from_utf8(alone.stdout).unwrap();
-    assert!(said.contains("No ride was held out: nothing is known of other rides."), "{said}");
+    assert!(said.contains("No recording was held out: nothing is known of other recordings."), "{said}");
     let tried = moris(
         here,
         &["tune", "weaving.csv", "--evaluations", "60", "--output", "tried.toml", "--hold-out", "brisk.csv"],
     );
     let said = String::from_utf8(tried.stdout).unwrap();
-    assert!(said.contains("On rides that it was not tuned on"), "{said}");
+    assert!(said.contains("On recordings that it was not tuned on"), "{said}");
     let values = |file: &str| {
         let text = fs::read_to_string(here.join(file)).unwrap();
         text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>()
@@ -270,7 +270,7 @@ fn rides_that_are_held_out_are_not_tuned_on() {
 fn a_rig_s_values_are_not_written_into_the_parameter_file() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
-    write_ride(here, &brisk());
+    write_recording(here, &brisk());
     let rig = concat!(env!("CARGO_MANIFEST_DIR"), "/rigs/long-stroke.toml");
     let output =
         moris(here, &["tune", "brisk.csv", "--evaluations", "60", "--rig", rig, "--parameters", "small-motions"]);
@@ -283,7 +283,7 @@ fn a_rig_s_values_are_not_written_into_the_parameter_file() {
 #[test]
 fn a_ride_that_cannot_be_kept_within_the_limits_is_named() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), &weaving());
+    write_recording(directory.path(), &weaving());
     let output = moris(directory.path(), &["tune", "weaving.csv", "--evaluations", "40", "--stroke-reserve", "0.31"]);
     assert!(!output.status.success());
     let said = String::from_utf8(output.stderr).unwrap();
@@ -295,8 +295,8 @@ fn a_ride_that_cannot_be_kept_within_the_limits_is_named() {
 #[test]
 fn ctrl_c_keeps_the_best_so_far() {
     let directory = tempfile::tempdir().unwrap();
-    write_ride(directory.path(), &weaving());
-    write_ride(directory.path(), &brisk());
+    write_recording(directory.path(), &weaving());
+    write_recording(directory.path(), &brisk());
     let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
         .args(["tune", "weaving.csv", "brisk.csv", "--evaluations", "10000000"])
         .current_dir(directory.path())
@@ -313,6 +313,6 @@ fn ctrl_c_keeps_the_best_so_far() {
     let output = child.wait_with_output().unwrap();
     let said = String::from_utf8(output.stdout).unwrap();
     assert!(output.status.success(), "{said}");
-    assert!(said.contains("was interrupted") && said.contains("No ride was held out"), "{said}");
+    assert!(said.contains("was interrupted") && said.contains("No recording was held out"), "{said}");
     assert!(directory.path().join("tuned.toml").exists());
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use moris::ride::{ConventionOptions, Conventions, Ride};
+use moris::recording::{ConventionOptions, Conventions, Recording};
 use moris_batch::Manoeuvre;
 use moris_interface::{Group, Writer, slot_count};
 use moris_washout::Input;
@@ -20,7 +20,7 @@ use crate::setup::table;
 /// A recording in the washout's frames and units.
 #[pyclass(frozen, module = "moris._moris", name = "Recording")]
 pub struct PyRecording {
-    pub ride: Arc<Ride>,
+    pub inner: Arc<Recording>,
 }
 
 /// A recording's fields, as they are pickled.
@@ -32,8 +32,8 @@ impl PyRecording {
     #[staticmethod]
     fn read(py: Python, file: PathBuf, options: &Bound<PyDict>) -> PyResult<Self> {
         let conventions = conventions(options)?;
-        let ride = py.detach(|| Ride::read(&file, &conventions));
-        Self::of(py, ride.map_err(|error| error.to_string()))
+        let recording = py.detach(|| Recording::read(&file, &conventions));
+        Self::of(py, recording.map_err(|error| error.to_string()))
     }
 
     /// Reads columns, pairs of name and array.
@@ -50,28 +50,28 @@ impl PyRecording {
             Ok((title, values))
         };
         let columns = columns.into_iter().map(column).collect::<PyResult<Vec<_>>>()?;
-        let ride = py.detach(|| Ride::of_columns(name, &columns, &conventions));
-        Self::of(py, ride.map_err(|error| error.to_string()))
+        let recording = py.detach(|| Recording::of_columns(name, &columns, &conventions));
+        Self::of(py, recording.map_err(|error| error.to_string()))
     }
 
     #[getter]
     fn name(&self) -> &str {
-        &self.ride.name
+        &self.inner.name
     }
 
     #[getter]
     fn step(&self) -> f64 {
-        self.ride.step()
+        self.inner.step()
     }
 
     #[getter]
     fn duration(&self) -> f64 {
-        self.ride.manoeuvre.duration()
+        self.inner.manoeuvre.duration()
     }
 
     #[getter]
     fn warnings(&self) -> Vec<String> {
-        self.ride.remarks.clone()
+        self.inner.warnings.clone()
     }
 
     /// The samples' times, their inputs row by row, and the names of the inputs.
@@ -81,20 +81,20 @@ impl PyRecording {
         py: Python<'py>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>)> {
         const COUNT: usize = slot_count(Input::ROWS);
-        let inputs = self.ride.inputs();
+        let inputs = self.inner.inputs();
         let mut rows = vec![0.0; inputs.len() * COUNT];
         for (input, row) in inputs.iter().zip(rows.chunks_exact_mut(COUNT)) {
             input.write(&mut Writer::new(row));
         }
         let names = crate::variables::Variables::of(Input::ROWS).names;
         let rows = PyArray1::from_vec(py, rows).reshape([inputs.len(), COUNT])?;
-        Ok((PyArray1::from_vec(py, self.ride.times().collect()), rows, names))
+        Ok((PyArray1::from_vec(py, self.inner.times().collect()), rows, names))
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let Ride { name, manoeuvre, start, angular_velocity_frame, has_orientation, remarks } = &*self.ride;
+        let Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, warnings } = &*self.inner;
         let inputs = manoeuvre.inputs();
-        let state = (name, manoeuvre.step(), inputs, start, angular_velocity_frame, has_orientation, remarks);
+        let state = (name, manoeuvre.step(), inputs, start, angular_velocity_frame, has_orientation, warnings);
         let bytes = postcard::to_allocvec(&state).map_err(|reason| error::recording(py, reason.to_string()))?;
         Ok((py.get_type::<PyRecording>().getattr("_from_state")?, (PyBytes::new(py, &bytes),)))
     }
@@ -103,17 +103,17 @@ impl PyRecording {
     fn _from_state(py: Python, state: &[u8]) -> PyResult<Self> {
         let refused = |_| error::recording(py, "the pickled recording is of another version of moris".to_owned());
         let state: State = postcard::from_bytes(state).map_err(refused)?;
-        let (name, step, inputs, start, angular_velocity_frame, has_orientation, remarks) = state;
+        let (name, step, inputs, start, angular_velocity_frame, has_orientation, warnings) = state;
         let manoeuvre = Manoeuvre::new(step, inputs);
-        let ride = Ride { name, manoeuvre, start, angular_velocity_frame, has_orientation, remarks };
-        Ok(PyRecording { ride: Arc::new(ride) })
+        let recording = Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, warnings };
+        Ok(PyRecording { inner: Arc::new(recording) })
     }
 }
 
 impl PyRecording {
-    fn of(py: Python, ride: Result<Ride, String>) -> PyResult<Self> {
-        let ride = ride.map_err(|message| error::recording(py, message))?;
-        Ok(PyRecording { ride: Arc::new(ride) })
+    fn of(py: Python, recording: Result<Recording, String>) -> PyResult<Self> {
+        let recording = recording.map_err(|message| error::recording(py, message))?;
+        Ok(PyRecording { inner: Arc::new(recording) })
     }
 }
 

@@ -1,8 +1,8 @@
 //! The frequency response.
 
-use moris::respond::channel::{ALL, CHANNELS};
-use moris::respond::excitation::{Amplitudes, frequencies};
-use moris::respond::{Measured, Response};
+use moris::frequency_response::channel::{ALL, CHANNELS};
+use moris::frequency_response::excitation::{Amplitudes, frequencies};
+use moris::frequency_response::{Measured, Response};
 use numpy::{Complex64, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use moris::measure::host::Host;
-use moris::ride::Ride;
-use moris::ride::preview::LONGEST_PREVIEW;
-use moris::run::{AxisBound, Outcome, Simulation, bounds, findings, fits_the_rig, page};
+use moris::recording::Recording;
+use moris::recording::preview::LONGEST_PREVIEW;
+use moris::simulate::{AxisBound, Outcome, Simulation, bounds, findings, fits_the_rig, page};
 use moris_interface::{Group, Writer, slot_count};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
@@ -27,7 +27,7 @@ type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &
 /// A simulated recording.
 #[pyclass(frozen, module = "moris._moris", name = "Simulation")]
 pub struct PySimulation {
-    ride: Arc<Ride>,
+    recording: Arc<Recording>,
     outcome: Outcome,
 }
 
@@ -47,9 +47,9 @@ impl PySimulation {
     ) -> PyResult<Self> {
         let host = host(preview)?;
         let setup = setup::load(py, rig, parameters, strategy)?;
-        let ride = Arc::clone(&recording.ride);
+        let recording = Arc::clone(&recording.inner);
         let outcome = py.detach(|| {
-            let simulated = host.replay(&ride, &ride.parameters(&setup.parameters))?;
+            let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
             Outcome::measured(simulated, &setup)
         });
         let mut outcome = outcome.map_err(|reason| error::parameter(py, reason.to_string()))?;
@@ -57,7 +57,7 @@ impl PySimulation {
             outcome.bounds =
                 py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
         }
-        Ok(PySimulation { ride, outcome })
+        Ok(PySimulation { recording, outcome })
     }
 
     #[getter]
@@ -121,7 +121,7 @@ impl PySimulation {
     fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> PyResult<String> {
         let outcomes: Vec<Outcome> =
             std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
-        page::html(&self.ride, &outcomes)
+        page::html(&self.recording, &outcomes)
             .map_err(|reason| error::recording(py, format!("the report does not fit together: {reason}")))
     }
 }
@@ -157,9 +157,10 @@ pub fn bound<'py>(
     parameters: Option<&Bound<PyAny>>,
 ) -> PyResult<Vec<Option<(f64, f64, Bound<'py, PyArray1<f64>>)>>> {
     let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
-    let ride = &recording.ride;
-    let parameters = ride.parameters(&parameters);
-    let run = Simulation { step: ride.step(), parameters, inputs: ride.inputs().to_vec(), outputs: Vec::new() };
+    let recording = &recording.inner;
+    let parameters = recording.parameters(&parameters);
+    let run =
+        Simulation { step: recording.step(), parameters, inputs: recording.inputs().to_vec(), outputs: Vec::new() };
     let bounds: Axes<Option<AxisBound>> =
         py.detach(|| bounds::bounds(&run)).map_err(|reason| error::bound(py, &reason))?;
     let times = run.times();

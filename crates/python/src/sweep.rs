@@ -3,8 +3,8 @@
 use std::sync::{Arc, LazyLock};
 
 use moris::measure::host::Host;
-use moris::ride::Ride;
-use moris::run::measured;
+use moris::recording::Recording;
+use moris::simulate::measured;
 use moris_measures::{Limited, Measures, Platform, Run};
 use moris_setup::Setup;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
@@ -78,15 +78,16 @@ pub fn sweep_chunk<'py>(
             Err(error) => return Err(error),
         };
     }
-    let rides: Vec<Arc<Ride>> = recordings.iter().map(|recording| Arc::clone(&recording.ride)).collect();
-    let count = rides.len() * MEASURES.len();
+    let recordings: Vec<Arc<Recording>> = recordings.iter().map(|recording| Arc::clone(&recording.inner)).collect();
+    let count = recordings.len() * MEASURES.len();
     let mut rows = vec![f64::NAN; sets.len() * count];
     py.detach(|| {
-        let pairs = setups.iter().flat_map(|setup| rides.iter().map(move |ride| (setup.as_ref(), &**ride)));
+        let pairs =
+            setups.iter().flat_map(|setup| recordings.iter().map(move |recording| (setup.as_ref(), &**recording)));
         let tasks: Vec<_> = pairs.zip(rows.chunks_exact_mut(MEASURES.len())).collect();
-        let act = |((setup, ride), row): ((Option<&Setup>, &Ride), &mut [f64])| {
+        let act = |((setup, recording), row): ((Option<&Setup>, &Recording), &mut [f64])| {
             if let Some(setup) = setup {
-                measure(&host, setup, ride, row);
+                measure(&host, setup, recording, row);
             }
         };
         if threads == 1 {
@@ -95,15 +96,15 @@ pub fn sweep_chunk<'py>(
             tasks.into_par_iter().for_each(act);
         }
     });
-    let rows = PyArray1::from_vec(py, rows).reshape([sets.len(), rides.len(), MEASURES.len()])?;
+    let rows = PyArray1::from_vec(py, rows).reshape([sets.len(), recordings.len(), MEASURES.len()])?;
     Ok((rows, errors))
 }
 
 /// Writes the measures of a simulation into a row; those that are not defined stay what they are.
-fn measure(host: &Host, setup: &Setup, ride: &Ride, row: &mut [f64]) {
-    let parameters = ride.parameters(&setup.parameters);
+fn measure(host: &Host, setup: &Setup, recording: &Recording, row: &mut [f64]) {
+    let parameters = recording.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
-    let Ok(simulation) = host.replay(ride, &parameters) else { return };
+    let Ok(simulation) = host.replay(recording, &parameters) else { return };
     let Ok(measures) = measured::measures(&simulation) else { return };
     let mut places = MEASURES.iter().zip(row).peekable();
     for found in measures.rows() {

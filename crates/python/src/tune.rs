@@ -37,7 +37,7 @@ type Progress = (String, usize, Option<f64>);
 #[pyclass(frozen, module = "moris._moris", name = "Tuning")]
 pub struct PyTuning {
     before: Setup,
-    judges: Vec<Objective>,
+    objectives: Vec<Objective>,
     held_out: usize,
     groups: Vec<Group>,
 }
@@ -74,22 +74,22 @@ impl PyTuning {
         }
         let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
         let constraints = Constraints { stroke_reserve };
-        let judge = |recording: &PyRef<PyRecording>| {
-            let judge = Objective::new((*recording.ride).clone(), &before.parameters, &weights, constraints);
-            judge.map_err(|refusal| error::refused(py, &refusal, &all(&before.parameters)))
+        let objective = |recording: &PyRef<PyRecording>| {
+            let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, constraints);
+            objective.map_err(|refusal| error::refused(py, &refusal, &all(&before.parameters)))
         };
-        let judges = recordings.iter().map(judge).collect::<PyResult<_>>()?;
-        Ok(PyTuning { before, judges, held_out, groups })
+        let objectives = recordings.iter().map(objective).collect::<PyResult<_>>()?;
+        Ok(PyTuning { before, objectives, held_out, groups })
     }
 
     /// The costs of the recordings of these names with these parameters, or None if the
     /// parameters cannot be used.
     fn costs(&self, py: Python, names: Vec<String>, values: NamedValues) -> Option<Vec<Sent>> {
         let parameters = overlaid(&self.before.parameters, &values);
-        let named = |name: &String| self.judges.iter().find(|judge| judge.name() == name);
-        let judges: Vec<&Objective> = names.iter().filter_map(named).collect();
-        let cost = |judge: &&Objective| judge.coarse_cost(&parameters).ok();
-        let costs: Option<Vec<Cost>> = py.detach(|| judges.iter().map(cost).collect());
+        let named = |name: &String| self.objectives.iter().find(|objective| objective.name() == name);
+        let objectives: Vec<&Objective> = names.iter().filter_map(named).collect();
+        let cost = |objective: &&Objective| objective.coarse_cost(&parameters).ok();
+        let costs: Option<Vec<Cost>> = py.detach(|| objectives.iter().map(cost).collect());
         Some(costs?.into_iter().map(|cost| (cost.channels, cost.error, cost.violated)).collect())
     }
 
@@ -191,7 +191,7 @@ impl PyTuning {
 
 impl PyTuning {
     fn tune(&self, tuner: &Tuner, groups: usize) -> Result<Tested, Reason> {
-        let (tuned_on, held_out) = self.judges.split_at(self.judges.len() - self.held_out);
+        let (tuned_on, held_out) = self.objectives.split_at(self.objectives.len() - self.held_out);
         let tuned_on: Vec<&Objective> = tuned_on.iter().collect();
         let held_out: Vec<&Objective> = held_out.iter().collect();
         tune_tested(tuner, &tuned_on, &held_out, &folds::folds(tuned_on.len(), groups))
@@ -207,8 +207,8 @@ fn remote<'a>(
     interrupted: &'a AtomicBool,
     failure: &'a Mutex<Option<PyErr>>,
 ) -> Box<Evaluate<'a>> {
-    Box::new(move |judges: &[&Objective], parameters: &Parameters| {
-        let names: Vec<&str> = judges.iter().map(|judge| judge.name()).collect();
+    Box::new(move |objectives: &[&Objective], parameters: &Parameters| {
+        let names: Vec<&str> = objectives.iter().map(|objective| objective.name()).collect();
         let sent = Python::attach(|py| -> PyResult<Option<Vec<Sent>>> {
             function.call1(py, (names, all(parameters)))?.extract(py)
         });

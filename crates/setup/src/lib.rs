@@ -11,7 +11,7 @@
 
 #![forbid(unsafe_code)]
 
-mod contradiction;
+mod consistency;
 mod error;
 mod named_values;
 mod names;
@@ -21,7 +21,7 @@ pub mod ranges;
 pub mod rig_file;
 mod setup;
 
-pub use contradiction::contradiction;
+pub use consistency::check_consistency;
 pub use error::Error;
 pub use named_values::{NamedValues, all, changed, overlaid, values_of};
 pub use names::nearest;

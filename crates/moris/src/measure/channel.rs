@@ -1,4 +1,4 @@
-//! One channel of a ride: what was wanted, what was felt, and how well.
+//! One channel of a recording: what was desired, what was felt, and how well.
 
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::rms_error;
@@ -6,7 +6,7 @@ use moris_measures::{Axes, Measures};
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use crate::run::{AxisBound, Simulation};
+use crate::simulate::{AxisBound, Simulation};
 
 /// Quantity of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ impl Channel {
     }
 }
 
-/// The channels of a ride on which something is desired or felt.
+/// The channels of a recording on which something is desired or felt.
 pub fn channels(simulation: &Simulation, measures: &Measures, bounds: &Axes<Option<AxisBound>>) -> Vec<Channel> {
     let rest = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     let forces: Vec<Vector3<f64>> = simulation.inputs.iter().map(|input| input.specific_force - rest).collect();

@@ -5,9 +5,9 @@ use anyhow::{Context, Result};
 use moris_batch::Replay;
 use moris_washout::{Parameters, Washout};
 
-use crate::ride::Ride;
-use crate::ride::preview::Previewer;
-use crate::run::Simulation;
+use crate::recording::Recording;
+use crate::recording::preview::Previewer;
+use crate::simulate::Simulation;
 
 /// Input within a step, as given by the host.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -37,14 +37,14 @@ impl Host {
     /// # Errors
     /// The parameters cannot be used, or neither of the host's step and the recording's is a
     /// multiple of the other.
-    pub fn replay(&self, ride: &Ride, parameters: &Parameters) -> Result<Simulation> {
-        let sample = ride.step();
+    pub fn replay(&self, recording: &Recording, parameters: &Parameters) -> Result<Simulation> {
+        let sample = recording.step();
         let step = self.step.unwrap_or(sample);
-        let replay = Replay::in_steps(&ride.manoeuvre, step, self.inputs == Inputs::Slopes).with_context(|| {
-            let name = &ride.name;
+        let replay = Replay::in_steps(&recording.manoeuvre, step, self.inputs == Inputs::Slopes).with_context(|| {
+            let name = &recording.name;
             format!("--step is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other")
         })?;
-        let previewer = (self.preview > 0.0).then(|| Previewer::new(ride.inputs(), sample, self.preview));
+        let previewer = (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview));
         let preview = |washout: &mut Washout, time: f64| {
             if let Some(previewer) = &previewer {
                 washout.preview(&previewer.at(time));

@@ -1,4 +1,4 @@
-//! `moris measure`: rides times channels, in one table.
+//! `moris measure`: recordings times channels, in one table.
 //!
 //! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] compares with what
 //! is asked, [`table`] prints.
@@ -17,25 +17,25 @@ use anyhow::{Context, Result, bail};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::ride::preview::parse_seconds;
-use crate::ride::{ConventionOptions, FADE_IN, Ride};
-use crate::run::{bounds, measured};
+use crate::recording::preview::parse_seconds;
+use crate::recording::{ConventionOptions, FADE_IN, Recording};
 use crate::setup_options::SetupOptions;
+use crate::simulate::{bounds, measured};
 use channel::{Channel, channels};
 use host::{Host, Inputs};
 use targets::Targets;
 
-/// Measure rides channel by channel and say which targets are missed
+/// Measure recordings channel by channel and say which targets are missed
 ///
-/// A line for each ride and channel: the error of a platform at rest, the bound where asked for,
-/// the RMS error, the RMS error as sensed, and the fractions of the time with a cue in the vehicle,
-/// with a false and with a missing one on the platform. Then what was limited on each ride, and the
-/// targets. Recordings fade in from rest over 1 s; --fade-in changes it.
+/// A line for each recording and channel: the error of a platform at rest, the bound where asked
+/// for, the RMS error, the RMS error as sensed, and the fractions of the time with a cue in the
+/// vehicle, with a false and with a missing one on the platform. Then what was limited on each
+/// recording, and the targets. Recordings fade in from rest over 1 s; --fade-in changes it.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns
     #[arg(required = true, value_name = "RIDE|FOLDER")]
-    rides: Vec<PathBuf>,
+    recordings: Vec<PathBuf>,
 
     #[command(flatten)]
     setup: SetupOptions,
@@ -54,7 +54,7 @@ pub struct Options {
     preview: f64,
 
     /// Compute the bound, the least error that any controller could reach; it
-    /// takes some seconds a ride
+    /// takes some seconds a recording
     #[arg(long)]
     bound: bool,
 
@@ -69,9 +69,9 @@ pub struct Options {
     conventions: ConventionOptions,
 }
 
-/// The figures of a ride.
+/// The figures of a recording.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MeasuredRide {
+pub struct MeasuredRecording {
     /// The recording's name.
     pub name: String,
     /// Duration \[s\].
@@ -87,21 +87,21 @@ pub struct MeasuredRide {
     pub stroke_used: f64,
 }
 
-impl MeasuredRide {
-    /// Replays and measures a ride.
+impl MeasuredRecording {
+    /// Replays and measures a recording.
     ///
     /// # Errors
     /// The parameters cannot be used, the steps do not fit, or there is no bound.
-    pub fn of(ride: &Ride, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
-        let simulation = host.replay(ride, &ride.parameters(parameters))?;
+    pub fn of(recording: &Recording, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
+        let simulation = host.replay(recording, &recording.parameters(parameters))?;
         let measures = measured::measures(&simulation)?;
         let bounds = if with_bound { bounds::bounds(&simulation)? } else { [const { None }; 3] };
         let effort = &measures.effort;
         let steps = simulation.outputs.len().max(2) - 1;
         let limited = simulation.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
-        Ok(MeasuredRide {
-            name: ride.name.clone(),
-            duration: ride.manoeuvre.duration(),
+        Ok(MeasuredRecording {
+            name: recording.name.clone(),
+            duration: recording.manoeuvre.duration(),
             channels: channels(&simulation, &measures, &bounds),
             limits: [effort.tilt_limited, effort.safety_active, effort.actuator_limited],
             limited: limited.count() as f64 / steps as f64,
@@ -113,18 +113,20 @@ impl MeasuredRide {
 /// Runs the command.
 ///
 /// # Errors
-/// A ride, a rig or parameters that cannot be used.
+/// A recording, a rig or parameters that cannot be used.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let host = Host { step: options.step, inputs: options.inputs, preview: options.preview };
     let measure = |file: &PathBuf| {
-        let ride = Ride::read(file, &conventions)?;
-        MeasuredRide::of(&ride, &setup.parameters, &host, options.bound).with_context(|| ride.name.clone())
+        let recording = Recording::read(file, &conventions)?;
+        MeasuredRecording::of(&recording, &setup.parameters, &host, options.bound)
+            .with_context(|| recording.name.clone())
     };
-    let rides: Vec<MeasuredRide> = recordings(&options.rides)?.par_iter().map(measure).collect::<Result<_>>()?;
-    let missed = options.targets.missed(&rides);
-    write!(out, "{}", table::text(&setup, &host, &rides, &missed))?;
+    let recordings: Vec<MeasuredRecording> =
+        recordings(&options.recordings)?.par_iter().map(measure).collect::<Result<_>>()?;
+    let missed = options.targets.missed(&recordings);
+    write!(out, "{}", table::text(&setup, &host, &recordings, &missed))?;
     Ok(if options.check && !missed.is_empty() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 

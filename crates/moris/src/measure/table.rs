@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use moris_setup::Setup;
 
-use super::MeasuredRide;
+use super::MeasuredRecording;
 use super::channel::{Channel, Quantity};
 use super::host::{Host, Inputs};
 use super::targets::{geometric_mean, wrong_cues};
@@ -14,14 +14,14 @@ use crate::text_table::TextTable;
 const NONE: &str = "–";
 
 /// Everything: the channels, the limits, the summary and the targets missed.
-pub fn text(setup: &Setup, host: &Host, rides: &[MeasuredRide], missed: &[String]) -> String {
+pub fn text(setup: &Setup, host: &Host, recordings: &[MeasuredRecording], missed: &[String]) -> String {
     let mut text = format!("{}, parameters {}, {}\n\n", setup.rig_name, setup.parameters_name, host_text(host));
     let mut add = |part: &dyn std::fmt::Display| write!(text, "{part}").expect("a string takes whatever is written");
-    add(&channel_table(rides));
+    add(&channel_table(recordings));
     add(&"\n");
-    add(&limit_table(rides));
+    add(&limit_table(recordings));
     add(&"\n");
-    add(&summary(rides));
+    add(&summary(recordings));
     match missed {
         [] => add(&"All targets are met.\n"),
         missed => {
@@ -44,9 +44,9 @@ fn host_text(host: &Host) -> String {
     }
 }
 
-fn channel_table(rides: &[MeasuredRide]) -> TextTable {
+fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
     let mut table = TextTable::new([
-        "ride",
+        "recording",
         "channel",
         "unit",
         "at rest",
@@ -58,9 +58,9 @@ fn channel_table(rides: &[MeasuredRide]) -> TextTable {
         "false %",
         "missing %",
     ]);
-    for ride in rides {
-        for (index, channel) in ride.channels.iter().enumerate() {
-            let name = if index == 0 { ride.name.clone() } else { String::new() };
+    for recording in recordings {
+        for (index, channel) in recording.channels.iter().enumerate() {
+            let name = if index == 0 { recording.name.clone() } else { String::new() };
             table.push([name].into_iter().chain(row(channel)).collect());
         }
     }
@@ -90,7 +90,7 @@ fn row(channel: &Channel) -> [String; 10] {
     ]
 }
 
-fn limit_table(rides: &[MeasuredRide]) -> TextTable {
+fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
     let mut table = TextTable::new([
         "limited, % of the steps",
         "tilt",
@@ -99,19 +99,26 @@ fn limit_table(rides: &[MeasuredRide]) -> TextTable {
         "units or guard",
         "stroke used %",
     ]);
-    for ride in rides {
+    for recording in recordings {
         let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
-        let [tilt, safety, guard] = ride.limits.map(percent);
-        table.push(vec![ride.name.clone(), tilt, safety, guard, percent(ride.limited), percent(ride.stroke_used)]);
+        let [tilt, safety, guard] = recording.limits.map(percent);
+        table.push(vec![
+            recording.name.clone(),
+            tilt,
+            safety,
+            guard,
+            percent(recording.limited),
+            percent(recording.stroke_used),
+        ]);
     }
     table
 }
 
-fn summary(rides: &[MeasuredRide]) -> String {
-    let (mean, count) = geometric_mean(rides);
+fn summary(recordings: &[MeasuredRecording]) -> String {
+    let (mean, count) = geometric_mean(recordings);
     let mut text = format!("Geometric mean of the RMS errors of surge and sway, {count} channels: {mean:.3} m/s²\n");
     for axis in 0..3 {
-        let [wrong, at_rest] = wrong_cues(rides, axis).map(|fraction| 100.0 * fraction);
+        let [wrong, at_rest] = wrong_cues(recordings, axis).map(|fraction| 100.0 * fraction);
         writeln!(
             text,
             "{}: false or missing cues for {wrong:.1} % of the time, {at_rest:.1} % on a platform at rest",

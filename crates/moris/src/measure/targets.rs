@@ -1,6 +1,6 @@
 //! Figures that a set of parameters is to reach, and those that it misses.
 
-use super::MeasuredRide;
+use super::MeasuredRecording;
 use super::channel::{Channel, Quantity};
 
 /// A force on which less than this is desired does not count; an error below it
@@ -11,7 +11,7 @@ pub const LEAST_FORCE: f64 = 0.03;
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(next_help_heading = "Targets")]
 pub struct Targets {
-    /// Largest geometric mean of the RMS errors of surge and sway over all rides, each
+    /// Largest geometric mean of the RMS errors of surge and sway over all recordings, each
     /// error at least 0.03 m/s2
     #[arg(long, value_name = "M/S2", default_value_t = 0.68)]
     pub geometric_mean: f64,
@@ -28,13 +28,13 @@ pub struct Targets {
     #[arg(long, value_name = "M/S2", default_value_t = 0.15)]
     pub heave: f64,
 
-    /// Largest fraction of a ride's steps in which a safety unit or the actuator
+    /// Largest fraction of a recording's steps in which a safety unit or the actuator
     /// guard limits the platform
     #[arg(long, value_name = "FRACTION", default_value_t = 0.01)]
     pub limited: f64,
 
-    /// Largest fraction of the time with a false or a missing cue of a rate, over all rides, beyond
-    /// that of a platform at rest
+    /// Largest fraction of the time with a false or a missing cue of a rate, over all recordings,
+    /// beyond that of a platform at rest
     #[arg(long, value_name = "FRACTION", default_value_t = 0.0, allow_negative_numbers = true)]
     pub cues: f64,
 }
@@ -45,24 +45,24 @@ pub fn counts(channel: &Channel) -> bool {
 }
 
 /// Geometric mean of the RMS errors of surge and sway, and how many they are.
-pub fn geometric_mean(rides: &[MeasuredRide]) -> (f64, usize) {
-    let errors: Vec<f64> = rides
+pub fn geometric_mean(recordings: &[MeasuredRecording]) -> (f64, usize) {
+    let errors: Vec<f64> = recordings
         .iter()
-        .flat_map(|ride| &ride.channels)
+        .flat_map(|recording| &recording.channels)
         .filter(|channel| counts(channel))
         .map(|channel| channel.error.max(LEAST_FORCE).ln())
         .collect();
     ((errors.iter().sum::<f64>() / errors.len().max(1) as f64).exp(), errors.len())
 }
 
-/// Fractions of the time, weighted by the rides' durations: a false or a missing cue of a rate, and
-/// the same on a platform at rest.
-pub fn wrong_cues(rides: &[MeasuredRide], axis: usize) -> [f64; 2] {
-    let duration: f64 = rides.iter().map(|ride| ride.duration).sum();
+/// Fractions of the time, weighted by the recordings' durations: a false or a missing cue of a
+/// rate, and the same on a platform at rest.
+pub fn wrong_cues(recordings: &[MeasuredRecording], axis: usize) -> [f64; 2] {
+    let duration: f64 = recordings.iter().map(|recording| recording.duration).sum();
     let mut wrong = [0.0; 2];
-    for ride in rides {
-        for channel in ride.channels.iter().filter(|channel| channel.quantity == Quantity::Rate(axis)) {
-            let weight = ride.duration / duration;
+    for recording in recordings {
+        for channel in recording.channels.iter().filter(|channel| channel.quantity == Quantity::Rate(axis)) {
+            let weight = recording.duration / duration;
             wrong[0] += weight * (channel.cues.false_cues + channel.cues.missing_cues);
             wrong[1] += weight * channel.cues.desired;
         }
@@ -72,20 +72,20 @@ pub fn wrong_cues(rides: &[MeasuredRide], axis: usize) -> [f64; 2] {
 
 impl Targets {
     /// The targets that are missed, in sentences; empty where all are met.
-    pub fn missed(&self, rides: &[MeasuredRide]) -> Vec<String> {
+    pub fn missed(&self, recordings: &[MeasuredRecording]) -> Vec<String> {
         let mut missed = Vec::new();
-        let (mean, count) = geometric_mean(rides);
+        let (mean, count) = geometric_mean(recordings);
         if mean > self.geometric_mean {
             missed.push(format!(
                 "Geometric mean over {count} channels: {mean:.3} m/s2, above {:.3}.",
                 self.geometric_mean
             ));
         }
-        for ride in rides {
-            missed.extend(self.missed_on(ride));
+        for recording in recordings {
+            missed.extend(self.missed_on(recording));
         }
         for axis in 0..3 {
-            let [wrong, at_rest] = wrong_cues(rides, axis);
+            let [wrong, at_rest] = wrong_cues(recordings, axis);
             if wrong > at_rest + self.cues {
                 missed.push(format!(
                     "{}: false or missing cues for {:.1} % of the time, {:.1} % on a platform at rest.",
@@ -98,14 +98,14 @@ impl Targets {
         missed
     }
 
-    fn missed_on(&self, ride: &MeasuredRide) -> Vec<String> {
+    fn missed_on(&self, recording: &MeasuredRecording) -> Vec<String> {
         let mut missed = Vec::new();
-        let excepted = self.ratio_except.contains(&ride.name);
-        for channel in &ride.channels {
+        let excepted = self.ratio_except.contains(&recording.name);
+        for channel in &recording.channels {
             if counts(channel) && !excepted && channel.ratio() > self.ratio {
                 missed.push(format!(
                     "{}, {}: {:.3} m/s2, {:.2} times the {:.3} of a platform at rest, above {:.2}.",
-                    ride.name,
+                    recording.name,
                     channel.quantity.name(),
                     channel.error,
                     channel.ratio(),
@@ -116,15 +116,15 @@ impl Targets {
             if channel.quantity == Quantity::Force(2) && channel.error > channel.at_rest + self.heave {
                 missed.push(format!(
                     "{}, heave: {:.3} m/s2, more than {:.2} above the {:.3} of a platform at rest.",
-                    ride.name, channel.error, self.heave, channel.at_rest
+                    recording.name, channel.error, self.heave, channel.at_rest
                 ));
             }
         }
-        if ride.limited > self.limited {
+        if recording.limited > self.limited {
             missed.push(format!(
                 "{}: limits act in {:.1} % of the steps, above {:.1} %.",
-                ride.name,
-                100.0 * ride.limited,
+                recording.name,
+                100.0 * recording.limited,
                 100.0 * self.limited
             ));
         }

@@ -1,15 +1,15 @@
 //! The objective: sensed error of a recording, and penalties for active limits.
 //!
-//! A ride has six channels, specific force and angular velocity along x, y and z. Each is what the
-//! vestibular model makes of it, counted in perception thresholds, so that metres per second
+//! A recording has six channels, specific force and angular velocity along x, y and z. Each is what
+//! the vestibular model makes of it, counted in perception thresholds, so that metres per second
 //! squared and degrees per second can be added. With e_k the RMS of felt minus desired on channel
-//! k, d_k that of the desired alone and w_k the channel's weight, the ride's error is
+//! k, d_k that of the desired alone and w_k the channel's weight, the recording's error is
 //!
 //! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2).
 //!
-//! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the ride: to scale
-//! everything down to nothing earns nothing, and false cues on channels on which nothing is desired
-//! cost what they are felt.
+//! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the recording: to
+//! scale everything down to nothing earns nothing, and false cues on channels on which nothing is
+//! desired cost what they are felt.
 
 use std::sync::OnceLock;
 
@@ -20,8 +20,8 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::{Output, ParameterError, Parameters, Washout};
 
 use super::space::{orders, with_orders};
-use crate::ride::Ride;
-use crate::run::Simulation;
+use crate::recording::Recording;
+use crate::simulate::Simulation;
 
 /// Six channels: specific force x, y, z, angular velocity x, y, z.
 pub type Channels<T> = [T; 6];
@@ -38,7 +38,7 @@ pub struct Constraints {
 pub struct Cost {
     /// RMS error of each channel, in thresholds.
     pub channels: Channels<f64>,
-    /// The ride's error: 0 perfect, 1 a platform at rest.
+    /// The recording's error: 0 perfect, 1 a platform at rest.
     pub error: f64,
     /// Fraction of the steps in which a safety unit or the actuator guard was active or the
     /// reserve of stroke was touched.
@@ -52,17 +52,17 @@ impl Cost {
     }
 }
 
-/// A ride that parameters are judged on.
+/// A recording that parameters are judged on.
 #[derive(Clone, Debug)]
 pub struct Objective {
     name: String,
-    ride: Ride,
+    recording: Recording,
     desired: Channels<Vec<f64>>,
     /// RMS of each channel as it is desired, in thresholds.
     desired_rms: Channels<f64>,
     weights: Channels<f64>,
     constraints: Constraints,
-    /// The fixed parameters, the internal step being as long as the ride's.
+    /// The fixed parameters, the internal step being as long as the recording's.
     fixed: Parameters,
     /// At rest with these by the orders of splitter and angular channel less 2: a new one would
     /// have its rig surveyed each time.
@@ -79,24 +79,24 @@ const LONGEST_STEP: f64 = 0.02;
 const RESERVE_OF_ACCELERATION: f64 = 0.85;
 
 impl Objective {
-    /// Prepares to judge parameters on a ride that have the fixed ones of these, orders aside.
+    /// Prepares to judge parameters on a recording that have the fixed ones of these, orders aside.
     ///
     /// # Errors
     /// The parameters cannot be used.
     pub fn new(
-        ride: Ride,
+        recording: Recording,
         parameters: &Parameters,
         weights: &Channels<f64>,
         constraints: Constraints,
     ) -> Result<Self, ParameterError> {
-        let mut parameters = ride.parameters(parameters);
-        let desired = desired(&ride, &parameters);
-        parameters.structure.max_step = ride.step().min(LONGEST_STEP).max(parameters.structure.max_step);
+        let mut parameters = recording.parameters(parameters);
+        let desired = desired(&recording, &parameters);
+        parameters.structure.max_step = recording.step().min(LONGEST_STEP).max(parameters.structure.max_step);
         parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
-        let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], ride.step()));
+        let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], recording.step()));
         let objective = Objective {
-            name: ride.name.clone(),
-            ride,
+            name: recording.name.clone(),
+            recording,
             desired,
             desired_rms,
             weights: *weights,
@@ -108,14 +108,14 @@ impl Objective {
         Ok(objective)
     }
 
-    /// The ride's name.
+    /// The recording's name.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The ride.
-    pub fn ride(&self) -> &Ride {
-        &self.ride
+    /// The recording.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
     }
 
     /// RMS of each channel as it is desired, in thresholds.
@@ -134,16 +134,16 @@ impl Objective {
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
         let mut washout = self.coarse(parameters)?.clone();
-        let mut parameters = self.ride.parameters(parameters);
+        let mut parameters = self.recording.parameters(parameters);
         let Parameters { structure, rig, .. } = washout.parameters();
         (parameters.structure, parameters.rig) = (*structure, *rig);
         parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
         washout.retune(&parameters)?;
-        let mut washout = washout.starting_with(&self.ride.inputs()[0]);
-        let mut tally = CostAccumulator::new(self);
-        tally.add(&washout.output());
-        self.ride.replay().run(&mut washout, |_, output| tally.add(output));
-        Ok(tally.cost())
+        let mut washout = washout.starting_with(&self.recording.inputs()[0]);
+        let mut accumulator = CostAccumulator::new(self);
+        accumulator.add(&washout.output());
+        self.recording.replay().run(&mut washout, |_, output| accumulator.add(output));
+        Ok(accumulator.cost())
     }
 
     /// A washout at rest with the fixed parameters and the orders of these.
@@ -160,52 +160,56 @@ impl Objective {
 
     /// Cost of a simulation.
     pub fn cost(&self, simulation: &Simulation) -> Cost {
-        let mut tally = CostAccumulator::new(self);
-        simulation.outputs.iter().for_each(|output| tally.add(output));
-        tally.cost()
+        let mut accumulator = CostAccumulator::new(self);
+        simulation.outputs.iter().for_each(|output| accumulator.add(output));
+        accumulator.cost()
     }
 }
 
 /// Accumulated cost.
 struct CostAccumulator<'a> {
-    judge: &'a Objective,
+    objective: &'a Objective,
     errors: Channels<Vec<f64>>,
     violated: usize,
 }
 
 impl<'a> CostAccumulator<'a> {
-    fn new(judge: &'a Objective) -> Self {
-        let samples = judge.desired[0].len();
-        CostAccumulator { judge, errors: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
+    fn new(objective: &'a Objective) -> Self {
+        let samples = objective.desired[0].len();
+        CostAccumulator { objective, errors: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
     }
 
     fn add(&mut self, output: &Output) {
         let sample = self.errors[0].len();
         let force = output.felt_specific_force - rest();
         for (k, felt) in channels(force, output.felt_angular_velocity).into_iter().enumerate() {
-            self.errors[k].push(felt - self.judge.desired[k][sample]);
+            self.errors[k].push(felt - self.objective.desired[k][sample]);
         }
-        let touched = output.stroke_margin < self.judge.constraints.stroke_reserve;
+        let touched = output.stroke_margin < self.objective.constraints.stroke_reserve;
         self.violated += usize::from(output.safety_active || output.actuator_limited || touched);
     }
 
     fn cost(self) -> Cost {
-        let Objective { ride, desired_rms, .. } = self.judge;
-        let channels = std::array::from_fn(|k| sensed_rms(k, &self.errors[k], ride.step()));
-        // A ride on which less than a threshold is to be felt is not blown up.
-        let whole = self.judge.weighted(desired_rms).max(1.0);
+        let Objective { recording, desired_rms, .. } = self.objective;
+        let channels = std::array::from_fn(|k| sensed_rms(k, &self.errors[k], recording.step()));
+        // A recording on which less than a threshold is to be felt is not blown up.
+        let whole = self.objective.weighted(desired_rms).max(1.0);
         Cost {
             channels,
-            error: self.judge.weighted(&channels) / whole,
+            error: self.objective.weighted(&channels) / whole,
             violated: self.violated as f64 / self.errors[0].len() as f64,
         }
     }
 }
 
 /// The desired channels, as deviations from rest.
-fn desired(ride: &Ride, parameters: &Parameters) -> Channels<Vec<f64>> {
-    let simulation =
-        Simulation { step: ride.step(), parameters: *parameters, inputs: ride.inputs().to_vec(), outputs: vec![] };
+fn desired(recording: &Recording, parameters: &Parameters) -> Channels<Vec<f64>> {
+    let simulation = Simulation {
+        step: recording.step(),
+        parameters: *parameters,
+        inputs: recording.inputs().to_vec(),
+        outputs: vec![],
+    };
     let rates = simulation.desired_rates();
     let samples =
         simulation.inputs.iter().zip(rates).map(|(input, rate)| channels(input.specific_force - rest(), rate));

@@ -1,8 +1,8 @@
-//! Which rides are left out together.
+//! Which recordings are left out together.
 
-/// Divides `count` rides into `folds` groups of as equal size as can be: every ride is in exactly
-/// one. Neighbours are in different groups, for they are often alike. One ride cannot be left out
-/// of itself: there are no groups then.
+/// Divides `count` recordings into `folds` groups of as equal size as can be: every recording is in
+/// exactly one. Neighbours are in different groups, for they are often alike. One recording cannot
+/// be left out of itself: there are no groups then.
 pub fn folds(count: usize, folds: usize) -> Vec<Vec<usize>> {
     if count < 2 || folds == 0 {
         return Vec::new();

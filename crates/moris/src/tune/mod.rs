@@ -1,8 +1,8 @@
-//! `moris tune`: finds better parameters for a set of rides.
+//! `moris tune`: finds better parameters for a set of recordings.
 //!
 //! [`space`] says what may change, [`cost`] what is made small, [`search`](mod@search) does it,
-//! [`tuner`] rides the result with the steps that it will be used with, and tries on rides that it
-//! was not tuned on. [`summary`] says what came of it.
+//! [`tuner`] recordings the result with the steps that it will be used with, and tries on
+//! recordings that it was not tuned on. [`summary`] says what came of it.
 
 pub mod cost;
 pub mod folds;
@@ -27,8 +27,8 @@ use moris_setup::{NamedValues, Setup, all, parameter_file};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::ride::{FADE_IN, Ride};
-use crate::run::{Outcome, write_page};
+use crate::recording::{FADE_IN, Recording};
+use crate::simulate::{Outcome, write_page};
 use cost::Objective;
 pub use options::Options;
 use space::Space;
@@ -38,13 +38,13 @@ use tuner::Tuner;
 /// Runs the command.
 ///
 /// # Errors
-/// A ride, a rig or parameters that cannot be used, no parameters found that keep the limits, or a
-/// file that cannot be written.
+/// A recording, a rig or parameters that cannot be used, no parameters found that keep the limits,
+/// or a file that cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let before = options.setup.load()?;
-    let tuned_on = judges(options, &options.rides, &before)?;
-    let held_out = judges(options, &options.hold_out, &before)?;
-    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(options.rides.len()));
+    let tuned_on = objectives(options, &options.recordings, &before)?;
+    let held_out = objectives(options, &options.hold_out, &before)?;
+    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(options.recordings.len()));
 
     let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
     bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
@@ -72,17 +72,17 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(if summary::is_worse(&results) { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
-/// Exit status where the tuned parameters are written and are worse than before on some ride; see
-/// [`summary::is_worse`].
+/// Exit status where the tuned parameters are written and are worse than before on some recording;
+/// see [`summary::is_worse`].
 const WORSE: u8 = 2;
 
-fn judges(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
+fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
-    let judge = |file: &PathBuf| {
-        let ride = Ride::read(file, &conventions)?;
-        Ok(Objective::new(ride, &setup.parameters, &options.weights, options.constraints())?)
+    let objective = |file: &PathBuf| {
+        let recording = Recording::read(file, &conventions)?;
+        Ok(Objective::new(recording, &setup.parameters, &options.weights, options.constraints())?)
     };
-    files.par_iter().map(judge).collect()
+    files.par_iter().map(objective).collect()
 }
 
 /// True after Ctrl-C; a second one ends the program.
@@ -104,7 +104,7 @@ fn listen() -> Result<Arc<AtomicBool>> {
 fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> Result<()> {
     let heading = format!(
         "{first_line}\nTuned by moris on {} for {}, from {}, seed {}",
-        options.rides.iter().map(|ride| ride.display().to_string()).collect::<Vec<_>>().join(", "),
+        options.recordings.iter().map(|recording| recording.display().to_string()).collect::<Vec<_>>().join(", "),
         before.rig_name,
         before.parameters_name,
         options.seed
@@ -119,17 +119,22 @@ fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> R
 fn write_reports<'a>(
     options: &Options,
     text: &str,
-    judges: impl Iterator<Item = &'a Objective>,
+    objectives: impl Iterator<Item = &'a Objective>,
     setups: &[Setup; 2],
 ) -> Result<Vec<PathBuf>> {
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let file = options.report.join("tune.md");
     fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
     let mut written = vec![file];
-    for judge in judges {
+    for objective in objectives {
         let outcomes: Result<Vec<Outcome>> =
-            setups.iter().map(|setup| Outcome::of(judge.ride(), setup, || ())).collect();
-        written.push(write_page(&options.report, &format!("{}.tuned", judge.name()), judge.ride(), &outcomes?)?);
+            setups.iter().map(|setup| Outcome::of(objective.recording(), setup, || ())).collect();
+        written.push(write_page(
+            &options.report,
+            &format!("{}.tuned", objective.name()),
+            objective.recording(),
+            &outcomes?,
+        )?);
     }
     Ok(written)
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::cost::{Channels, Constraints};
 use super::search::Budget;
 use super::space::Group;
-use crate::ride::ConventionOptions;
+use crate::recording::ConventionOptions;
 use crate::setup_options::SetupOptions;
 
 /// Search for parameters with a smaller sensed error on a rig
@@ -23,7 +23,7 @@ use crate::setup_options::SetupOptions;
 pub struct Options {
     /// Recordings (CSV) to tune on; see `moris simulate --help` for their columns
     #[arg(required = true, value_name = "RIDE")]
-    pub rides: Vec<PathBuf>,
+    pub recordings: Vec<PathBuf>,
 
     #[command(flatten)]
     pub setup: SetupOptions,

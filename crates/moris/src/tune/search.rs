@@ -21,15 +21,15 @@ pub struct Budget {
     pub seed: u64,
 }
 
-/// Computes the cost of each ride with these parameters, in the long steps of a search.
+/// Computes the cost of each recording with these parameters, in the long steps of a search.
 pub type Evaluate<'a> = dyn Fn(&[&Objective], &Parameters) -> Result<Vec<Cost>> + Sync + 'a;
 
 /// Evaluates on all cores of this machine.
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn evaluate_here(judges: &[&Objective], parameters: &Parameters) -> Result<Vec<Cost>> {
-    judges.par_iter().map(|judge| Ok(judge.coarse_cost(parameters)?)).collect()
+pub fn evaluate_here(objectives: &[&Objective], parameters: &Parameters) -> Result<Vec<Cost>> {
+    objectives.par_iter().map(|objective| Ok(objective.coarse_cost(parameters)?)).collect()
 }
 
 /// Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
@@ -38,19 +38,19 @@ const FIRST_STEP: f64 = 0.4;
 const TOLERANCE: f64 = 1e-5;
 /// Cost of limits active throughout; all errors are about 1. It goes with the root of the time: a
 /// thousandth of it costs 0.06.
-const PRICE_OF_LIMITS: f64 = 2.0;
+const PENALTY_OF_LIMITS: f64 = 2.0;
 /// And that of limits active at all.
-const PRICE_OF_ANY: f64 = 0.05;
+const PENALTY_OF_ANY: f64 = 0.05;
 /// Cost of being outside the space's box by a factor of e in one parameter.
-const PRICE_OF_OUTSIDE: f64 = 0.1;
+const PENALTY_OF_OUTSIDE: f64 = 0.1;
 /// Cost of being away from the start by a factor of e in every parameter: of two sets that serve
-/// the same, the one that is more like the start is taken, and what no ride has anything to say
-/// about stays where it is.
-const PRICE_OF_DISTANCE: f64 = 2e-3;
+/// the same, the one that is more like the start is taken, and what no recording has anything to
+/// say about stays where it is.
+const PENALTY_OF_DISTANCE: f64 = 2e-3;
 /// Number of best sets that are kept.
 const KEPT: usize = 10;
 
-/// A parameter set that kept all constraints on every ride.
+/// A parameter set that kept all constraints on every recording.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The parameters.
@@ -64,13 +64,14 @@ pub struct Found {
 /// Result of a search.
 #[derive(Clone, Debug)]
 pub struct Searched {
-    /// Sets that kept all constraints on every ride, the best first; the first ten.
+    /// Sets that kept all constraints on every recording, the best first; the first ten.
     pub best: Vec<Found>,
     /// The set of the least cost, constraints kept or not.
     pub nearest: Parameters,
 }
 
-/// Searches for parameters with the smallest objective over these rides that keep all constraints.
+/// Searches for parameters with the smallest objective over these recordings that
+/// keep all constraints.
 ///
 /// `evaluate` computes the costs, here or on other machines. `progress` is called after each
 /// generation how many sets have been tried and what the least error is so far, and says whether
@@ -79,7 +80,7 @@ pub struct Searched {
 /// # Errors
 /// Parameters of the space cannot be used.
 pub fn search(
-    judges: &[&Objective],
+    objectives: &[&Objective],
     evaluate: &Evaluate,
     space: &Space,
     budget: Budget,
@@ -90,9 +91,9 @@ pub fn search(
         "the groups to tune have no number to search: the classical strategy has none of its own, and orders go with others; \
          add one, such as --tune splitter,order"
     );
-    let rides = &Rides::new(judges, evaluate, space)?;
-    let Beginning { space, best, point: start, .. } = &beginning(rides, space, || progress(0, None));
-    let cost = |point: &DVector<f64>| price(rides, space, point.as_slice(), best);
+    let recordings = &Recordings::new(objectives, evaluate, space)?;
+    let Beginning { space, best, point: start, .. } = &beginning(recordings, space, || progress(0, None));
+    let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point.as_slice(), best);
     let mut search = CMAESOptions::new(start.clone(), FIRST_STEP)
         .seed(budget.seed)
         .max_function_evals(budget.evaluations)
@@ -113,7 +114,7 @@ pub fn search(
     let nearest = search.overall_best_individual().map(|best| at(space, best.point.as_slice()));
     let mut best = best.lock().expect("no evaluation panics").0.clone();
     if let Some(first) = best.first() {
-        let tidied = tidied(rides, space, first);
+        let tidied = tidied(recordings, space, first);
         best.insert(0, tidied);
     }
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
@@ -137,14 +138,14 @@ struct Beginning {
 
 /// The best beginning: first with the start's orders, then with others in their place where they
 /// are tuned, while `go_on` is true.
-fn beginning(rides: &Rides, space: &Space, mut go_on: impl FnMut() -> bool) -> Beginning {
-    let mut first = scan(rides, space);
+fn beginning(recordings: &Recordings, space: &Space, mut go_on: impl FnMut() -> bool) -> Beginning {
+    let mut first = scan(recordings, space);
     for order in 0..2 {
         for other in first.space.with_other_order(order) {
             if !go_on() {
                 return first;
             }
-            let scanned = scan(rides, &other);
+            let scanned = scan(recordings, &other);
             if scanned.cost < first.cost {
                 first = scanned;
             }
@@ -154,10 +155,10 @@ fn beginning(rides: &Rides, space: &Space, mut go_on: impl FnMut() -> bool) -> B
 }
 
 /// The best point of a coarse scan from the start, channel by channel.
-fn scan(rides: &Rides, space: &Space) -> Beginning {
+fn scan(recordings: &Recordings, space: &Space) -> Beginning {
     let found = Mutex::new(Best::default());
-    let cost = |point: &nalgebra::DVector<f64>| price(rides, space, point.as_slice(), &found);
-    let mut best = nalgebra::DVector::from(start_within_limits(rides, space));
+    let cost = |point: &nalgebra::DVector<f64>| penalized_cost(recordings, space, point.as_slice(), &found);
+    let mut best = nalgebra::DVector::from(start_within_limits(recordings, space));
     let mut least = cost(&best);
     for channel in 0..6 {
         let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
@@ -178,10 +179,10 @@ const TRIES: i32 = 21;
 
 /// The start itself, or, where that lets limits act, with all scales made
 /// smaller until it does not.
-fn start_within_limits(rides: &Rides, space: &Space) -> Vec<f64> {
+fn start_within_limits(recordings: &Recordings, space: &Space) -> Vec<f64> {
     let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
     let keeps = |point: &nalgebra::DVector<f64>| {
-        rides.objective(&space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
+        recordings.objective(&space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
     };
     let start = tries.into_iter().find(keeps).unwrap_or_else(|| space.scaled_start(1.0));
     start.as_slice().to_vec()
@@ -197,14 +198,14 @@ fn at(space: &Space, point: &[f64]) -> Parameters {
 const WORTH_TIDYING: f64 = 2e-4;
 
 /// The set with every parameter put back to where the search started that hardly
-/// matters to these rides.
-fn tidied(rides: &Rides, space: &Space, found: &Found) -> Found {
+/// matters to these recordings.
+fn tidied(recordings: &Recordings, space: &Space, found: &Found) -> Found {
     let mut tidied = found.clone();
     for k in 0..found.point.len() {
         let mut point = tidied.point.clone();
         point[k] = 0.0;
         let parameters = space.parameters(&nalgebra::DVector::from_column_slice(&point));
-        let Some((error, violated)) = rides.objective(&parameters) else { continue };
+        let Some((error, violated)) = recordings.objective(&parameters) else { continue };
         if violated == 0.0 && error < tidied.error + WORTH_TIDYING {
             tidied = Found { parameters, error, point, ..tidied };
         }
@@ -212,57 +213,57 @@ fn tidied(rides: &Rides, space: &Space, found: &Found) -> Found {
     tidied
 }
 
-/// Weight of the worst ride's error beside the mean's.
+/// Weight of the worst recording's error beside the mean's.
 const WEIGHT_OF_THE_WORST: f64 = 0.5;
-/// Price of a ride's error above that with the parameters that the search starts from.
-const PRICE_OF_WORSENING: f64 = 4.0;
+/// Penalty on a recording's error above that with the parameters that the search starts from.
+const PENALTY_OF_WORSENING: f64 = 4.0;
 
-/// The rides, with their errors at the start of the search.
-struct Rides<'a> {
-    judges: &'a [&'a Objective],
+/// The recordings, with their errors at the start of the search.
+struct Recordings<'a> {
+    objectives: &'a [&'a Objective],
     evaluate: &'a Evaluate<'a>,
     starts: Vec<f64>,
 }
 
-impl<'a> Rides<'a> {
-    fn new(judges: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
+impl<'a> Recordings<'a> {
+    fn new(objectives: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
         let start = at(space, &vec![0.0; space.dimension()]);
-        let starts = evaluate(judges, &start)?.iter().map(|cost| cost.error).collect();
-        Ok(Rides { judges, evaluate, starts })
+        let starts = evaluate(objectives, &start)?.iter().map(|cost| cost.error).collect();
+        Ok(Recordings { objectives, evaluate, starts })
     }
 
     /// The objective and the mean fraction of the time in violation; none where the
     /// parameters cannot be used.
     ///
-    /// The objective is the mean error over the rides, with the worst ride's error and every
-    /// worsening priced beside it: what serves one ride at another's expense hardly serves a
-    /// ride that is not known.
+    /// The objective is the mean error over the recordings, with the worst recording's error and
+    /// every penalised worsening beside it: what serves one recording at another's expense hardly
+    /// serves a recording that is not known.
     fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
-        let costs = (self.evaluate)(self.judges, parameters).ok()?;
+        let costs = (self.evaluate)(self.objectives, parameters).ok()?;
         let count = costs.len() as f64;
         let mean = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
         let worst = costs.iter().map(|cost| cost.error).fold(0.0, f64::max);
         let worse =
             costs.iter().zip(&self.starts).map(|(cost, start)| (cost.error - start).max(0.0)).sum::<f64>() / count;
         let violated = costs.iter().map(|cost| cost.violated).sum::<f64>() / count;
-        Some((mean + WEIGHT_OF_THE_WORST * worst + PRICE_OF_WORSENING * worse, violated))
+        Some((mean + WEIGHT_OF_THE_WORST * worst + PENALTY_OF_WORSENING * worse, violated))
     }
 }
 
 /// Cost of a point; feasible points are kept if among the best.
-fn price(rides: &Rides, space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
+fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
     let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
     let parameters = space.parameters(&inside);
     // The box holds nothing that cannot be used; should it, it is worse than anything.
-    let Some((error, violated)) = rides.objective(&parameters) else { return f64::MAX };
+    let Some((error, violated)) = recordings.objective(&parameters) else { return f64::MAX };
     let distance = inside.norm_squared() / inside.len() as f64;
-    let cost = error + PRICE_OF_DISTANCE * distance;
+    let cost = error + PENALTY_OF_DISTANCE * distance;
     if violated == 0.0 {
         let found = Found { parameters, error, cost, point: inside.as_slice().to_vec() };
         best.lock().expect("no evaluation panics").add(found);
-        cost + PRICE_OF_OUTSIDE * outside
+        cost + PENALTY_OF_OUTSIDE * outside
     } else {
-        cost + PRICE_OF_OUTSIDE * outside + PRICE_OF_LIMITS * violated.sqrt() + PRICE_OF_ANY
+        cost + PENALTY_OF_OUTSIDE * outside + PENALTY_OF_LIMITS * violated.sqrt() + PENALTY_OF_ANY
     }
 }
 

@@ -7,28 +7,28 @@ use moris_setup::{Setup, all};
 use super::cost::{Channels, Cost, Objective};
 use super::tuner::WORST_RATIO;
 
-/// A ride before and after.
+/// A recording before and after.
 #[derive(Clone, Debug)]
-pub struct RideResult {
-    /// The ride's name.
+pub struct RecordingResult {
+    /// The recording's name.
     pub name: String,
     /// RMS of each channel as it is desired, in thresholds.
     pub desired: Channels<f64>,
     /// With the parameters that the search started from.
     pub before: Cost,
-    /// With the tuned parameters; none for a ride that was not tuned on.
+    /// With the tuned parameters; none for a recording that was not tuned on.
     pub tuned: Option<Cost>,
-    /// With parameters that were tuned without this ride.
+    /// With parameters that were tuned without this recording.
     pub unseen: Option<Cost>,
-    /// No parameters that keep the limits were found without this ride.
+    /// No parameters that keep the limits were found without this recording.
     pub nothing_found_without: bool,
 }
 
-impl RideResult {
-    /// A ride with its cost before, and nothing else yet.
-    pub fn new(judge: &Objective, before: Cost) -> Self {
-        let (name, desired) = (judge.name().to_owned(), *judge.desired_rms());
-        RideResult { name, desired, before, tuned: None, unseen: None, nothing_found_without: false }
+impl RecordingResult {
+    /// A recording with its cost before, and nothing else yet.
+    pub fn new(objective: &Objective, before: Cost) -> Self {
+        let (name, desired) = (objective.name().to_owned(), *objective.desired_rms());
+        RecordingResult { name, desired, before, tuned: None, unseen: None, nothing_found_without: false }
     }
 }
 
@@ -36,47 +36,51 @@ impl RideResult {
 const CHANNELS: [&str; 6] = ["force x", "force y", "force z", "rate x", "rate y", "rate z"];
 
 /// Rides that were not tuned on and are worse than before: by more than 5 % each, or in the mean.
-pub fn worsened(results: &[RideResult]) -> Vec<&RideResult> {
+pub fn worsened(results: &[RecordingResult]) -> Vec<&RecordingResult> {
     let unseen =
-        |result: &&RideResult| result.unseen.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
+        |result: &&RecordingResult| result.unseen.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
     results.iter().filter(unseen).collect()
 }
 
-/// True where the tuned parameters are worse on rides that they were not tuned on: in the mean, or
-/// on one of them by more than 5 %; or by more than 5 % on a ride that they were tuned on.
-pub fn is_worse(results: &[RideResult]) -> bool {
+/// True where the tuned parameters are worse on recordings that they were not tuned on:
+/// in the mean, or on one of them by more than 5 %; or by more than 5 % on a recording
+/// that they were tuned on.
+pub fn is_worse(results: &[RecordingResult]) -> bool {
     let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
-    let tuned = |result: &RideResult| result.tuned.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
+    let tuned =
+        |result: &RecordingResult| result.tuned.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
     unseen.is_some_and(|unseen| unseen.after > unseen.before)
         || !worsened(results).is_empty()
         || results.iter().any(tuned)
 }
 
 /// The most important result, in a sentence. `fraction` is that of [`super::tested::Tested`].
-pub fn first_line(results: &[RideResult], fraction: f64) -> String {
+pub fn first_line(results: &[RecordingResult], fraction: f64) -> String {
     if fraction == 0.0 {
-        return "UNCHANGED: no fraction of the way to the best parameters for these rides is better on rides left out. \
+        return "UNCHANGED: no fraction of the way to the best parameters for these recordings is better on recordings left out. \
                 With --folds 0 the result goes all the way."
             .to_owned();
     }
-    let names = |rides: Vec<&RideResult>| rides.iter().map(|ride| ride.name.as_str()).collect::<Vec<_>>().join(", ");
+    let names = |recordings: Vec<&RecordingResult>| {
+        recordings.iter().map(|recording| recording.name.as_str()).collect::<Vec<_>>().join(", ")
+    };
     if is_worse(results) {
         let worse = worsened(results);
         return if worse.is_empty() {
-            "WORSE than before: in the mean over rides that it was not tuned on, or on one that it was tuned on."
+            "WORSE than before: in the mean over recordings that it was not tuned on, or on one that it was tuned on."
                 .to_owned()
         } else {
-            format!("WORSE than before on rides that it was not tuned on: {}.", names(worse))
+            format!("WORSE than before on recordings that it was not tuned on: {}.", names(worse))
         };
     }
     match results.iter().filter(|result| result.unseen.is_some()).count() {
-        0 => "No ride was held out: nothing is known of other rides.".to_owned(),
-        count => format!("Not worse than before on any of {count} rides that it was not tuned on."),
+        0 => "No recording was held out: nothing is known of other recordings.".to_owned(),
+        count => format!("Not worse than before on any of {count} recordings that it was not tuned on."),
     }
 }
 
 /// The whole summary.
-pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], fraction: f64, interrupted: bool) -> String {
+pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction: f64, interrupted: bool) -> String {
     let mut text = first_line(results, fraction);
     write!(text, "\n\n# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name)
         .expect("a string takes whatever is written");
@@ -86,7 +90,7 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], fraction: f64
     if 0.0 < fraction && fraction < 1.0 {
         write!(
             text,
-            "The result goes {:.0} % of the way to the best parameters for these rides: that is best for rides left out. \
+            "The result goes {:.0} % of the way to the best parameters for these recordings: that is best for recordings left out. \
              With --folds 0 it goes all the way.\n\n",
             100.0 * fraction
         )
@@ -102,15 +106,15 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RideResult], fraction: f64
     text
 }
 
-/// In a few sentences: is it better, and is it better on rides that it was not tuned on?
-fn verdict(results: &[RideResult], before_name: &str) -> String {
+/// In a few sentences: is it better, and is it better on recordings that it was not tuned on?
+fn verdict(results: &[RecordingResult], before_name: &str) -> String {
     let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
     let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
     let mut text = String::new();
     if let Some(tuned) = tuned {
         write!(
             text,
-            "On the rides that it was tuned on, the mean error goes from {:.3} to {:.3}",
+            "On the recordings that it was tuned on, the mean error goes from {:.3} to {:.3}",
             tuned.before, tuned.after
         )
         .expect("a string takes whatever is written");
@@ -120,7 +124,7 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
             count => write!(
                 text,
                 "; {before_name} let the platform's limits act, or the reserve be touched, on {count} of {}, tuned on none.",
-                tuned.rides
+                tuned.recordings
             )
             .expect("a string takes whatever is written"),
         }
@@ -128,16 +132,16 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
     text.push_str(&without_result(results));
     let Some(unseen) = unseen else {
         text.push_str(if results.iter().any(|result| result.nothing_found_without) {
-            " Nothing is known of other rides."
+            " Nothing is known of other recordings."
         } else {
-            " No ride was held out: nothing is known of other rides."
+            " No recording was held out: nothing is known of other recordings."
         });
         return text;
     };
-    let Comparison { rides, before, after, better, .. } = unseen;
+    let Comparison { recordings, before, after, better, .. } = unseen;
     write!(
         text,
-        "\n\nOn rides that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {rides}. \
+        "\n\nOn recordings that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {recordings}. \
          The platform's limits act, or the reserve of stroke is touched, for {:.2} % of their time, with {before_name} for {:.2} %.",
         100.0 * unseen.violated_after,
         100.0 * unseen.violated_before
@@ -149,28 +153,28 @@ fn verdict(results: &[RideResult], before_name: &str) -> String {
     text.push_str(if unseen.is_clearly_better() {
         " **It beats the parameters that it started from.**"
     } else {
-        " **It does not clearly beat the parameters that it started from**: these rides have too little in common, or are too few."
+        " **It does not clearly beat the parameters that it started from**: these recordings have too little in common, or are too few."
     });
     text
 }
 
-/// Without which rides nothing was found; empty where there are none.
-fn without_result(results: &[RideResult]) -> String {
-    let rides: Vec<&str> =
+/// Without which recordings nothing was found; empty where there are none.
+fn without_result(results: &[RecordingResult]) -> String {
+    let recordings: Vec<&str> =
         results.iter().filter(|result| result.nothing_found_without).map(|result| result.name.as_str()).collect();
-    if rides.is_empty() {
+    if recordings.is_empty() {
         return String::new();
     }
     format!(
-        "\n\nTuned without {}, no parameters were found that keep the limits on the others: nothing is known of it as a ride not tuned on. \
+        "\n\nTuned without {}, no parameters were found that keep the limits on the others: nothing is known of it as a recording not tuned on. \
          More --evaluations may find some.",
-        rides.join(", or ")
+        recordings.join(", or ")
     )
 }
 
-/// Errors before and after over some rides.
+/// Errors before and after over some recordings.
 struct Comparison {
-    rides: usize,
+    recordings: usize,
     before: f64,
     after: f64,
     better: usize,
@@ -180,11 +184,13 @@ struct Comparison {
 }
 
 impl Comparison {
-    /// Better on average and on most rides, and limited for hardly longer.
+    /// Better on average and on most recordings, and limited for hardly longer.
     fn is_clearly_better(&self) -> bool {
         /// Fraction of the time.
         const HARDLY: f64 = 0.01;
-        self.after < self.before && 2 * self.better > self.rides && self.violated_after <= self.violated_before + HARDLY
+        self.after < self.before
+            && 2 * self.better > self.recordings
+            && self.violated_after <= self.violated_before + HARDLY
     }
 
     fn of(pairs: impl Iterator<Item = (Cost, Cost)>) -> Option<Self> {
@@ -192,7 +198,7 @@ impl Comparison {
         let mean = |error: fn(&(Cost, Cost)) -> f64| pairs.iter().map(error).sum::<f64>() / pairs.len() as f64;
         let count = |holds: fn(&(Cost, Cost)) -> bool| pairs.iter().filter(|pair| holds(pair)).count();
         (!pairs.is_empty()).then(|| Comparison {
-            rides: pairs.len(),
+            recordings: pairs.len(),
             before: mean(|pair| pair.0.error),
             after: mean(|pair| pair.1.error),
             better: count(|pair| pair.1.error < pair.0.error),
@@ -203,16 +209,16 @@ impl Comparison {
     }
 }
 
-fn errors(results: &[RideResult]) -> String {
+fn errors(results: &[RecordingResult]) -> String {
     let cell = |cost: &Option<Cost>| cost.map_or_else(|| "–".to_owned(), |cost| with_limits(&cost));
-    let unseen = |result: &RideResult| match result.nothing_found_without {
+    let unseen = |result: &RecordingResult| match result.nothing_found_without {
         true => "none found".to_owned(),
         false => cell(&result.unseen),
     };
     let rows = results
         .iter()
         .map(|result| [result.name.clone(), with_limits(&result.before), cell(&result.tuned), unseen(result)]);
-    table(["ride", "before", "tuned", "tuned without it"], rows)
+    table(["recording", "before", "tuned", "tuned without it"], rows)
 }
 
 /// The error, and what fraction of the time limits were active.
@@ -223,8 +229,8 @@ fn with_limits(cost: &Cost) -> String {
     }
 }
 
-fn channels(results: &[RideResult]) -> String {
-    let row = |result: &RideResult| {
+fn channels(results: &[RecordingResult]) -> String {
+    let row = |result: &RecordingResult| {
         let after = result.tuned.or(result.unseen).unwrap_or(result.before);
         let cell =
             |k: usize| format!("{:.2}: {:.2} → {:.2}", result.desired[k], result.before.channels[k], after.channels[k]);
@@ -275,14 +281,21 @@ mod tests {
         Cost { channels: [error; 6], error, violated }
     }
 
-    fn result(before: Cost, unseen: Option<Cost>) -> RideResult {
+    fn result(before: Cost, unseen: Option<Cost>) -> RecordingResult {
         let tuned = Some(cost(0.5, 0.0));
-        RideResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen, nothing_found_without: false }
+        RecordingResult {
+            name: "ride".to_owned(),
+            desired: [1.0; 6],
+            before,
+            tuned,
+            unseen,
+            nothing_found_without: false,
+        }
     }
 
     #[test]
     fn what_is_worse_on_rides_not_tuned_on_is_said_first() {
-        let of = |pairs: &[(f64, f64)]| -> Vec<RideResult> {
+        let of = |pairs: &[(f64, f64)]| -> Vec<RecordingResult> {
             pairs.iter().map(|&(before, unseen)| result(cost(before, 0.0), Some(cost(unseen, 0.0)))).collect()
         };
         let better = of(&[(0.8, 0.6), (0.9, 0.92)]);
@@ -290,13 +303,14 @@ mod tests {
         let one_worse = of(&[(0.8, 0.3), (0.9, 0.96)]);
         assert!(
             is_worse(&one_worse)
-                && first_line(&one_worse, 1.0) == "WORSE than before on rides that it was not tuned on: ride."
+                && first_line(&one_worse, 1.0)
+                    == "WORSE than before on recordings that it was not tuned on: ride."
         );
         let worse_in_the_mean = of(&[(0.8, 0.83), (0.9, 0.92)]);
         assert!(is_worse(&worse_in_the_mean) && first_line(&worse_in_the_mean, 1.0).contains("in the mean"));
         let unknown = vec![result(cost(0.8, 0.0), None)];
-        assert!(!is_worse(&unknown) && first_line(&unknown, 1.0).starts_with("No ride was held out"));
-        let tuned_worse = RideResult { tuned: Some(cost(0.9, 0.0)), ..unknown[0].clone() };
+        assert!(!is_worse(&unknown) && first_line(&unknown, 1.0).starts_with("No recording was held out"));
+        let tuned_worse = RecordingResult { tuned: Some(cost(0.9, 0.0)), ..unknown[0].clone() };
         assert!(is_worse(&[tuned_worse]));
         assert!(first_line(&better, 0.0).starts_with("UNCHANGED"));
     }
@@ -323,7 +337,7 @@ mod tests {
     #[test]
     fn what_was_not_held_out_is_not_claimed() {
         let text = verdict(&[result(cost(0.8, 0.02), None)], "default");
-        assert!(text.contains("No ride was held out: nothing is known of other rides."), "{text}");
+        assert!(text.contains("No recording was held out: nothing is known of other recordings."), "{text}");
         assert!(text.contains("default let the platform's limits act, or the reserve be touched, on 1 of 1"), "{text}");
         assert!(!text.contains(BEATS));
     }
@@ -331,13 +345,14 @@ mod tests {
     #[test]
     fn a_ride_without_which_nothing_was_found_is_named_and_does_not_count() {
         let found = result(cost(0.8, 0.0), Some(cost(0.6, 0.0)));
-        let not = RideResult { name: "wild".to_owned(), nothing_found_without: true, ..result(cost(0.9, 0.0), None) };
+        let not =
+            RecordingResult { name: "wild".to_owned(), nothing_found_without: true, ..result(cost(0.9, 0.0), None) };
         let text = verdict(&[found.clone(), not.clone()], "default");
         assert!(text.contains("Tuned without wild, no parameters were found"), "{text}");
         assert!(text.contains("better on 1 of 1"), "{text}");
         assert!(errors(&[found, not.clone()]).lines().any(|line| line.contains("wild") && line.contains("none found")));
         let text = verdict(&[not], "default");
-        assert!(text.ends_with("Nothing is known of other rides.") && !text.contains("held out"), "{text}");
+        assert!(text.ends_with("Nothing is known of other recordings.") && !text.contains("held out"), "{text}");
     }
 
     #[test]

@@ -1,32 +1,32 @@
-//! Tuning with a test on rides that are left out, which also decides how far the result goes from
-//! the initial parameters.
+//! Tuning with a test on recordings that are left out, which also decides how far the result goes
+//! from the initial parameters.
 
 use anyhow::Result;
 use moris_setup::Setup;
 
 use super::cost::{Cost, Objective};
-use super::summary::RideResult;
+use super::summary::RecordingResult;
 use super::tuner::{NoFeasibleParameters, Tuner, WORST_RATIO, full_cost, full_costs, smaller, worst_ratio};
 
-/// Fractions of the way from the initial parameters to the best ones for the rides tuned on, by
-/// logarithms.
+/// Fractions of the way from the initial parameters to the best ones for the recordings
+/// tuned on, by logarithms.
 const FRACTIONS: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
 
-/// Fraction of a ride's time in which limits may be active with initial parameters that stay.
+/// Fraction of a recording's time in which limits may be active with initial parameters that stay.
 const TOLERATED: f64 = 0.01;
 
 /// Result of a tuning.
 pub struct Tested {
     /// The tuned parameters.
     pub setup: Setup,
-    /// Every ride before and after, those that were not tuned on among them.
-    pub results: Vec<RideResult>,
+    /// Every recording before and after, those that were not tuned on among them.
+    pub results: Vec<RecordingResult>,
     /// Fraction of the way that they go; 0: they are the initial ones.
     pub fraction: f64,
 }
 
-/// Costs of a ride that was left out, at each of the [`FRACTIONS`]; none where the limits are not
-/// kept on the others.
+/// Costs of a recording that was left out, at each of the [`FRACTIONS`]; none where the limits are
+/// not kept on the others.
 type Trials = [Option<Cost>; FRACTIONS.len()];
 
 /// Factor on the scales at a time, and largest number of times, where limits are active part of the
@@ -34,47 +34,48 @@ type Trials = [Option<Cost>; FRACTIONS.len()];
 const SMALLER: f64 = 0.93;
 const TRIES: i32 = 8;
 
-/// Tunes on all rides and, for each fold of them, on the others. The fraction of the way that is
-/// best for rides left out is that of the result. Without folds the result goes all the way.
+/// Tunes on all recordings and, for each fold of them, on the others. The fraction of the
+/// way that is best for recordings left out is that of the result. Without folds the
+/// result goes all the way.
 ///
 /// Rides in `held_out` decide nothing.
 ///
 /// # Errors
-/// No parameters keep the limits on all rides ([`NoFeasibleParameters`]), or parameters cannot be
-/// used.
+/// No parameters keep the limits on all recordings ([`NoFeasibleParameters`]), or
+/// parameters cannot be used.
 pub fn tune_tested(
     tuner: &Tuner,
-    judges: &[&Objective],
+    objectives: &[&Objective],
     held_out: &[&Objective],
     folds: &[Vec<usize>],
 ) -> Result<Tested> {
-    let best = tuner.tune(judges, "all rides")?;
-    let before = full_costs(judges, tuner.setup)?;
-    let left_out = leave_out_in_turn(tuner, judges, folds)?;
+    let best = tuner.tune(objectives, "all rides")?;
+    let before = full_costs(objectives, tuner.setup)?;
+    let left_out = leave_out_in_turn(tuner, objectives, folds)?;
     let pairs: Vec<(Cost, Trials)> =
         before.iter().zip(&left_out).filter_map(|(cost, of)| Some((*cost, of.trials?))).collect();
-    let (setup, fraction) = as_far_as_serves(tuner, judges, &before, &pairs, best)?;
-    let after = full_costs(judges, &setup)?;
+    let (setup, fraction) = as_far_as_serves(tuner, objectives, &before, &pairs, best)?;
+    let after = full_costs(objectives, &setup)?;
     let index = FRACTIONS.iter().position(|&of| of == fraction);
     let mut results = Vec::new();
-    for (k, judge) in judges.iter().enumerate() {
+    for (k, objective) in objectives.iter().enumerate() {
         let unseen = left_out[k].trials.and_then(|costs| index.map_or(Some(before[k]), |index| costs[index]));
-        results.push(RideResult {
+        results.push(RecordingResult {
             tuned: Some(after[k]),
             // Rides that are held out are the better test.
             unseen: unseen.filter(|_| held_out.is_empty()),
             nothing_found_without: left_out[k].nothing_found,
-            ..RideResult::new(judge, before[k])
+            ..RecordingResult::new(objective, before[k])
         });
     }
-    for judge in held_out {
-        let unseen = Some(full_cost(judge, &setup)?);
-        results.push(RideResult { unseen, ..RideResult::new(judge, full_cost(judge, tuner.setup)?) });
+    for objective in held_out {
+        let unseen = Some(full_cost(objective, &setup)?);
+        results.push(RecordingResult { unseen, ..RecordingResult::new(objective, full_cost(objective, tuner.setup)?) });
     }
     Ok(Tested { setup, results, fraction })
 }
 
-/// Result of tuning without a ride.
+/// Result of tuning without a recording.
 #[derive(Clone, Copy, Default)]
 struct LeftOut {
     /// None where it was not left out, or nothing was found without it.
@@ -83,16 +84,16 @@ struct LeftOut {
 }
 
 /// Tunes without each of the folds. A search that was broken off says nothing.
-fn leave_out_in_turn(tuner: &Tuner, judges: &[&Objective], folds: &[Vec<usize>]) -> Result<Vec<LeftOut>> {
-    let mut left_out = vec![LeftOut::default(); judges.len()];
+fn leave_out_in_turn(tuner: &Tuner, objectives: &[&Objective], folds: &[Vec<usize>]) -> Result<Vec<LeftOut>> {
+    let mut left_out = vec![LeftOut::default(); objectives.len()];
     for fold in folds {
         if tuner.was_interrupted() {
             break;
         }
-        match leave_out(tuner, judges, fold) {
+        match leave_out(tuner, objectives, fold) {
             _ if tuner.was_interrupted() => break,
             Ok(of_fold) => fold.iter().zip(of_fold).for_each(|(&k, costs)| left_out[k].trials = Some(costs)),
-            // All rides together are worth no less for it.
+            // All recordings together are worth no less for it.
             Err(error) if error.is::<NoFeasibleParameters>() => {
                 fold.iter().for_each(|&k| left_out[k].nothing_found = true);
             }
@@ -102,18 +103,18 @@ fn leave_out_in_turn(tuner: &Tuner, judges: &[&Objective], folds: &[Vec<usize>])
     Ok(left_out)
 }
 
-/// As much of the way to the best parameters as serves the rides that were left out, and makes no
-/// ride much worse; and how much that is.
+/// As much of the way to the best parameters as serves the recordings that were left out, and makes
+/// no recording much worse; and how much that is.
 fn as_far_as_serves(
     tuner: &Tuner,
-    judges: &[&Objective],
+    objectives: &[&Objective],
     before: &[Cost],
     pairs: &[(Cost, Trials)],
     best: Setup,
 ) -> Result<(Setup, f64)> {
     for index in serving(pairs) {
-        let Some(setup) = within_limits(tuner, judges, &best, FRACTIONS[index])? else { continue };
-        if worst_ratio(before, &full_costs(judges, &setup)?) <= WORST_RATIO {
+        let Some(setup) = within_limits(tuner, objectives, &best, FRACTIONS[index])? else { continue };
+        if worst_ratio(before, &full_costs(objectives, &setup)?) <= WORST_RATIO {
             return Ok((setup, FRACTIONS[index]));
         }
     }
@@ -123,32 +124,33 @@ fn as_far_as_serves(
     Ok((best, 1.0))
 }
 
-/// Costs of the rides of a fold, at each fraction of the way to the best parameters for the others.
-fn leave_out(tuner: &Tuner, judges: &[&Objective], fold: &[usize]) -> Result<Vec<Trials>> {
+/// Costs of the recordings of a fold, at each fraction of the way to the best
+/// parameters for the others.
+fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result<Vec<Trials>> {
     let others: Vec<&Objective> =
-        judges.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, judge)| *judge).collect();
-    let names: Vec<&str> = fold.iter().map(|&k| judges[k].name()).collect();
+        objectives.iter().enumerate().filter(|(k, _)| !fold.contains(k)).map(|(_, objective)| *objective).collect();
+    let names: Vec<&str> = fold.iter().map(|&k| objectives[k].name()).collect();
     let best = tuner.tune(&others, &format!("without {}", names.join(", ")))?;
     let mut trials = vec![[None; FRACTIONS.len()]; fold.len()];
     for (index, &fraction) in FRACTIONS.iter().enumerate() {
         let Some(setup) = within_limits(tuner, &others, &best, fraction)? else { continue };
-        for (of_ride, &k) in trials.iter_mut().zip(fold) {
-            of_ride[index] = Some(full_cost(judges[k], &setup)?);
+        for (of_recording, &k) in trials.iter_mut().zip(fold) {
+            of_recording[index] = Some(full_cost(objectives[k], &setup)?);
         }
     }
     Ok(trials)
 }
 
 /// The parameters at this fraction of the way to the best ones, with scales as much smaller as it
-/// takes to keep the limits on these rides. None if they are not kept.
-fn within_limits(tuner: &Tuner, judges: &[&Objective], best: &Setup, fraction: f64) -> Result<Option<Setup>> {
+/// takes to keep the limits on these recordings. None if they are not kept.
+fn within_limits(tuner: &Tuner, objectives: &[&Objective], best: &Setup, fraction: f64) -> Result<Option<Setup>> {
     if fraction == 1.0 {
         return Ok(Some(best.clone()));
     }
     let towards = tuner.space.towards(&best.parameters, fraction);
     for k in 0..=TRIES {
         let setup = Setup { parameters: smaller(&towards, SMALLER.powi(k)), ..best.clone() };
-        if full_costs(judges, &setup)?.iter().all(Cost::is_feasible) {
+        if full_costs(objectives, &setup)?.iter().all(Cost::is_feasible) {
             return Ok(Some(setup));
         }
         if !tuner.space.has_scales() {
@@ -158,9 +160,10 @@ fn within_limits(tuner: &Tuner, judges: &[&Objective], best: &Setup, fraction: f
     Ok(None)
 }
 
-/// Indices of the fractions that serve rides that were left out, the best first: their mean error
-/// is smaller than with the initial parameters, and no ride is worse by more than 5 %. Those with
-/// which limits are active for no longer come first. The last one where no ride was left out.
+/// Indices of the fractions that serve recordings that were left out, the best first: their mean
+/// error is smaller than with the initial parameters, and no recording is worse by more than 5
+/// %. Those with which limits are active for no longer come first. The last one where no
+/// recording was left out.
 fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
     if pairs.is_empty() {
         return vec![FRACTIONS.len() - 1];
@@ -197,7 +200,7 @@ mod tests {
         let before = cost(1.0, 0.0);
         let one = (before, trials([0.95, 0.9, 0.85, 0.8, 0.86, 0.91]));
         assert_eq!(serving(&[one]), [3, 2, 4, 1, 5, 0]);
-        // Another ride is worse by more than 5 % from half of the way on.
+        // Another recording is worse by more than 5 % from half of the way on.
         let other = (before, trials([1.0, 1.01, 1.02, 1.06, 1.08, 1.1]));
         assert_eq!(serving(&[one, other]), [2, 1, 0]);
         // In the mean nothing is better.
@@ -216,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn without_rides_left_out_it_goes_all_the_way() {
+    fn without_recordings_left_out_it_goes_all_the_way() {
         assert_eq!(serving(&[]), [5]);
     }
 }

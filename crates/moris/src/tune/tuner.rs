@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use super::cost::{Cost, Objective};
 use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
-use crate::run::Simulation;
+use crate::simulate::Simulation;
 
 /// No parameters were found that keep the constraints; the text says where, and what to do.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl fmt::Display for NoFeasibleParameters {
 
 impl Error for NoFeasibleParameters {}
 
-/// Tunes on rides, as often as asked.
+/// Tunes on recordings, as often as asked.
 pub struct Tuner<'a> {
     /// The rig, and the parameters before.
     pub setup: &'a Setup,
@@ -53,14 +53,14 @@ impl Tuner<'_> {
         self.interrupted.load(Ordering::Relaxed)
     }
 
-    /// The best parameters for these rides that keep all constraints, also in the internal steps
-    /// that they will be used with.
+    /// The best parameters for these recordings that keep all constraints, also in the internal
+    /// steps that they will be used with.
     ///
     /// # Errors
     /// None were found ([`NoFeasibleParameters`]), or parameters cannot be used.
-    pub fn tune(&self, judges: &[&Objective], what: &str) -> Result<Setup> {
+    pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
-        let searched = search(judges, self.evaluate, &self.space, self.budget, |tried, least| {
+        let searched = search(objectives, self.evaluate, &self.space, self.budget, |tried, least| {
             let go_on = (self.observe)(what, tried, least);
             self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
             let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
@@ -68,11 +68,11 @@ impl Tuner<'_> {
             go_on && !self.was_interrupted()
         })?;
         self.bar.set_position(begin + self.budget.evaluations as u64);
-        let before = full_costs(judges, self.setup)?;
+        let before = full_costs(objectives, self.setup)?;
         let mut least_worse = None;
         for parameters in self.candidates(&searched) {
             let tuned = Setup { parameters, parameters_name: "tuned".to_owned(), ..self.setup.clone() };
-            let costs = full_costs(judges, &tuned)?;
+            let costs = full_costs(objectives, &tuned)?;
             if !costs.iter().all(Cost::is_feasible) {
                 continue;
             }
@@ -89,10 +89,10 @@ impl Tuner<'_> {
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         let text = format!(
-            "no parameters were found with which every ride stays clear of the safety units and the actuators' limits{}; leave out the ride \
+            "no parameters were found with which every recording stays clear of the safety units and the actuators' limits{}; leave out the recording \
              that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, where it vibrates, \
              --tune splitter,angular,scale,cutoff",
-            self.held_up(judges, &nearest)?
+            self.held_up(objectives, &nearest)?
         );
         Err(NoFeasibleParameters(text).into())
     }
@@ -113,13 +113,14 @@ impl Tuner<'_> {
         found.chain(nearer).chain([self.setup.parameters]).collect::<Vec<_>>().into_iter().chain(smaller)
     }
 
-    /// Which rides do not stay clear of the limits, and for how long, as the end of a sentence.
-    fn held_up(&self, judges: &[&Objective], setup: &Setup) -> Result<String> {
+    /// Which recordings do not stay clear of the limits, and for how long, as
+    /// the end of a sentence.
+    fn held_up(&self, objectives: &[&Objective], setup: &Setup) -> Result<String> {
         let mut limited = Vec::new();
-        for judge in judges {
-            let fraction = full_cost(judge, setup)?.violated;
+        for objective in objectives {
+            let fraction = full_cost(objective, setup)?.violated;
             if fraction > 0.0 {
-                limited.push(format!("{} for {:.2} % of its time", judge.name(), 100.0 * fraction));
+                limited.push(format!("{} for {:.2} % of its time", objective.name(), 100.0 * fraction));
             }
         }
         Ok(if limited.is_empty() {
@@ -138,25 +139,26 @@ pub fn smaller(parameters: &Parameters, factor: f64) -> Parameters {
     parameters
 }
 
-/// Where, between the start and the best set found, others are tried that make no ride much worse.
+/// Where, between the start and the best set found, others are tried that make no
+/// recording much worse.
 const PARTS_OF_THE_WAY: [f64; 3] = [0.75, 0.5, 0.25];
 
 /// Factor on the scales at a time, and largest number of times: down to a fifth.
 const SMALLER: f64 = 0.95;
 const TRIES: i32 = 32;
 
-/// Factor by which a ride's error may grow, at most, without a word.
+/// Factor by which a recording's error may grow, at most, without a word.
 pub const WORST_RATIO: f64 = 1.05;
 
 /// Costs of recordings, each as by [`full_cost`].
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn full_costs(judges: &[&Objective], setup: &Setup) -> Result<Vec<Cost>> {
-    judges.par_iter().map(|judge| full_cost(judge, setup)).collect()
+pub fn full_costs(objectives: &[&Objective], setup: &Setup) -> Result<Vec<Cost>> {
+    objectives.par_iter().map(|objective| full_cost(objective, setup)).collect()
 }
 
-/// The largest ratio of a ride's error to that before.
+/// The largest ratio of a recording's error to that before.
 pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
     before.iter().zip(after).map(|(before, after)| after.error / before.error).fold(0.0, f64::max)
 }
@@ -165,7 +167,7 @@ pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 ///
 /// # Errors
 /// The parameters cannot be used.
-pub fn full_cost(judge: &Objective, setup: &Setup) -> Result<Cost> {
-    let parameters = judge.ride().parameters(&setup.parameters);
-    Ok(judge.cost(&Simulation::of(&judge.ride().replay(), &parameters, || ())?))
+pub fn full_cost(objective: &Objective, setup: &Setup) -> Result<Cost> {
+    let parameters = objective.recording().parameters(&setup.parameters);
+    Ok(objective.cost(&Simulation::of(&objective.recording().replay(), &parameters, || ())?))
 }

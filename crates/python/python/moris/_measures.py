@@ -12,7 +12,7 @@ class Measure(NamedTuple):
     name: str
     """`RMS error`, `false cues`, ..."""
     value: Optional[float]
-    """In `unit`; None where the measure is not defined for this ride."""
+    """In `unit`; None where the measure is not defined for this recording."""
     unit: str
     definition: str
     source: str

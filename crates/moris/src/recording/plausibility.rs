@@ -14,7 +14,7 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::{AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, Unit};
 use super::header::UnitSource;
 use super::table::Table;
@@ -52,8 +52,8 @@ const JOLT: f64 = 1.0;
 ///
 /// # Errors
 /// The unit or the axes are implausible: those that fit, and the option that gives them.
-pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), RideError> {
-    let refused = |reason: String| RideError::Whole { file: table.file.clone(), reason };
+pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), RecordingError> {
+    let refused = |reason: String| RecordingError::Whole { file: table.file.clone(), reason };
     force_is_plausible(table, inputs, conventions).map_err(refused)?;
     angles_are_plausible(table, inputs).map_err(refused)?;
     rates_are_plausible(table, inputs, conventions).map_err(refused)

@@ -43,9 +43,9 @@ fn fits(outcome: &Outcome) -> Finding {
         1000.0 * effort.smallest_margin
     );
     match sentences.as_slice() {
-        [] => finding(Weight::Good, format!("The ride fits the rig: {used}.")),
+        [] => finding(Weight::Good, format!("The recording fits the rig: {used}.")),
         sentences => {
-            finding(Weight::Warning, format!("The ride does not fit the rig. {} ({used}.)", sentences.join(" ")))
+            finding(Weight::Warning, format!("The recording does not fit the rig. {} ({used}.)", sentences.join(" ")))
         }
     }
 }
@@ -65,7 +65,7 @@ fn tilt(outcome: &Outcome) -> Option<Finding> {
         finding(
             Weight::Note,
             format!(
-                "Tilt coordination lagged behind for {:.0} % of the ride: at {:.1}°/s, {:.1}°/s² or {:.0}° it may go no faster or farther.",
+                "Tilt coordination lagged behind for {:.0} % of the recording: at {:.1}°/s, {:.1}°/s² or {:.0}° it may go no faster or farther.",
                 100.0 * fraction,
                 limits.rate_limit.to_degrees(),
                 limits.acceleration_limit.to_degrees(),
@@ -95,7 +95,7 @@ fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
     let bound = outcome.bounds[axis].as_ref().map_or_else(String::new, |bound| {
         let least = bound.bound.rms_error;
         if least < FAITHFUL * rms_error {
-            format!(" A controller that knew the ride beforehand might get down to {least:.2} m/s² on this rig.")
+            format!(" A controller that knew the recording beforehand might get down to {least:.2} m/s² on this rig.")
         } else {
             format!(" No controller could get below {least:.2} m/s² on this rig.")
         }

@@ -3,18 +3,18 @@
 use serde_json::{Value, json};
 
 use super::{Outcome, findings, fits_the_rig};
-use crate::ride::Ride;
+use crate::recording::Recording;
 
 /// A recording with one or several parameter sets.
 ///
 /// Each measure has the subject, name, value and unit of the report's table; an
 /// undefined value is `null`.
-pub fn recording(ride: &Ride, outcomes: &[Outcome]) -> Value {
+pub fn recording(recording: &Recording, outcomes: &[Outcome]) -> Value {
     json!({
-        "recording": ride.name,
-        "duration": ride.manoeuvre.duration(),
-        "step": ride.step(),
-        "warnings": ride.remarks,
+        "recording": recording.name,
+        "duration": recording.manoeuvre.duration(),
+        "step": recording.step(),
+        "warnings": recording.warnings,
         "results": outcomes.iter().map(result).collect::<Vec<Value>>(),
     })
 }

@@ -6,10 +6,10 @@ use std::fmt::Write;
 use std::fs;
 use std::path::PathBuf;
 
-use moris::ride::conventions::{
+use moris::recording::conventions::{
     AngleUnit, Axes, Dimension, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, TimeUnit,
 };
-use moris::ride::{ConventionOptions, Conventions, Ride};
+use moris::recording::{ConventionOptions, Conventions, Recording};
 use moris_washout::Parameters;
 use moris_washout::cueing::conditioning::cue;
 use moris_washout::interface::{AngularVelocityFrame, GravityRemoval};
@@ -50,7 +50,7 @@ fn plain() -> String {
     csv(PLAIN, &samples(), |s| s[..7].to_vec())
 }
 
-/// A directory with a file `ride.csv` of this text.
+/// A directory with a file `recording.csv` of this text.
 fn file(text: &str) -> (TempDir, PathBuf) {
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("ride.csv");
@@ -58,19 +58,20 @@ fn file(text: &str) -> (TempDir, PathBuf) {
     (directory, file)
 }
 
-fn read(text: &str, options: &ConventionOptions) -> Ride {
+fn read(text: &str, options: &ConventionOptions) -> Recording {
     let (_directory, file) = file(text);
-    Ride::read(&file, &options.load().unwrap()).unwrap_or_else(|error| panic!("{error}"))
+    Recording::read(&file, &options.load().unwrap()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The message with which a recording is refused, without the directory.
 fn refusal(text: &str, options: &ConventionOptions) -> String {
     let (directory, file) = file(text);
-    let message = Ride::read(&file, &options.load().unwrap()).expect_err("this recording must be refused").to_string();
+    let message =
+        Recording::read(&file, &options.load().unwrap()).expect_err("this recording must be refused").to_string();
     message.replace(&format!("{}/", directory.path().display()), "")
 }
 
-fn assert_same(found: &Ride, expected: &Ride) {
+fn assert_same(found: &Recording, expected: &Recording) {
     assert_eq!(found.inputs().len(), expected.inputs().len());
     assert!((found.step() - expected.step()).abs() < 1e-12);
     for (f, e) in found.inputs().iter().zip(expected.inputs()) {
@@ -82,14 +83,17 @@ fn assert_same(found: &Ride, expected: &Ride) {
 
 #[test]
 fn a_plain_recording_is_what_it_says() {
-    let ride = read(&plain(), &ConventionOptions::default());
-    assert_eq!((ride.name.as_str(), ride.inputs().len(), ride.has_orientation), ("ride", 301, false));
-    assert!((ride.step() - 0.01).abs() < 1e-12);
-    assert_eq!(ride.angular_velocity_frame, AngularVelocityFrame::Body);
-    let (sample, input) = (samples()[77], ride.inputs()[77]);
+    let recording = read(&plain(), &ConventionOptions::default());
+    assert_eq!((recording.name.as_str(), recording.inputs().len(), recording.has_orientation), ("ride", 301, false));
+    assert!((recording.step() - 0.01).abs() < 1e-12);
+    assert_eq!(recording.angular_velocity_frame, AngularVelocityFrame::Body);
+    let (sample, input) = (samples()[77], recording.inputs()[77]);
     assert_eq!(input.specific_force, Vector3::new(sample[1], sample[2], sample[3]));
     assert_eq!(input.angular_velocity, Vector3::new(sample[4], sample[5], sample[6]));
-    assert_eq!(ride.parameters(&Parameters::default()).conditioning.angular_velocity_frame, AngularVelocityFrame::Body);
+    assert_eq!(
+        recording.parameters(&Parameters::default()).conditioning.angular_velocity_frame,
+        AngularVelocityFrame::Body
+    );
 }
 
 #[test]
@@ -160,13 +164,13 @@ fn removed_gravity_is_put_back_by_the_orientation() {
 /// what differs from rest.
 #[test]
 fn without_orientation_what_is_cued_is_what_differs_from_rest() {
-    let ride = read(&plain(), &ConventionOptions::default());
+    let recording = read(&plain(), &ConventionOptions::default());
     for removal in [GravityRemoval::HeadVertical, GravityRemoval::Full] {
-        let mut parameters = ride.parameters(&Parameters::default());
+        let mut parameters = recording.parameters(&Parameters::default());
         parameters.conditioning.gravity_removal = removal;
         parameters.conditioning.force_scale = Vector3::repeat(1.0);
         parameters.conditioning.rate_scale = Vector3::repeat(1.0);
-        for input in ride.inputs() {
+        for input in recording.inputs() {
             let cue = cue(input, &parameters.conditioning, GRAVITY, 0.0);
             assert!((cue.force - (input.specific_force - Vector3::new(0.0, 0.0, GRAVITY))).amax() < 1e-12);
             assert!((cue.rates - input.angular_velocity).amax() < 1e-12);
@@ -274,7 +278,7 @@ fn missing_columns_and_empty_files_are_told() {
     assert!(refusal("", &default).contains("is empty"));
     assert!(refusal("0.0,1,2,3,4,5,6\n", &default).contains("begins with numbers"));
     assert!(refusal(&format!("{PLAIN}\n0,0,0,9.81,0,0,0\n"), &default).contains("fewer than two samples"));
-    let missing = Ride::read(&PathBuf::from("no/such.csv"), &Conventions::default()).unwrap_err().to_string();
+    let missing = Recording::read(&PathBuf::from("no/such.csv"), &Conventions::default()).unwrap_err().to_string();
     assert!(missing.contains("cannot read no/such.csv"), "{missing}");
 }
 
@@ -295,15 +299,19 @@ fn unequal_steps_are_refused_and_can_be_interpolated() {
         "{message}"
     );
     let options = ConventionOptions { resample: Some(200.0), ..ConventionOptions::default() };
-    let ride = read(&text, &options);
-    assert_eq!((ride.inputs().len(), ride.step()), (601, 0.005));
-    for (time, input) in ride.times().zip(ride.inputs()) {
+    let recording = read(&text, &options);
+    assert_eq!((recording.inputs().len(), recording.step()), (601, 0.005));
+    for (time, input) in recording.times().zip(recording.inputs()) {
         assert!((input.specific_force - Vector3::new(0.1 * time, -0.2 * time, GRAVITY)).amax() < 1e-12);
     }
     // A long gap is told of.
     let gap: Vec<Sample> = kept.iter().copied().filter(|s| !(1.0..2.0).contains(&s[0])).collect();
-    let ride = read(&csv(PLAIN, &gap, |s| s[..7].to_vec()), &options);
-    assert!(ride.remarks.iter().any(|remark| remark.contains("Nothing was recorded for")), "{:?}", ride.remarks);
+    let recording = read(&csv(PLAIN, &gap, |s| s[..7].to_vec()), &options);
+    assert!(
+        recording.warnings.iter().any(|warning| warning.contains("Nothing was recorded for")),
+        "{:?}",
+        recording.warnings
+    );
 }
 
 #[test]
@@ -316,12 +324,12 @@ fn clocks_with_few_digits_and_comments_are_no_fault() {
         })
         .collect();
     let text = format!("\u{feff}{}", csv(PLAIN, &samples, |s| s[..7].to_vec()).replacen('\n', "\n# from a phone\n", 1));
-    let ride = read(&text, &ConventionOptions::default());
-    assert!((ride.step() - 1.0 / 64.0).abs() < 1e-5);
+    let recording = read(&text, &ConventionOptions::default());
+    assert!((recording.step() - 1.0 / 64.0).abs() < 1e-5);
 }
 
 #[test]
-fn a_ride_that_does_not_begin_at_rest_can_be_led_in() {
+fn a_recording_that_does_not_begin_at_rest_can_be_faded_in() {
     let samples: Vec<Sample> = samples()
         .into_iter()
         .map(|mut s| {
@@ -330,16 +338,20 @@ fn a_ride_that_does_not_begin_at_rest_can_be_led_in() {
         })
         .collect();
     let text = csv(PLAIN, &samples, |s| s[..7].to_vec());
-    let ride = read(&text, &ConventionOptions::default());
-    assert!(ride.remarks.iter().any(|remark| remark.contains("does not begin at rest")), "{:?}", ride.remarks);
-    assert!(ride.remarks.iter().any(|remark| remark.contains("along x is 2.")), "{:?}", ride.remarks);
+    let recording = read(&text, &ConventionOptions::default());
+    assert!(
+        recording.warnings.iter().any(|warning| warning.contains("does not begin at rest")),
+        "{:?}",
+        recording.warnings
+    );
+    assert!(recording.warnings.iter().any(|warning| warning.contains("along x is 2.")), "{:?}", recording.warnings);
     let led = read(&text, &ConventionOptions { fade_in: Some(1.0), ..ConventionOptions::default() });
-    assert!(!led.remarks.iter().any(|remark| remark.contains("does not begin at rest")), "{:?}", led.remarks);
+    assert!(!led.warnings.iter().any(|warning| warning.contains("does not begin at rest")), "{:?}", led.warnings);
     assert_eq!(led.inputs()[0].specific_force, Vector3::new(0.0, 0.0, GRAVITY));
     // Half way through, half of it: 0.5^2 (3 - 2 * 0.5).
-    let half = 0.5 * (ride.inputs()[50].specific_force + Vector3::new(0.0, 0.0, GRAVITY));
+    let half = 0.5 * (recording.inputs()[50].specific_force + Vector3::new(0.0, 0.0, GRAVITY));
     assert!((led.inputs()[50].specific_force - half).amax() < 1e-12);
-    assert_eq!(led.inputs()[100..], ride.inputs()[100..]);
+    assert_eq!(led.inputs()[100..], recording.inputs()[100..]);
 }
 
 /// Fields that are right, odd and wrong.
@@ -377,8 +389,8 @@ proptest! {
         }
         let (_directory, file) = file(&text);
         let options = ConventionOptions { resample, ..ConventionOptions::default() };
-        match Ride::read(&file, &options.load().unwrap()) {
-            Ok(ride) => prop_assert!(ride.step() > 0.0 && ride.inputs().iter().all(|input| input.specific_force.x.is_finite())),
+        match Recording::read(&file, &options.load().unwrap()) {
+            Ok(recording) => prop_assert!(recording.step() > 0.0 && recording.inputs().iter().all(|input| input.specific_force.x.is_finite())),
             Err(error) => prop_assert!(error.to_string().contains("ride.csv")),
         }
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::{Conventions, Quantity};
 use super::header::{Column, Header, quoted};
 use super::join::{self, Part};
@@ -24,7 +24,7 @@ pub struct Table {
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
-    pub remarks: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 impl Table {
@@ -52,7 +52,7 @@ impl Table {
         layout: Vec<Column>,
         (time, lines): (Vec<f64>, Vec<u64>),
         values: &BTreeMap<usize, Vec<f64>>,
-        remarks: Vec<String>,
+        warnings: Vec<String>,
     ) -> Self {
         let sum = |column: &Column| -> Vec<f64> {
             let term = |place: usize, sample: usize| values.get(&place).map_or(0.0, |column| column[sample]);
@@ -65,7 +65,7 @@ impl Table {
             .filter(|column| column.quantity != Quantity::Time)
             .map(|column| (column.quantity, sum(column)))
             .collect();
-        Table { file, time, columns, layout, lines, remarks }
+        Table { file, time, columns, layout, lines, warnings }
     }
 }
 
@@ -74,7 +74,7 @@ impl Table {
 /// # Errors
 /// A file cannot be read or holds no samples, columns are missing, a unit contradicts an option, a
 /// value is not a number, files do not overlap in time.
-pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
+pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RecordingError> {
     let files = source::files(file)?;
     match &files[..] {
         [one] => of_file(one, conventions),
@@ -82,9 +82,9 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RideError> 
     }
 }
 
-fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
+fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingError> {
     let sheet = Sheet::open(file, conventions)?;
-    let whole = |reason| RideError::Whole { file: sheet.file.clone(), reason };
+    let whole = |reason| RecordingError::Whole { file: sheet.file.clone(), reason };
     let mut layout = sheet.header.columns(&sheet.file, conventions, sheet.has_written_times)?;
     let time = sheet.time.ok_or_else(|| whole(format!("there is no column {}", conventions.column(Quantity::Time))))?;
     let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(whole)?;
@@ -94,9 +94,9 @@ fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RideError> {
     let places = value_places(&layout);
     let samples = sheet.samples(&places, time, conventions)?;
     let mut part = Part::new(&sheet, samples, unit);
-    let remarks = part.fill_gaps(&places)?;
+    let warnings = part.fill_gaps(&places)?;
     let values = places.into_iter().zip(part.columns).collect();
-    Ok(Table::new(sheet.file.clone(), layout, (part.time, part.lines), &values, remarks))
+    Ok(Table::new(sheet.file.clone(), layout, (part.time, part.lines), &values, warnings))
 }
 
 /// Reads several files. Files of a directory that hold no column in use are passed over.
@@ -105,7 +105,7 @@ fn of_files(
     files: &[PathBuf],
     is_directory: bool,
     conventions: &Conventions,
-) -> Result<Table, RideError> {
+) -> Result<Table, RecordingError> {
     let mut sheets = Vec::new();
     for file in files {
         match Sheet::open(file, conventions) {
@@ -122,14 +122,14 @@ fn of_files(
         let width = sheet.header.width();
         let used = |place: &usize| (first_place..first_place + width).contains(place);
         let places: Vec<usize> = value_places(&layout).into_iter().filter(used).collect();
-        let refused = |reason| RideError::Whole { file: sheet.file.clone(), reason };
+        let refused = |reason| RecordingError::Whole { file: sheet.file.clone(), reason };
         if !places.is_empty() {
             let time_name = conventions.column(Quantity::Time);
             let time = sheet.time.ok_or_else(|| refused(format!("there is no column {time_name}")))?;
             let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(refused)?;
             let own: Vec<usize> = places.iter().map(|place| place - first_place).collect();
             let mut part = Part::new(sheet, sheet.samples(&own, time, conventions)?, unit);
-            part.remarks = part.fill_gaps(&own)?;
+            part.warnings = part.fill_gaps(&own)?;
             parts.push((places, part));
         } else if !is_directory {
             return Err(refused("holds no column of the recording; leave it out".to_owned()));
@@ -138,7 +138,7 @@ fn of_files(
     }
     let base = layout.iter().find(|column| column.quantity == Quantity::Force(0)).map_or(0, |c| c.terms[0].place);
     let joined = join::by_time(&name, parts, base)?;
-    Ok(Table::new(name, layout, (joined.time, joined.lines), &joined.values, joined.remarks))
+    Ok(Table::new(name, layout, (joined.time, joined.lines), &joined.values, joined.warnings))
 }
 
 /// The places of all columns in use but the time, each once.
@@ -152,9 +152,13 @@ fn value_places(layout: &[Column]) -> Vec<usize> {
 ///
 /// # Errors
 /// As [`read`]; columns of different lengths.
-pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)], conventions: &Conventions) -> Result<Table, RideError> {
+pub fn of_columns(
+    name: &str,
+    columns: &[(String, Vec<f64>)],
+    conventions: &Conventions,
+) -> Result<Table, RecordingError> {
     let file = PathBuf::from(name);
-    let whole = |reason: String| RideError::Whole { file: file.clone(), reason };
+    let whole = |reason: String| RecordingError::Whole { file: file.clone(), reason };
     let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
     let layout = header.columns(&file, conventions, false)?;
     let samples = layout.first().map_or(0, |column| columns[column.terms[0].place].1.len());
@@ -169,7 +173,7 @@ pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)], conventions: &Conv
         if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
             let reason = format!("is {}; cut this part off, or fill the gap with plausible values", values[sample]);
             let column = Some(quoted(title));
-            return Err(RideError::Line { file: file.clone(), line: sample as u64 + 1, column, reason });
+            return Err(RecordingError::Line { file: file.clone(), line: sample as u64 + 1, column, reason });
         }
     }
     let value = |place: usize| (place, columns[place].1.clone());

@@ -7,7 +7,7 @@ use anyhow::{Context, Result};
 use moris_report::{IndexRow, index_html};
 
 use super::Outcome;
-use crate::ride::Ride;
+use crate::recording::Recording;
 
 /// A recording in the list.
 pub struct Entry {
@@ -30,7 +30,7 @@ const HEADS: [&str; 7] = [
 
 impl Entry {
     /// The entry of a recording by its first outcome; `page` is its report.
-    pub fn new(ride: &Ride, outcome: &Outcome, page: &Path) -> Self {
+    pub fn new(recording: &Recording, outcome: &Outcome, page: &Path) -> Self {
         let measures = &outcome.measures;
         let effort = &measures.effort;
         let limited = effort.safety_active.max(effort.actuator_limited);
@@ -38,12 +38,12 @@ impl Entry {
         let error = errors.iter().flatten().map(|error| error * error).sum::<f64>().sqrt();
         let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2}"));
         let first = [
-            format!("{:.1}", ride.manoeuvre.duration()),
+            format!("{:.1}", recording.manoeuvre.duration()),
             format!("{:.1}", 100.0 * limited),
             format!("{:.0}", 100.0 * effort.stroke_used),
         ];
         let row = IndexRow {
-            name: ride.name.clone(),
+            name: recording.name.clone(),
             file: page.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             is_good: limited == 0.0,
             cells: first.into_iter().chain(errors.map(figure)).chain([figure(Some(error))]).collect(),

@@ -1,9 +1,9 @@
 //! Recordings: read from CSV, converted to the washout's frames and units, and
 //! checked for plausibility.
 //!
-//! [`Ride::read`] does it all. `source` reads the text, `sheet` its lines, [`header`] finds the
-//! columns and their [`units`], [`table`] puts the numbers together, `join` those of several files.
-//! [`sampling`] makes the steps equal. `convert` turns the axes by the [`mounting`].
+//! [`Recording::read`] does it all. `source` reads the text, `sheet` its lines, [`header`] finds
+//! the columns and their [`units`], [`table`] puts the numbers together, `join` those of several
+//! files. [`sampling`] makes the steps equal. `convert` turns the axes by the [`mounting`].
 //! [`plausibility`] recognises wrong units and axes. [`conventions`] are the names, units and axes
 //! that options give, or the name of one of the [`formats`].
 //!
@@ -45,12 +45,12 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 pub use conventions::{ConventionOptions, Conventions, FADE_IN};
-pub use error::RideError;
+pub use error::RecordingError;
 use table::Table;
 
 /// A recording.
 #[derive(Clone, Debug)]
-pub struct Ride {
+pub struct Recording {
     /// The file's name without directory and extension.
     pub name: String,
     /// The washout's inputs, at equal steps.
@@ -62,10 +62,10 @@ pub struct Ride {
     /// True where the recording holds the vehicle's orientation.
     pub has_orientation: bool,
     /// Warnings, in whole sentences.
-    pub remarks: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
-impl Ride {
+impl Recording {
     /// Reads a recording from a file, or from standard input if the file is `-`. Files compressed
     /// with gzip are unpacked. Files whose names are joined by `+`, and the CSV files of a
     /// directory, are joined by time.
@@ -74,37 +74,37 @@ impl Ride {
     /// The file cannot be read or is no CSV, columns are missing or stand twice, a field is no
     /// number, the steps of time are unequal, a unit in the header contradicts an option, or the
     /// units or axes are implausible.
-    pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RideError> {
+    pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
         Self::of_table(source::name(file), table::read(file, conventions)?, conventions)
     }
 
     /// A recording of columns in memory, each a name and its values, read as the columns of a file.
     ///
     /// # Errors
-    /// As [`Ride::read`]; columns of different lengths.
+    /// As [`Recording::read`]; columns of different lengths.
     pub fn of_columns(
         name: &str,
         columns: &[(String, Vec<f64>)],
         conventions: &Conventions,
-    ) -> Result<Self, RideError> {
+    ) -> Result<Self, RecordingError> {
         Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
     }
 
-    fn of_table(name: String, table: Table, conventions: &Conventions) -> Result<Self, RideError> {
-        let (table, mut remarks) = sampling::at_equal_steps(table, conventions)?;
-        remarks.extend(table.remarks.iter().cloned());
+    fn of_table(name: String, table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+        let (table, mut warnings) = sampling::at_equal_steps(table, conventions)?;
+        warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
-        remarks.extend(mounting);
+        warnings.extend(mounting);
         plausibility::check(&table, &inputs, conventions)?;
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
-        remarks.extend(plausibility::warnings(&table, &inputs));
-        Ok(Ride {
+        warnings.extend(plausibility::warnings(&table, &inputs));
+        Ok(Recording {
             name,
             start: table.time[0],
             manoeuvre: Manoeuvre::new(table.step(), inputs),
             angular_velocity_frame: conventions.rate_frame.into(),
             has_orientation: table.has_orientation(),
-            remarks,
+            warnings,
         })
     }
 

@@ -11,7 +11,7 @@ use crate::ranges::{Axis, single_axis_range};
 ///
 /// # Errors
 /// The first limit beyond the rig's reach.
-pub fn contradiction(parameters: &Parameters) -> Result<(), ParameterError> {
+pub fn check_consistency(parameters: &Parameters) -> Result<(), ParameterError> {
     let limits = parameters.safety.position_limit;
     for (place, axis) in [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate() {
         let reach = single_axis_range(&parameters.rig, axis).smaller();

@@ -1,9 +1,9 @@
-//! Several files of one ride, joined by time, and gaps in their columns.
+//! Several files of one recording, joined by time, and gaps in their columns.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::Quantity;
 use super::header::{Column, Term, UnitSource};
 use super::sheet::{Samples, Sheet};
@@ -23,7 +23,7 @@ pub struct Part {
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
-    pub remarks: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 /// Files that are joined.
@@ -32,7 +32,7 @@ pub struct Joined {
     pub lines: Vec<u64>,
     /// Columns by their places.
     pub values: BTreeMap<usize, Vec<f64>>,
-    pub remarks: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 /// The time of a table whose times are written out.
@@ -49,7 +49,7 @@ impl Part {
             time: samples.time.into_iter().map(|time| time * unit.in_si).collect(),
             columns: samples.columns,
             lines: samples.lines,
-            remarks: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 
@@ -59,12 +59,12 @@ impl Part {
     ///
     /// # Errors
     /// A column has no values, or all have none at the same time.
-    pub fn fill_gaps(&mut self, places: &[usize]) -> Result<Vec<String>, RideError> {
+    pub fn fill_gaps(&mut self, places: &[usize]) -> Result<Vec<String>, RecordingError> {
         if self.columns.iter().flatten().all(|value| !value.is_nan()) {
             return Ok(Vec::new());
         }
-        let refused = |reason| RideError::Whole { file: self.file.clone(), reason };
-        let mut remarks = Vec::new();
+        let refused = |reason| RecordingError::Whole { file: self.file.clone(), reason };
+        let mut warnings = Vec::new();
         let (mut first, mut last) = (0, self.time.len() - 1);
         for (values, &place) in self.columns.iter_mut().zip(places) {
             let known: Vec<usize> = (0..values.len()).filter(|&sample| !values[sample].is_nan()).collect();
@@ -76,7 +76,7 @@ impl Part {
                 let (a, b) = (pair[0], pair[1]);
                 let span = self.time[b] - self.time[a];
                 if span > GAP && b - a > 1 {
-                    remarks.push(format!(
+                    warnings.push(format!(
                         "Column {} is empty for {span:.2} s after line {}; a straight line stands there.",
                         self.titles[place], self.lines[a]
                     ));
@@ -95,15 +95,15 @@ impl Part {
         for values in &mut self.columns {
             *values = values[first..=last].to_vec();
         }
-        Ok(remarks)
+        Ok(warnings)
     }
 
     /// Checks that time goes on.
-    fn check_order(&self) -> Result<(), RideError> {
+    fn check_order(&self) -> Result<(), RecordingError> {
         let Some(wrong) = (1..self.time.len()).find(|&k| self.time[k] <= self.time[k - 1]) else { return Ok(()) };
         let (before, after) = (self.time[wrong - 1], self.time[wrong]);
         let what = if after < before { "goes back" } else { "stands still" };
-        Err(RideError::Line {
+        Err(RecordingError::Line {
             file: self.file.clone(),
             line: self.lines[wrong],
             column: None,
@@ -132,7 +132,7 @@ impl Part {
 ///
 /// # Errors
 /// Time goes back or stands still in a file; the files have no time in common.
-pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Result<Joined, RideError> {
+pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Result<Joined, RecordingError> {
     for (_, part) in &parts {
         part.check_order()?;
     }
@@ -146,30 +146,30 @@ pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Resu
         };
         let spans: Vec<String> = parts.iter().map(|(_, part)| span(part)).collect();
         let reason = format!("the files have no time in common: {}", spans.join(", "));
-        return Err(RideError::Whole { file: name.to_owned(), reason });
+        return Err(RecordingError::Whole { file: name.to_owned(), reason });
     };
     let kept: Vec<usize> = (0..main.time.len()).filter(|&k| (from..=to).contains(&main.time[k])).collect();
     if kept.len() < 2 {
         let reason = "the files have fewer than two samples in common".to_owned();
-        return Err(RideError::Whole { file: name.to_owned(), reason });
+        return Err(RecordingError::Whole { file: name.to_owned(), reason });
     }
     let time: Vec<f64> = kept.iter().map(|&k| main.time[k]).collect();
     let lines = kept.iter().map(|&k| main.lines[k]).collect();
     let mut values = BTreeMap::new();
-    let mut remarks = Vec::new();
+    let mut warnings = Vec::new();
     for (places, part) in &parts {
         for (&place, column) in places.iter().zip(&part.columns) {
             values.insert(place, part.at(column, &time));
         }
-        remarks.extend(part.remarks.iter().cloned());
+        warnings.extend(part.warnings.iter().cloned());
         let gap = part.time.windows(2).zip(&part.lines).find(|(pair, _)| pair[1] - pair[0] > GAP);
         if let Some((pair, line)) = gap {
-            remarks.push(format!(
+            warnings.push(format!(
                 "{} has nothing for {:.2} s after line {line}; a straight line stands there.",
                 part.file.display(),
                 pair[1] - pair[0]
             ));
         }
     }
-    Ok(Joined { time, lines, values, remarks })
+    Ok(Joined { time, lines, values, warnings })
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
-use super::RideError;
+use super::RecordingError;
 
 /// The argument that stands for standard input.
 const STANDARD_INPUT: &str = "-";
@@ -23,7 +23,7 @@ const JOIN: char = '+';
 ///
 /// # Errors
 /// The directory cannot be read, or holds no CSV file.
-pub fn files(file: &Path) -> Result<Vec<PathBuf>, RideError> {
+pub fn files(file: &Path) -> Result<Vec<PathBuf>, RecordingError> {
     if file.is_dir() {
         return files_in(file);
     }
@@ -36,8 +36,8 @@ fn joined(file: &Path) -> Option<Vec<PathBuf>> {
     (text.contains(JOIN) && !file.exists()).then(|| text.split(JOIN).map(PathBuf::from).collect())
 }
 
-fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RideError> {
-    let unreadable = |reason| RideError::Read { file: directory.to_owned(), reason };
+fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RecordingError> {
+    let unreadable = |reason| RecordingError::Read { file: directory.to_owned(), reason };
     let is_csv = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
         path.is_file() && (name.ends_with(".csv") || name.ends_with(".csv.gz"))
@@ -48,7 +48,7 @@ fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RideError> {
     files.sort();
     if files.is_empty() {
         let reason = "is a directory without CSV files".to_owned();
-        return Err(RideError::Whole { file: directory.to_owned(), reason });
+        return Err(RecordingError::Whole { file: directory.to_owned(), reason });
     }
     Ok(files)
 }
@@ -86,9 +86,9 @@ fn is_standard_input(file: &Path) -> bool {
 /// # Errors
 /// The file cannot be read or unpacked, is too large, or is of a known format that is not
 /// CSV: what to do about it.
-pub fn text(file: &Path) -> Result<String, RideError> {
-    let unreadable = |reason| RideError::Read { file: shown(file), reason };
-    let refused = |reason: &str| RideError::Whole { file: shown(file), reason: reason.to_owned() };
+pub fn text(file: &Path) -> Result<String, RecordingError> {
+    let unreadable = |reason| RecordingError::Read { file: shown(file), reason };
+    let refused = |reason: &str| RecordingError::Whole { file: shown(file), reason: reason.to_owned() };
     let mut bytes = if is_standard_input(file) {
         let mut bytes = Vec::new();
         stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;

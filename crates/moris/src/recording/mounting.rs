@@ -81,7 +81,7 @@ pub struct Found {
     /// Rotation from the sensor's axes to the vehicle's.
     pub rotation: Matrix3<f64>,
     /// The angles and their evidence, in a sentence.
-    pub remark: String,
+    pub warning: String,
 }
 
 /// Time over which samples are averaged before anything is looked for \[s\].
@@ -205,11 +205,11 @@ pub fn find(motion: &SensorMotion) -> Result<Found, String> {
     let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(rotation).euler_angles();
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
     let level = if rest.is_some() { "gravity" } else { "the mean force, as the recording has no second of rest" };
-    let remark = format!(
+    let warning = format!(
         "The sensor's mounting was found from {level} and {evidence}: --mounting={roll:.1},{pitch:.1},{yaw:.1} gives the \
          same."
     );
-    Ok(Found { rotation, remark })
+    Ok(Found { rotation, warning })
 }
 
 /// The part of a vector that is perpendicular to `up`.

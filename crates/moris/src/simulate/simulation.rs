@@ -30,7 +30,8 @@ impl Simulation {
         Simulation::prepared(replay, parameters, |_, _| (), progress)
     }
 
-    /// As [`Simulation::of`]; `prepare` is called before each step with the time at its start \[s\].
+    /// As [`Simulation::of`]; `prepare` is called before each step with the time at its start
+    /// \[s\].
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.

@@ -1,4 +1,5 @@
-//! The bound on each axis: how well the ride's specific force could be felt at best on this rig.
+//! The bound on each axis: how well the recording's specific force could be felt at best on this
+//! rig.
 
 use moris_measures::Axes;
 use moris_measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
@@ -29,7 +30,7 @@ impl AxisBound {
 /// An axis on which less than this is desired has no bound worth computing: RMS \[m/s2\].
 const WORTH_BOUNDING: f64 = 0.01;
 
-/// More intervals than this take too long, and a longer ride gets longer ones: its bound is a
+/// More intervals than this take too long, and a longer recording gets longer ones: its bound is a
 /// little lower, and as valid.
 const MOST_INTERVALS: f64 = 10_000.0;
 
@@ -40,7 +41,7 @@ const MOST_INTERVALS: f64 = 10_000.0;
 /// location without lean.
 ///
 /// # Errors
-/// The ride is too short for a bound, or the solver fails.
+/// The recording is too short for a bound, or the solver fails.
 pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundError> {
     let duration = simulation.step * simulation.inputs.len() as f64;
     let interval = INTERVAL.max(duration / MOST_INTERVALS);

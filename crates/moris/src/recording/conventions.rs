@@ -22,7 +22,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::RideError;
+use super::RecordingError;
 pub use super::formats::Format;
 pub use super::mounting::Mounting;
 pub use super::quantity::Quantity;
@@ -90,7 +90,7 @@ impl From<RateFrame> for AngularVelocityFrame {
 }
 
 /// Time over which commands fade recordings in from rest \[s\]: one that is cut out of a longer
-/// ride begins in motion, and the platform at rest.
+/// recording begins in motion, and the platform at rest.
 pub const FADE_IN: f64 = 1.0;
 
 /// Options that describe a recording.
@@ -213,7 +213,7 @@ impl ConventionOptions {
     ///
     /// # Errors
     /// The file cannot be read or has an unknown word or value.
-    pub fn load(&self) -> Result<Conventions, RideError> {
+    pub fn load(&self) -> Result<Conventions, RecordingError> {
         self.load_or_fade_in(0.0)
     }
 
@@ -222,18 +222,18 @@ impl ConventionOptions {
     ///
     /// # Errors
     /// As [`ConventionOptions::load`].
-    pub fn load_or_fade_in(&self, fade_in: f64) -> Result<Conventions, RideError> {
+    pub fn load_or_fade_in(&self, fade_in: f64) -> Result<Conventions, RecordingError> {
         let given = self.with_file()?;
         let given = given.format.map_or(given.clone(), |format| given.over(format.options()));
         ConventionOptions { fade_in: given.fade_in.or(Some(fade_in)), ..given }.checked()
     }
 
     /// The options over the file's, if there is one.
-    fn with_file(&self) -> Result<ConventionOptions, RideError> {
+    fn with_file(&self) -> Result<ConventionOptions, RecordingError> {
         let Some(file) = &self.conventions else { return Ok(self.clone()) };
-        let text = fs::read_to_string(file).map_err(|reason| RideError::Read { file: file.clone(), reason })?;
+        let text = fs::read_to_string(file).map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
         let given: ConventionOptions = toml::from_str(&text)
-            .map_err(|error| RideError::Conventions { file: file.clone(), reason: error.to_string() })?;
+            .map_err(|error| RecordingError::Conventions { file: file.clone(), reason: error.to_string() })?;
         Ok(self.over(given))
     }
 
@@ -259,14 +259,14 @@ impl ConventionOptions {
         }
     }
 
-    fn checked(&self) -> Result<Conventions, RideError> {
+    fn checked(&self) -> Result<Conventions, RecordingError> {
         let allowed = [
             ("resample", self.resample, 1.0..=1e5, "samples a second"),
             ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
         ];
         for (name, given, range, unit) in allowed {
             if let Some(value) = given.filter(|value| !range.contains(value)) {
-                return Err(RideError::Option { name, value, min: *range.start(), max: *range.end(), unit });
+                return Err(RecordingError::Option { name, value, min: *range.start(), max: *range.end(), unit });
             }
         }
         Ok(self.conventions())

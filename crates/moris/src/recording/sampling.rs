@@ -1,6 +1,6 @@
 //! Equal steps: the washout's own filters do not need them, but measures and comparisons do.
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::{Conventions, Quantity};
 use super::join::GAP;
 use super::table::Table;
@@ -21,7 +21,7 @@ const MOST_SAMPLES: f64 = 1e7;
 /// # Errors
 /// Time stands still or goes back; the steps are unequal and interpolation is off; the steps are
 /// too coarse or too fine for the unit of time.
-pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RideError> {
+pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RecordingError> {
     check_order(&table)?;
     check_unit(&table)?;
     match conventions.resample {
@@ -30,12 +30,12 @@ pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table,
     }
 }
 
-fn line_error(table: &Table, sample: usize, reason: String) -> RideError {
+fn line_error(table: &Table, sample: usize, reason: String) -> RecordingError {
     let column = Some("time".to_owned());
-    RideError::Line { file: table.file.clone(), line: table.lines[sample], column, reason }
+    RecordingError::Line { file: table.file.clone(), line: table.lines[sample], column, reason }
 }
 
-fn check_order(table: &Table) -> Result<(), RideError> {
+fn check_order(table: &Table) -> Result<(), RecordingError> {
     for (k, pair) in table.time.windows(2).enumerate() {
         let [before, after] = [pair[0], pair[1]];
         if after <= before {
@@ -53,7 +53,7 @@ fn usual_step(table: &Table) -> f64 {
     steps[steps.len() / 2]
 }
 
-fn check_unit(table: &Table) -> Result<(), RideError> {
+fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let usual = usual_step(table);
     let unit = table.column(Quantity::Time).map_or("s", |column| column.unit.word);
     let reason = if usual > COARSEST {
@@ -64,10 +64,10 @@ fn check_unit(table: &Table) -> Result<(), RideError> {
         return Ok(());
     };
     let reason = format!("samples come every {usual} s if time is in {unit}: {reason}");
-    Err(RideError::Whole { file: table.file.clone(), reason })
+    Err(RecordingError::Whole { file: table.file.clone(), reason })
 }
 
-fn check_equal(table: &Table) -> Result<(), RideError> {
+fn check_equal(table: &Table) -> Result<(), RecordingError> {
     let (step, usual) = (table.step(), usual_step(table));
     let expected = |k: usize| table.time[0] + k as f64 * step;
     let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
@@ -86,12 +86,12 @@ fn check_equal(table: &Table) -> Result<(), RideError> {
 }
 
 /// Linear interpolation at `rate` samples a second.
-fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RideError> {
+fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RecordingError> {
     let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
     let steps = (last - first) * rate + 1e-6;
     if steps > MOST_SAMPLES {
         let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);
-        return Err(RideError::Whole { file: table.file.clone(), reason });
+        return Err(RecordingError::Whole { file: table.file.clone(), reason });
     }
     let count = steps.floor() as usize + 1;
     let time: Vec<f64> = (0..count.max(2)).map(|k| first + k as f64 / rate).collect();
@@ -111,10 +111,10 @@ fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), RideError
     };
     let columns = table.columns.iter().map(|(&quantity, values)| (quantity, interpolated(values))).collect();
     let lines = places.iter().map(|&(k, _)| table.lines[k]).collect();
-    let remarks = gaps(table);
-    let Table { file, layout, remarks: earlier, .. } = table;
+    let warnings = gaps(table);
+    let Table { file, layout, warnings: earlier, .. } = table;
     let (file, layout, earlier) = (file.clone(), layout.clone(), earlier.clone());
-    Ok((Table { file, time, columns, layout, lines, remarks: earlier }, remarks))
+    Ok((Table { file, time, columns, layout, lines, warnings: earlier }, warnings))
 }
 
 fn gaps(table: &Table) -> Vec<String> {

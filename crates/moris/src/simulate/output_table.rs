@@ -1,4 +1,4 @@
-//! The table of a ride's inputs and outputs.
+//! The table of a simulation's inputs and outputs.
 
 use std::path::Path;
 

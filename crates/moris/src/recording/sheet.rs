@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use csv::{Reader, ReaderBuilder, StringRecord};
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::{Conventions, EmptyFields, Quantity};
 use super::header::Header;
 use super::numbers::{Numbers, is_empty, is_number};
@@ -50,10 +50,10 @@ impl Sheet {
     ///
     /// # Errors
     /// The file cannot be read, is no CSV, or has no header.
-    pub fn open(file: &Path, conventions: &Conventions) -> Result<Self, RideError> {
+    pub fn open(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
         let text = source::text(file)?;
         let file = source::shown(file);
-        let whole = |reason: &str| RideError::Whole { file: file.clone(), reason: reason.to_owned() };
+        let whole = |reason: &str| RecordingError::Whole { file: file.clone(), reason: reason.to_owned() };
         let start = header_start(&text, conventions);
         let delimiter = delimiter(&text[start.0..]);
         let mut reader = reader(&text[start.0..], delimiter);
@@ -89,14 +89,14 @@ impl Sheet {
     ///
     /// # Errors
     /// A value is not a number, a line has too many fields, there are fewer than two lines.
-    pub fn samples(&self, places: &[usize], time: usize, conventions: &Conventions) -> Result<Samples, RideError> {
+    pub fn samples(&self, places: &[usize], time: usize, conventions: &Conventions) -> Result<Samples, RecordingError> {
         let text = &self.text[self.start.0..];
         let mut reader = reader(text, self.delimiter);
         let mut record = StringRecord::new();
         let mut advance = |record: &mut StringRecord| {
             reader
                 .read_record(record)
-                .map_err(|error| RideError::Whole { file: self.file.clone(), reason: error.to_string() })
+                .map_err(|error| RecordingError::Whole { file: self.file.clone(), reason: error.to_string() })
         };
         for _ in 0..self.below {
             advance(&mut record)?;
@@ -108,7 +108,7 @@ impl Sheet {
             let line = self.start.1 + record.position().map_or(0, |position| line_of_record(position, text));
             let refused = |place: Option<usize>, reason| {
                 let column = place.map(|place| self.header.shown(place));
-                RideError::Line { file: self.file.clone(), line, column, reason }
+                RecordingError::Line { file: self.file.clone(), line, column, reason }
             };
             if record.iter().skip(self.header.width()).any(|field| !field.trim().is_empty()) {
                 return Err(refused(None, too_many_fields(record.len(), self.header.width())));
@@ -131,7 +131,7 @@ impl Sheet {
         }
         if samples.time.len() < 2 {
             let reason = "has fewer than two samples below its header".to_owned();
-            return Err(RideError::Whole { file: self.file.clone(), reason });
+            return Err(RecordingError::Whole { file: self.file.clone(), reason });
         }
         Ok(samples)
     }

@@ -5,7 +5,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
 use super::mounting::{self, Found, SensorMotion};
 use super::sampling::at;
@@ -15,18 +15,18 @@ use super::table::Table;
 ///
 /// # Errors
 /// The mounting is to be found and cannot be.
-pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Vec<String>), RideError> {
+pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Vec<String>), RecordingError> {
     let found = match conventions.mounting {
         None => None,
-        Some(Mounting::Angles(angles)) => Some(Found { rotation: mounting::rotation(angles), remark: String::new() }),
+        Some(Mounting::Angles(angles)) => Some(Found { rotation: mounting::rotation(angles), warning: String::new() }),
         Some(Mounting::Auto) => Some(
             find_mounting(table, conventions)
-                .map_err(|reason| RideError::Whole { file: table.file.clone(), reason })?,
+                .map_err(|reason| RecordingError::Whole { file: table.file.clone(), reason })?,
         ),
     };
     let mounting = found.as_ref().map(|found| found.rotation);
     let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
-    Ok((inputs, found.map(|found| found.remark).into_iter().filter(|remark| !remark.is_empty()).collect()))
+    Ok((inputs, found.map(|found| found.warning).into_iter().filter(|warning| !warning.is_empty()).collect()))
 }
 
 /// Three columns at a sample, turned to x forward, y left, z up of the sensor.

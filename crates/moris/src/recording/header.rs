@@ -6,7 +6,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use moris_setup::nearest;
 
-use super::RideError;
+use super::RecordingError;
 use super::conventions::{Conventions, Format, Quantity};
 use super::units::{Dimension, TimeUnit, Unit, any_spelled};
 
@@ -158,8 +158,13 @@ impl Header {
     /// # Errors
     /// Columns are missing, all of which are named; a name stands twice; a column is given for two
     /// quantities; a unit is unknown, or contradicts an option.
-    pub fn columns(&self, file: &Path, conventions: &Conventions, skips_time: bool) -> Result<Vec<Column>, RideError> {
-        let refused = |reason: String| RideError::Whole { file: file.to_owned(), reason };
+    pub fn columns(
+        &self,
+        file: &Path,
+        conventions: &Conventions,
+        skips_time: bool,
+    ) -> Result<Vec<Column>, RecordingError> {
+        let refused = |reason: String| RecordingError::Whole { file: file.to_owned(), reason };
         let mut columns = Vec::new();
         for (quantity, terms) in self.places(file, conventions, skips_time)? {
             let (unit, source) = self.unit_of_sum(&terms, quantity.dimension(), conventions).map_err(refused)?;
@@ -174,8 +179,8 @@ impl Header {
         file: &Path,
         conventions: &Conventions,
         skips_time: bool,
-    ) -> Result<Vec<(Quantity, Vec<Term>)>, RideError> {
-        let refused = |reason: String| RideError::Whole { file: file.to_owned(), reason };
+    ) -> Result<Vec<(Quantity, Vec<Term>)>, RecordingError> {
+        let refused = |reason: String| RecordingError::Whole { file: file.to_owned(), reason };
         let mut used: BTreeMap<usize, Quantity> = BTreeMap::new();
         let mut places = Vec::new();
         let mut missing = Vec::new();
@@ -273,7 +278,7 @@ impl Header {
         )
     }
 
-    fn missing(&self, file: &Path, missing: &[(&str, &str)]) -> RideError {
+    fn missing(&self, file: &Path, missing: &[(&str, &str)]) -> RecordingError {
         let names = || self.titles.iter().map(|title| title.name.as_str());
         let format = Format::value_variants().iter().find(|format| self.is_of(**format));
         if let Some(format) = format {
@@ -283,7 +288,7 @@ impl Header {
                 format.word(),
                 format.word()
             );
-            return RideError::Whole { file: file.to_owned(), reason };
+            return RecordingError::Whole { file: file.to_owned(), reason };
         }
         let like = |name: &str| {
             let like = nearest(name, names()).first().map(|&like| format!(" (is it {}?)", quoted(like)));
@@ -303,7 +308,7 @@ impl Header {
             present.join(", "),
             keys.join(",")
         );
-        RideError::Whole { file: file.to_owned(), reason }
+        RecordingError::Whole { file: file.to_owned(), reason }
     }
 
     /// True where the columns of a logger's format are there.

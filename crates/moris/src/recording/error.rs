@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
-pub enum RideError {
+pub enum RecordingError {
     /// A file cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },

@@ -110,8 +110,8 @@ pub fn text(measured: &Measured) -> String {
         "cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}",
         pairs(measured, &CROSS)
     );
-    for remark in remarks(&measured.test) {
-        let _ = writeln!(text, "{remark}");
+    for warning in warnings(&measured.test) {
+        let _ = writeln!(text, "{warning}");
     }
     text
 }
@@ -135,9 +135,9 @@ fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
 }
 
 /// Remarks on the tests.
-fn remarks(responses: &[Response]) -> Vec<String> {
+fn warnings(responses: &[Response]) -> Vec<String> {
     let limits = ["tilt coordination", "a safety unit", "the actuator guard"];
-    let mut remarks: Vec<String> = limits
+    let mut warnings: Vec<String> = limits
         .iter()
         .enumerate()
         .filter_map(|(i, name)| {
@@ -147,9 +147,9 @@ fn remarks(responses: &[Response]) -> Vec<String> {
         .collect();
     let unsettled: Vec<&Response> = responses.iter().filter(|one| !one.settled).collect();
     if !unsettled.is_empty() {
-        remarks.push(format!("never settled, marked with ?: {}", places(&unsettled)));
+        warnings.push(format!("never settled, marked with ?: {}", places(&unsettled)));
     }
-    remarks
+    warnings
 }
 
 /// Where responses are: channels, each with its frequencies.

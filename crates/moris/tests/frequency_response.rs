@@ -8,9 +8,9 @@
 //! compensated like a tilt, brings -(g - h s^2 LP) s^3/D w along surge (with the other sign along
 //! sway, where a roll to the right feels like a force to the left).
 
-use moris::respond::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
-use moris::respond::excitation::{Amplitudes, frequencies};
-use moris::respond::{Measured, Response, picture, response, table};
+use moris::frequency_response::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
+use moris::frequency_response::excitation::{Amplitudes, frequencies};
+use moris::frequency_response::{Measured, Response, picture, response, table};
 use moris_washout::nalgebra::Complex;
 use moris_washout::{Parameters, presets};
 

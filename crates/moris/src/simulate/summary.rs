@@ -6,17 +6,18 @@ use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 
 use super::{Outcome, findings};
-use crate::ride::Ride;
+use crate::recording::Recording;
 use crate::text_table::TextTable;
 
 /// Stands where a number is not defined.
 const UNDEFINED: &str = "–";
 
-/// The ride, what was found, and for each set of parameters a table of measures.
-pub fn text(ride: &Ride, outcomes: &[Outcome]) -> String {
-    let mut text = format!("{}: {:.1} s at {:.0} Hz\n", ride.name, ride.manoeuvre.duration(), 1.0 / ride.step());
-    for remark in &ride.remarks {
-        writeln!(text, "  {remark}").expect("a string takes whatever is written");
+/// The recording, what was found, and for each set of parameters a table of measures.
+pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
+    let mut text =
+        format!("{}: {:.1} s at {:.0} Hz\n", recording.name, recording.manoeuvre.duration(), 1.0 / recording.step());
+    for warning in &recording.warnings {
+        writeln!(text, "  {warning}").expect("a string takes whatever is written");
     }
     for outcome in outcomes {
         let setup = &outcome.setup;

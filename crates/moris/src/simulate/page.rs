@@ -8,7 +8,7 @@ use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::{Outcome, Simulation, findings};
-use crate::ride::Ride;
+use crate::recording::Recording;
 
 /// Largest page \[bytes\].
 const LARGEST: usize = 3_000_000;
@@ -17,15 +17,16 @@ const LARGEST: usize = 3_000_000;
 const MOST_SAMPLES: usize = 150_000;
 const LEAST_SAMPLES: usize = 4_000;
 
-/// The page of a ride with one or several sets of parameters, with as many samples as fit into it.
+/// The page of a recording with one or several sets of parameters, with as many
+/// samples as fit into it.
 ///
 /// # Errors
 /// The report does not fit together.
-pub fn html(ride: &Ride, outcomes: &[Outcome]) -> Result<String, ReportError> {
+pub fn html(recording: &Recording, outcomes: &[Outcome]) -> Result<String, ReportError> {
     let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
-        let page = moris_report::html(&report(ride, outcomes, most / outcomes.len()))?;
+        let page = moris_report::html(&report(recording, outcomes, most / outcomes.len()))?;
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
             return Ok(page);
         }
@@ -34,24 +35,24 @@ pub fn html(ride: &Ride, outcomes: &[Outcome]) -> Result<String, ReportError> {
     }
 }
 
-/// The report of a ride with one or several sets of parameters, of which the first is shown first,
-/// with at most so many samples of each.
-fn report(ride: &Ride, outcomes: &[Outcome], most: usize) -> Report {
+/// The report of a recording with one or several sets of parameters, of which the first is shown
+/// first, with at most so many samples of each.
+fn report(recording: &Recording, outcomes: &[Outcome], most: usize) -> Report {
     let first = &outcomes[0];
     let thinning = Thinning::new(first.simulation.inputs.len(), most);
-    let remarks = ride.remarks.iter().map(|remark| Finding { weight: Weight::Warning, text: remark.clone() });
+    let warnings = recording.warnings.iter().map(|warning| Finding { weight: Weight::Warning, text: warning.clone() });
     Report {
-        title: ride.name.clone(),
+        title: recording.name.clone(),
         subtitle: format!(
             "{:.1} s on {}, parameters: {}",
-            ride.manoeuvre.duration(),
+            recording.manoeuvre.duration(),
             first.setup.rig_name,
             outcomes.iter().map(|outcome| outcome.setup.parameters_name.as_str()).collect::<Vec<_>>().join(", ")
         ),
-        findings: remarks.collect(),
+        findings: warnings.collect(),
         provenance: vec![
-            ("Recording".to_owned(), format!("{}, {:.0} samples a second", ride.name, 1.0 / ride.step())),
-            ("Gravity".to_owned(), gravity(ride).to_owned()),
+            ("Recording".to_owned(), format!("{}, {:.0} samples a second", recording.name, 1.0 / recording.step())),
+            ("Gravity".to_owned(), gravity(recording).to_owned()),
             ("Curves".to_owned(), resolution(first, &thinning)),
             ("Made by".to_owned(), format!("moris {}", env!("CARGO_PKG_VERSION"))),
         ],
@@ -62,8 +63,8 @@ fn report(ride: &Ride, outcomes: &[Outcome], most: usize) -> Report {
 }
 
 /// Method of removing gravity.
-fn gravity(ride: &Ride) -> &'static str {
-    if ride.has_orientation {
+fn gravity(recording: &Recording) -> &'static str {
+    if recording.has_orientation {
         "removed as gravityRemoval says, by the recorded orientation"
     } else {
         "no orientation recorded: what is cued is what differs from (0, 0, g), the force felt at rest"

@@ -28,8 +28,8 @@ use moris_washout::Washout;
 use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
-use crate::ride::preview::{Previewer, parse_seconds};
-use crate::ride::{ConventionOptions, Conventions, FADE_IN, Ride};
+use crate::recording::preview::{Previewer, parse_seconds};
+use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording};
 use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
 pub use simulation::Simulation;
@@ -53,7 +53,7 @@ pub struct Options {
     /// force, m/s2) and wx, wy, wz (rad/s) at the rider's head, x forward, y left, z up. Units in
     /// the header's brackets are read. Other names, units and axes are given by the options below
     #[arg(required = true, value_name = "RECORDING")]
-    rides: Vec<PathBuf>,
+    recordings: Vec<PathBuf>,
 
     #[command(flatten)]
     setup: SetupOptions,
@@ -102,23 +102,23 @@ impl Outcome {
     ///
     /// # Errors
     /// The parameters cannot be used.
-    pub fn of(ride: &Ride, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
-        Self::previewed(ride, setup, 0.0, progress)
+    pub fn of(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+        Self::previewed(recording, setup, 0.0, progress)
     }
 
     /// As [`Outcome::of`] with a preview of the recording of so many seconds.
     ///
     /// # Errors
     /// As [`Outcome::of`].
-    pub fn previewed(ride: &Ride, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
-        let parameters = ride.parameters(&setup.parameters);
-        let previewer = (seconds > 0.0).then(|| Previewer::new(ride.inputs(), ride.step(), seconds));
+    pub fn previewed(recording: &Recording, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
+        let parameters = recording.parameters(&setup.parameters);
+        let previewer = (seconds > 0.0).then(|| Previewer::new(recording.inputs(), recording.step(), seconds));
         let prepare = |washout: &mut Washout, time: f64| {
             if let Some(previewer) = &previewer {
                 washout.preview(&previewer.at(time));
             }
         };
-        Outcome::measured(Simulation::prepared(&ride.replay(), &parameters, prepare, progress)?, setup)
+        Outcome::measured(Simulation::prepared(&recording.replay(), &parameters, prepare, progress)?, setup)
     }
 
     /// Measures a simulation with this setup's rig.
@@ -161,12 +161,12 @@ impl Outcome {
 /// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
-    check_names(&options.rides, &cases)?;
+    check_names(&options.recordings, &cases)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let mut entries = Vec::new();
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();
-    for file in &options.rides {
+    for file in &options.recordings {
         let simulated = match simulate(options, file, &cases, &conventions) {
             Ok(simulated) => simulated,
             Err(error) => {
@@ -248,18 +248,19 @@ struct Simulated {
 
 /// Simulates a recording with each of the setups, and writes its files.
 fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conventions) -> Result<Simulated> {
-    let mut progress = Progress::new(&Ride::name_of(file), "reading")?;
-    let ride = Ride::read(file, conventions)?;
-    let outcomes = outcomes(&ride, cases, !options.no_bound, &mut progress).with_context(|| ride.name.clone())?;
+    let mut progress = Progress::new(&Recording::name_of(file), "reading")?;
+    let recording = Recording::read(file, conventions)?;
+    let outcomes =
+        outcomes(&recording, cases, !options.no_bound, &mut progress).with_context(|| recording.name.clone())?;
     progress.phase("writing the report", 0);
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
-    let files = write_files(&options.report, &ride, &outcomes)?;
+    let files = write_files(&options.report, &recording, &outcomes)?;
     progress.finish();
-    let mut json = json::recording(&ride, &outcomes);
+    let mut json = json::recording(&recording, &outcomes);
     json["files"] = files.iter().map(|file| file.display().to_string()).collect();
     let page = files.last().map(PathBuf::as_path).unwrap_or(file);
-    let entry = index::Entry::new(&ride, &outcomes[0], page);
-    Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&ride, &outcomes), json, files, entry })
+    let entry = index::Entry::new(&recording, &outcomes[0], page);
+    Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&recording, &outcomes), json, files, entry })
 }
 
 /// True where neither a safety unit nor an actuator's limit was active.
@@ -268,11 +269,11 @@ pub fn fits_the_rig(outcome: &Outcome) -> bool {
     effort.safety_active == 0.0 && effort.actuator_limited == 0.0
 }
 
-fn outcomes(ride: &Ride, cases: &[Case], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
-    progress.phase("simulating", (ride.inputs().len() * cases.len()) as u64);
+fn outcomes(recording: &Recording, cases: &[Case], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
+    progress.phase("simulating", (recording.inputs().len() * cases.len()) as u64);
     let mut outcomes: Vec<Outcome> = cases
         .iter()
-        .map(|case| Outcome::previewed(ride, &case.setup, case.preview, || progress.step()))
+        .map(|case| Outcome::previewed(recording, &case.setup, case.preview, || progress.step()))
         .collect::<Result<_>>()?;
     if with_bounds {
         progress.phase("computing the bound", 0);
@@ -290,11 +291,11 @@ fn outcomes(ride: &Ride, cases: &[Case], with_bounds: bool, progress: &mut Progr
 
 /// File name of the outputs with one of the setups: the recording's for the first, with the
 /// parameters' name for others.
-fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
+fn table_name(recording: &str, index: usize, setup: &Setup) -> String {
     match index {
-        0 => format!("{ride}.outputs.csv"),
+        0 => format!("{recording}.outputs.csv"),
         _ => format!(
-            "{ride}.{}.outputs.csv",
+            "{recording}.{}.outputs.csv",
             setup.parameters_name.replace(", ", "-").replace(" + ", "+").replace(' ', "-")
         ),
     }
@@ -304,29 +305,29 @@ fn table_name(ride: &str, index: usize, setup: &Setup) -> String {
 ///
 /// # Errors
 /// Two of them would be written into one file, or one over a recording.
-fn check_names(rides: &[PathBuf], cases: &[Case]) -> Result<()> {
+fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
     let mut tables = BTreeMap::new();
-    for ride in rides {
-        let stem = Ride::name_of(ride);
+    for recording in recordings {
+        let stem = Recording::name_of(recording);
         for (index, case) in cases.iter().enumerate() {
             let name = table_name(&stem, index, &case.setup);
-            if rides.iter().any(|ride| ride.file_name().is_some_and(|file| file == name.as_str())) {
+            if recordings.iter().any(|recording| recording.file_name().is_some_and(|file| file == name.as_str())) {
                 bail!(
                     "{name} is both a recording and what the outputs of {} are to be written into; rename the recording",
-                    ride.display()
+                    recording.display()
                 );
             }
-            match tables.insert(name.clone(), ride) {
-                Some(other) if other == ride => bail!(
+            match tables.insert(name.clone(), recording) {
+                Some(other) if other == recording => bail!(
                     "{} would be simulated twice, or with two --compare of the same name, and both written into {name}; name each once, \
                      and rename one of two parameter files of the same name",
-                    ride.display()
+                    recording.display()
                 ),
                 Some(other) => bail!(
                     "the outputs of {} and {} would both be written into {name}; rename one of them, or simulate each with a --report \
                      of its own",
                     other.display(),
-                    ride.display()
+                    recording.display()
                 ),
                 None => (),
             }
@@ -336,14 +337,14 @@ fn check_names(rides: &[PathBuf], cases: &[Case]) -> Result<()> {
 }
 
 /// Writes the tables of outputs and the page; returns their names.
-fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
+fn write_files(directory: &Path, recording: &Recording, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (index, outcome) in outcomes.iter().enumerate() {
-        let file = directory.join(table_name(&ride.name, index, &outcome.setup));
+        let file = directory.join(table_name(&recording.name, index, &outcome.setup));
         output_table::write(&file, &outcome.simulation)?;
         written.push(file);
     }
-    written.push(write_page(directory, &ride.name, ride, outcomes)?);
+    written.push(write_page(directory, &recording.name, recording, outcomes)?);
     Ok(written)
 }
 
@@ -351,9 +352,9 @@ fn write_files(directory: &Path, ride: &Ride, outcomes: &[Outcome]) -> Result<Ve
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_page(directory: &Path, name: &str, ride: &Ride, outcomes: &[Outcome]) -> Result<PathBuf> {
+pub fn write_page(directory: &Path, name: &str, recording: &Recording, outcomes: &[Outcome]) -> Result<PathBuf> {
     let file = directory.join(format!("{name}.html"));
-    let html = page::html(ride, outcomes).context("the report does not fit together")?;
+    let html = page::html(recording, outcomes).context("the report does not fit together")?;
     fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }
