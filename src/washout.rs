@@ -452,7 +452,7 @@ fn engagement_after(engagement: f64, engaged: bool, step: f64) -> f64 {
     if engaged { min(engagement + change, 1.0) } else { max(engagement - change, 0.0) }
 }
 
-/// The refusal of a strategy's prices for which there is no regulator in numbers.
+/// The error for a strategy's weights for which there is no regulator in numbers.
 fn no_regulator(parameters: &Parameters) -> ParameterError {
     let prefix = if parameters.structure.strategy == StrategyKind::Predictive { "predictive" } else { "optimal" };
     ParameterError {

@@ -123,7 +123,7 @@ impl Plan {
         command
     }
 
-    /// The target as cargo, or cargo-zigbuild, wants it.
+    /// The target as cargo and cargo-zigbuild name it.
     fn target(&self) -> String {
         match self.linker {
             Linker::Zig => format!("{}.{OLDEST_GLIBC}", self.platform.target()),
@@ -147,7 +147,7 @@ impl Plan {
             Linker::Host | Linker::Zig => {}
         }
         if self.platform.is_apple() {
-            // A library there carries its own name, which unless told is where it was linked.
+            // A library there carries its own name, by default the path at which it was linked.
             let name = format!("@rpath/{}", self.platform.packed_library(library));
             let through_compiler = if self.linker == Linker::Host { "-Wl," } else { "" };
             flags.push(format!("-Clink-arg={through_compiler}-install_name").into());

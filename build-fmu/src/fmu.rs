@@ -81,9 +81,9 @@ pub(crate) fn fmu_with(
     for plan in &plans {
         report(&format!("{}: {plan}", plan.platform));
         let bytes = compile::compile(model, start, fmi, plan)?;
-        let facts = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
+        let info = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
             .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
-        report(&format!("{}: {facts}", plan.platform));
+        report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }
     archive::pack(&contents::contents(model, start, fmi, libraries))

@@ -1,5 +1,5 @@
-//! Looking at a shared library before it is shipped: what it exports, what it needs, and what it
-//! gives away.
+//! Examination of a shared library before it is shipped: its exports, the libraries that it needs,
+//! and paths of the build machine that it leaks.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -11,7 +11,7 @@ use object::read::elf::{Dyn, ElfFile64};
 
 /// Properties of the library that matter to its users.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Facts {
+pub struct LibraryInfo {
     /// The newest version of glibc of which it needs something; none where it is not for Linux.
     pub glibc: Option<Version>,
     /// The libraries that it needs.
@@ -49,17 +49,21 @@ pub enum LibraryError {
 ///
 /// # Errors
 /// The first flaw found.
-pub fn examine(library: &[u8], functions: &[&str], private_paths: &[(PathBuf, &str)]) -> Result<Facts, LibraryError> {
+pub fn examine(
+    library: &[u8],
+    functions: &[&str],
+    private_paths: &[(PathBuf, &str)],
+) -> Result<LibraryInfo, LibraryError> {
     let file = object::File::parse(library)?;
     check_exports(&file, functions)?;
     check_paths(library, private_paths)?;
-    let mut facts = Facts { glibc: None, needs: BTreeSet::new(), size: library.len() };
+    let mut info = LibraryInfo { glibc: None, needs: BTreeSet::new(), size: library.len() };
     if let object::File::Elf64(elf) = &file {
-        read_elf(elf, &mut facts)?;
+        read_elf(elf, &mut info)?;
     } else {
-        facts.needs = file.imports()?.iter().map(|import| text(import.library())).collect();
+        info.needs = file.imports()?.iter().map(|import| text(import.library())).collect();
     }
-    Ok(facts)
+    Ok(info)
 }
 
 /// Exactly the functions of FMI, and every one of them.
@@ -93,7 +97,7 @@ fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), 
 
 /// Properties of Linux libraries: versions of glibc's functions, and a search path, which must be
 /// absent.
-fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), LibraryError> {
+fn read_elf(elf: &ElfFile64, info: &mut LibraryInfo) -> Result<(), LibraryError> {
     let (endian, data, sections) = (elf.endian(), elf.data(), elf.elf_section_table());
     if let Some((entries, link)) = sections.dynamic(endian, data)? {
         let strings = sections.strings(endian, data, link)?;
@@ -101,7 +105,7 @@ fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), LibraryError> {
             match entry.tag32(endian) {
                 Some(DT_RPATH | DT_RUNPATH) => return Err(LibraryError::SearchPath),
                 Some(DT_NEEDED) => {
-                    facts.needs.insert(text(entry.string(endian, strings)?));
+                    info.needs.insert(text(entry.string(endian, strings)?));
                 }
                 _ => {}
             }
@@ -111,7 +115,7 @@ fn read_elf(elf: &ElfFile64, facts: &mut Facts) -> Result<(), LibraryError> {
         let strings = sections.strings(endian, data, link)?;
         while let Some((_, mut versions)) = files.next()? {
             while let Some(version) = versions.next()? {
-                facts.glibc = facts.glibc.take().max(Version::of_glibc(&text(version.name(endian, strings)?)));
+                info.glibc = info.glibc.take().max(Version::of_glibc(&text(version.name(endian, strings)?)));
             }
         }
     }
@@ -143,7 +147,7 @@ impl fmt::Display for Version {
     }
 }
 
-impl fmt::Display for Facts {
+impl fmt::Display for LibraryInfo {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
         if let Some(version) = &self.glibc {
             write!(formatter, "needs glibc {version} or newer, ")?;

@@ -69,7 +69,7 @@ impl Platform {
         }
     }
 
-    /// The file as FMI wants it called.
+    /// The file name that FMI requires.
     pub fn packed_library(self, name: &str) -> String {
         match self {
             Platform::Linux64 | Platform::Aarch64Linux => format!("{name}.so"),

@@ -11,7 +11,7 @@ use moris_interface::{Causality, Kind, Model, SlotModel};
 
 use crate::archive::Contents;
 
-/// Where the layered standard wants its files.
+/// Directory of the layered standard's files.
 const DIRECTORY: &str = "extra/org.fmi-standard.fmi-ls-ref";
 const MANIFEST: &str = include_str!("../reference/fmi-ls-manifest.xml");
 const EXPERIMENTS: &str = include_str!("../reference/experiments.exp");
@@ -68,8 +68,8 @@ impl Stimuli {
     fn at(&self, time: f64) -> Vec<f64> {
         let after = self.rows.partition_point(|row| row[0] < time).clamp(1, self.rows.len() - 1);
         let (from, to) = (&self.rows[after - 1], &self.rows[after]);
-        let share = (time - from[0]) / (to[0] - from[0]);
-        from.iter().zip(to).map(|(from, to)| from + share * (to - from)).collect()
+        let fraction = (time - from[0]) / (to[0] - from[0]);
+        from.iter().zip(to).map(|(from, to)| from + fraction * (to - from)).collect()
     }
 }
 

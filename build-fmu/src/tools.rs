@@ -26,7 +26,7 @@ pub fn zigbuild(platform: Platform) -> Result<(), Error> {
 /// # Errors
 /// zig is missing.
 pub fn zig_library(platform: Platform) -> Result<PathBuf, Error> {
-    zig_environment().and_then(|said| library_directory(&said)).ok_or_else(|| zig_is_missing(platform))
+    zig_environment().and_then(|environment| library_directory(&environment)).ok_or_else(|| zig_is_missing(platform))
 }
 
 fn zig_is_missing(platform: Platform) -> Error {
@@ -37,15 +37,15 @@ fn zig_is_missing(platform: Platform) -> Error {
 /// Output of `zig env`, in zig's own notation, or in JSON from older versions.
 fn zig_environment() -> Option<String> {
     let programs = [("zig", &["env"][..]), ("python3", &["-m", "ziglang", "env"])];
-    let said =
+    let output_of =
         |(program, arguments)| Command::new(program).args::<&[&str], _>(arguments).stderr(Stdio::null()).output();
-    let done = programs.into_iter().filter_map(|program| said(program).ok()).find(|done| done.status.success())?;
+    let done = programs.into_iter().filter_map(|program| output_of(program).ok()).find(|done| done.status.success())?;
     String::from_utf8(done.stdout).ok()
 }
 
 /// The value of `lib_dir`, which stands between the next quotation marks.
-fn library_directory(said: &str) -> Option<PathBuf> {
-    let (_, rest) = said.split_once("lib_dir")?;
+fn library_directory(environment: &str) -> Option<PathBuf> {
+    let (_, rest) = environment.split_once("lib_dir")?;
     let (_, value) = rest.split_once(['=', ':'])?;
     value.split('"').nth(1).map(PathBuf::from)
 }

@@ -11,7 +11,7 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("this crate is a directory of the workspace")
 }
 
-/// Where an FMU goes when nothing else is said.
+/// Directory of FMUs by default.
 pub fn default_output() -> PathBuf {
     root().join("target").join("fmu")
 }

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::{env, fs};
 
 use moris_build_fmu::functions::{FMI2_FUNCTIONS, FMI3_FUNCTIONS};
-use moris_build_fmu::library::{Facts, LibraryError, examine};
+use moris_build_fmu::library::{LibraryError, LibraryInfo, examine};
 
 /// A library that exports these names.
 fn library(test: &str, names: &[&str], more: &str, arguments: &[&str]) -> Vec<u8> {
@@ -31,7 +31,8 @@ fn library(test: &str, names: &[&str], more: &str, arguments: &[&str]) -> Vec<u8
 
 #[test]
 fn the_functions_of_the_header_and_nothing_else_are_fit() {
-    let Facts { glibc, needs, size } = examine(&library("fit", FMI2_FUNCTIONS, "", &[]), FMI2_FUNCTIONS, &[]).unwrap();
+    let LibraryInfo { glibc, needs, size } =
+        examine(&library("fit", FMI2_FUNCTIONS, "", &[]), FMI2_FUNCTIONS, &[]).unwrap();
     assert_eq!(glibc.is_some(), cfg!(target_env = "gnu") && cfg!(target_os = "linux"));
     assert!(!needs.is_empty());
     assert!(size > 0);

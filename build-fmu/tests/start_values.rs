@@ -1,4 +1,5 @@
-//! Values baked into an FMU: what is described, and what is refused before anything is compiled.
+//! Start values embedded in an FMU: what is described, and what is refused before
+//! anything is compiled.
 
 use std::path::{Path, PathBuf};
 
@@ -36,9 +37,9 @@ fn start_of(model: &Model, start: &Start, name: &str) -> f64 {
 
 #[test]
 fn values_are_in_the_descriptions_under_another_guid() {
-    let (own, baked) = (Start::own(&WASHOUT), Start::with(&WASHOUT, &values()).unwrap());
+    let (own, embedded) = (Start::own(&WASHOUT), Start::with(&WASHOUT, &values()).unwrap());
     for &fmi in FmiVersion::ALL {
-        let text = WASHOUT.model_description(fmi, &baked);
+        let text = WASHOUT.model_description(fmi, &embedded);
         let token = |text: &str| {
             let document = roxmltree::Document::parse(text).unwrap();
             let root = document.root_element();
@@ -59,7 +60,7 @@ fn values_are_in_the_descriptions_under_another_guid() {
             }
             FmiVersion::Fmi3(Layout::Arrays) => assert_eq!(start("splitter.omega1"), "0.35 0.35 0.35"),
         }
-        let files = contents(&WASHOUT, &baked, fmi, Vec::new());
+        let files = contents(&WASHOUT, &embedded, fmi, Vec::new());
         let listed = String::from_utf8(files["documentation/start-values.toml"].clone()).unwrap();
         assert!(
             listed.contains("\"splitter.y.omega1\" = 0.35") && listed.contains("\"rig.neutralHeight\" = 1.02"),

@@ -7,7 +7,7 @@ import zipfile
 from xml.etree import ElementTree
 
 LAYERED_STANDARD = "extra/org.fmi-standard.fmi-ls-ref"
-# The reference has ten decimals, and importers reckon the time of a step each in their own way.
+# The reference has ten decimals, and importers compute the time of a step each in their own way.
 TOLERANCE = 1e-9
 
 

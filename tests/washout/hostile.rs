@@ -95,7 +95,7 @@ fn survive(set: &[(&str, f64)], kind: Kind, steps: Steps, held: bool, seed: u64,
             washout.step_between(&last, &input, step);
         }
         last = input;
-        watch.look(&washout.output(), step);
+        watch.check(&washout.output(), step);
     }
     // Long, for the sets of low break frequencies: their filters have run far beyond what the safety units let through.
     const LONGEST_REST: usize = 40_000;
@@ -104,7 +104,7 @@ fn survive(set: &[(&str, f64)], kind: Kind, steps: Steps, held: bool, seed: u64,
             return;
         }
         washout.step(&Input::default(), 0.01);
-        watch.look(&washout.output(), 0.01);
+        watch.check(&washout.output(), 0.01);
     }
     panic!("not neutral after {LONGEST_REST} steps of rest: {:?}", washout.output());
 }
@@ -146,10 +146,10 @@ fn a_single_blow_of_any_kind_passes() {
             engaged: true,
         };
         washout.step(&input, 0.001);
-        watch.look(&washout.output(), 0.001);
+        watch.check(&washout.output(), 0.001);
         for _ in 0..40_000 {
             washout.step(&Input::default(), 0.001);
-            watch.look(&washout.output(), 0.001);
+            watch.check(&washout.output(), 0.001);
         }
         assert!(displacement(&washout.output()) < 1e-6, "{blow}");
     }
@@ -185,7 +185,7 @@ fn the_shortest_steps_poison_nothing() {
         let mut watch = Watch::new(&parameters, &washout.output());
         for _ in 0..30_000 {
             washout.step(&Input::default(), 0.001);
-            watch.look(&washout.output(), 0.001);
+            watch.check(&washout.output(), 0.001);
         }
         assert!(displacement(&washout.output()) < 1e-6, "after steps of {step} s: {:?}", washout.output());
     }

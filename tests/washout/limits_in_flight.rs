@@ -19,7 +19,7 @@ fn push_and_change(set: &[(&str, f64)], push: Vector3<f64>, change_at: f64, name
     let input = accelerating(push.x, push.y, push.z);
     for _ in 0..(change_at / STEP).round() as usize {
         washout.step(&input, STEP);
-        watch.look(&washout.output(), STEP);
+        watch.check(&washout.output(), STEP);
     }
     let moving = washout.output().velocity;
     assert!(moving.norm() > 0.5, "{moving} m/s are too slow for this test");
@@ -33,7 +33,7 @@ fn push_and_change(set: &[(&str, f64)], push: Vector3<f64>, change_at: f64, name
         }
         washout.step(&input, STEP);
         let output = washout.output();
-        watch.look(&output, STEP);
+        watch.check(&output, STEP);
         assert!(output.stroke_margin >= 0.0, "{name} = {value}: a stroke margin of {} m", output.stroke_margin);
     }
 }
@@ -110,7 +110,7 @@ fn a_slow_machine_keeps_its_limits_against_bang_bang_rates() {
                 ..Input::default()
             };
             washout.step(&input, STEP);
-            watch.look(&washout.output(), STEP);
+            watch.check(&washout.output(), STEP);
         }
     }
 }
@@ -148,7 +148,7 @@ fn ride_irregularly(parameters: &Parameters, seed: u64) {
             ..Input::default()
         };
         washout.step_between(&start, &end, step);
-        watch.look(&washout.output(), step);
+        watch.check(&washout.output(), step);
         start = end;
     }
 }

@@ -26,7 +26,7 @@ fn simulated(on: bool, duration: f64, motion: Motion) -> (Vec<f64>, Vec<Output>)
         let (acceleration, speed) = motion(k as f64 * STEP);
         let specific_force = Vector3::new(acceleration, 0.0, STANDARD_GRAVITY);
         washout.step(&Input { specific_force, speed, ..Input::default() }, STEP);
-        watch.look(&washout.output(), STEP);
+        watch.check(&washout.output(), STEP);
         (acceleration, washout.output())
     });
     steps.unzip()
@@ -156,11 +156,11 @@ proptest! {
             }
             input.speed += input.specific_force.x * STEP;
             washout.step(&input, STEP);
-            watch.look(&washout.output(), STEP);
+            watch.check(&washout.output(), STEP);
         }
         for _ in 0..40_000 {
             washout.step(&Input::default(), STEP);
-            watch.look(&washout.output(), STEP);
+            watch.check(&washout.output(), STEP);
         }
         prop_assert!(displacement(&washout.output()) < 1e-3);
     }

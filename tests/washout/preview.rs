@@ -44,7 +44,7 @@ fn errors(duration: f64, input: &dyn Fn(f64) -> Input, mut preview: impl FnMut(f
         washout.preview(&preview(k as f64 * STEP));
         washout.step_between(&start, &end, STEP);
         let output = washout.output();
-        watch.look(&output, STEP);
+        watch.check(&output, STEP);
         for axis in 0..2 {
             felt[axis].push(output.felt_specific_force[axis]);
             desired[axis].push(end.specific_force[axis]);

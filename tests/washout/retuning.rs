@@ -102,7 +102,7 @@ fn no_tunable_parameter_makes_anything_jump() {
             for k in 6001..9000 {
                 changed.step(&moving(k as f64 * STEP), STEP);
                 let now = changed.output();
-                watch.look_at_machine(&now, STEP);
+                watch.check_machine(&now, STEP);
                 let moved = now.position - last.position - 0.5 * STEP * (now.velocity + last.velocity);
                 assert!(moved.amax() < 2.0 * 0.01 * 15.0 * STEP * STEP, "{what} at {k}: {moved}");
                 last = now;
@@ -195,16 +195,16 @@ fn disengaged_it_returns_to_neutral_and_stays_whatever_the_vehicle_does() {
     let parameters = Parameters::default();
     let mut washout = washout(&[]);
     let mut watch = Watch::new(&parameters, &washout.output());
-    ride(&mut washout, 5.0, STEP, moving, |_, output| watch.look(output, STEP));
+    ride(&mut washout, 5.0, STEP, moving, |_, output| watch.check(output, STEP));
     assert!(displacement(&washout.output()) > 0.02);
     let disengaged = |t: f64| Input { engaged: false, ..moving(5.0 + t) };
     ride(&mut washout, 60.0, STEP, disengaged, |t, output| {
-        watch.look(output, STEP);
+        watch.check(output, STEP);
         if t > 40.0 {
             assert!(displacement(output) < 1e-6, "{} at {t}", displacement(output));
         }
     });
-    ride(&mut washout, 5.0, STEP, moving, |_, output| watch.look(output, STEP));
+    ride(&mut washout, 5.0, STEP, moving, |_, output| watch.check(output, STEP));
     assert!(displacement(&washout.output()) > 0.02, "engaged again it cues again");
 }
 

@@ -334,7 +334,7 @@ fn parameters_changed_in_flight_break_no_limit() {
                 washout.retune(&parameters).unwrap();
             }
             washout.step(&moving(k as f64 * 0.001), 0.001);
-            watch.look(&washout.output(), 0.001);
+            watch.check(&washout.output(), 0.001);
         }
     }
 }

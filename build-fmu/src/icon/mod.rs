@@ -94,6 +94,6 @@ fn project(point: Vector3<f64>) -> Point {
     (128.0 + right as f32, 208.0 - up as f32)
 }
 
-fn between(from: Point, to: Point, share: f32) -> Point {
-    (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1))
+fn between(from: Point, to: Point, fraction: f32) -> Point {
+    (from.0 + fraction * (to.0 - from.0), from.1 + fraction * (to.1 - from.1))
 }

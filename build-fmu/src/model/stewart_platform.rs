@@ -71,7 +71,7 @@ pub const STEWART_PLATFORM: Model = Model {
     reference_input: include_str!("../../reference/StewartPlatform_in.csv"),
 };
 
-/// The platform starts at neutral, and is told to be there.
+/// The platform starts at neutral, and its commands are those of neutral.
 fn commands_at_neutral(start: &[f64]) -> NamedValues {
     let rig = overlaid(&Rig::default(), &values_of(&STEWART_PLATFORM.functions.identity, start));
     (1..).zip(neutral_lengths(&rig)).map(|(leg, length)| (format!("command[{leg}].length"), length)).collect()

@@ -14,7 +14,7 @@ const TIME_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 impl<M: Model> Instance<M> {
     /// Advances from `time` by `step` \[s\]. The present time is then `time + step` as the host
-    /// reckons it, so that nothing accumulates. The inputs' derivatives hold for this step only.
+    /// computes it, so that nothing accumulates. The inputs' derivatives hold for this step only.
     ///
     /// # Errors
     /// A step that cannot be made; then nothing has changed.

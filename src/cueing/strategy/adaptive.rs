@@ -38,11 +38,11 @@ pub struct Tuning {
     pub adaptation: [f64; 2],
     /// P1, and P2 \[(rad/s)/(m/s2)\], to which the gains are pulled.
     pub nominal: [f64; 2],
-    /// Price of travel \[1/s4\], its velocity \[1/s2\] and the tilt rate \[(m/s)^2\].
+    /// Weight of travel \[1/s4\], its velocity \[1/s2\] and the tilt rate \[(m/s)^2\].
     pub position_weight: f64,
     pub velocity_weight: f64,
     pub tilt_rate_weight: f64,
-    /// Price of either gain's distance from its nominal value.
+    /// Weight of either gain's distance from its nominal value.
     pub pull: [f64; 2],
 }
 
@@ -141,16 +141,16 @@ impl Adaptation {
         let travel_acceleration = forced(self.to_travel_gain, inertial);
         let tilt_acceleration = forced(self.to_tilt_gain, -travel_gain * gravity * self.tilt);
 
-        let (price_x, price_v) =
+        let (weight_x, weight_v) =
             (dearer * tuning.position_weight * position, dearer * tuning.velocity_weight * velocity);
         let gradients = [
             dropped * travel_acceleration
-                + price_x * self.to_travel_gain[0]
-                + price_v * self.to_travel_gain[1]
+                + weight_x * self.to_travel_gain[0]
+                + weight_v * self.to_travel_gain[1]
                 + tuning.pull[0] * (travel_gain - tuning.nominal[0]),
             dropped * (tilt_acceleration + gravity * self.tilt)
-                + price_x * self.to_tilt_gain[0]
-                + price_v * self.to_tilt_gain[1]
+                + weight_x * self.to_tilt_gain[0]
+                + weight_v * self.to_tilt_gain[1]
                 + tuning.tilt_rate_weight * tilt_rate * tilt_change
                 + tuning.pull[1] * (tilt_gain - tuning.nominal[1]),
         ];

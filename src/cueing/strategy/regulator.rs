@@ -1,5 +1,5 @@
-//! The linear-quadratic regulator of one axis: the price of dropped force, stroke and tilting, and
-//! the gains that make it least.
+//! The linear-quadratic regulator of one axis: weights of dropped force, stroke and tilting, and
+//! the gains with the least cost.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
@@ -28,8 +28,8 @@ pub struct AxisModel {
     pub acceleration_limit: f64,
 }
 
-/// The price of what a controller does, relative to 1 for a dropped force of 1 m/s2; each of
-/// the rest at its limit.
+/// Weights of the quantities that a controller uses, relative to 1 for a dropped force of 1 m/s2;
+/// each of the rest at its limit.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Weights {
     pub position: f64,
@@ -49,14 +49,14 @@ pub struct Regulator {
     pub cost: SMatrix<f64, 6, 6>,
 }
 
-/// Without a price on the tilt itself the equation would have no solution; this one changes
+/// Without a weight on the tilt itself the equation would have no solution; this one changes
 /// nothing that can be seen.
-const PRICE_OF_TILT: f64 = 1e-9;
+const TILT_WEIGHT: f64 = 1e-9;
 /// The same for every scaled state.
-const PRICE_OF_STATE: f64 = 1e-10;
+const STATE_WEIGHT: f64 = 1e-10;
 
 impl Regulator {
-    /// The regulator that is least in the mean for these prices. None if the Riccati equation has
+    /// The regulator that is least in the mean for these weights. None if the Riccati equation has
     /// no solution in numbers.
     pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
         let (a, b) = dynamics(model, weights);
@@ -66,9 +66,9 @@ impl Regulator {
         // In states and inputs relative to their scales.
         let a = SMatrix::from_fn(|i, j| a[(i, j)] * scale[j] / scale[i]);
         let b: SMatrix<f64, 6, 2> = SMatrix::from_fn(|i, j| b[(i, j)] * input_scale[j] / scale[i]);
-        let tilt = PRICE_OF_TILT * angle_limit * angle_limit;
-        let prices = State::new(weights.position, weights.velocity, tilt, weights.tilt_rate, 0.0, 0.0);
-        let q = SMatrix::from_diagonal(&prices.add_scalar(PRICE_OF_STATE));
+        let tilt = TILT_WEIGHT * angle_limit * angle_limit;
+        let state_weights = State::new(weights.position, weights.velocity, tilt, weights.tilt_rate, 0.0, 0.0);
+        let q = SMatrix::from_diagonal(&state_weights.add_scalar(STATE_WEIGHT));
         let to_input = SMatrix::from_fn(|i, j| b[(j, i)] / if i == 0 { 1.0 } else { weights.tilt_acceleration });
         let cost = riccati::solve(&a, &(b * to_input), &q)?;
         let gains = to_input * cost;
@@ -153,17 +153,18 @@ mod tests {
         ] {
             let Regulator { gains, cost } = Regulator::new(&MODEL, &weights).unwrap();
             let (a, b) = dynamics(&MODEL, &weights);
-            let price = weights.tilt_acceleration / MODEL.acceleration_limit.powi(2);
-            let prices = State::new(
-                (weights.position + PRICE_OF_STATE) / MODEL.position_limit.powi(2),
-                weights.velocity + PRICE_OF_STATE,
-                PRICE_OF_TILT + PRICE_OF_STATE / MODEL.angle_limit.powi(2),
-                (weights.tilt_rate + PRICE_OF_STATE) / MODEL.rate_limit.powi(2),
-                PRICE_OF_STATE,
-                PRICE_OF_STATE,
+            let weight_of_tilt_acceleration = weights.tilt_acceleration / MODEL.acceleration_limit.powi(2);
+            let state_weights = State::new(
+                (weights.position + STATE_WEIGHT) / MODEL.position_limit.powi(2),
+                weights.velocity + STATE_WEIGHT,
+                TILT_WEIGHT + STATE_WEIGHT / MODEL.angle_limit.powi(2),
+                (weights.tilt_rate + STATE_WEIGHT) / MODEL.rate_limit.powi(2),
+                STATE_WEIGHT,
+                STATE_WEIGHT,
             );
-            let s = b.column(0) * b.column(0).transpose() + b.column(1) * b.column(1).transpose() / price;
-            let q = SMatrix::from_diagonal(&prices);
+            let s = b.column(0) * b.column(0).transpose()
+                + b.column(1) * b.column(1).transpose() / weight_of_tilt_acceleration;
+            let q = SMatrix::from_diagonal(&state_weights);
             let residual = riccati::residual(&a, &s, &q, &cost);
             let size = (cost * s * cost).amax();
             assert!(residual.amax() < 1e-8 * size, "residual {:e} beside terms of {size:e}", residual.amax());

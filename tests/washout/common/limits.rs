@@ -21,16 +21,16 @@ impl Watch {
     }
 
     /// Looks at the output after a step of `step` seconds.
-    pub fn look(&mut self, output: &Output, step: f64) {
-        self.look_at_platform(output, step);
-        self.look_at_machine(output, step);
+    pub fn check(&mut self, output: &Output, step: f64) {
+        self.check_platform(output, step);
+        self.check_machine(output, step);
     }
 
     /// Looks at the numbers and the legs alone, where the platform may be outside of its
     /// own limits for a while.
-    pub fn look_at_machine(&mut self, output: &Output, step: f64) {
+    pub fn check_machine(&mut self, output: &Output, step: f64) {
         self.look_for_numbers(output);
-        self.look_at_legs(output, step);
+        self.check_legs(output, step);
         self.last = *output;
     }
 
@@ -50,7 +50,7 @@ impl Watch {
         assert!(finite, "not a number in {output:?}");
     }
 
-    fn look_at_legs(&mut self, output: &Output, step: f64) {
+    fn check_legs(&mut self, output: &Output, step: f64) {
         let rig = &self.parameters.rig;
         let mut mean = [0.0; 6];
         for i in 0..6 {
@@ -72,7 +72,7 @@ impl Watch {
         self.last_mean = Some((mean, step));
     }
 
-    fn look_at_platform(&self, output: &Output, step: f64) {
+    fn check_platform(&self, output: &Output, step: f64) {
         let Parameters { safety, rig, .. } = &self.parameters;
         let neutral = Vector3::new(0.0, 0.0, rig.neutral_height);
         for k in 0..3 {

@@ -36,11 +36,11 @@ pub fn ride(
     duration: f64,
     step: f64,
     input: impl Fn(f64) -> Input,
-    mut look: impl FnMut(f64, &Output),
+    mut check: impl FnMut(f64, &Output),
 ) {
     for k in 0..(duration / step).round() as usize {
         washout.step(&input(k as f64 * step), step);
-        look((k + 1) as f64 * step, &washout.output());
+        check((k + 1) as f64 * step, &washout.output());
     }
 }
 
@@ -50,12 +50,12 @@ pub fn ride_between(
     duration: f64,
     step: f64,
     input: impl Fn(f64) -> Input,
-    mut look: impl FnMut(f64, &Output),
+    mut check: impl FnMut(f64, &Output),
 ) {
     for k in 0..(duration / step).round() as usize {
         let (start, end) = (k as f64 * step, (k + 1) as f64 * step);
         washout.step_between(&input(start), &input(end), step);
-        look(end, &washout.output());
+        check(end, &washout.output());
     }
 }
 

@@ -7,7 +7,7 @@ use moris_interface::{Identity, Model};
 use super::{Function, with_default_arithmetic};
 use crate::{CallError, Instance, Mode, Severity, panics};
 
-/// The host of an instance, as one version of FMI has it: takes messages, and is told how calls
+/// The host of an instance, as one version of FMI has it: takes messages and reports of how calls
 /// end.
 pub trait Host {
     /// Status of a call.
@@ -23,7 +23,7 @@ pub trait Host {
     fn rename(&self, _identity: &Identity, text: String) -> String {
         text
     }
-    /// Tells the host of a stage in the instance's life, if it wants to know.
+    /// Reports a stage of the instance's life to a host that logs events.
     fn event(&self, text: &str);
     /// Tells the host why a call does not do what was asked; gives back how the call ends.
     fn failure(&self, severity: Severity, text: &str) -> Self::Status;
@@ -48,7 +48,7 @@ impl<M, H> Component<M, H> {
     }
 
     /// The component that `pointer` leads to. `None` if it is null or leads to something else, a
-    /// freed component for one, as far as that can be told.
+    /// freed component for one, as far as that is visible.
     ///
     /// # Safety
     /// `pointer` is null or leads to memory that can be read; if it is a component, it is one of

@@ -6,7 +6,7 @@
 //! not yet freed, arrays of the length given, strings ended by a zero. An instance is not used
 //! by two threads at once.
 
-#![allow(clippy::missing_safety_doc)] // said above, once for all
+#![allow(clippy::missing_safety_doc)] // stated above, once for all
 
 mod arithmetic;
 mod component;

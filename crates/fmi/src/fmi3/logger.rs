@@ -10,7 +10,7 @@ use crate::abi::pointers::c_string;
 use crate::{LogCategory, Mode, Severity};
 
 /// Destination of an instance's messages: errors unless the host switches them off by name, the
-/// others when it wants them.
+/// others on request.
 pub struct Logger {
     callback: Option<fmi3LogMessageCallback>,
     environment: fmi3InstanceEnvironment,
@@ -23,7 +23,7 @@ pub struct Logger {
 
 impl Logger {
     /// A logger of all categories or of errors alone, for a description with scalars until
-    /// it is told otherwise.
+    /// the host sets another.
     pub fn new(
         callback: Option<fmi3LogMessageCallback>,
         environment: fmi3InstanceEnvironment,

@@ -7,7 +7,7 @@
 //! # Safety
 //! As said in [`abi`](crate::abi).
 
-#![allow(clippy::missing_safety_doc)] // said above, once for all
+#![allow(clippy::missing_safety_doc)] // stated above, once for all
 
 mod arrays;
 pub mod calling_sequence;

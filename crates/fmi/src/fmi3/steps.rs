@@ -7,7 +7,7 @@ use super::{Component, calling_sequence as function};
 use crate::abi::call;
 use crate::abi::pointers::answer;
 
-/// Where a host wants to be told how a step went.
+/// Addresses for the results of a step.
 pub struct StepAnswers {
     pub event_handling_needed: *mut fmi3Boolean,
     pub terminate_simulation: *mut fmi3Boolean,

@@ -62,9 +62,9 @@ pub fn refused_instantiation(world: &mut World, api: &Api) {
     // SAFETY: strings and callbacks live during the call.
     let made = unsafe { (api.instantiate)(name, kind, guid_pointer, null(), callbacks_pointer, 0, 1) };
     assert!(made.is_null());
-    let said: Vec<_> = log.said.iter().map(|said| (said.status, said.category.as_str())).collect();
+    let messages: Vec<_> = log.messages.iter().map(|messages| (messages.status, messages.category.as_str())).collect();
     let expected: &[_] = if callbacks_pointer.is_null() { &[] } else { &[(ERROR, "logStatusError")] };
-    assert_eq!(said, expected);
+    assert_eq!(messages, expected);
     world.count("fmi2Instantiate", ERROR);
 }
 

@@ -96,8 +96,8 @@ pub fn refused_instantiation(world: &mut World, api: &Api, layout: Layout) {
         }
     };
     assert!(made.is_null());
-    let said: Vec<_> = log.said.iter().map(|said| (said.status, said.category.as_str())).collect();
-    assert_eq!(said, [(ERROR, "logStatusError")]);
+    let messages: Vec<_> = log.messages.iter().map(|messages| (messages.status, messages.category.as_str())).collect();
+    assert_eq!(messages, [(ERROR, "logStatusError")]);
     world.count(function, ERROR);
 }
 

@@ -6,7 +6,7 @@ use moris_fmu_host::api::Text;
 
 /// Arguments of one call of the logger.
 #[derive(Debug)]
-pub struct Said {
+pub struct Message {
     pub status: c_int,
     pub category: String,
     pub text: String,
@@ -16,12 +16,12 @@ pub struct Said {
 #[derive(Debug, Default)]
 pub struct Log {
     pub name: String,
-    pub said: Vec<Said>,
+    pub messages: Vec<Message>,
 }
 
 impl Log {
     fn say(&mut self, status: c_int, category: Text, text: Text) {
-        self.said.push(Said { status, category: string(category), text: string(text) });
+        self.messages.push(Message { status, category: string(category), text: string(text) });
     }
 }
 

@@ -19,4 +19,4 @@ mod world;
 
 pub use choices::Choices;
 pub use functions::Functions;
-pub use world::{Tally, run};
+pub use world::{CallCounts, run};

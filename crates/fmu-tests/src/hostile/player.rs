@@ -101,23 +101,29 @@ impl Player {
     /// Checks that the call ended in one of these ways, and that the instance said
     /// about it what it should.
     pub fn accept(&mut self, (function, status): Answer, right: &[c_int]) {
-        let said = self.log.as_mut().map(|log| std::mem::take(&mut log.said));
-        assert!(right.contains(&status), "{function}: {status}, not one of {right:?}; {said:?}; {:?}", self.expected);
-        let Some(said) = said else { return };
+        let messages = self.log.as_mut().map(|log| std::mem::take(&mut log.messages));
+        assert!(
+            right.contains(&status),
+            "{function}: {status}, not one of {right:?}; {messages:?}; {:?}",
+            self.expected
+        );
+        let Some(messages) = messages else { return };
         if status == OK {
-            let quiet = said.iter().all(|said| self.logged.events && said.status == OK && said.category == "logEvents");
-            assert!(quiet, "{function}: {said:?}");
+            let quiet = messages
+                .iter()
+                .all(|messages| self.logged.events && messages.status == OK && messages.category == "logEvents");
+            assert!(quiet, "{function}: {messages:?}");
             return;
         }
         if status == ERROR && !self.logged.errors || status == DISCARD && !self.logged.discards {
-            assert!(said.is_empty(), "{function}: {said:?}");
+            assert!(messages.is_empty(), "{function}: {messages:?}");
             return;
         }
-        let [said] = &said[..] else { panic!("{function}: {status}, {said:?}") };
+        let [messages] = &messages[..] else { panic!("{function}: {status}, {messages:?}") };
         let category = if status == ERROR { "logStatusError" } else { "logStatusDiscard" };
-        assert_eq!((said.status, said.category.as_str()), (status, category), "{said:?}");
-        assert!(said.text.starts_with(&format!("{function}: ")) && !said.text.ends_with('\n'), "{said:?}");
-        assert!(!said.text.contains("internal error"), "{said:?}; {:?}", self.expected);
+        assert_eq!((messages.status, messages.category.as_str()), (status, category), "{messages:?}");
+        assert!(messages.text.starts_with(&format!("{function}: ")) && !messages.text.ends_with('\n'), "{messages:?}");
+        assert!(!messages.text.contains("internal error"), "{messages:?}; {:?}", self.expected);
     }
 
     /// Checks everything that the instance shows, if it shows anything now.
@@ -217,8 +223,8 @@ impl Player {
     pub fn free(self, functions: &Functions) -> &'static str {
         // SAFETY: the instance is alive, and nobody uses it from here on.
         let function = unsafe { functions.free_instance(self.component) };
-        let said = self.log.map(|log| log.said);
-        assert!(said.is_none_or(|said| said.is_empty()));
+        let messages = self.log.map(|log| log.messages);
+        assert!(messages.is_none_or(|messages| messages.is_empty()));
         function
     }
 }

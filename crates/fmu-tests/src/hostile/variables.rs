@@ -42,7 +42,7 @@ fn value_count(choices: &mut Choices, right: usize) -> usize {
 pub fn references(
     functions: &Functions,
     choices: &mut Choices,
-    wanted: Type,
+    variable_type: Type,
     wrong: usize,
     fits: impl Fn(u32) -> bool,
 ) -> Vec<u32> {
@@ -57,7 +57,7 @@ pub fn references(
             _ => {
                 // The first that fits, from somewhere on.
                 let from = choices.below(IDENTITY.slots.len()) as u32;
-                let fitting = |&reference: &u32| exists_as(functions, reference, wanted) && fits(reference);
+                let fitting = |&reference: &u32| exists_as(functions, reference, variable_type) && fits(reference);
                 (from..from + all).map(|reference| reference % all).find(fitting).unwrap_or(0)
             }
         };
@@ -67,8 +67,8 @@ pub fn references(
 }
 
 /// True if there is a variable with this reference, and it has this type.
-fn exists_as(functions: &Functions, reference: u32, wanted: Type) -> bool {
-    functions.slots(reference).is_some() && functions.type_of(reference as usize) == wanted
+fn exists_as(functions: &Functions, reference: u32, variable_type: Type) -> bool {
+    functions.slots(reference).is_some() && functions.type_of(reference as usize) == variable_type
 }
 
 /// Number of values of these variables; one for each that does not exist.
@@ -83,31 +83,31 @@ struct Call {
     pointers: Pointers,
     /// Number of values that the variables have, and number that the library is told.
     total: usize,
-    told: usize,
+    value_count: usize,
 }
 
 impl Call {
     fn new(functions: &Functions, choices: &mut Choices, kind: Type, references: Vec<u32>) -> Self {
         let total = value_total(functions, &references);
-        Call { kind, pointers: pointers(choices), told: value_count(choices, total), references, total }
+        Call { kind, pointers: pointers(choices), value_count: value_count(choices, total), references, total }
     }
 
     /// True unless the host has made a mistake with pointers or lengths.
     fn fits(&self, functions: &Functions) -> bool {
-        let lengths_fit = self.told == self.total || matches!(functions.version, Version::Fmi2(_));
+        let lengths_fit = self.value_count == self.total || matches!(functions.version, Version::Fmi2(_));
         lengths_fit && (self.references.is_empty() || self.pointers == Pointers::Right)
     }
 
     /// The library's arguments, with values of which there are more than it is ever told.
     fn access<'a>(&self, values: &'a mut [f64]) -> Access<'a> {
-        assert!(values.len() >= self.told.max(self.total));
+        assert!(values.len() >= self.value_count.max(self.total));
         let no_references = self.pointers == Pointers::NoReferences;
         Access {
             kind: self.kind,
             references: if no_references { null() } else { self.references.as_ptr() },
             count: self.references.len(),
             values: (self.pointers != Pointers::NoValues).then_some(values),
-            value_count: self.told,
+            value_count: self.value_count,
         }
     }
 }

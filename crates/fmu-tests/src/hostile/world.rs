@@ -15,7 +15,7 @@ const STATES: usize = 6;
 const WATCHED: usize = 16;
 
 /// Count of each function's statuses.
-pub type Tally = BTreeMap<(&'static str, i32), u64>;
+pub type CallCounts = BTreeMap<(&'static str, i32), u64>;
 
 /// Instances and states of the host.
 pub struct World<'a> {
@@ -24,7 +24,7 @@ pub struct World<'a> {
     pub players: Vec<Player>,
     pub states: Vec<Saved>,
     pub bytes: Vec<Bytes>,
-    pub tally: Tally,
+    pub counts: CallCounts,
     calls: u64,
 }
 
@@ -32,9 +32,16 @@ pub struct World<'a> {
 ///
 /// # Panics
 /// If a call does anything but what it should.
-pub fn run(functions: &Functions, choices: Choices, calls: u64) -> Tally {
-    let mut world =
-        World { functions, choices, players: vec![], states: vec![], bytes: vec![], tally: Tally::new(), calls: 0 };
+pub fn run(functions: &Functions, choices: Choices, calls: u64) -> CallCounts {
+    let mut world = World {
+        functions,
+        choices,
+        players: vec![],
+        states: vec![],
+        bytes: vec![],
+        counts: CallCounts::new(),
+        calls: 0,
+    };
     while world.calls < calls && !world.choices.are_over() {
         world.one_thing();
     }
@@ -80,7 +87,7 @@ impl World<'_> {
     /// Counts a call.
     pub fn count(&mut self, function: &'static str, status: i32) {
         self.calls += 1;
-        *self.tally.entry((function, status)).or_default() += 1;
+        *self.counts.entry((function, status)).or_default() += 1;
     }
 
     /// True if another state can be saved.
@@ -89,7 +96,7 @@ impl World<'_> {
     }
 
     /// Frees everything.
-    fn leave(mut self) -> Tally {
+    fn leave(mut self) -> CallCounts {
         if self.players.is_empty() {
             self.players.push(Player::new(self.functions, "last", true, false));
         }
@@ -99,6 +106,6 @@ impl World<'_> {
         for player in self.players.drain(..) {
             player.free(self.functions);
         }
-        self.tally
+        self.counts
     }
 }

@@ -3,32 +3,32 @@
 
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::{Api, Fmu, fmi3};
-use moris_fmu_tests::hostile::{Choices, Functions, Tally, run};
+use moris_fmu_tests::hostile::{CallCounts, Choices, Functions, run};
 use moris_fmu_tests::{standard2, standard3};
 
 fn library() -> std::path::PathBuf {
     moris_fmu_host::example_library("washout_library")
 }
 
-fn calls(tally: &Tally) -> u64 {
-    tally.values().sum()
+fn calls(counts: &CallCounts) -> u64 {
+    counts.values().sum()
 }
 
 /// Makes a quarter of a million calls for each seed, always the same; returns how they ended.
-fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> Tally {
+fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> CallCounts {
     const EACH: u64 = 250_000;
-    let mut total = Tally::new();
+    let mut total = CallCounts::new();
     for seed in seeds {
-        let tally = run(functions, Choices::Seed(seed), EACH);
-        assert!(calls(&tally) >= EACH);
-        tally.into_iter().for_each(|(key, count)| *total.entry(key).or_default() += count);
+        let counts = run(functions, Choices::Seed(seed), EACH);
+        assert!(calls(&counts) >= EACH);
+        counts.into_iter().for_each(|(key, count)| *total.entry(key).or_default() += count);
     }
     total
 }
 
 /// Asserts that every function was called, and that those that can be used were, both
 /// with success and without.
-fn assert_all_called(total: &Tally, functions: &[&str], sequence: &[(&str, &str)], exceptions: &Exceptions) {
+fn assert_all_called(total: &CallCounts, functions: &[&str], sequence: &[(&str, &str)], exceptions: &Exceptions) {
     for function in functions {
         let count = |status| total.iter().filter(|((name, s), _)| name == function && *s == status).count();
         let allowed = sequence.iter().find(|(name, _)| name == function);

@@ -1,4 +1,4 @@
 //! The shared library of the Stewart platform's FMU.
-#![allow(non_snake_case)] // FMI wants the library to be named as the model
+#![allow(non_snake_case)] // FMI names the library as the model
 
 moris_fmi::export_fmi2!(moris_stewart_platform::StewartPlatform);

@@ -88,6 +88,6 @@ function indexAt(times, time) {
 function valueAt(times, values, time) {
   const i = indexAt(times, time);
   if (i === times.length - 1 || time <= times[i]) return values[i];
-  const share = (time - times[i]) / (times[i + 1] - times[i]);
-  return values[i] + share * (values[i + 1] - values[i]);
+  const fraction = (time - times[i]) / (times[i + 1] - times[i]);
+  return values[i] + fraction * (values[i + 1] - values[i]);
 }

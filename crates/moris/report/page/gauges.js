@@ -16,8 +16,8 @@ class Gauges {
   update(state) {
     const [shortest, longest] = this.stroke;
     this.gauges.forEach(({ needle, value }, i) => {
-      const share = (state.legs[i] - shortest) / (longest - shortest);
-      needle.style.left = `${100 * Math.min(1, Math.max(0, share))}%`;
+      const fraction = (state.legs[i] - shortest) / (longest - shortest);
+      needle.style.left = `${100 * Math.min(1, Math.max(0, fraction))}%`;
       needle.style.background = rgb(strokeColour(state.legs[i], this.stroke));
       value.textContent = `${fixed(state.legs[i], 3)} m`;
     });

@@ -22,7 +22,7 @@ const onPlatform = (state, point) => plus(state.position, turned(state.rotation,
 /** Both ends of each leg. */
 const legEnds = (rig, state) => rig.base.map((joint, i) => [joint, onPlatform(state, rig.platform[i])]);
 
-/** A point of the rider's torso, `height` above the seat along his back, `aside` to the left and `ahead`: it leans with him. */
+/** A point of the rider's torso, `height` above the seat along the back, `aside` to the left and `ahead`: it leans with the rider. */
 function onTorso(rig, state, height, aside = 0, ahead = 0) {
   const seat = [0, 0, rig.head_height - rig.torso_length];
   return onPlatform(state, plus(seat, turned(rolled(state.lean), [ahead, aside, height])));

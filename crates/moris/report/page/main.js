@@ -81,8 +81,8 @@ function buildCharts() {
   const of = report.runs.length > 1 ? ` (${now.run.name})` : "";
   const lane = element("section", {}, [element("h2", {}, ["What was limited" + of]), timeLine.element]);
   charts = [];
-  const built = sections(now.run).map(({ heading, charts: wanted, note, of_run: ofRun }) => {
-    const made = wanted.map((one) => new Chart(one, shown, handlers));
+  const built = sections(now.run).map(({ heading, charts: listed, note, of_run: ofRun }) => {
+    const made = listed.map((one) => new Chart(one, shown, handlers));
     charts.push(...made);
     const parts = made.map((chart) => chart.element);
     if (note) parts.push(element("p", { class: "summary" }, [note]));

@@ -11,7 +11,7 @@ const channels = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 
 const rgb = (parts) => `rgb(${parts.map((part) => Math.round(part)).join(", ")})`;
 
 /** So much of the second colour in the first. */
-const mixed = (first, second, share) => first.map((part, i) => part + share * (second[i] - part));
+const mixed = (first, second, fraction) => first.map((part, i) => part + fraction * (second[i] - part));
 
 /** Colours of a leg by how much of its stroke is left to the nearer end: 1 in the middle, 0 at an end. */
 const STROKE_COLOURS = [[0, "--leg-end"], [0.2, "--leg-near"], [0.4, "--leg-some"], [0.6, "--leg-easy"]];

@@ -175,7 +175,7 @@ class View {
     if (dot(minus(visor[2], head), this.camera.back) > -0.03) this.addRod(visor.map((point) => plus(point, scaled(0.02, this.camera.back))), 0.06, channels(colour("--visor")));
   }
 
-  /** What is desired and what is felt at the head, less gravity's share along its vertical. */
+  /** What is desired and what is felt at the head, less gravity along its vertical. */
   drawArrows(run, state) {
     const head = headOf(this.rig, state);
     const cues = [[state.desired, colour("--desired"), 7], [state.felt, colour(run.colour), 3]];

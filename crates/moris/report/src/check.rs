@@ -15,8 +15,8 @@ pub enum ReportError {
     TooShort { run: String, samples: usize },
     #[error("run \"{run}\": time {index} is not a number or does not come after the time before it")]
     Times { run: String, index: usize },
-    #[error("run \"{run}\": {series} has {found} values, but there are {wanted} times")]
-    Length { run: String, series: String, found: usize, wanted: usize },
+    #[error("run \"{run}\": {series} has {found} values, but there are {expected} times")]
+    Length { run: String, series: String, found: usize, expected: usize },
     #[error("the rig's stroke must go from a shorter to a longer length")]
     Stroke,
 }
@@ -45,15 +45,15 @@ fn check_run(run: &Run) -> Result<(), ReportError> {
     ascending(&run.times).map_err(|index| ReportError::Times { run: name(), index })?;
     for (series, found) in series_of(run) {
         if found != run.times.len() {
-            return Err(ReportError::Length { run: name(), series, found, wanted: run.times.len() });
+            return Err(ReportError::Length { run: name(), series, found, expected: run.times.len() });
         }
     }
     for chart in &run.charts {
         ascending(&chart.times).map_err(|index| ReportError::Times { run: name(), index })?;
-        let wanted = if chart.times.is_empty() { run.times.len() } else { chart.times.len() };
-        if let Some(line) = chart.lines.iter().find(|line| line.values.len() != wanted) {
+        let expected = if chart.times.is_empty() { run.times.len() } else { chart.times.len() };
+        if let Some(line) = chart.lines.iter().find(|line| line.values.len() != expected) {
             let series = format!("the line \"{}\" of the chart \"{}\"", line.label, chart.title);
-            return Err(ReportError::Length { run: name(), series, found: line.values.len(), wanted });
+            return Err(ReportError::Length { run: name(), series, found: line.values.len(), expected });
         }
     }
     Ok(())
@@ -121,7 +121,7 @@ pub(crate) mod tests {
     }
 
     /// Error of the smallest report after a change.
-    fn said(change: impl Fn(&mut Report)) -> String {
+    fn error_of(change: impl Fn(&mut Report)) -> String {
         let mut report = smallest();
         change(&mut report);
         check(&report).map_or_else(|error| error.to_string(), |()| "nothing".into())
@@ -129,21 +129,23 @@ pub(crate) mod tests {
 
     #[test]
     fn the_smallest_report_is_good() {
-        assert_eq!(said(|_| ()), "nothing");
+        assert_eq!(error_of(|_| ()), "nothing");
     }
 
     #[test]
     fn what_does_not_fit_is_named() {
-        assert!(said(|report| report.runs.clear()).contains("no runs"));
-        assert!(said(|report| report.selected = 1).contains("run 1 is selected but there are 1"));
-        assert!(said(|report| report.rig.stroke = [1.6, 1.0]).contains("stroke"));
-        assert!(said(|report| report.rig.stroke = [f64::NAN, 1.0]).contains("stroke"));
-        assert!(said(|report| report.runs[0].times.truncate(1)).contains("\"default\" has 1 samples"));
-        assert!(said(|report| report.runs[0].times[1] = 0.0).contains("time 1"));
-        assert!(said(|report| report.runs[0].times[1] = f64::NAN).contains("time 1"));
-        assert!(said(|report| report.runs[0].legs[4].push(1.0)).contains("leg[4] has 3 values, but there are 2 times"));
-        assert!(said(|report| report.runs[0].lean.push(0.1)).contains("lean has 1"));
-        assert!(said(|report| report.runs[0].limited.safety.clear()).contains("limited.safety has 0"));
+        assert!(error_of(|report| report.runs.clear()).contains("no runs"));
+        assert!(error_of(|report| report.selected = 1).contains("run 1 is selected but there are 1"));
+        assert!(error_of(|report| report.rig.stroke = [1.6, 1.0]).contains("stroke"));
+        assert!(error_of(|report| report.rig.stroke = [f64::NAN, 1.0]).contains("stroke"));
+        assert!(error_of(|report| report.runs[0].times.truncate(1)).contains("\"default\" has 1 samples"));
+        assert!(error_of(|report| report.runs[0].times[1] = 0.0).contains("time 1"));
+        assert!(error_of(|report| report.runs[0].times[1] = f64::NAN).contains("time 1"));
+        assert!(
+            error_of(|report| report.runs[0].legs[4].push(1.0)).contains("leg[4] has 3 values, but there are 2 times")
+        );
+        assert!(error_of(|report| report.runs[0].lean.push(0.1)).contains("lean has 1"));
+        assert!(error_of(|report| report.runs[0].limited.safety.clear()).contains("limited.safety has 0"));
     }
 
     #[test]
@@ -154,7 +156,7 @@ pub(crate) mod tests {
             lines: vec![Line { label: "best".into(), values: values.into() }],
             ..Chart::default()
         };
-        let with = |one: &Chart| said(|report| report.runs[0].charts.push(one.clone()));
+        let with = |one: &Chart| error_of(|report| report.runs[0].charts.push(one.clone()));
         assert_eq!(with(&chart(&[], &[1.0, 2.0])), "nothing");
         assert_eq!(with(&chart(&[0.0, 0.5, 1.0], &[1.0, f64::NAN, 2.0])), "nothing");
         assert!(with(&chart(&[], &[1.0])).contains("the line \"best\" of the chart \"bound\" has 1 values"));

@@ -31,19 +31,19 @@ const GAP: f64 = 0.1;
 /// A limit counts as reached at this fraction of it.
 const REACHED: f64 = 0.98;
 
-/// A quantity's largest fraction of its limit, and how to say so.
-struct Share {
-    share: f64,
+/// A quantity's largest fraction of its limit, and the limit in words.
+struct Utilisation {
+    fraction: f64,
     /// The axis or leg.
     who: String,
     /// Which limit it is at.
     limit: String,
 }
 
-impl Share {
+impl Utilisation {
     /// A limit of 0 is one that is not known: nothing has a fraction of it.
     fn new(who: impl Into<String>, value: f64, limit: f64, text: String) -> Self {
-        Share { share: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
+        Utilisation { fraction: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
     }
 }
 
@@ -121,15 +121,15 @@ fn tilt_reason(run: &Run, at: &Stretch) -> String {
     let axes = [(0, "roll"), (1, "pitch")];
     let angles = axes.map(|(i, axis)| {
         let text = format!("angle limit of {:.1}°", limits.tilt_angle.to_degrees());
-        Share::new(axis, peak(at.of(&run.tilt[i])), limits.tilt_angle, text)
+        Utilisation::new(axis, peak(at.of(&run.tilt[i])), limits.tilt_angle, text)
     });
     let rates = axes.map(|(i, axis)| {
         let text = format!("rate limit of {:.1}°/s", limits.tilt_rate.to_degrees());
-        Share::new(axis, peak(at.of(&run.tilt_rate[i])), limits.tilt_rate, text)
+        Utilisation::new(axis, peak(at.of(&run.tilt_rate[i])), limits.tilt_rate, text)
     });
     let accelerations = axes.map(|(i, axis)| {
         let text = format!("acceleration limit of {:.1}°/s²", limits.tilt_acceleration.to_degrees());
-        Share::new(axis, at.peak_rate(&run.tilt_rate[i]), limits.tilt_acceleration, text)
+        Utilisation::new(axis, at.peak_rate(&run.tilt_rate[i]), limits.tilt_acceleration, text)
     });
     reason([angles.into(), rates.into(), accelerations.into()])
 }
@@ -140,16 +140,16 @@ fn safety_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     let positions = axes.map(|(i, axis, neutral)| {
         let limit = limits.safety_position[i];
         let farthest = at.of(&run.position[i]).iter().fold(0.0, |peak, x| f64::max(peak, (x - neutral).abs()));
-        Share::new(axis, farthest, limit, format!("travel limit of {limit:.2} m"))
+        Utilisation::new(axis, farthest, limit, format!("travel limit of {limit:.2} m"))
     });
     let velocities = axes.map(|(i, axis, _)| {
         let limit = limits.safety_velocity[i];
-        Share::new(axis, at.peak_rate(&run.position[i]), limit, format!("velocity limit of {limit:.2} m/s"))
+        Utilisation::new(axis, at.peak_rate(&run.position[i]), limit, format!("velocity limit of {limit:.2} m/s"))
     });
     let accelerations = axes.map(|(i, axis, _)| {
         let limit = limits.safety_acceleration[i];
         let text = format!("acceleration limit of {limit:.1} m/s²");
-        Share::new(axis, at.peak_second_rate(&run.position[i]), limit, text)
+        Utilisation::new(axis, at.peak_second_rate(&run.position[i]), limit, text)
     });
     reason([positions.into(), velocities.into(), accelerations.into()])
 }
@@ -160,42 +160,44 @@ fn actuator_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
     let (middle, half) = (0.5 * (shortest + longest), 0.5 * (longest - shortest));
     let farthest = |leg: &[f64], side: f64| at.of(leg).iter().fold(0.0, |far, x| f64::max(far, side * (x - middle)));
     let legs = || run.legs.iter().enumerate().map(|(i, leg)| (format!("leg {}", i + 1), leg));
-    let short = legs()
-        .map(|(name, leg)| Share::new(name, farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m")));
-    let long = legs()
-        .map(|(name, leg)| Share::new(name, farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m")));
+    let short = legs().map(|(name, leg)| {
+        Utilisation::new(name, farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m"))
+    });
+    let long = legs().map(|(name, leg)| {
+        Utilisation::new(name, farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m"))
+    });
     let velocities = legs().map(|(name, leg)| {
         let limit = limits.actuator_velocity;
-        Share::new(name, at.peak_rate(leg), limit, format!("speed limit of {limit:.2} m/s"))
+        Utilisation::new(name, at.peak_rate(leg), limit, format!("speed limit of {limit:.2} m/s"))
     });
     let accelerations = legs().map(|(name, leg)| {
         let limit = limits.actuator_acceleration;
-        Share::new(name, at.peak_second_rate(leg), limit, format!("acceleration limit of {limit:.1} m/s²"))
+        Utilisation::new(name, at.peak_second_rate(leg), limit, format!("acceleration limit of {limit:.1} m/s²"))
     });
     reason([short.chain(long).collect(), velocities.collect(), accelerations.collect()])
 }
 
 /// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
-fn reason(kinds: [Vec<Share>; 3]) -> String {
-    for shares in &kinds {
-        let reached: Vec<&Share> = shares.iter().filter(|one| one.share >= REACHED).collect();
+fn reason(kinds: [Vec<Utilisation>; 3]) -> String {
+    for utilisations in &kinds {
+        let reached: Vec<&Utilisation> = utilisations.iter().filter(|one| one.fraction >= REACHED).collect();
         if !reached.is_empty() {
-            return said(&reached);
+            return limits_reached(&reached);
         }
     }
-    let known = kinds.iter().flatten().filter(|one| one.share.is_finite());
-    known.max_by(|a, b| a.share.total_cmp(&b.share)).map_or_else(
+    let known = kinds.iter().flatten().filter(|one| one.fraction.is_finite());
+    known.max_by(|a, b| a.fraction.total_cmp(&b.fraction)).map_or_else(
         || "no limit is known".into(),
-        |one| format!("braking or catching up; {} at {:.0} % of the {}", one.who, 100.0 * one.share, one.limit),
+        |one| format!("braking or catching up; {} at {:.0} % of the {}", one.who, 100.0 * one.fraction, one.limit),
     )
 }
 
 /// Who is at which limit: those at the same one together.
-fn said(reached: &[&Share]) -> String {
+fn limits_reached(reached: &[&Utilisation]) -> String {
     let same_limit = reached.chunk_by(|a, b| a.limit == b.limit);
-    let parts = same_limit.map(|shares| {
-        let who: Vec<&str> = shares.iter().map(|one| one.who.as_str()).collect();
-        format!("{} at the {}", who.join(", "), shares[0].limit)
+    let parts = same_limit.map(|utilisations| {
+        let who: Vec<&str> = utilisations.iter().map(|one| one.who.as_str()).collect();
+        format!("{} at the {}", who.join(", "), utilisations[0].limit)
     });
     parts.collect::<Vec<_>>().join("; ")
 }

@@ -303,8 +303,7 @@ mod tests {
         let one_worse = of(&[(0.8, 0.3), (0.9, 0.96)]);
         assert!(
             is_worse(&one_worse)
-                && first_line(&one_worse, 1.0)
-                    == "WORSE than before on recordings that it was not tuned on: ride."
+                && first_line(&one_worse, 1.0) == "WORSE than before on recordings that it was not tuned on: ride."
         );
         let worse_in_the_mean = of(&[(0.8, 0.83), (0.9, 0.92)]);
         assert!(is_worse(&worse_in_the_mean) && first_line(&worse_in_the_mean, 1.0).contains("in the mean"));

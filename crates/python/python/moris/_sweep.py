@@ -84,10 +84,10 @@ def best(count, cost):
     """
 
     def reduce(kept, result):
-        price = float("nan") if result.error else float(cost(result))
-        if np.isnan(price):
+        value = float("nan") if result.error else float(cost(result))
+        if np.isnan(value):
             return kept or []
-        kept = [*(kept or []), (price, result)]
+        kept = [*(kept or []), (value, result)]
         kept.sort(key=lambda pair: (pair[0], pair[1].index))
         return kept[:count]
 

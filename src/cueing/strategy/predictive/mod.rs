@@ -37,7 +37,7 @@ const LONG_PREVIEW: f64 = 2.0;
 /// A plan that takes more iterations is given up.
 const MAX_ITERATIONS: u32 = 120;
 /// Largest surcharge on a dropped force of surge and of sway that turns the felt force around,
-/// beside the price of 1. Sway has few opposite cues, which a surcharge does not make fewer.
+/// beside the weight of 1. Sway has few opposite cues, which a surcharge does not make fewer.
 const OPPOSITE_SURCHARGE: [f64; 2] = [0.5, 0.0];
 /// The felt force in the opposite direction from which on the surcharge is due in full \[m/s2\].
 const OPPOSITE_FORCE: f64 = 0.15;

@@ -52,8 +52,8 @@ const RATE_FRACTION: f64 = 0.999;
 const STOPPING_TIME: f64 = 0.3;
 /// Gravity along the tilt relative to the sine's tangent.
 pub const CHORD: f64 = 0.985;
-/// A little price on tilt acceleration keeps the program strictly convex.
-const LEAST_PRICE: f64 = 1e-5;
+/// A small weight of tilt acceleration keeps the program strictly convex.
+const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
 
 /// The programs over both horizons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,7 +111,7 @@ impl Program {
     }
 
     /// Sets `factor` to L^-T of the Hessian L L' of both axes, the dropped force of each block
-    /// priced higher by `surcharges`. False if rounding has made the Hessian indefinite.
+    /// weighted more by `surcharges`. False if rounding has made the Hessian indefinite.
     pub fn factorize(
         &self,
         surcharges: &[SVector<f64, BLOCKS>; 2],
@@ -164,7 +164,8 @@ impl AxisProgram {
         let mut hessian = from_controls.tr_mul(&weighted);
         for (block, duration) in horizon.durations().iter().enumerate() {
             hessian[(block, block)] += duration;
-            hessian[(BLOCKS + block, BLOCKS + block)] += duration * (weights.tilt_acceleration + LEAST_PRICE);
+            hessian[(BLOCKS + block, BLOCKS + block)] +=
+                duration * (weights.tilt_acceleration + LEAST_TILT_ACCELERATION_WEIGHT);
         }
         let mut gradient = weighted.tr_mul(&from_data);
         let end_to_end = regulator.cost.fixed_view::<4, 2>(0, 4);
@@ -295,7 +296,7 @@ fn rolled_out(
     nodes
 }
 
-/// The price of a node's state: by the trapezoidal rule, and at the last one the cost to come.
+/// Weight of a node's state: by the trapezoidal rule, and at the last one the cost to come.
 fn node_weight(
     model: &AxisModel,
     weights: &Weights,
@@ -305,13 +306,13 @@ fn node_weight(
 ) -> Matrix4<f64> {
     let (last, durations) = (node + 1 == BLOCKS, horizon.durations());
     let time = 0.5 * (durations[node] + if last { 0.0 } else { durations[node + 1] });
-    let prices = Vector4::new(
+    let state_weights = Vector4::new(
         weights.position / model.position_limit.powi(2),
         weights.velocity / model.velocity_limit.powi(2),
         0.0,
         weights.tilt_rate / model.rate_limit.powi(2),
     );
-    let running = Matrix4::from_diagonal(&(time * prices));
+    let running = Matrix4::from_diagonal(&(time * state_weights));
     if last { running + regulator.cost.fixed_view::<4, 4>(0, 0) } else { running }
 }
 

@@ -1,6 +1,6 @@
 //! The whole exchange of a 1 kHz loop through the C functions of the built FMU, beside the same
 //! exchange with an FMU that does nothing, and that beside the loop without any functions: set 9
-//! inputs, step 1 ms, get 6 lengths and 6 felt values. The C functions' own share is the exchange
+//! inputs, step 1 ms, get 6 lengths and 6 felt values. The C functions' own part is the exchange
 //! with an FMU that does nothing less the loop alone.
 //!
 //! ```sh

@@ -30,8 +30,8 @@ pub fn limited_ride(_: &mut Criterion) {
         nanoseconds.push(timed(|| running.exchange(&inputs)));
         limited += running.instance.get("status.actuatorLimited").expect("a Boolean output");
     }
-    let share = 100.0 * limited / STEPS as f64;
-    println!("1 million exchanges, actuators limited in {share:.1} % of them: {}", distribution(nanoseconds));
+    let percent = 100.0 * limited / STEPS as f64;
+    println!("1 million exchanges, actuators limited in {percent:.1} % of them: {}", distribution(nanoseconds));
 }
 
 /// Inputs that have nothing to do with those before: specific forces within 12 m/s2 of those at
@@ -51,7 +51,7 @@ fn timed(exchange: impl FnOnce()) -> u32 {
 
 fn distribution(mut nanoseconds: Vec<u32>) -> String {
     nanoseconds.sort_unstable();
-    let at = |share: f64| nanoseconds[((nanoseconds.len() - 1) as f64 * share) as usize];
+    let at = |fraction: f64| nanoseconds[((nanoseconds.len() - 1) as f64 * fraction) as usize];
     let (median, most, nearly_all, slowest) = (at(0.5), at(0.99), at(0.9999), at(1.0));
     format!("median {median} ns, 99 % {most} ns, 99.99 % {nearly_all} ns, slowest {slowest} ns")
 }

@@ -1,4 +1,4 @@
-"""FMUs with a rig and parameters baked in: what they start with, and that it is the same as setting them."""
+"""FMUs with embedded start values of a rig and parameters: what they start with, and that it is the same as setting them."""
 
 import subprocess
 
@@ -14,9 +14,9 @@ LEGS = [f"actuator[{i}].length" for i in range(1, 7)]
 
 
 @pytest.fixture(scope="module")
-def baked(tmp_path_factory):
+def embedded(tmp_path_factory):
     """The washout's FMUs of FMI 2.0 and 3.0 on another rig, with the parameters of the set small-motions."""
-    output = tmp_path_factory.mktemp("baked")
+    output = tmp_path_factory.mktemp("embedded")
     for version in ("2", "3"):
         command = ["cargo", "build-fmu", "--model", "MorisWashout", "--fmi", version, "--output", output]
         subprocess.run([*command, "--rig", RIG, "--parameters", "small-motions"], cwd=ROOT, check=True)
@@ -34,10 +34,10 @@ def simulate(fmu, lengths, start_values={}):
     return np.column_stack([result[name] for name in lengths])
 
 
-def test_the_descriptions_have_the_values_and_are_valid(baked):
-    for fmu in baked:
+def test_the_descriptions_have_the_values_and_are_valid(embedded):
+    for fmu in embedded:
         assert validate_fmu(fmu) == []
-    fmi2, fmi3 = map(starts, baked)
+    fmi2, fmi3 = map(starts, embedded)
     assert float(fmi2["rig.neutralHeight"]) == float(fmi3["rig.neutralHeight"]) == 1.02
     assert float(fmi2["rig.platform[1].z"]) == 0.05
     assert [float(fmi2[f"splitter.{axis}.omega1"]) for axis in "xyz"] == [0.35] * 3
@@ -46,19 +46,19 @@ def test_the_descriptions_have_the_values_and_are_valid(baked):
     }
 
 
-def test_baked_values_are_as_good_as_values_that_are_set(baked, fmu):
-    own, others = starts(fmu), starts(baked[0])
+def test_embedded_values_are_as_good_as_values_that_are_set(embedded, fmu):
+    own, others = starts(fmu), starts(embedded[0])
     others = {name: value for name, value in others.items() if value != own[name]}
     assert len(others) > 40
     moving = {"vehicle.specificForce.x": 1.0}
     expected = simulate(fmu, LEGS, others | moving)
-    assert (simulate(baked[0], LEGS, moving) == expected).all()
+    assert (simulate(embedded[0], LEGS, moving) == expected).all()
     assert np.ptp(expected, axis=0).min() > 1e-4
-    assert (simulate(baked[1], LEGS, moving) == expected).all()
+    assert (simulate(embedded[1], LEGS, moving) == expected).all()
 
 
-def test_every_set_of_values_has_a_guid_of_its_own(baked, fmu):
-    guids = {read_model_description(path).guid for path in (fmu, baked[0])}
+def test_every_set_of_values_has_a_guid_of_its_own(embedded, fmu):
+    guids = {read_model_description(path).guid for path in (fmu, embedded[0])}
     assert len(guids) == 2
 
 

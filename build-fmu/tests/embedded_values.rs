@@ -1,4 +1,4 @@
-//! An FMU with values baked in, compiled, packed, loaded and run as a host does it.
+//! An FMU with embedded start values, compiled, packed, loaded and run as a host does it.
 
 use std::path::Path;
 
@@ -21,7 +21,7 @@ fn the_fmu_starts_with_the_values_and_runs_as_the_crate_does_with_them() {
 
     // Its description's GUID is another than the model's, and opening it shows that the library has it, too.
     let fmu = Fmu::open(&built.file).unwrap();
-    let mut instance = fmu.instantiate("baked").unwrap();
+    let mut instance = fmu.instantiate("embedded").unwrap();
     assert!(Fmu::open(&built.file).unwrap().variable("gravity").is_some());
     let unpacked = zip_entry(&built.file, "modelDescription.xml");
     assert!(!unpacked.contains(&guid::<Washout>()), "the GUID is that of the model's own values");
