@@ -33,8 +33,8 @@ pub enum Error {
     #[error("the system's parameters cannot be used: {reason}")]
     Parameters { reason: String },
     /// The model rejects the start values.
-    #[error("{model} cannot start with these values: {refusal}")]
-    Start { model: &'static str, refusal: ParameterError },
+    #[error("{model} cannot start with these values: {error}")]
+    Start { model: &'static str, error: ParameterError },
     /// A path file cannot be used.
     #[error("the path {} {reason}", file.display())]
     Path { file: PathBuf, reason: String },

@@ -140,7 +140,7 @@ fn model_names() -> PossibleValuesParser {
 mod tests {
     use super::*;
 
-    fn refusal(arguments: &[&str]) -> Option<String> {
+    fn error_of(arguments: &[&str]) -> Option<String> {
         let arguments = Arguments::parse_from([&["build-fmu"], arguments].concat());
         let chosen =
             |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
@@ -150,19 +150,19 @@ mod tests {
 
     #[test]
     fn values_that_no_chosen_model_takes_are_refused() {
-        let refused = refusal(&["--model", "Motorcycle", "--rig", "rig.toml"]).unwrap();
+        let refused = error_of(&["--model", "Motorcycle", "--rig", "rig.toml"]).unwrap();
         assert!(refused.contains("--rig applies to none") && refused.contains("--model"), "{refused}");
-        let refused = refusal(&["--model", "StewartPlatform", "--path", "bend.csv"]).unwrap();
+        let refused = error_of(&["--model", "StewartPlatform", "--path", "bend.csv"]).unwrap();
         assert!(refused.contains("--path applies to none"), "{refused}");
-        let refused = refusal(&["--model", "Motorcycle,StewartPlatform", "--parameters", "mine.toml"]).unwrap();
+        let refused = error_of(&["--model", "Motorcycle,StewartPlatform", "--parameters", "mine.toml"]).unwrap();
         assert!(refused.contains("--parameters applies to none"), "{refused}");
     }
 
     #[test]
     fn values_that_one_of_the_models_takes_are_not() {
-        assert_eq!(refusal(&["--rig", "rig.toml", "--parameters", "small-motions"]), None);
-        assert_eq!(refusal(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
-        assert_eq!(refusal(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
+        assert_eq!(error_of(&["--rig", "rig.toml", "--parameters", "small-motions"]), None);
+        assert_eq!(error_of(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
+        assert_eq!(error_of(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
     }
 
     #[test]

@@ -49,7 +49,7 @@ impl Start {
     }
 
     fn check(&self, model: &Model) -> Result<(), Error> {
-        let refused = |refusal| Error::Start { model: model.name, refusal };
+        let refused = |error| Error::Start { model: model.name, error };
         (model.functions.check)(&self.slots).map_err(refused)?;
         if self.is_own() { Ok(()) } else { (model.consistency)(&self.slots).map_err(refused) }
     }

@@ -137,4 +137,18 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_plan_keeps_limits_of_velocity_from_the_latest_axis_on() {
+        let start = PlatformCoordinates {
+            linear: Motion { velocity: Vector3::new(0.8, -0.4, 0.0), ..Motion::default() },
+            ..PlatformCoordinates::default()
+        };
+        let plan = StopPlan::new(&start, StopDurations { linear: Vector3::new(0.2, 0.4, 0.0), angular: 0.4 });
+        let time = |plan: StopPlan, x: f64, y: f64| plan.time_until_within(&Vector3::new(x, y, 0.01));
+        for (x, y, expected) in [(0.2, 1.0, 0.15), (0.2, 0.1, 0.3), (1.0, 0.3, 0.1), (0.8, 0.4, 0.0), (1.0, 1.0, 0.0)] {
+            assert!((time(plan, x, y) - expected).abs() < 1e-15);
+            assert!((time(plan.advanced(0.12), x, y) - (expected - 0.12).max(0.0)).abs() < 1e-15);
+        }
+    }
 }

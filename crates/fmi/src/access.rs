@@ -183,9 +183,9 @@ impl<M: Model> Instance<M> {
             self.tables.infos[slot].role == Role::Parameter && self.state.values[slot] != self.old_values[slot]
         });
         let Some(model) = self.state.model.as_mut().filter(|_| changed) else { return Ok(()) };
-        model.retune_from(&self.state.values).map_err(|refusal| {
+        model.retune_from(&self.state.values).map_err(|error| {
             self.state.values.copy_from_slice(&self.old_values);
-            CallError::discard(format!("{refusal}. The values of this call have not been taken; the old ones hold"))
+            CallError::discard(format!("{error}. The values of this call have not been taken; the old ones hold"))
         })
     }
 

@@ -49,8 +49,8 @@ impl<M: Model> Instance<M> {
     /// that another can be set.
     pub fn exit_initialization(&mut self) -> Result<(), CallError> {
         if self.state.dirty || self.state.model.is_none() {
-            let model = M::from_slots(&self.state.values).map_err(|refusal| {
-                CallError::error(format!("{refusal}. Initialization goes on: set another value and try again"))
+            let model = M::from_slots(&self.state.values).map_err(|error| {
+                CallError::error(format!("{error}. Initialization goes on: set another value and try again"))
             })?;
             self.state.dirty = false;
             model.write_outputs(&mut self.state.values);

@@ -85,7 +85,7 @@ macro_rules! interface {
                 $(
                     let row = rows.next().expect("a struct has a row for each of its fields");
                     if !$crate::Field::is_within(self.$field, row.bounds()) {
-                        return Err(row.refusal(self.$field));
+                        return Err(row.range_error(self.$field));
                     }
                 )+
                 Ok(())

@@ -133,7 +133,7 @@ impl Row {
     /// The error about the first scalar variable of a field that is outside the row's range.
     #[doc(hidden)] // for `interface!`
     #[cold]
-    pub fn refusal<F: Field>(&self, field: F) -> ParameterError {
+    pub fn range_error<F: Field>(&self, field: F) -> ParameterError {
         let mut slots = vec![0.0; self.slots()];
         field.write(&mut slots);
         let element = slots.iter().position(|&value| !self.accepts(value)).unwrap_or(0);

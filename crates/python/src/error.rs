@@ -13,8 +13,8 @@ fn exception<'py>(py: Python<'py>, class: &str, arguments: impl pyo3::call::PyCa
 }
 
 /// Parameters that cannot be used together, with the value of the one that is refused.
-pub fn refused(py: Python, refusal: &ParameterError, values: &NamedValues) -> PyErr {
-    let ParameterError { variable, reason } = refusal;
+pub fn refused(py: Python, error: &ParameterError, values: &NamedValues) -> PyErr {
+    let ParameterError { variable, reason } = error;
     let value = values.iter().find(|(name, _)| name == variable).map(|(_, value)| *value);
     exception(py, "ParameterError", (format!("{variable} {reason}"), variable, value))
 }
@@ -22,7 +22,7 @@ pub fn refused(py: Python, refusal: &ParameterError, values: &NamedValues) -> Py
 /// A rig or parameters that cannot be used.
 pub fn setup(py: Python, error: &Error, values: &NamedValues) -> PyErr {
     match error {
-        Error::Refused(refusal) => refused(py, refusal, values),
+        Error::Refused(error) => refused(py, error, values),
         Error::UnknownName { what, name, nearest, .. } => {
             let remedy = match nearest.as_slice() {
                 [] if *what == "parameter" => "moris.parameters() lists them".to_owned(),

@@ -25,7 +25,7 @@ pub fn load(
     strategy: Option<&str>,
 ) -> PyResult<Setup> {
     let mut setup = unchecked(rig, parameters, strategy)?;
-    check(&setup.parameters).map_err(|refusal| error::refused(py, &refusal, &all(&setup.parameters)))?;
+    check(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
     if setup.parameters_name.is_empty() {
         setup.parameters_name = "default".to_owned();
     }

@@ -33,7 +33,7 @@ pub fn survey(py: Python, rig: Option<&Bound<PyAny>>, samples: u32) -> PyResult<
         }
     };
     let survey =
-        py.detach(|| Survey::of(&file, samples)).map_err(|refusal| error::refused(py, &refusal, &file.values()))?;
+        py.detach(|| Survey::of(&file, samples)).map_err(|error| error::refused(py, &error, &file.values()))?;
     let axes = survey.axes.iter();
     let axes = axes.map(|axis| (axis.axis.name(), axis.range.min, axis.range.max, axis.speed, axis.acceleration));
     let (condition, singular_at) = match survey.singularities {

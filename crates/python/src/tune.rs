@@ -76,7 +76,7 @@ impl PyTuning {
         let constraints = Constraints { stroke_reserve };
         let objective = |recording: &PyRef<PyRecording>| {
             let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, constraints);
-            objective.map_err(|refusal| error::refused(py, &refusal, &all(&before.parameters)))
+            objective.map_err(|error| error::refused(py, &error, &all(&before.parameters)))
         };
         let objectives = recordings.iter().map(objective).collect::<PyResult<_>>()?;
         Ok(PyTuning { before, objectives, held_out, groups })

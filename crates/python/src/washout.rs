@@ -47,7 +47,7 @@ impl PyWashout {
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let washout =
-            Washout::new(&setup.parameters).map_err(|refusal| error::refused(py, &refusal, &all(&setup.parameters)))?;
+            Washout::new(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
         Ok(PyWashout { washout, started: false })
     }
 
@@ -179,7 +179,7 @@ impl PyWashout {
     /// be used, or a fixed parameter that would change; nothing has changed then.
     fn retune(&mut self, py: Python, parameters: &Bound<PyAny>) -> PyResult<()> {
         let changed = moris_setup::overlaid(self.washout.parameters(), &setup::values(parameters)?);
-        self.washout.retune(&changed).map_err(|refusal| error::refused(py, &refusal, &all(&changed)))
+        self.washout.retune(&changed).map_err(|error| error::refused(py, &error, &all(&changed)))
     }
 
     /// The outputs now.

@@ -65,7 +65,7 @@ impl Survey {
         let singularities = match (file.check(), platform::survey(rig)) {
             (Ok(()), Ok(survey)) => Singularities::None(survey),
             (Err(_), Err(failed)) if can_stand(rig) => Singularities::At(failed.lengths),
-            (Err(refusal), _) => return Err(refusal),
+            (Err(error), _) => return Err(error),
             (Ok(()), Err(failed)) => Singularities::At(failed.lengths),
         };
         Ok(Survey {
