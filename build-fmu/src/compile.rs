@@ -161,7 +161,7 @@ impl fmt::Display for Plan {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
         let linker = match self.linker {
             Linker::Host => "this machine's linker",
-            Linker::Lld => "lld (nobody has run such a library yet)",
+            Linker::Lld => "lld (untested)",
             Linker::Zig => "zig",
             Linker::Mingw => "GCC for Windows",
         };

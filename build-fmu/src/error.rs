@@ -24,8 +24,8 @@ pub enum Error {
     #[error("FMI has no platform name for this machine; choose a platform with --platform")]
     NoHostPlatform,
     /// The library compiled, but is unfit to ship.
-    #[error("the library for {platform} is not fit to be shipped: {flaw}")]
-    Library { platform: Platform, flaw: LibraryError },
+    #[error("the library for {platform} is not fit to be shipped: {reason}")]
+    Library { platform: Platform, reason: LibraryError },
     /// A file that should be there cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },

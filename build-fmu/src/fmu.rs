@@ -82,7 +82,7 @@ pub(crate) fn fmu_with(
         report(&format!("{}: {plan}", plan.platform));
         let bytes = compile::compile(model, start, fmi, plan)?;
         let info = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
-            .map_err(|flaw| Error::Library { platform: plan.platform, flaw })?;
+            .map_err(|reason| Error::Library { platform: plan.platform, reason })?;
         report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }

@@ -48,7 +48,7 @@ pub enum LibraryError {
 /// `private_paths` are directories that it must not mention.
 ///
 /// # Errors
-/// The first flaw found.
+/// The first error found.
 pub fn examine(
     library: &[u8],
     functions: &[&str],

@@ -100,7 +100,7 @@ fn check_used(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
         return Err(Error::NotTaken { option: "rig", who: "only models with a platform have a rig" });
     }
     if arguments.path.is_some() && !models.iter().any(|model| model.name == MOTORCYCLE.name) {
-        return Err(Error::NotTaken { option: "path", who: "only the motorcycle rides one" });
+        return Err(Error::NotTaken { option: "path", who: "only the motorcycle follows one" });
     }
     if !arguments.parameters.is_empty() && !models.iter().any(|model| takes_parameters(arguments, model)) {
         let who = "with several models they are the washout's; choose another model alone with --model";

@@ -27,7 +27,7 @@ fn set(k: u32) -> Parameters {
 /// The smallest error among `count` sets: results are reduced as they come.
 fn smallest_error(manoeuvre: &Manoeuvre, count: u32) -> f64 {
     simulations(manoeuvre, (0..count).into_par_iter().map(set), Fit::default)
-        .map(|ride| ride.result.map_or(f64::INFINITY, |fit| fit.rms_error().x))
+        .map(|simulation| simulation.result.map_or(f64::INFINITY, |fit| fit.rms_error().x))
         .reduce(|| f64::INFINITY, f64::min)
 }
 

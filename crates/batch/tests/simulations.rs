@@ -46,7 +46,9 @@ fn the_number_of_cores_changes_nothing() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be had");
         pool.install(|| {
             let sets = (1..=20_u32).into_par_iter().map(|k| with_frequency(0.3 * f64::from(k)));
-            simulations(&manoeuvre, sets, Fit::default).map(|ride| ride.result.expect("can be used")).collect()
+            simulations(&manoeuvre, sets, Fit::default)
+                .map(|simulation| simulation.result.expect("can be used"))
+                .collect()
         })
     };
     let alone = on(1);
@@ -58,7 +60,7 @@ fn the_number_of_cores_changes_nothing() {
 fn a_set_that_cannot_be_used_says_so_and_the_others_ride() {
     let manoeuvre = surge_and_back();
     let sets = [1.0, -1.0, 2.0].into_par_iter().map(with_frequency);
-    let results: Vec<_> = simulations(&manoeuvre, sets, Fit::default).map(|ride| ride.result).collect();
+    let results: Vec<_> = simulations(&manoeuvre, sets, Fit::default).map(|simulation| simulation.result).collect();
     assert!(results[0].is_ok() && results[2].is_ok());
     let refusal = results[1].as_ref().expect_err("a negative frequency is refused");
     assert_eq!(refusal.variable, "splitter.x.omega1");

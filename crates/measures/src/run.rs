@@ -1,6 +1,6 @@
 //! Input of the measures.
 
-/// One ride with one set of parameters: series of equal length, sampled every `step` seconds. The
+/// One recording with one set of parameters: series of equal length, sampled every `step` seconds. The
 /// first sample is the one before the first step.
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a> {

@@ -230,7 +230,7 @@ fn what_cannot_be_bounded_is_refused_with_the_reason() {
     let refusal =
         |desired: &[f64], step, limits: &AxisLimits| bound(desired, step, limits, 0.02).unwrap_err().to_string();
     assert_eq!(refusal(&desired, 0.0, &SURGE), "the time between samples is 0 s; it must be above 0");
-    assert_eq!(refusal(&desired[..1], STEP, &SURGE), "the ride has 1 samples; a bound needs at least 3");
+    assert_eq!(refusal(&desired[..1], STEP, &SURGE), "the recording has 1 samples; a bound needs at least 3");
     assert_eq!(
         refusal(&[0.0, f64::NAN, 0.0], STEP, &SURGE),
         "sample 1 of the desired specific force is NaN; it must be a finite number"

@@ -283,3 +283,32 @@ fn legs_pursue_their_demands_a_little_inside_the_certified_stroke() {
     assert!((pursued.min - certified.min - inset).abs() < 1e-12 && (certified.max - pursued.max - inset).abs() < 1e-12);
     assert_eq!(pursued.acceleration, certified.acceleration);
 }
+
+/// The platform goes over to a demand that is no farther from it than a hundredth of what an
+/// acceleration at its limit does in a step: that of each leg, and that of each axis.
+#[test]
+fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
+    let (rig, step) = (Rig::default(), 0.002);
+    let guard = ActuatorGuard::new(&rig, step);
+    let joins = |surge: f64, most: f64| {
+        let mut demand = PlatformCoordinates::default();
+        demand.linear.position.x = surge;
+        let motion = demand.motion(rig.neutral_height);
+        let legs = inverse_kinematics(&guard.machine.geometry, &motion);
+        let safety = SafetyParameters { acceleration_limit: Vector3::repeat(most), ..SafetyParameters::default() };
+        guard.has_caught_up(Candidate { coordinates: &demand, motion: &motion, legs: &legs }, &safety, step)
+    };
+    // Surge changes the leg that lies along it most by this much a metre.
+    let neutral = inverse_kinematics(&guard.machine.geometry, guard.motion()).length;
+    let mut moved = PlatformMotion::at_rest(Pose::neutral(&rig));
+    moved.position.x = 1e-6;
+    let leg = (0..6)
+        .map(|i| (inverse_kinematics(&guard.machine.geometry, &moved).length[i] - neutral[i]).abs() / 1e-6)
+        .fold(0.0, f64::max);
+    let of_legs = 0.01 * rig.acceleration_limit * step * step / leg;
+    assert!(joins(0.999 * of_legs, 1e3) && !joins(1.001 * of_legs, 1e3));
+    let of_axes = |most: f64| 0.01 * most * step * step;
+    for most in [0.03, 2.0] {
+        assert!(joins(0.999 * of_axes(most), most) && !joins(1.001 * of_axes(most), most));
+    }
+}

@@ -70,8 +70,8 @@ pub enum BoundError {
     /// The time between samples is no time.
     #[error("the time between samples is {0} s; it must be above 0")]
     Step(f64),
-    /// There is no ride, or it is shorter than one interval.
-    #[error("the ride has {samples} samples; a bound needs at least {needed}")]
+    /// There is no recording, or it is shorter than one interval.
+    #[error("the recording has {samples} samples; a bound needs at least {needed}")]
     TooShort {
         /// Number of samples.
         samples: usize,
@@ -109,7 +109,7 @@ pub const INTERVAL: f64 = 0.02;
 /// motion is divided, [`INTERVAL`] by default; it is rounded to a number of steps, one at least.
 ///
 /// # Errors
-/// The ride or the limits cannot be used, or the solver fails.
+/// The recording or the limits cannot be used, or the solver fails.
 pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> Result<Bound, BoundError> {
     check_limits(limits)?;
     if step.is_nan() || step <= 0.0 {

@@ -11,7 +11,7 @@ pub enum ReportError {
     NoRuns,
     #[error("run {selected} is selected but there are {runs}, counted from 0")]
     NoSuchRun { selected: usize, runs: usize },
-    #[error("run \"{run}\" has {samples} samples: a ride has at least two")]
+    #[error("run \"{run}\" has {samples} samples: a run has at least two")]
     TooShort { run: String, samples: usize },
     #[error("run \"{run}\": time {index} is not a number or does not come after the time before it")]
     Times { run: String, index: usize },

@@ -11,7 +11,7 @@ use crate::encode::{curve, flags, times};
 /// The whole page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Report {
-    /// The heading, for instance the ride's name.
+    /// The heading, for instance the recording's name.
     pub title: String,
     /// One line below the heading: which recording, on which rig, with which parameters.
     pub subtitle: String,
@@ -26,7 +26,7 @@ pub struct Report {
     pub selected: usize,
 }
 
-/// A sentence about the ride, and how much it matters.
+/// A sentence about the run, and how much it matters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Finding {
     pub weight: Weight,
@@ -77,7 +77,7 @@ impl From<&Parameters> for Rig {
     }
 }
 
-/// One ride with one set of parameters.
+/// One recording with one set of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Run {
     /// Short, because it stands in legends: `default`, `tuned`.

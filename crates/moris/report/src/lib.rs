@@ -1,4 +1,4 @@
-//! One self-contained HTML page about a ride on a motion platform: what is felt against what is
+//! One self-contained HTML page about a recording on a motion platform: what is felt against what is
 //! desired, the legs against their stroke, what was limited and when, a table of measures; and
 //! beside it the platform itself, moving in 3D.
 //!

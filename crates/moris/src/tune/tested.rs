@@ -49,7 +49,7 @@ pub fn tune_tested(
     held_out: &[&Objective],
     folds: &[Vec<usize>],
 ) -> Result<Tested> {
-    let best = tuner.tune(objectives, "all rides")?;
+    let best = tuner.tune(objectives, "all recordings")?;
     let before = full_costs(objectives, tuner.setup)?;
     let left_out = leave_out_in_turn(tuner, objectives, folds)?;
     let pairs: Vec<(Cost, Trials)> =
