@@ -1,7 +1,7 @@
 //! Tunable parameters changed in the middle of a ride, engaging and disengaging: nothing jumps.
 
 use moris_interface::{Causality, Kind, Model, SlotModel, Variability};
-use moris_washout::interface::RollPitchYaw;
+use moris_washout::interface::{Compensation, RollPitchYaw};
 use moris_washout::presets::parameters;
 use moris_washout::{Input, Output, Parameters, Washout};
 use nalgebra::Vector3;
@@ -108,6 +108,24 @@ fn no_tunable_parameter_makes_anything_jump() {
                 last = now;
             }
         }
+    }
+}
+
+/// The linear channel's input changes with the compensation; the offset that fades cancels it.
+#[test]
+fn another_compensation_changes_the_acceleration_without_a_jump() {
+    let mut started = washout(&[]);
+    ride(&mut started, 6.0, STEP, moving, |_, _| {});
+    for compensation in [Compensation::None, Compensation::Centripetal, Compensation::Gravity] {
+        let (mut changed, mut unchanged) = (started.clone(), started.clone());
+        let mut parameters = *changed.parameters();
+        parameters.conditioning.compensation = compensation;
+        changed.retune(&parameters).unwrap();
+        for washout in [&mut changed, &mut unchanged] {
+            washout.step(&moving(6.0), STEP);
+        }
+        let jump = (changed.output().acceleration - unchanged.output().acceleration).amax();
+        assert!(jump < 0.01, "{compensation:?}: {jump} m/s²");
     }
 }
 
