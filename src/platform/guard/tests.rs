@@ -312,3 +312,33 @@ fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
         assert!(joins(0.999 * of_axes(most), most) && !joins(1.001 * of_axes(most), most));
     }
 }
+
+#[test]
+fn the_rate_of_the_stroke_margin_is_its_derivative() {
+    let (rig, step) = (Rig::default(), 1e-4);
+    let mut guard = ActuatorGuard::new(&rig, step);
+    let at = |time: f64| {
+        let axis = |amplitude: f64, omega: f64| Motion {
+            position: amplitude * (1.0 - (omega * time).cos()),
+            velocity: amplitude * omega * (omega * time).sin(),
+            acceleration: amplitude * omega * omega * (omega * time).cos(),
+        };
+        let linear = Motion::from_axes(|k| axis([0.05, -0.04, 0.06][k], [3.0, 4.0, 5.0][k]));
+        PlatformCoordinates { linear, angles: Motion::from_axes(|k| axis([0.04, 0.03, -0.05][k], 2.0)) }
+    };
+    let (mut margins, mut rates) = (Vec::new(), Vec::new());
+    for k in 1..=15_000 {
+        let demand = at(f64::from(k) * step);
+        guard.advance(&demand, &demand.motion(rig.neutral_height), &SafetyParameters::default(), step);
+        margins.push(guard.stroke_margin());
+        rates.push(guard.stroke_margin_rate());
+    }
+    assert!(!guard.limited());
+    let wrong = (1..margins.len() - 1)
+        .filter(|&k| ((margins[k + 1] - margins[k - 1]) / (2.0 * step) - rates[k]).abs() > 1e-5)
+        .count();
+    // At some instants another leg becomes the nearest to its end.
+    assert!(wrong < 60, "{wrong} of {}", margins.len());
+    let [least, most] = [f64::min, f64::max].map(|of| rates.iter().copied().reduce(of).unwrap());
+    assert!(least < -0.05 && most > 0.05, "{least} to {most} m/s");
+}
