@@ -59,14 +59,16 @@ impl SafetyUnits {
     /// True if the motion is beyond its limits, or could not stop within them:
     /// they have become tighter.
     pub fn beyond_limits(&self, limits: &SafetyParameters) -> bool {
-        let Motion { position, velocity, .. } = &self.motion;
-        (0..3).any(|k| {
-            let outward = if velocity[k].is_sign_negative() { -position[k] } else { position[k] };
-            let ahead = limits.position_limit[k] - outward;
-            let (speed, most) = (velocity[k].abs(), limits.acceleration_limit[k]);
-            let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * WITH_ROUNDING;
-            !keeps
-        })
+        (0..3).any(|k| self.axis_beyond_limits(k, limits))
+    }
+
+    fn axis_beyond_limits(&self, k: usize, limits: &SafetyParameters) -> bool {
+        let Motion { position, velocity, .. } = self.motion.axis(k);
+        let outward = if velocity.is_sign_negative() { -position } else { position };
+        let ahead = limits.position_limit[k] - outward;
+        let (speed, most) = (velocity.abs(), limits.acceleration_limit[k]);
+        let keeps = speed <= limits.velocity_limit[k] && speed * speed <= 2.0 * most * ahead * WITH_ROUNDING;
+        !keeps
     }
 
     /// Advances by one step at whose end the motion `demand` is.
@@ -91,7 +93,9 @@ impl SafetyUnits {
     ) -> Motion<Vector3<f64>> {
         for (k, keeps) in keep.into_iter().enumerate() {
             let joins = keeps && (!self.following[k] || self.has_caught_up(k, demand, limits, step));
-            self.active[k] = !joins && (self.active[k] || !self.following[k]);
+            // A unit that follows the platform's real motion is active from where that is beyond the limits.
+            let limits_it = self.active[k] || !self.following[k] || self.axis_beyond_limits(k, limits);
+            self.active[k] = !joins && limits_it;
             self.following[k] = !joins;
         }
         Motion::from_axes(|k| {

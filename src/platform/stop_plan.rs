@@ -69,14 +69,14 @@ impl StopPlan {
         StopPlan { elapsed: (self.elapsed + step).min(max(last, self.elapsed)), ..*self }
     }
 
-    /// Time from now until surge, sway and heave are no faster than these limits \[m/s\], zero if
-    /// they are so already \[s\].
-    pub fn time_until_within(&self, limits: &Vector3<f64>) -> f64 {
+    /// Times from now until surge, sway and heave are no faster than these limits \[m/s\], zero
+    /// where they are so already \[s\].
+    pub fn times_until_within(&self, limits: &Vector3<f64>) -> [f64; 3] {
         let StopPlan { start, durations, elapsed } = self;
-        (0..3).fold(0.0, |longest, k| {
-            // Zero from the start for an axis at rest, whose quotient is infinite.
+        std::array::from_fn(|k| {
+            // An axis that rests from the start has no time of its own: the product is no number.
             let end = durations.linear[k] * (1.0 - limits[k] / start.linear.velocity[k].abs());
-            max(end - elapsed, longest)
+            max(end - elapsed, 0.0)
         })
     }
 
@@ -139,16 +139,23 @@ mod tests {
     }
 
     #[test]
-    fn a_plan_keeps_limits_of_velocity_from_the_latest_axis_on() {
+    fn a_plan_keeps_limits_of_velocity_from_its_times_on() {
         let start = PlatformCoordinates {
             linear: Motion { velocity: Vector3::new(0.8, -0.4, 0.0), ..Motion::default() },
             ..PlatformCoordinates::default()
         };
         let plan = StopPlan::new(&start, StopDurations { linear: Vector3::new(0.2, 0.4, 0.0), angular: 0.4 });
-        let time = |plan: StopPlan, x: f64, y: f64| plan.time_until_within(&Vector3::new(x, y, 0.01));
-        for (x, y, expected) in [(0.2, 1.0, 0.15), (0.2, 0.1, 0.3), (1.0, 0.3, 0.1), (0.8, 0.4, 0.0), (1.0, 1.0, 0.0)] {
-            assert!((time(plan, x, y) - expected).abs() < 1e-15);
-            assert!((time(plan.advanced(0.12), x, y) - (expected - 0.12).max(0.0)).abs() < 1e-15);
+        for (limits, expected) in [
+            ([0.2, 0.1, 0.01], [0.15, 0.3, 0.0]),
+            ([1.0, 0.3, 0.01], [0.0, 0.1, 0.0]),
+            ([0.8, 0.4, 0.0], [0.0, 0.0, 0.0]),
+        ] {
+            let close = |plan: StopPlan, expected: [f64; 3]| {
+                let times = plan.times_until_within(&Vector3::from(limits));
+                assert!((Vector3::from(times) - Vector3::from(expected)).amax() < 1e-15, "{times:?}, not {expected:?}");
+            };
+            close(plan, expected);
+            close(plan.advanced(0.12), expected.map(|time| (time - 0.12).max(0.0)));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The outputs that tell of limits.
 
-use moris_washout::interface::RollPitchYaw;
-use moris_washout::{Input, Output};
+use moris_washout::interface::{RollPitchYaw, StrategyKind};
+use moris_washout::{Input, Output, Washout};
 use nalgebra::Vector3;
 
 use crate::common::{G, parameters, ride, washout};
@@ -112,4 +112,35 @@ fn the_flags_tell_of_every_internal_step() {
     let slow_legs = [("actuator.accelerationLimit", 3.0)];
     let [.., actuator] = ended_within_a_step(&slow_legs, 0.0, 0.5);
     assert!(tilt > 1 && safety > 1 && actuator > 1, "{tilt} {safety} {actuator}");
+}
+
+/// Limits of velocity tightened in motion show in the status until they are kept, whatever the
+/// strategy.
+#[test]
+fn a_speed_above_a_tightened_limit_shows() {
+    use StrategyKind::{Adaptive, Classical, Optimal, Predictive};
+    for strategy in [Classical, Adaptive, Optimal, Predictive] {
+        let mut beyond = 0;
+        for (change, limit) in (100..1500).step_by(23).zip([0.3, 0.1, 0.01].into_iter().cycle()) {
+            let mut parameters = parameters(&[]);
+            parameters.structure.strategy = strategy;
+            let mut washout = Washout::new(&parameters).unwrap();
+            for step in 0..change + 200 {
+                if step == change {
+                    parameters.safety.velocity_limit = Vector3::repeat(limit);
+                    washout.retune(&parameters).unwrap();
+                }
+                let square = |amplitude: f64, omega: f64| amplitude.copysign((0.001 * omega * f64::from(step)).sin());
+                let force = Vector3::new(square(8.0, 5.0), square(8.0, 7.0), G + square(6.0, 9.0));
+                washout.step(&Input { specific_force: force, ..Input::default() }, 0.001);
+                let output = washout.output();
+                if step >= change && output.velocity.amax() > 1.0001 * limit {
+                    let shows = output.safety_active || output.actuator_limited;
+                    assert!(shows, "{strategy:?}, {limit} m/s before step {change}: {step}");
+                    beyond += 1;
+                }
+            }
+        }
+        assert!(beyond > 500, "{strategy:?}: {beyond}");
+    }
 }

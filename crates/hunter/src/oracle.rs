@@ -243,7 +243,8 @@ impl Oracle {
             axis.velocity_limit = safety.velocity[k];
             axis.acceleration_limit = safety.acceleration[k];
             axis.position = axis.position.max(safety.position[k]);
-            axis.velocity = axis.velocity.max(safety.velocity[k]);
+            // From now on, not only from the next step on, a speed above the limit does not grow.
+            axis.velocity = axis.velocity.min(self.before.velocity[k].abs()).max(safety.velocity[k]);
             axis.acceleration[0] = axis.acceleration[0].max(safety.acceleration[k]);
             axis.slowest = axis.slowest.min(safety.acceleration[k]);
             axis.stopped = self.before.velocity[k] == 0.0;

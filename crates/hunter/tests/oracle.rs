@@ -185,6 +185,16 @@ fn after_a_change_a_speed_above_the_new_limit_does_not_grow() {
 }
 
 #[test]
+fn after_a_change_a_speed_above_the_new_limit_does_not_grow_in_the_first_step() {
+    let mut oracle = changed(0.1, 0.5, &Safety { velocity: [0.1; 3], ..SAFETY });
+    let (step, acceleration, mut worst) = (0.02, 8.0, Worst::default());
+    let (position, velocity) = (0.1 + (0.5 + 0.5 * acceleration * step) * step, 0.5 + acceleration * step);
+    let grown = sample(Mover::Surge, position, velocity, acceleration);
+    let breach = oracle.judge(&grown, step, &mut worst).unwrap_err();
+    assert!(matches!(breach.quantity, Quantity::Velocity | Quantity::MeanVelocity), "{breach}");
+}
+
+#[test]
 fn a_position_beyond_a_changed_limit_only_comes_nearer_once_it_rests() {
     let tight = Safety { position: [0.05; 3], ..SAFETY };
     let mut oracle = changed(0.2, 0.8, &tight);

@@ -1,7 +1,7 @@
 //! Input of the measures.
 
-/// One recording with one set of parameters: series of equal length, sampled every `step` seconds. The
-/// first sample is the one before the first step.
+/// One recording with one set of parameters: series of equal length, sampled every `step` seconds.
+/// The first sample is the one before the first step.
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a> {
     /// Time from one sample to the next \[s\].

@@ -111,12 +111,13 @@ impl ActuatorGuard {
         });
     }
 
-    /// A certified stop plan from the candidate that keeps the limits of velocity no later than the
-    /// plan held does, where a tightened limit is not kept yet.
+    /// A certified stop plan from the candidate on which no axis keeps its limit of velocity later
+    /// than on the plan held, where a tightened limit is not kept yet.
     fn certified(&self, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
         let plan = self.machine.certify(self.state(), to, safety, step)?;
-        let time_of = |plan: StopPlan| plan.time_until_within(&(WITH_ROUNDING * safety.velocity_limit));
-        (time_of(plan) <= time_of(self.plan.advanced(step))).then_some(plan)
+        let times = |plan: StopPlan| plan.times_until_within(&(WITH_ROUNDING * safety.velocity_limit));
+        let (next, held) = (times(plan), times(self.plan.advanced(step)));
+        (0..3).all(|k| next[k] <= held[k]).then_some(plan)
     }
 
     /// True if the platform may go over to the demand from where it is: the positions differ from

@@ -1,5 +1,5 @@
-//! One self-contained HTML page about a recording on a motion platform: what is felt against what is
-//! desired, the legs against their stroke, what was limited and when, a table of measures; and
+//! One self-contained HTML page about a recording on a motion platform: what is felt against what
+//! is desired, the legs against their stroke, what was limited and when, a table of measures; and
 //! beside it the platform itself, moving in 3D.
 //!
 //! Plain data in ([`Report`]), text out ([`html`]). The page needs no network and no other file:
