@@ -87,3 +87,51 @@ pub fn check_torso(torso_length: f64, head_height: f64, ground: &str) -> Result<
         ),
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Rotation3;
+
+    use super::*;
+
+    /// The frame turns by the lean about x; the head is a torso's length along its z from the seat.
+    #[test]
+    fn the_head_leans_about_the_seat() {
+        let (height, torso) = (1.2, 0.7);
+        for lean in [-0.5, -0.01, 0.0, 0.2, 1.0] {
+            let frame = LocationFrame::leaning(height, torso, lean);
+            let rotation = Rotation3::from_axis_angle(&Vector3::x_axis(), lean);
+            let expected = Vector3::new(0.0, 0.0, height - torso) + rotation * Vector3::new(0.0, 0.0, torso);
+            assert!((frame.point - expected).amax() < 1e-15 && frame.lean == lean, "{frame:?}");
+            for v in [Vector3::x(), Vector3::y(), Vector3::z(), Vector3::new(0.3, -2.0, 9.0)] {
+                assert!((frame.to_platform_axes(v) - rotation * v).amax() < 1e-14);
+                assert!((frame.to_location_axes(v) - rotation.inverse() * v).amax() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn only_a_head_leans() {
+        let with = |washout_location| {
+            let structure = StructureParameters { washout_location, ..crate::Parameters::default().structure };
+            (LocationFrame::new(&structure, 0.3), structure)
+        };
+        let (head, structure) = with(WashoutLocation::Head);
+        assert_eq!(head, LocationFrame::leaning(structure.head_height, structure.torso_length, 0.3));
+        let v = Vector3::new(1.0, 2.0, 3.0);
+        let (platform, _) = with(WashoutLocation::Platform);
+        let (custom, structure) = with(WashoutLocation::Custom);
+        for (frame, point) in [(platform, Vector3::zeros()), (custom, structure.washout_point)] {
+            assert_eq!((frame.point, frame.lean), (point, 0.0));
+            assert_eq!((frame.to_platform_axes(v), frame.to_location_axes(v)), (v, v));
+        }
+    }
+
+    #[test]
+    fn a_seat_below_the_ground_is_refused() {
+        assert!(check_torso(1.2, 1.2, "platform").is_ok() && check_torso(0.5, 1.2, "platform").is_ok());
+        let error = check_torso(1.3, 1.2, "platform").unwrap_err();
+        assert_eq!(error.variable, "head.torsoLength");
+        assert!(error.reason.contains("1.3 m") && error.reason.contains("1.2 m") && error.reason.contains("platform"));
+    }
+}
