@@ -122,3 +122,61 @@ pub fn leg_lengths(geometry: &Geometry, pose: &Pose) -> [f64; 6] {
         (pose.position + pose.orientation.rotation * geometry.platform.joint(i) - geometry.base.joint(i)).norm()
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::interface::Rig;
+    use crate::motion::Motion;
+    use crate::platform::PlatformCoordinates;
+
+    /// Coordinates that move with a steady acceleration, at `time`.
+    fn moving(time: f64) -> PlatformCoordinates {
+        let steady = |position: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]| {
+            let [position, velocity, acceleration] = [position, velocity, acceleration].map(Vector3::from);
+            Motion {
+                position: position + (velocity + acceleration * (0.5 * time)) * time,
+                velocity: velocity + acceleration * time,
+                acceleration,
+            }
+        };
+        PlatformCoordinates {
+            linear: steady([0.08, -0.05, 0.03], [0.3, 0.2, -0.4], [1.0, -2.0, 1.5]),
+            angles: steady([0.1, -0.2, 0.15], [0.5, -0.7, 0.6], [-1.0, 2.0, 1.2]),
+        }
+    }
+
+    #[test]
+    fn rates_and_accelerations_are_the_derivatives_of_the_lengths() {
+        let mut rig = Rig::default();
+        for i in 0..6 {
+            // No two joints at the same height, and none on a circle.
+            rig.base[i] += Vector3::new(0.02, -0.01, 0.03) * i as f64;
+            rig.platform[i] += Vector3::new(-0.01, 0.02, -0.025) * i as f64;
+        }
+        let geometry = Geometry::from(&rig);
+        let motion = |time: f64| moving(time).motion(rig.neutral_height);
+        let lengths = |time: f64| leg_lengths(&geometry, &motion(time).pose());
+        const H: f64 = 1e-4;
+        for time in [-0.2, 0.0, 0.3] {
+            let legs = inverse_kinematics(&geometry, &motion(time));
+            let all = leg_motion(&geometry, &motion(time));
+            let [before, now, after] = [time - H, time, time + H].map(lengths);
+            for i in 0..6 {
+                let rate = (after[i] - before[i]) / (2.0 * H);
+                let acceleration = (after[i] - 2.0 * now[i] + before[i]) / (H * H);
+                for length in [legs.length[i], all.length[i]] {
+                    assert!((length - now[i]).abs() < 1e-15, "leg {i}: {length} m, not {} m", now[i]);
+                }
+                for velocity in [legs.velocity[i], all.velocity[i]] {
+                    assert!((velocity - rate).abs() < 1e-7, "leg {i}: {velocity} m/s, not {rate} m/s");
+                }
+                let found = all.acceleration[i];
+                assert!((found - acceleration).abs() < 1e-6, "leg {i}: {found} m/s², not {acceleration} m/s²");
+            }
+            assert_eq!(leg_accelerations(&geometry, &motion(time)), all.acceleration);
+        }
+    }
+}

@@ -123,3 +123,109 @@ fn mean_radius(joints: &[Vector3<f64>; 6]) -> f64 {
     let centroid = joints.iter().sum::<Vector3<f64>>() / 6.0;
     joints.iter().map(|joint| (joint - centroid).norm()).sum::<f64>() / 6.0
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    #[test]
+    fn the_grid_is_visited_once_by_moves_of_one_leg_by_one_level() {
+        let mut visited = HashSet::new();
+        let mut last: Option<[usize; 6]> = None;
+        walk(&mut |levels| {
+            if let Some(last) = last {
+                assert_eq!((0..6).map(|leg| levels[leg].abs_diff(last[leg])).sum::<usize>(), 1, "{last:?}, {levels:?}");
+            }
+            assert!(levels.iter().all(|level| *level < LEVELS) && visited.insert(*levels));
+            last = Some(*levels);
+            true
+        });
+        assert_eq!(visited.len(), LEVELS.pow(6));
+        let mut count = 0;
+        walk(&mut |_| {
+            count += 1;
+            count < 5
+        });
+        assert_eq!(count, 5, "a visit that returns false is the last");
+    }
+
+    #[test]
+    fn levels_go_from_the_shortest_to_the_longest() {
+        let rig = Rig::default();
+        let lengths: Vec<f64> = (0..LEVELS).map(|level| level_length(&rig, level)).collect();
+        assert!(lengths.iter().zip([1.0, 1.2, 1.4, 1.6]).all(|(found, expected)| (found - expected).abs() < 1e-15));
+    }
+
+    #[test]
+    fn the_mean_radius_is_about_the_centroid() {
+        let around = |centre: Vector3<f64>| {
+            let at = |angle: f64, radius: f64| centre + radius * Vector3::new(angle.cos(), angle.sin(), 0.0);
+            std::array::from_fn(|i| at(std::f64::consts::FRAC_PI_3 * i as f64, if i % 2 == 0 { 0.4 } else { 0.6 }))
+        };
+        // Opposite joints differ in radius: the centroid is still the centre, by threes.
+        for centre in [Vector3::zeros(), Vector3::new(1.0, -2.0, 0.5)] {
+            assert!((mean_radius(&around(centre)) - 0.5).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn the_platform_is_followed_to_its_new_lengths() {
+        let rig = Rig::default();
+        let geometry = Geometry::from(&rig);
+        let pose = Pose::neutral(&rig);
+        let lengths = leg_lengths(&geometry, &pose);
+        let target = [1.25, 1.35, 1.3, 1.4, 1.28, 1.33];
+        let found = follow(&geometry, &pose, &lengths, &target).expect("inside the workspace");
+        let reached = leg_lengths(&geometry, &found);
+        assert!(reached.iter().zip(&target).all(|(a, b)| (a - b).abs() < 1e-9), "{reached:?}");
+        assert!(follow(&geometry, &pose, &lengths, &[1.3, 1.3, 1.3, 1.3, 1.3, 9.0]).is_none());
+    }
+
+    /// The default rig with the platform's joints this many degrees on either side of three points.
+    fn with_pairs_apart(half_angle: f64) -> Rig {
+        let mut rig = Rig::default();
+        let angles = [-60.0, 60.0, 60.0, 180.0, 180.0, 300.0];
+        for (i, angle) in angles.into_iter().enumerate() {
+            let angle = f64::to_radians(angle + if i % 2 == 0 { half_angle } else { -half_angle });
+            rig.platform[i] = 0.85 * Vector3::new(angle.cos(), angle.sin(), 0.0);
+        }
+        rig
+    }
+
+    /// Figures with numpy: the same grid, Newton's method with steps of a rotation vector, singular
+    /// values of the Jacobian in units of the mean radius.
+    #[test]
+    fn figures_are_those_of_another_implementation() {
+        for (half_angle, singular_value, condition) in [
+            (8.0, 0.581_704_905_098, 3.462_205_976_243),
+            (12.0, 0.486_944_757_104, 4.309_463_866_615),
+            (16.0, 0.343_062_679_788, 6.333_663_282_896),
+        ] {
+            let found = survey(&with_pairs_apart(half_angle)).expect("not singular");
+            assert!((found.smallest_singular_value - singular_value).abs() < 1e-9, "{half_angle}°: {found:?}");
+            assert!((found.worst_condition - condition).abs() < 1e-8, "{half_angle}°: {found:?}");
+        }
+        // With these legs at opposite ends it is lost.
+        let refused = survey(&with_pairs_apart(20.0)).expect_err("singular");
+        assert!(refused.lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{refused:?}");
+    }
+
+    #[test]
+    fn the_size_of_a_rig_does_not_matter() {
+        let rig = Rig::default();
+        let found = survey(&rig).expect("not singular");
+        let double = Rig {
+            base: rig.base.map(|joint| 2.0 * joint),
+            platform: rig.platform.map(|joint| 2.0 * joint),
+            neutral_height: 2.0 * rig.neutral_height,
+            min_length: 2.0 * rig.min_length,
+            max_length: 2.0 * rig.max_length,
+            ..rig
+        };
+        let same = survey(&double).expect("not singular");
+        assert!((same.worst_condition - found.worst_condition).abs() < 1e-9, "{same:?}");
+        assert!((same.smallest_singular_value - found.smallest_singular_value).abs() < 1e-9, "{same:?}");
+    }
+}
