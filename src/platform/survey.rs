@@ -207,9 +207,23 @@ mod tests {
             assert!((found.smallest_singular_value - singular_value).abs() < 1e-9, "{half_angle}°: {found:?}");
             assert!((found.worst_condition - condition).abs() < 1e-8, "{half_angle}°: {found:?}");
         }
-        // With these legs at opposite ends it is lost.
+        // With these the platform is lost where neighbouring legs are at opposite ends.
         let refused = survey(&with_pairs_apart(20.0)).expect_err("singular");
         assert!(refused.lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{refused:?}");
+    }
+
+    /// Legs that hardly move: the Jacobian is the same everywhere, and its sign with it.
+    #[test]
+    fn a_condition_of_more_than_fifty_is_refused() {
+        let survey_at_neutral = |half_angle: f64| {
+            let rig = with_pairs_apart(half_angle);
+            let lengths = leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig));
+            survey(&Rig { min_length: lengths[0] - 1e-6, max_length: lengths[0] + 1e-6, ..rig })
+        };
+        let [good, bad] = [50.0, 51.5].map(survey_at_neutral);
+        let condition = good.expect("not singular").worst_condition;
+        assert!((20.0..50.0).contains(&condition), "{condition}");
+        assert!(bad.is_err(), "{bad:?}");
     }
 
     #[test]
