@@ -23,10 +23,10 @@
 //! # Tolerances
 //! Positions: [`POSITION_TOLERANCE`]. Velocities and accelerations: [`RELATIVE_TOLERANCE`] of the
 //! limit, and the rounding of the difference. A leg's length comes from p + R a - b with a few
-//! roundings each of numbers no larger than
-//! |p|, |a| and |b|: it is known to [`ROUNDINGS`] units of |p| + |a| + |b|. So is a coordinate, which follows from lengths
-//! where legs limit the motion. A velocity is known to as many units of the speed that it belongs
-//! to. A difference over h is known to twice that over h.
+//! roundings each of numbers no larger than the three vectors: it is known to [`ROUNDINGS`] units
+//! of the sum of their lengths. So is a coordinate, which follows from lengths where legs limit the
+//! motion. A velocity is known to as many units of the speed that it belongs to. A difference over
+//! h is known to twice that over h.
 //!
 //! # Limits changed in flight
 //! The legs' limits never change. A safety limit that is tightened cannot always be kept at once.
