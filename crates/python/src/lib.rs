@@ -23,6 +23,10 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _moris {
+    /// Time over which recordings are faded in by default \[s\].
+    #[pymodule_export]
+    const FADE_IN: f64 = moris::recording::FADE_IN;
+
     #[pymodule_export]
     use crate::output::PyOutput;
     #[pymodule_export]

@@ -25,17 +25,16 @@ OPTIONS = (
     "resample",
     "fade_in",
 )
-FADE_IN = 1.0
-"""Time over which recordings are faded in from rest unless another is given [s], as by the command."""
 
 
 class Recording:
     """A recorded ride, in the washout's frames and units and at equal steps.
 
     source: a pandas.DataFrame, a dict of arrays of shape (N,), or the path of a file: CSV (also .csv.gz), Parquet, Excel,
-        MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time, ax, ay, az (specific force) and wx, wy, wz (angular velocity) at
-        the rider's head, and, where there are any, roll, pitch, yaw, speed and lean. Units in the brackets of a name are
-        read: "ax [g]". A DataFrame whose index is called time needs no such column.
+        MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time,
+        ax, ay, az (specific force) and wx, wy, wz (angular velocity) at the rider's head, and, where there are any, roll,
+        pitch, yaw, speed and lean. Units in the brackets of a name are read: "ax [g]". A DataFrame whose index is called
+        time needs no such column.
     name: of the recording; by default the file's, without extension.
     format: name of a logger's format, such as "phyphox"; `moris simulate --help` lists them.
     columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/workbench.md.
@@ -55,7 +54,7 @@ class Recording:
         unknown = [option for option in options if option not in OPTIONS]
         if unknown:
             raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(OPTIONS)}")
-        options = {"fade_in": FADE_IN, **{option: value for option, value in options.items() if value is not None}}
+        options = {"fade_in": _moris.FADE_IN, **{option: value for option, value in options.items() if value is not None}}
         try:
             if isinstance(source, _moris.Recording):
                 self._native = source
