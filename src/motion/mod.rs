@@ -49,6 +49,16 @@ impl Motion<Vector3<f64>> {
         self.acceleration[k] += motion.acceleration;
     }
 
+    /// The motions after `time` seconds of their accelerations, for tests.
+    #[cfg(test)]
+    pub(crate) fn after(&self, time: f64) -> Self {
+        Motion {
+            position: self.position + (self.velocity + self.acceleration * (0.5 * time)) * time,
+            velocity: self.velocity + self.acceleration * time,
+            acceleration: self.acceleration,
+        }
+    }
+
     /// The motions after `step` seconds of the steady accelerations that lead to these velocities.
     pub fn at_velocity(&self, velocity: Vector3<f64>, step: f64) -> Self {
         Motion {

@@ -136,11 +136,7 @@ mod tests {
     fn moving(time: f64) -> PlatformCoordinates {
         let steady = |position: [f64; 3], velocity: [f64; 3], acceleration: [f64; 3]| {
             let [position, velocity, acceleration] = [position, velocity, acceleration].map(Vector3::from);
-            Motion {
-                position: position + (velocity + acceleration * (0.5 * time)) * time,
-                velocity: velocity + acceleration * time,
-                acceleration,
-            }
+            Motion { position, velocity, acceleration }.after(time)
         };
         PlatformCoordinates {
             linear: steady([0.08, -0.05, 0.03], [0.3, 0.2, -0.4], [1.0, -2.0, 1.5]),

@@ -88,6 +88,14 @@ pub struct Machine {
     pub longest_step: f64,
 }
 
+impl Machine {
+    /// The largest speed that a platform joint may have in this sample \[m/s\].
+    #[inline(always)]
+    fn joint_speed(&self, Sample { velocity, angular_velocity, .. }: &Sample) -> f64 {
+        norm(velocity) + norm(angular_velocity) * self.radius
+    }
+}
+
 /// Limits of surge, sway and heave \[m, m/s, m/s2\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Safety {
@@ -198,6 +206,15 @@ struct Axis {
     stopped: bool,
 }
 
+impl Axis {
+    /// Puts the velocity limit in force for an axis that has this velocity: the one set last, or
+    /// the speed where that is above it.
+    #[inline(always)]
+    fn limit_speed(&mut self, velocity: f64) {
+        self.velocity = self.velocity_limit.max(self.velocity.min(velocity.abs()));
+    }
+}
+
 /// Watches a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oracle {
@@ -244,7 +261,7 @@ impl Oracle {
             axis.acceleration_limit = safety.acceleration[k];
             axis.position = axis.position.max(safety.position[k]);
             // From now on, not only from the next step on, a speed above the limit does not grow.
-            axis.velocity = axis.velocity.min(self.before.velocity[k].abs()).max(safety.velocity[k]);
+            axis.limit_speed(self.before.velocity[k]);
             axis.acceleration[0] = axis.acceleration[0].max(safety.acceleration[k]);
             axis.slowest = axis.slowest.min(safety.acceleration[k]);
             axis.stopped = self.before.velocity[k] == 0.0;
@@ -255,10 +272,9 @@ impl Oracle {
     /// axes settled last: the time to stop surge, sway and heave with their accelerations and the
     /// joints with the legs', several times over, because the legs' acceleration is needed for
     /// their turning, too.
-    fn longest_stop(&self, Sample { velocity, angular_velocity, .. }: &Sample) -> f64 {
-        let joints = norm(velocity) + norm(angular_velocity) * self.machine.radius;
-        let axes = (0..3).map(|k| velocity[k].abs() / self.axes[k].slowest);
-        STOPPING_TIMES * axes.fold(joints / self.machine.acceleration, f64::max)
+    fn longest_stop(&self, sample: &Sample) -> f64 {
+        let axes = (0..3).map(|k| sample.velocity[k].abs() / self.axes[k].slowest);
+        STOPPING_TIMES * axes.fold(self.machine.joint_speed(sample) / self.machine.acceleration, f64::max)
     }
 
     /// Judges the outputs after a step of `step` seconds, and keeps the worst.
@@ -293,10 +309,9 @@ impl Oracle {
     /// position's value is the excess over its limit, and its limit the tolerance of it.
     #[inline(always)]
     fn measure(&self, now: &Sample, step: f64, mut each: impl FnMut(Quantity, usize, f64, f64)) {
-        let Machine { stroke, velocity: fastest, acceleration: most, radius, size, .. } = self.machine;
+        let Machine { stroke, velocity: fastest, acceleration: most, size, .. } = self.machine;
         let before = &self.before;
-        let joint_speed = norm(&now.velocity) + norm(&now.angular_velocity) * radius;
-        let joint_speed = joint_speed.max(norm(&before.velocity) + norm(&before.angular_velocity) * radius);
+        let joint_speed = self.machine.joint_speed(now).max(self.machine.joint_speed(before));
         let last = self.last_step;
         let length_rounding = ROUNDINGS * f64::EPSILON * size;
         let speed_rounding = ROUNDINGS * f64::EPSILON * joint_speed * (1.0 + size / stroke[0]);
@@ -374,7 +389,7 @@ impl Oracle {
             if axis.stopped {
                 axis.position = axis.position_limit.max(axis.position.min(now.position[k].abs()));
             }
-            axis.velocity = axis.velocity_limit.max(axis.velocity.min(now.velocity[k].abs()));
+            axis.limit_speed(now.velocity[k]);
         }
         // A stop that began earlier, from a faster state, may still be going on.
         self.stopping = self.longest_stop(now).max(self.stopping - step);

@@ -199,7 +199,7 @@ fn draw_signal(
     let sign = if random.chance(0.5) { 1.0 } else { -1.0 };
     let phase = if random.chance(0.5) { 0.0 } else { random.between(0.0, 6.3) };
     if hostile && random.chance(0.5) {
-        return Signal::NotFinite { held: random.pick(&[1, 30, 300]), seed: random.seed() };
+        return Signal::Unusable { held: random.pick(&[1, 30, 300]), seed: random.seed() };
     }
     match random.below(12) {
         0..=3 => Signal::Square { amplitude, frequency, phase },

@@ -158,12 +158,10 @@ pub fn bound<'py>(
 ) -> PyResult<Vec<Option<(f64, f64, Bound<'py, PyArray1<f64>>)>>> {
     let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
     let recording = &recording.inner;
-    let parameters = recording.parameters(&parameters);
-    let run =
-        Simulation { step: recording.step(), parameters, inputs: recording.inputs().to_vec(), outputs: Vec::new() };
+    let simulation = Simulation::without_outputs(recording, &recording.parameters(&parameters));
     let bounds: Axes<Option<AxisBound>> =
-        py.detach(|| bounds::bounds(&run)).map_err(|reason| error::bound(py, &reason))?;
-    let times = run.times();
+        py.detach(|| bounds::bounds(&simulation)).map_err(|reason| error::bound(py, &reason))?;
+    let times = simulation.times();
     let of = |bound: &Option<AxisBound>| {
         let AxisBound { bound: best, .. } = bound.as_ref()?;
         let felt = times.iter().map(|time| best.trajectory.felt(*time)).collect();

@@ -95,14 +95,15 @@ impl ActuatorGuard {
     #[cold]
     fn advance_in_doubt(&mut self, demand: Candidate, safety: &SafetyParameters, step: f64) {
         let joined = self.limited.is_none() || self.has_caught_up(demand, safety, step);
-        let plan = if joined { self.certified(demand, safety, step) } else { None };
+        let followed = self.plan.advanced(step);
+        let plan = if joined { self.certified(demand, &followed, safety, step) } else { None };
         if let Some(plan) = plan {
             self.accept(demand, plan);
             self.limited = None;
             return;
         }
         let before = self.legs;
-        let (next, plan) = self.nearest(demand, safety, step);
+        let (next, plan) = self.nearest(demand, followed, safety, step);
         self.accept(next.candidate(), plan);
         self.limited = Some(Limited {
             demand: *demand.coordinates,
@@ -112,11 +113,12 @@ impl ActuatorGuard {
     }
 
     /// A certified stop plan from the candidate on which no axis keeps its limit of velocity later
-    /// than on the plan held, where a tightened limit is not kept yet.
-    fn certified(&self, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
+    /// than on the plan held, where a tightened limit is not kept yet; `followed` is the plan held
+    /// at the step's end.
+    fn certified(&self, to: Candidate, followed: &StopPlan, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
         let plan = self.machine.certify(self.state(), to, safety, step)?;
-        let times = |plan: StopPlan| plan.times_until_within(&(WITH_ROUNDING * safety.velocity_limit));
-        let (next, held) = (times(plan), times(self.plan.advanced(step)));
+        let limits = WITH_ROUNDING * safety.velocity_limit;
+        let (next, held) = (plan.times_until_within(&limits), followed.times_until_within(&limits));
         (0..3).all(|k| next[k] <= held[k]).then_some(plan)
     }
 

@@ -29,15 +29,20 @@ impl Trial {
 
 impl ActuatorGuard {
     /// The state nearest to a pursuit of the demand that is certified, with its plan; else the next
-    /// state on the plan held.
-    pub(super) fn nearest(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> (Trial, StopPlan) {
+    /// state on the plan held, which is `followed` at the step's end.
+    pub(super) fn nearest(
+        &self,
+        demand: Candidate,
+        followed: StopPlan,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> (Trial, StopPlan) {
         let now = self.coordinates();
-        let followed = self.plan.advanced(step);
         let on_plan = followed.now();
         let pursued = self.pursued(now, demand.legs, safety, step);
         let certified = |fraction: f64| {
             let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
-            let plan = self.certified(trial.candidate(), safety, step)?;
+            let plan = self.certified(trial.candidate(), &followed, safety, step)?;
             Some((trial, plan))
         };
         farthest(certified).unwrap_or_else(|| {

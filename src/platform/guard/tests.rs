@@ -36,16 +36,8 @@ fn moving(position: f64, velocity: f64, acceleration: f64) -> impl Strategy<Valu
     })
 }
 
-fn after(motions: &Motion<Vector3<f64>>, time: f64) -> Motion<Vector3<f64>> {
-    Motion {
-        position: motions.position + (motions.velocity + motions.acceleration * (0.5 * time)) * time,
-        velocity: motions.velocity + motions.acceleration * time,
-        acceleration: motions.acceleration,
-    }
-}
-
 fn coordinates_after(start: &PlatformCoordinates, time: f64) -> PlatformCoordinates {
-    PlatformCoordinates { linear: after(&start.linear, time), angles: after(&start.angles, time) }
+    PlatformCoordinates { linear: start.linear.after(time), angles: start.angles.after(time) }
 }
 
 fn sum(v: &Vector3<f64>) -> f64 {

@@ -62,7 +62,7 @@ pub fn refused_instantiation(world: &mut World, api: &Api) {
     // SAFETY: strings and callbacks live during the call.
     let made = unsafe { (api.instantiate)(name, kind, guid_pointer, null(), callbacks_pointer, 0, 1) };
     assert!(made.is_null());
-    let messages: Vec<_> = log.messages.iter().map(|messages| (messages.status, messages.category.as_str())).collect();
+    let messages: Vec<_> = log.messages.iter().map(|message| (message.status, message.category.as_str())).collect();
     let expected: &[_] = if callbacks_pointer.is_null() { &[] } else { &[(ERROR, "logStatusError")] };
     assert_eq!(messages, expected);
     world.count("fmi2Instantiate", ERROR);

@@ -96,7 +96,7 @@ pub fn refused_instantiation(world: &mut World, api: &Api, layout: Layout) {
         }
     };
     assert!(made.is_null());
-    let messages: Vec<_> = log.messages.iter().map(|messages| (messages.status, messages.category.as_str())).collect();
+    let messages: Vec<_> = log.messages.iter().map(|message| (message.status, message.category.as_str())).collect();
     assert_eq!(messages, [(ERROR, "logStatusError")]);
     world.count(function, ERROR);
 }

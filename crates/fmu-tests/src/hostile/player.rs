@@ -111,7 +111,7 @@ impl Player {
         if status == OK {
             let quiet = messages
                 .iter()
-                .all(|messages| self.logged.events && messages.status == OK && messages.category == "logEvents");
+                .all(|message| self.logged.events && message.status == OK && message.category == "logEvents");
             assert!(quiet, "{function}: {messages:?}");
             return;
         }
@@ -119,11 +119,11 @@ impl Player {
             assert!(messages.is_empty(), "{function}: {messages:?}");
             return;
         }
-        let [messages] = &messages[..] else { panic!("{function}: {status}, {messages:?}") };
+        let [message] = &messages[..] else { panic!("{function}: {status}, {messages:?}") };
         let category = if status == ERROR { "logStatusError" } else { "logStatusDiscard" };
-        assert_eq!((messages.status, messages.category.as_str()), (status, category), "{messages:?}");
-        assert!(messages.text.starts_with(&format!("{function}: ")) && !messages.text.ends_with('\n'), "{messages:?}");
-        assert!(!messages.text.contains("internal error"), "{messages:?}; {:?}", self.expected);
+        assert_eq!((message.status, message.category.as_str()), (status, category), "{message:?}");
+        assert!(message.text.starts_with(&format!("{function}: ")) && !message.text.ends_with('\n'), "{message:?}");
+        assert!(!message.text.contains("internal error"), "{message:?}; {:?}", self.expected);
     }
 
     /// Checks everything that the instance shows, if it shows anything now.

@@ -8,6 +8,8 @@ use moris_washout::platform::LocationFrame;
 use moris_washout::platform::Pose;
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
+use crate::recording::Recording;
+
 /// Every input and output of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
@@ -22,6 +24,12 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// A recording alone, to be simulated with these parameters: no outputs yet.
+    pub fn without_outputs(recording: &Recording, parameters: &Parameters) -> Self {
+        let inputs = recording.inputs().to_vec();
+        Simulation { step: recording.step(), parameters: *parameters, inputs, outputs: Vec::new() }
+    }
+
     /// Replays a manoeuvre from rest at neutral. `progress` is called at each observation.
     ///
     /// # Errors

@@ -8,7 +8,7 @@
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
-use super::{JointBounds, after, search, sum, vector};
+use super::{JointBounds, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law;
@@ -76,7 +76,7 @@ fn cases(gap: f64) -> impl Strategy<Value = Case> {
         let linear = Motion { position: p, velocity: v * pv, acceleration: s * ps };
         let angles = Motion { position: q, velocity: w * qv, acceleration: e * qs };
         let now = PlatformCoordinates { linear, angles };
-        let mut next = PlatformCoordinates { linear: after(&linear, step), angles: after(&angles, step) };
+        let mut next = PlatformCoordinates { linear: linear.after(step), angles: angles.after(step) };
         next.linear.position += gap * s * step * step * d;
         next.angles.position += gap * e * step * step * twist;
         next.linear.acceleration = s * shown;
@@ -257,7 +257,7 @@ impl Conditions {
             linear: steady(&now.linear, &next.linear),
             angles: steady(&now.angles, &next.angles),
         };
-        let end = PlatformCoordinates { linear: after(&start.linear, *h), angles: after(&start.angles, *h) };
+        let end = PlatformCoordinates { linear: start.linear.after(*h), angles: start.angles.after(*h) };
         let ends = [self.legs(&start), self.legs(&end)];
         let reached = self.legs(next);
         let gaps = std::array::from_fn(|i| {
