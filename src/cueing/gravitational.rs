@@ -71,11 +71,6 @@ impl GravitationalStrategy {
         let (pitch, pitch_limited) = track(&self.pitch, self.target.pitch, target.pitch, &limits, step);
         *self = GravitationalStrategy { roll, pitch, target, limited: clipped || roll_limited || pitch_limited };
     }
-
-    /// The tilt now.
-    pub fn tilt(&self) -> Tilt {
-        Tilt { roll: self.roll.position, pitch: self.pitch.position }
-    }
 }
 
 /// Deviation of the tilt from its target above which it counts as limited \[rad\]: 0.001 degrees.

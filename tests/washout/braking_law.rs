@@ -38,6 +38,16 @@ fn hostile_targets(random: &mut Random, last: &Motion<Vector3<f64>>, step: f64) 
     Motion::from_axes(|k| targets[k])
 }
 
+#[test]
+fn a_steady_acceleration_leads_to_the_velocity_demanded() {
+    let start =
+        Motion { position: Vector3::new(0.1, 0.2, 0.3), velocity: Vector3::new(1.0, -2.0, 0.5), ..Motion::default() };
+    let end = start.at_velocity(Vector3::new(1.5, -1.0, 0.25), 0.25);
+    assert_eq!(end.velocity, Vector3::new(1.5, -1.0, 0.25));
+    assert_eq!(end.acceleration, Vector3::new(2.0, 4.0, -1.0));
+    assert!((end.position - start.position - Vector3::new(0.3125, -0.375, 0.09375)).amax() < 1e-15);
+}
+
 proptest! {
     #![proptest_config(cases(300))]
 

@@ -103,3 +103,22 @@ fn the_target_is_eq_8_kept_inside_the_angle_limit() {
         assert!(target.pitch.abs() <= 0.35 && target.roll.abs() <= 0.35 && clipped);
     }
 }
+
+/// Each angle's tracker and the limit of the angles can limit the tilt alone.
+#[test]
+fn a_limit_of_one_angle_alone_is_reported() {
+    let quick = TiltParameters { rate_limit: 1e3, acceleration_limit: 1e6, angle_limit: 0.35 };
+    let slow = TiltParameters { rate_limit: 0.05, ..quick };
+    let limited = |force: [f64; 2], limits: &TiltParameters| {
+        let mut tracker = GravitationalStrategy::default();
+        // Fast limits reach the target, an angle limit included, within these steps.
+        for _ in 0..20 {
+            tracker.advance(Vector3::new(force[0], force[1], 0.0), G, 0.0, limits, 0.01, 0.01);
+        }
+        tracker.limited
+    };
+    assert!(!limited([1.0, 1.0], &quick));
+    assert!(limited([1.0, 0.0], &slow));
+    assert!(limited([0.0, 1.0], &slow));
+    assert!(limited([8.0, 0.0], &quick));
+}
