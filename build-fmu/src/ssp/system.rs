@@ -57,7 +57,7 @@ pub struct Component {
     pub name: &'static str,
     pub model: &'static Model,
     /// Outputs to be seen from outside besides the connected ones: these variables, and those whose
-    /// names begin so and go on with a dot or an index.
+    /// names begin so and go on with a dot or an index. `*` stands for an index.
     pub shown: &'static [&'static str],
 }
 
@@ -125,18 +125,8 @@ const PLATFORM_PART: Component = Component {
     shown: &[
         "platform.position",
         "platform.orientation",
-        "actuator[1].length",
-        "actuator[2].length",
-        "actuator[3].length",
-        "actuator[4].length",
-        "actuator[5].length",
-        "actuator[6].length",
-        "actuator[1].force",
-        "actuator[2].force",
-        "actuator[3].force",
-        "actuator[4].force",
-        "actuator[5].force",
-        "actuator[6].force",
+        "actuator[*].length",
+        "actuator[*].force",
         "rider.specificForce",
         "rider.angularVelocity",
         "status",
@@ -232,8 +222,9 @@ impl System {
 impl Component {
     /// True for an output that is a connector of the system.
     pub fn shows(&self, name: &str) -> bool {
-        self.shown
-            .iter()
-            .any(|shown| name.strip_prefix(shown).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '['])))
+        self.shown.iter().any(|shown| match shown.split_once('*') {
+            Some((start, end)) => name.strip_prefix(start).is_some_and(|rest| rest.ends_with(end)),
+            None => name.strip_prefix(shown).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '['])),
+        })
     }
 }

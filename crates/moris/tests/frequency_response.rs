@@ -38,7 +38,7 @@ fn small_signal(parameters: &Parameters, channel: Channel, frequency: f64) -> Re
 
 #[track_caller]
 fn assert_near(response: &Response, output: Channel, expected: Complex<f64>) {
-    let found = response.ratios[output.index()];
+    let found = response.ratios[output as usize];
     let error = (found - expected).norm();
     let w = response.frequency;
     assert!(error <= TOLERANCE * expected.norm() + 1e-6, "{output:?} at {w}: {found} is not {expected}");
@@ -101,11 +101,11 @@ fn another_set_has_its_own_response() {
 fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
     let parameters = presets::parameters(presets::PAPER);
     let heave = response(&parameters, Heave, 3.0, 1.0, false).unwrap();
-    assert!(heave.distortion[Heave.index()] < 1e-3, "{}", heave.distortion[Heave.index()]);
+    assert!(heave.distortion[Heave as usize] < 1e-3, "{}", heave.distortion[Heave as usize]);
     // 1 m/s2 at 3 rad/s would ask for more than 17 degrees a second of a tilt that may turn by 3.
     let surge = response(&parameters, Surge, 3.0, 1.0, false).unwrap();
     assert!(surge.limited[0] > 0.5);
-    assert!(surge.distortion[Pitch.index()] > 0.02, "{}", surge.distortion[Pitch.index()]);
+    assert!(surge.distortion[Pitch as usize] > 0.02, "{}", surge.distortion[Pitch as usize]);
 }
 
 /// A vehicle that pitches without accelerating feels gravity along surge; where the whole of
@@ -114,13 +114,13 @@ fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
 fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
     let mut parameters = presets::parameters(presets::PAPER);
     let at = |parameters: &Parameters, gravity_turns| response(parameters, Pitch, 0.251, 0.004, gravity_turns).unwrap();
-    let alone = at(&parameters, false).ratios[Surge.index()];
-    let turning = at(&parameters, true).ratios[Surge.index()];
+    let alone = at(&parameters, false).ratios[Surge as usize];
+    let turning = at(&parameters, true).ratios[Surge as usize];
     // What the head in the vehicle feels: -g sin(pitch), pitch = w/s, of which nearly all is cued at so low a frequency.
     let felt = -GRAVITY / Complex::new(0.0, 0.251);
     assert!((turning - alone - felt).norm() < 0.03 * felt.norm(), "{turning} less {alone} is not {felt}");
     parameters.conditioning.gravity_removal = moris_washout::interface::GravityRemoval::Full;
-    let removed = at(&parameters, true).ratios[Surge.index()];
+    let removed = at(&parameters, true).ratios[Surge as usize];
     assert!((removed - alone).norm() < 1e-3 * felt.norm(), "{removed} is not {alone}");
 }
 

@@ -1,6 +1,6 @@
 //! The frequency response.
 
-use moris::frequency_response::channel::{ALL, CHANNELS};
+use moris::frequency_response::channel::{CHANNELS, Channel, name};
 use moris::frequency_response::excitation::{Amplitudes, frequencies};
 use moris::frequency_response::{Measured, Response};
 use numpy::{Complex64, PyArray1, PyArray2, PyArray3, PyArrayMethods};
@@ -44,7 +44,7 @@ pub fn frequency_response<'py>(
     let measured = py
         .detach(|| Measured::of(&setup.parameters, amplitudes, gravity_turns, || ()))
         .map_err(|reason| error::parameter(py, reason.to_string()))?;
-    let names = ALL.iter().map(|channel| channel.name()).collect();
+    let names = Channel::ALL.iter().map(|&channel| name(channel)).collect();
     let frequencies = PyArray1::from_slice(py, &frequencies());
     Ok((names, frequencies, arrays(py, &measured.test)?, arrays(py, &measured.small)?))
 }

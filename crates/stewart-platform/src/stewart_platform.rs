@@ -321,24 +321,26 @@ impl StewartPlatform {
 
     /// The outputs at an instant, with nothing limited.
     fn output_at(&self, instant: &Instant) -> Output {
-        let Instant { motion, legs, acceleration, force, lean } = instant;
+        let Instant { motion, legs, force, lean, .. } = instant;
         let drive = self.within_force_limit(*force);
-        let Felt { specific_force, angular_velocity } = self.felt(motion, *lean);
+        let felt = self.felt(motion, *lean);
+        let PlatformMotion { position, velocity, acceleration, orientation, angular_velocity, angular_acceleration } =
+            *motion;
         Output {
-            position: motion.position,
-            velocity: motion.velocity,
-            acceleration: motion.acceleration,
-            orientation: motion.orientation.angles,
-            angular_velocity: motion.angular_velocity,
-            angular_acceleration: motion.angular_acceleration,
+            position,
+            velocity,
+            acceleration,
+            orientation: orientation.angles,
+            angular_velocity,
+            angular_acceleration,
             length: legs.length,
             leg_velocity: legs.velocity,
-            leg_acceleration: (*acceleration).into(),
+            leg_acceleration: instant.acceleration.into(),
             force: drive.into(),
             stop_force: (force - drive).into(),
             total_power: drive.dot(&Vector6::from(legs.velocity)),
-            felt_specific_force: specific_force,
-            felt_angular_velocity: angular_velocity,
+            felt_specific_force: felt.specific_force,
+            felt_angular_velocity: felt.angular_velocity,
             command_refused: false,
             drive_limited: false,
             force_limited: false,

@@ -1,24 +1,12 @@
 //! The six channels: what goes in at the head, and what is felt there.
 
+/// A translation stands for the specific force along it, a rotation for the angular velocity about
+/// it, in head axes.
+pub use moris_setup::ranges::Axis as Channel;
 use moris_washout::Output;
 
-/// An axis of specific force or of angular velocity, in head axes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Channel {
-    Surge,
-    Sway,
-    Heave,
-    Roll,
-    Pitch,
-    Yaw,
-}
-
 /// Number of channels.
-pub const CHANNELS: usize = 6;
-
-/// All channels, each at the place of its [`Channel::index`].
-pub const ALL: [Channel; CHANNELS] =
-    [Channel::Surge, Channel::Sway, Channel::Heave, Channel::Roll, Channel::Pitch, Channel::Yaw];
+pub const CHANNELS: usize = Channel::ALL.len();
 
 /// The channels that gravity joins: a tilted head feels it along surge or sway, and surge and
 /// sway are cued by tilting.
@@ -29,44 +17,27 @@ pub const CROSS: [(Channel, Channel); 4] = [
     (Channel::Sway, Channel::Roll),
 ];
 
-impl Channel {
-    /// Its place among [`ALL`].
-    pub fn index(self) -> usize {
-        self as usize
-    }
+/// Name as in tables and pictures.
+pub fn name(channel: Channel) -> &'static str {
+    ["surge", "sway", "heave", "roll rate", "pitch rate", "yaw rate"][channel as usize]
+}
 
-    /// 0, 1, 2 for x, y, z.
-    pub fn axis(self) -> usize {
-        self.index() % 3
-    }
+/// Unit in tables and pictures.
+pub fn unit(channel: Channel) -> &'static str {
+    if channel.is_rotation() { "°/s" } else { "m/s²" }
+}
 
-    /// True for a specific force, false for an angular velocity.
-    pub fn is_force(self) -> bool {
-        self.index() < 3
-    }
+/// One [`unit`] in SI units.
+pub fn unit_in_si(channel: Channel) -> f64 {
+    if channel.is_rotation() { 1_f64.to_radians() } else { 1.0 }
+}
 
-    /// As it is written.
-    pub fn name(self) -> &'static str {
-        ["surge", "sway", "heave", "roll rate", "pitch rate", "yaw rate"][self.index()]
-    }
-
-    /// The unit that people read it in.
-    pub fn unit(self) -> &'static str {
-        if self.is_force() { "m/s²" } else { "°/s" }
-    }
-
-    /// One of the unit that people read it in, in SI units.
-    pub fn unit_in_si(self) -> f64 {
-        if self.is_force() { 1.0 } else { 1_f64.to_radians() }
-    }
-
-    /// The unit of a ratio of `output` to this as an input: empty where they are alike.
-    pub fn unit_to(self, output: Channel) -> &'static str {
-        match (self.is_force(), output.is_force()) {
-            (true, false) => "°/s per m/s²",
-            (false, true) => "m/s² per °/s",
-            _ => "",
-        }
+/// Unit of the ratio of an output to an input: empty where both have the same unit.
+pub fn ratio_unit(input: Channel, output: Channel) -> &'static str {
+    match (input.is_rotation(), output.is_rotation()) {
+        (false, true) => "°/s per m/s²",
+        (true, false) => "m/s² per °/s",
+        _ => "",
     }
 }
 

@@ -51,15 +51,15 @@ impl Amplitudes {
 
     /// A channel's amplitude at a frequency \[m/s2 or rad/s\].
     pub fn of(&self, channel: Channel, frequency: f64) -> f64 {
-        if channel.is_force() {
-            self.force
-        } else {
+        if channel.is_rotation() {
             self.rate.min(self.angle * frequency).min(self.angular_acceleration / frequency)
+        } else {
+            self.force
         }
     }
 }
 
-/// A sine on one channel that fades in over whole periods, so that nothing is startled.
+/// A sine on one channel that fades in over whole periods, without a jump.
 #[derive(Clone, Copy, Debug)]
 pub struct Sine<'a> {
     pub channel: Channel,
@@ -80,10 +80,8 @@ impl Sine<'_> {
     pub fn input(&self, time: f64) -> Input {
         let mut force = Vector3::zeros();
         let mut input = Input::default();
-        let axis = self.channel.axis();
-        if self.channel.is_force() {
-            force[axis] = self.force(time);
-        } else {
+        let axis = self.channel as usize % 3;
+        if self.channel.is_rotation() {
             let (angle, rate) = self.turning(time);
             input.angular_velocity[axis] = rate;
             if self.gravity_turns {
@@ -91,6 +89,8 @@ impl Sine<'_> {
                 angles[axis] = angle;
                 input.orientation = RollPitchYaw::new(angles.x, angles.y, angles.z);
             }
+        } else {
+            force[axis] = self.force(time);
         }
         input.specific_force = force + self.gravity(input.orientation);
         input
@@ -98,7 +98,7 @@ impl Sine<'_> {
 
     /// The channel's value at a time, in SI units.
     pub fn value(&self, time: f64) -> f64 {
-        if self.channel.is_force() { self.force(time) } else { self.turning(time).1 }
+        if self.channel.is_rotation() { self.turning(time).1 } else { self.force(time) }
     }
 
     fn force(&self, time: f64) -> f64 {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use moris_washout::nalgebra::Complex;
 use moris_washout::{ParameterError, Parameters, Washout};
 
-use super::channel::{ALL, CHANNELS, Channel, felt};
+use super::channel::{CHANNELS, Channel, felt, unit_in_si};
 use super::excitation::Sine;
 
 /// Result of one test: one input channel at one frequency.
@@ -63,7 +63,7 @@ pub fn response(
     let mut change = f64::INFINITY;
     for _ in 0..blocks {
         let block = walk.block();
-        change = block.difference(&last) / (amplitude / channel.unit_in_si());
+        change = block.difference(&last) / (amplitude / unit_in_si(channel));
         last = block;
         if change <= AGREEMENT {
             break;
@@ -138,11 +138,11 @@ impl Block {
     /// The largest difference between an output's amplitude here and in another block, in
     /// the channel's own unit.
     fn difference(&self, other: &Block) -> f64 {
-        let of = |channel: &Channel| {
-            let i = channel.index();
-            2.0 * (self.outputs[i] - other.outputs[i]).norm() / self.samples / channel.unit_in_si()
+        let of = |&channel: &Channel| {
+            let i = channel as usize;
+            2.0 * (self.outputs[i] - other.outputs[i]).norm() / self.samples / unit_in_si(channel)
         };
-        ALL.iter().map(of).fold(0.0, f64::max)
+        Channel::ALL.iter().map(of).fold(0.0, f64::max)
     }
 
     fn response(&self, sine: &Sine, settled: bool) -> Response {

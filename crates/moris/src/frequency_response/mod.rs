@@ -22,7 +22,7 @@ use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use crate::setup_options::SetupOptions;
-use channel::{ALL, Channel};
+use channel::Channel;
 use excitation::{Amplitudes, frequencies};
 pub use measure::{Response, response};
 
@@ -83,7 +83,7 @@ impl Measured {
         progress: impl Fn() + Sync,
     ) -> Result<Self> {
         let tests: Vec<(Channel, f64)> =
-            ALL.iter().flat_map(|&channel| frequencies().map(|frequency| (channel, frequency))).collect();
+            Channel::ALL.iter().flat_map(|&channel| frequencies().map(|frequency| (channel, frequency))).collect();
         let all = |amplitudes: Amplitudes| {
             tests
                 .par_iter()

@@ -7,7 +7,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::Measured;
-use super::channel::{ALL, CROSS, Channel};
+use super::channel::{CROSS, Channel, name, ratio_unit};
 use super::measure::Response;
 use super::table::{modulus, phase};
 
@@ -34,7 +34,7 @@ const LEAST: f64 = 1e-3;
 /// # Errors
 /// The file cannot be written.
 pub fn direct(file: &Path, measured: &Measured) -> Result<()> {
-    let pairs: Vec<(Channel, Channel)> = ALL.iter().map(|&channel| (channel, channel)).collect();
+    let pairs: Vec<(Channel, Channel)> = Channel::ALL.iter().map(|&channel| (channel, channel)).collect();
     draw(file, measured, &pairs, 3)
 }
 
@@ -86,10 +86,10 @@ fn draw_pair(area: &Area, measured: &Measured, (input, output): (Channel, Channe
     };
     let (test, small) = (of(&measured.test), of(&measured.small));
     let title = match input == output {
-        true => capitalised(input.name()),
-        false => format!("{} to {}", capitalised(input.name()), output.name()),
+        true => capitalised(name(input)),
+        false => format!("{} to {}", capitalised(name(input)), name(output)),
     };
-    let unit = input.unit_to(output);
+    let unit = ratio_unit(input, output);
     let title = if unit.is_empty() { title } else { format!("{title}, {unit}") };
     let (above, below) = area.split_vertically(MODULUS_HEIGHT);
     draw_modulus(&above, &title, &test, &small, output)?;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use super::channel::{ALL, CROSS, Channel};
+use super::channel::{CROSS, Channel, name, ratio_unit, unit, unit_in_si};
 use super::measure::Response;
 use super::{Measured, frequencies};
 use crate::text_table::TextTable;
@@ -42,7 +42,7 @@ pub fn write(file: &Path, measured: &Measured) -> Result<()> {
         table.write_record(HEADER)?;
         for (signal, responses) in [("test", &measured.test), ("small", &measured.small)] {
             for response in responses {
-                for output in ALL {
+                for output in Channel::ALL {
                     table.write_record(record(signal, response, output))?;
                 }
             }
@@ -59,17 +59,17 @@ fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
     let [tilt, safety, actuator] = response.limited.map(|fraction| format!("{fraction:.4}"));
     [
         signal.into(),
-        input.name().into(),
-        output.name().into(),
+        name(input).into(),
+        name(output).into(),
         kind(input, output).into(),
         format!("{:.4}", response.frequency),
         format!("{:.5}", response.frequency / std::f64::consts::TAU),
-        format!("{:.6}", response.amplitude / input.unit_in_si()),
-        input.unit().into(),
+        format!("{:.6}", response.amplitude / unit_in_si(input)),
+        unit(input).into(),
         format!("{:.6}", modulus(response, output)),
-        input.unit_to(output).into(),
+        ratio_unit(input, output).into(),
         if felt { format!("{:.3}", phase(response, output)) } else { String::new() },
-        if felt { format!("{:.5}", response.distortion[output.index()]) } else { String::new() },
+        if felt { format!("{:.5}", response.distortion[output as usize]) } else { String::new() },
         tilt,
         safety,
         actuator,
@@ -90,19 +90,19 @@ fn kind(input: Channel, output: Channel) -> &'static str {
 
 /// The modulus, in the units that people read.
 pub fn modulus(response: &Response, output: Channel) -> f64 {
-    response.ratios[output.index()].norm() * response.input.unit_in_si() / output.unit_in_si()
+    response.ratios[output as usize].norm() * unit_in_si(response.input) / unit_in_si(output)
 }
 
 /// The phase by which what is felt leads, -180 to 180 \[deg\].
 pub fn phase(response: &Response, output: Channel) -> f64 {
     // A phase of -0.0 would be written as such.
-    response.ratios[output.index()].arg().to_degrees() + 0.0
+    response.ratios[output as usize].arg().to_degrees() + 0.0
 }
 
 /// Modulus and phase of the direct and the cross channels with the test's amplitudes,
 /// and what limited them.
 pub fn text(measured: &Measured) -> String {
-    let direct: Vec<_> = ALL.iter().map(|&channel| (channel, channel)).collect();
+    let direct: Vec<_> = Channel::ALL.iter().map(|&channel| (channel, channel)).collect();
     let mut text = String::new();
     let _ = writeln!(text, "\ndirect channels: modulus, phase [deg]\n{}", pairs(measured, &direct));
     let _ = writeln!(
@@ -119,13 +119,13 @@ pub fn text(measured: &Measured) -> String {
 /// A row for each frequency, a column for each pair of input and output.
 fn pairs(measured: &Measured, pairs: &[(Channel, Channel)]) -> TextTable {
     let title = |&(input, output): &(Channel, Channel)| {
-        if input == output { input.name().to_owned() } else { format!("{} to {}", input.name(), output.name()) }
+        if input == output { name(input).to_owned() } else { format!("{} to {}", name(input), name(output)) }
     };
     let titles: Vec<String> = std::iter::once("rad/s".to_owned()).chain(pairs.iter().map(title)).collect();
     let mut table = TextTable::new(titles.iter().map(String::as_str));
     for (k, frequency) in frequencies().into_iter().enumerate() {
         let cell = |&(input, output): &(Channel, Channel)| {
-            let response = &measured.test[input.index() * frequencies().len() + k];
+            let response = &measured.test[input as usize * frequencies().len() + k];
             let mark = if response.settled { "" } else { "?" };
             format!("{:.3} {:>4.0}{mark}", modulus(response, output), phase(response, output).round() + 0.0)
         };
@@ -158,7 +158,7 @@ fn places(responses: &[&Response]) -> String {
     let places = by_channel.map(|chunk| {
         let (first, last) = (chunk[0].frequency, chunk[chunk.len() - 1].frequency);
         let span = if chunk.len() == 1 { format!("{first:.2}") } else { format!("{first:.2} to {last:.2}") };
-        format!("{} at {span} rad/s", chunk[0].input.name())
+        format!("{} at {span} rad/s", name(chunk[0].input))
     });
     places.collect::<Vec<_>>().join("; ")
 }
