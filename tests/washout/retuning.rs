@@ -164,9 +164,9 @@ fn a_change_elsewhere_leaves_the_angular_channel_as_it_is() {
     }
 }
 
-/// A washout retuned at rest moves as one that was made with the parameters. Two exceptions: without
-/// removal of gravity rest is itself a cue, which fades in after a change, and the adaptive strategy's
-/// gains start at their nominal values but move there after a change.
+/// A washout retuned at rest moves as one that was made with the parameters. Two exceptions:
+/// without removal of gravity rest is itself a cue, which fades in after a change, and the adaptive
+/// strategy's gains start at their nominal values but move there after a change.
 #[test]
 fn after_retuning_at_rest_the_motion_is_the_new_parameters() {
     let strategy = Washout::IDENTITY.slot("strategy").unwrap();
