@@ -5,9 +5,9 @@
 
 - Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
   counts once. At most 2 % of them.
-- Sentences: their length in words, in the pages (README.md, ARCHITECTURE.md, CHANGELOG.md, docs/), without code, tables and
-  headings. A list's item ends a sentence; a link counts as its text, a piece of code as one word. A mean of at most 16 words
-  a page, none above 30.
+- Sentences: their length in words, in the pages (README.md, ARCHITECTURE.md, CHANGELOG.md, docs/, and the documentation packed
+  into the FMUs) and in doc comments, without code, tables and headings. A list's item ends a sentence; a link counts as its
+  text, a piece of code as one word. A mean of at most 16 words a page, none above 30.
 - Lines: at most 100 columns of prose, in the pages and in doc comments. Tables, code, pictures,
   addresses and descriptions of variables may be wider.
 
@@ -69,9 +69,16 @@ def doc_comments(file):
 
 
 def paragraphs(file):
-    """Each paragraph and list item of a Markdown file: the line it begins on, and its text."""
+    """Each paragraph and list item of a page or of a source's doc comments: the line it begins on, and its text."""
+    if file.suffix == ".md":
+        return markdown_paragraphs(file.read_text().splitlines())
+    return html_paragraphs(file) if file.suffix == ".html" else comment_paragraphs(file)
+
+
+def markdown_paragraphs(lines):
+    """Each paragraph and list item of Markdown: the line it begins on, and its text."""
     text, begin, in_code = [], 0, False
-    for number, line in enumerate(file.read_text().splitlines() + [""], 1):
+    for number, line in enumerate([*lines, ""], 1):
         fence = line.lstrip().startswith("```")
         skipped = fence or in_code or re.match(r"\s*\||#|    ", line) and not text or not line.strip()
         in_code ^= fence
@@ -83,6 +90,20 @@ def paragraphs(file):
             continue
         begin = begin if text else number
         text.append(item[1] if item else line.strip())
+
+
+def html_paragraphs(file):
+    """Each paragraph, item and table cell of an HTML page: the line it begins on, and its text."""
+    text = re.sub(r"<code>.*?</code>", "`code`", file.read_text(), flags=re.DOTALL)
+    for block in re.finditer(r"<(p|li|td)>(.*?)(?=</\1>|<\1>)", text, flags=re.DOTALL):
+        yield text.count("\n", 0, block.start()) + 1, " ".join(re.sub(r"<[^>]*>|&\w+;", "", block[2]).split())
+
+
+def comment_paragraphs(file):
+    """Each paragraph and item of the doc comments: the line that the comment begins on, and its text."""
+    for begin, run in doc_comments(file):
+        for _, text in markdown_paragraphs(run):
+            yield begin, text
 
 
 def sentences(paragraph):
@@ -250,9 +271,10 @@ def main():
     chosen = tracked(*within)
     sources = [file for file in chosen if file.suffix == ".rs"]
     pages = [file for file in chosen if file.suffix == ".md"]
+    packed = [file for file in chosen if file.suffix == ".html" and "documentation" in file.parts]
     for file in [*sources, *pages] if arguments.wrap else []:
         wrap(file)
-    (opening, comments), (long, counts), columns = openings(sources), lengths(pages), wide(sources, pages)
+    (opening, comments), (long, counts), columns = openings(sources), lengths([*pages, *packed, *sources]), wide(sources, pages)
     mean = sum(counts) / max(len(counts), 1)
     fraction = len(opening) / max(comments, 1)
     if arguments.list:

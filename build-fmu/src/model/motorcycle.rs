@@ -24,12 +24,12 @@ pub const MOTORCYCLE: Model = Model {
     sections: &[
         Section {
             anchor: "what",
-            heading: "What it is",
+            heading: "Overview",
             html: include_str!("../../documentation/Motorcycle/what.html"),
         },
         Section {
             anchor: "connect",
-            heading: "Connecting it",
+            heading: "Connections",
             html: include_str!("../../documentation/Motorcycle/connect.html"),
         },
     ],

@@ -21,17 +21,17 @@ pub const STEWART_PLATFORM: Model = Model {
     sections: &[
         Section {
             anchor: "what",
-            heading: "What it is",
+            heading: "Overview",
             html: include_str!("../../documentation/StewartPlatform/what.html"),
         },
         Section {
             anchor: "connect",
-            heading: "Connecting it",
+            heading: "Connections",
             html: include_str!("../../documentation/StewartPlatform/connect.html"),
         },
         Section {
             anchor: "inside",
-            heading: "What happens inside",
+            heading: "Equations and blocks",
             html: include_str!("../../documentation/StewartPlatform/inside.html"),
         },
         Section {

@@ -20,17 +20,17 @@ pub const WASHOUT: Model = Model {
     sections: &[
         Section {
             anchor: "what",
-            heading: "What it is",
+            heading: "Overview",
             html: include_str!("../../documentation/MorisWashout/what.html"),
         },
         Section {
             anchor: "connect",
-            heading: "Connecting it",
+            heading: "Connections",
             html: include_str!("../../documentation/MorisWashout/connect.html"),
         },
         Section {
             anchor: "blocks",
-            heading: "What happens inside",
+            heading: "Equations and blocks",
             html: include_str!("../../documentation/MorisWashout/blocks.html"),
         },
         Section {
