@@ -1,6 +1,10 @@
-//! Steps the washout a given number of times, for profilers and instruction counters: on a smooth
-//! ride on all axes, by the default parameters or by the paper's; or in jumps on slow actuators, so
-//! that the actuator guard limits the motion.
+//! Steps the washout a given number of times, for profilers and instruction counters.
+//!
+//! - Default: a smooth ride on all axes, with the default parameters.
+//! - `jumps`: inputs that jump, on slow actuators, so that the actuator guard limits the motion.
+//! - `paper`: the smooth ride with the paper's parameters.
+//!
+//! The number of steps comes first:
 //!
 //!     cargo run --release --example steps 1000000
 //!     cargo run --release --example steps 1000000 jumps
@@ -61,7 +65,7 @@ fn smooth() -> Vec<Input> {
 /// Steps for which an input is held before it jumps.
 const HELD: usize = 500;
 
-/// Inputs that have nothing to do with those before.
+/// Inputs that are independent of those before.
 fn jumps(count: usize) -> Vec<Input> {
     let mut random = Random::new(1);
     let jump = |_| {

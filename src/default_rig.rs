@@ -1,5 +1,9 @@
-//! The default rig's joints: base radius 1.00 m at -8, 8, 112, 128, 232, 248 deg; platform radius
-//! 0.85 m at -52, 52, 68, 172, 188, 292 deg; actuators 1 to 6 in that order.
+//! The default rig's joints, of actuators 1 to 6 in order.
+//!
+//! | joints on the | radius | angles |
+//! |---|---|---|
+//! | base | 1.00 m | -8, 8, 112, 128, 232, 248 deg |
+//! | platform | 0.85 m | -52, 52, 68, 172, 188, 292 deg |
 //!
 //! The paper publishes no joint coordinates. These are free of singularities over the whole box of
 //! leg lengths. They are written out, and not computed from the angles, so that every platform's

@@ -1,4 +1,4 @@
-//! Inputs between two others.
+//! Interpolation between two inputs.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,15 +8,16 @@ use crate::interface::Input;
 use crate::motion::orientation::RollPitchYaw;
 
 impl Input {
-    /// The input at a `fraction` of the way to `end`, from 0 to 1; engaged or not as this one.
+    /// The input at a `fraction` of the way to `end`, from 0 to 1. It is engaged if this one is.
     pub fn towards(&self, end: &Input, fraction: f64) -> Input {
         self.map2(end, |from, to| from + fraction * (to - from))
     }
 
-    /// The input from which one goes linearly to `end`, if this one came before it: as it is, its
-    /// angles by whole turns nearest to the end's. An angle that changes by more than a quarter
-    /// turn even so has not been turned through (at a pitch of 90 degrees roll and yaw jump), and
-    /// the orientation is that of the end.
+    /// The start of a linear change to `end`, if this input came before it: this input, with its
+    /// angles shifted by whole turns to be nearest to the end's.
+    ///
+    /// An angle that still changes by more than a quarter turn has not been turned through: at a
+    /// pitch of 90 degrees, roll and yaw jump. The orientation is then that of the end.
     pub fn ramp_start(&self, end: &Input) -> Input {
         let (before, after) = (self.orientation.to_vector(), end.orientation.to_vector());
         let change = after - before;

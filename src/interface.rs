@@ -186,7 +186,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// How the cue is divided between surge, sway and tilt.
+    /// Division of the cue between surge, sway and tilt.
     pub enum StrategyKind {
         /// High-pass to travel, low-pass to tilt (the paper).
         "classical" Classical,
@@ -200,9 +200,9 @@ enumeration! {
 }
 
 enumeration! {
-    /// How the predictive strategy forecasts the specific force.
+    /// Forecast of the specific force in the predictive strategy.
     pub enum ForecastKind {
-        /// By a mixture of experts, one of which learns from the ride.
+        /// By a mixture of experts, one of which is fitted to the past input.
         "learned" Learned,
         /// Its slow and its fast part fade.
         "decay" Decay,
@@ -330,7 +330,7 @@ interface! {
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
         /// Preaction: tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
-        /// How the cue is divided between surge, sway and tilt.
+        /// Division of the cue between surge, sway and tilt.
         "strategy" strategy: StrategyKind = StrategyKind::Classical;
     }
 }
@@ -362,9 +362,9 @@ interface! {
         "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8;
         /// Damping ratio of the adaptive strategy's high-pass from force to travel.
         "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.34;
-        /// How fast the gain from force to travel follows the gradient of the cost.
+        /// Rate at which the gain from force to travel follows the gradient of the cost.
         "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18;
-        /// How fast the gain from force to tilt rate follows the gradient of the cost.
+        /// Rate at which the gain from force to tilt rate follows the gradient of the cost.
         "adaptive.gain2" gain2: f64 { 1e-9 ..= 1e6 } = 0.16;
         /// Gain from force to travel to which the adaptation is pulled.
         "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986;
@@ -394,9 +394,9 @@ interface! {
         "optimal.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0033;
         /// Weight of the tilt acceleration at its limit.
         "optimal.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0242;
-        /// How fast the slow part of the force is expected to fade.
+        /// Expected rate of decay of the slow part of the force.
         "optimal.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.345;
-        /// How fast the fast part of the force is expected to fade.
+        /// Expected rate of decay of the fast part of the force.
         "optimal.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 4.71;
         /// Time constant that splits the force into its slow and its fast part.
         "optimal.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.117;
@@ -414,17 +414,17 @@ interface! {
         "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3;
         /// Weight of the tilt acceleration at its limit.
         "predictive.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 5e-4;
-        /// How fast the slow part of the force is expected to fade beyond the plan.
+        /// Expected rate of decay of the slow part of the force beyond the plan.
         "predictive.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.2;
-        /// How fast the fast part of the force is expected to fade beyond the plan.
+        /// Expected rate of decay of the fast part of the force beyond the plan.
         "predictive.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 2.2;
-        /// How the force is forecast.
+        /// Forecast of the specific force.
         "predictive.forecast" forecast: ForecastKind = ForecastKind::Learned;
         /// Time constant with which the learned forecast forgets.
         "predictive.memory" memory: f64 [S] { 0.1 ..= 1e6 } = 160.0;
         /// Time constant over which the learned forecast's experts are compared.
         "predictive.selection" selection: f64 [S] { 0.1 ..= 1e6 } = 14.0;
-        /// What a plan leaves of an actuator's stroke at either end.
+        /// Reserve of an actuator's stroke that a plan keeps at either end.
         "predictive.legMargin" leg_margin: f64 [M] { 1e-9 ..= 1.0 } = 0.015;
     }
 }

@@ -1,23 +1,24 @@
 //! The washout filter of the MORIS motorcycle simulator, with its Stewart platform's kinematics.
 //!
-//! A vehicle model says what a rider would feel; [`Washout`] says where a platform and its six
-//! actuators must go so that a real rider feels it. The source is Barbagli, Ferrazzin,
-//! Avizzano, Bergamasco: *Washout Filter Design for a Motorcycle Simulator*; equations are
-//! cited by its numbers.
+//! A vehicle model computes what a rider would feel. [`Washout`] computes the motion of a
+//! platform and its six actuators that lets a real rider feel it. The source is Barbagli,
+//! Ferrazzin, Avizzano, Bergamasco: *Washout Filter Design for a Motorcycle Simulator*. Equations
+//! are cited by its numbers.
 //!
-//! Data flows one way, through the blocks of the paper's Fig. 4, which are the files of
-//! `src/cueing`, and through the [`platform`]'s kinematics and actuator guard.
+//! Data flows one way. It passes the blocks of the paper's Fig. 4, which are the files of
+//! `src/cueing`, and then the [`platform`]'s kinematics and actuator guard.
 //!
-//! [`Washout`] is the whole of it. [`interface`] has its inputs, outputs and parameters,
+//! [`Washout`] is the whole filter. [`interface`] has its inputs, outputs and parameters,
 //! [`presets`] sets of parameters, [`platform`] the kinematics alone.
 //!
-//! Frames: the base frame and the platform frame have x forward, y left, z up; roll, pitch and yaw
-//! turn about x, y and z, so that positive pitch is nose down. All quantities are in SI units.
+//! The base frame and the platform frame have x forward, y left and z up. Roll, pitch and
+//! yaw are rotations about x, y and z. Positive pitch is therefore nose down. All
+//! quantities are in SI units.
 //!
-//! Sines, cosines and their like come from the crate `libm`, so that every platform
+//! Sines, cosines and similar functions come from the crate `libm`, so that every platform
 //! computes the same bits.
 //!
-//! A step allocates nothing, does no I/O and does not panic, whatever it is fed.
+//! A step allocates nothing, does no I/O and does not panic, whatever its input.
 
 #![forbid(unsafe_code)]
 

@@ -1,4 +1,4 @@
-//! The washout as a model with variables, for whoever hosts it.
+//! The washout as a model with variables.
 
 use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterError, variables};
 

@@ -15,18 +15,23 @@ use moris_interface::{Causality, Model, SlotModel};
 use crate::interface::{Compensation, Parameters, Preaction, Reconstruction, StrategyKind};
 use crate::washout::Washout;
 
-/// The set of the paper's runs: filters of fourth order with one break frequency for all
-/// axes, rates cued in full, no low-pass on them, only accelerations compensated by block
-/// (4), and inputs held.
+/// The set of the paper's runs.
 ///
-/// Made for smooth rides. Where rates vibrate, the platform turns with them and
+/// - Filters: fourth order, with one break frequency for all axes.
+/// - Rates: cued in full, without a low-pass.
+/// - Compensation by block (4): accelerations only.
+/// - Inputs: held.
+///
+/// It is made for smooth rides. Where rates vibrate, the platform turns with them and
 /// shakes the rider's head.
 pub const PAPER: &[(&str, f64)] = &joined::<{ OF_THE_PAPER.len() + QUICK_TILT.len() }>(OF_THE_PAPER, QUICK_TILT);
 
-/// For a ride of small, quick motions at constant speed, such as in a truck's wake (the paper's
-/// second run): low break frequencies, so that the platform's travel reproduces everything above
-/// 0.1 Hz, and roll rates scaled down, because a rolled platform adds gravity to the sway that is
-/// felt. Otherwise as [`PAPER`].
+/// For a ride of small, quick motions at constant speed, such as in a truck's wake
+/// (the paper's second run).
+///
+/// Break frequencies are low, so that the platform's travel reproduces everything above 0.1 Hz.
+/// Roll rates are scaled down, because a rolled platform adds gravity to the felt sway.
+/// Otherwise as [`PAPER`].
 ///
 /// Not for longitudinal runs: accelerations that last would drive the platform
 /// into its safety units.
@@ -70,7 +75,7 @@ const QUICK_TILT: &[(&str, f64)] = &[
     ("scale.angularVelocity.x", 1.0),
 ];
 
-/// Break frequencies at which travel does.
+/// Break frequencies at which travel reproduces nearly all of an acceleration.
 const LONG_TRAVEL: &[(&str, f64)] = &[
     ("splitter.x.omega1", 0.35),
     ("splitter.y.omega1", 0.35),
@@ -87,8 +92,8 @@ const LONG_TRAVEL: &[(&str, f64)] = &[
     ("scale.angularVelocity.x", 0.3),
 ];
 
-/// For motorcycles: the default with less surge, and tilt that goes less far and more slowly, so
-/// that a slalom's braking and accelerating at 7 m/s2 fits.
+/// For motorcycles: the default with less surge, and with tilt that is smaller and slower. A
+/// slalom's braking and accelerating at 7 m/s2 then fits.
 pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("splitter.x.omega1", 5.5),
     ("splitter.x.omega2", 1.3),
@@ -131,7 +136,7 @@ pub const CAR: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.165),
 ];
 
-/// For a ride that ends in a brusque stop, if the vehicle model gives its speed: tilt and
+/// For a ride that ends in an abrupt stop, if the vehicle model gives its speed: tilt and
 /// surge act before it comes.
 pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
 
@@ -140,8 +145,8 @@ pub const ADAPTIVE: &[(&str, f64)] = &within_narrow_limits(StrategyKind::Adaptiv
 /// The optimal strategy, with the limits that its weights were found for.
 pub const OPTIMAL: &[(&str, f64)] = &within_narrow_limits(StrategyKind::Optimal);
 /// The predictive strategy, with the specific force unscaled and the limits that its weights were
-/// found for: tilt as fast as the paper's and no farther than 15 degrees, so that less of it is
-/// left over when a force ends.
+/// found for. The tilt is as fast as the paper's but at most 15 degrees, so that less of it is left
+/// over when a force ends.
 pub const PREDICTIVE: &[(&str, f64)] = &[
     ("strategy", item(StrategyKind::Predictive as i32)),
     ("scale.specificForce.x", 1.0),
@@ -154,17 +159,17 @@ pub const PREDICTIVE: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.257),
 ];
 
-/// The predictive strategy for a vehicle whose force is previewed: as far as the paper's set, in
-/// force and in tilt, since what comes after is known.
+/// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
+/// wider, since what comes after is known.
 pub const PREVIEW: &[(&str, f64)] = &joined::<{ PREDICTIVE.len() + FARTHER.len() }>(PREDICTIVE, FARTHER);
 
 /// The limits of force and tilt that a preview allows.
 const FARTHER: &[(&str, f64)] =
     &[("limit.specificForce.x", 10.0), ("limit.specificForce.y", 10.0), ("tilt.angleLimit", 0.38)];
 
-/// A strategy that knows nothing of the legs' stroke: with the specific force unscaled, under the
-/// paper's tilt limits, and with so little room and acceleration that surge and sway come to rest
-/// gently, before the legs do.
+/// A strategy that does not plan within the actuators' strokes. The specific force is unscaled, and
+/// the tilt limits are the paper's. Travel and its acceleration are limited so that surge and sway
+/// come to rest gently, before the actuators do.
 const fn within_narrow_limits(strategy: StrategyKind) -> [(&'static str, f64); 11] {
     [
         ("strategy", item(strategy as i32)),

@@ -78,7 +78,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
         Err(failed) => refuse(
             "rig.base, rig.platform",
             format!(
-                "the platform is singular inside the stroke of its actuators, at or near lengths of {:.3?} m; choose other \
+                "make the platform singular inside the stroke of its actuators, at or near lengths of {:.3?} m; choose other \
                  joints, or a shorter stroke",
                 failed.lengths
             ),
@@ -98,8 +98,9 @@ fn check_stroke_reserve(rig: &Rig, longest_step: f64, neutral: &[f64; 6]) -> Res
     refuse(
         "solver.maxStep",
         format!(
-            "is {longest_step} s: in half such a step an actuator moves {reserve:.4} m by its limits, and at neutral one is \
-             {room:.4} m from an end of its stroke; take shorter steps, slower actuators or a longer stroke"
+            "is {longest_step} s: in half of it an actuator within its limits moves by up to {reserve:.4} m, but at neutral one \
+             is only {room:.4} m from an end of its stroke; reduce solver.maxStep or the actuators' limits, or lengthen \
+             the stroke"
         ),
     )
 }

@@ -16,7 +16,7 @@ use crate::cueing::strategy::coordinated::Circumstances;
 use crate::cueing::strategy::predictive::preview::Course;
 use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction, StrategyKind};
 use crate::motion::Motion;
-use crate::motion::extremes::{max, min};
+use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
 use crate::platform::{ActuatorGuard, PlatformCoordinates, PlatformMotion};
@@ -122,8 +122,8 @@ impl Washout {
         })
     }
 
-    /// The washout at rest at neutral before its first step, with this input: disengaged if that
-    /// says so, and the head where the rider's lean puts it.
+    /// The washout at rest at neutral before its first step, with this input. It is disengaged if
+    /// the input is, and the head is where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
         self.last = Sample::new(input.sanitized(), &self.parameters);
         self.engagement = f64::from(input.engaged);
@@ -132,11 +132,12 @@ impl Washout {
         self
     }
 
-    /// Gives the specific force that is to come, as of the next step's start: element k is the one
+    /// Sets the specific force that is to come, as of the next step's start. Element k is the force
     /// that the input will have k times [`Preview::step`] later, k from 1. Only the predictive
-    /// strategy makes use of it. It holds until the next one, and ends with its last element.
+    /// strategy uses it. It holds until the next preview, and ends with its last element.
     ///
-    /// Any preview is safe. A wrong one costs fidelity until its errors show, and no limit.
+    /// Any preview is safe. A wrong one reduces fidelity until its errors show, but breaks no
+    /// limit.
     ///
     /// ```
     /// use moris_washout::{Input, Preview, Washout, presets};
@@ -164,12 +165,12 @@ impl Washout {
         }
     }
 
-    /// Advances by `step` seconds with this input, of which no slopes are known: it is held
-    /// (zero-order hold), or reached at the step's end from the last step's, as the parameter
-    /// `input.reconstruction` says.
+    /// Advances by `step` seconds with this input, of which no slopes are known. As the parameter
+    /// `input.reconstruction` says, it is held (zero-order hold), or reached at the step's end
+    /// from the last step's.
     ///
     /// Any input is safe: components that are not a number count as at rest. A step shorter
-    /// than [`SHORTEST_STEP`] does nothing; one longer than [`MOST_INTERNAL_STEPS`] internal
+    /// than [`SHORTEST_STEP`] does nothing. A step longer than [`MOST_INTERNAL_STEPS`] internal
     /// steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
         if step >= SHORTEST_STEP {
@@ -202,7 +203,7 @@ impl Washout {
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order
-    /// hold); whether it is engaged is taken from `start`.
+    /// hold). It is engaged if `start` is.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step >= SHORTEST_STEP {
             self.last = Sample::new(start.sanitized(), &self.parameters);
@@ -303,14 +304,14 @@ impl Washout {
             let real = &self.guard.coordinates().linear;
             match &self.strategy {
                 Strategy::Classical(_) => self.direct_linear.stay_within(safety, real),
-                // These decide from the real motion, so that there is nothing to catch up with.
+                // These strategies decide from the real motion: there is nothing to catch up with.
                 Strategy::Coordinated(_) => self.direct_linear.continue_from(real),
             }
         }
     }
 
-    /// The cue at the step's start and end as the channels get it: faded while the washout is being
-    /// engaged or disengaged, and filtered.
+    /// The cue at the step's start and end as the channels receive it: filtered, and faded while
+    /// the washout is being engaged or disengaged.
     fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
         let before = self.engagement;
         self.engagement = engagement_after(before, engaged, step);
@@ -333,12 +334,11 @@ impl Washout {
         }
     }
 
-    /// Takes over other tunable parameters. Position, velocity, angles and rates of the
-    /// platform stay what they are; what the new parameters would make jump fades over
-    /// within a second or two.
+    /// Changes the tunable parameters. Position, velocity, angles and rates of the platform stay
+    /// what they are. Jumps that the new parameters would cause fade within a second or two.
     ///
     /// # Errors
-    /// The first parameter that cannot be used, and why; fixed ones cannot be changed.
+    /// The first parameter that cannot be used, and why. Fixed parameters cannot be changed.
     /// Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
@@ -356,8 +356,8 @@ impl Washout {
         Ok(())
     }
 
-    /// Input of the linear channel (a force in the base frame, less what is compensated) and the
-    /// angular channel (rates) now, if the conditioned cue is this one.
+    /// Inputs of the linear channel (a force in the base frame, less what is compensated) and of
+    /// the angular channel (rates) now, if the conditioned cue is this one.
     fn drive(&self, cue: Cue) -> (Vector3<f64>, Vector3<f64>) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let head = &self.last.head;
@@ -411,11 +411,11 @@ impl Washout {
         }
     }
 
-    /// The time derivative of the output now; the flags in it mean nothing.
+    /// The time derivative of the output now; the flags in it have no meaning.
     ///
-    /// Exact where the output holds the derivative of another part of it; those of angular
-    /// velocities, of the platform's acceleration and of what the rider feels are means over the
-    /// last internal step, and zero before the first.
+    /// It is exact where the output holds the derivative of another part of it. The derivatives of
+    /// angular velocities, of the platform's acceleration and of what the rider feels are means
+    /// over the last internal step. They are zero before the first.
     pub fn output_derivative(&self) -> Output {
         let motion = self.guard.motion();
         let legs = self.guard.legs();
@@ -452,14 +452,17 @@ fn engagement_after(engagement: f64, engaged: bool, step: f64) -> f64 {
     if engaged { min(engagement + change, 1.0) } else { max(engagement - change, 0.0) }
 }
 
-/// The error for a strategy's weights for which there is no regulator in numbers.
+/// The error for a strategy's weights without a numerical solution of the Riccati equation.
 fn no_regulator(parameters: &Parameters) -> ParameterError {
-    let prefix = if parameters.structure.strategy == StrategyKind::Predictive { "predictive" } else { "optimal" };
+    let (prefix, weight) = match parameters.structure.strategy {
+        StrategyKind::Predictive => ("predictive", parameters.predictive.weight_position),
+        _ => ("optimal", parameters.optimal.weight_position),
+    };
     ParameterError {
         variable: format!("{prefix}.weightPosition"),
-        reason:
-            "and the strategy's other weights and poles lead to no regulator in numbers; choose them nearer to their \
-                 start values"
-                .to_owned(),
+        reason: format!(
+            "is {weight}, and with the strategy's other weights and poles the Riccati equation has no numerical solution; \
+             choose them nearer to their start values"
+        ),
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use std::fs;
 use std::process::Command;
 
-use crate::{Error, FmiVersion, Model, Platform, Start, macos_stub, tools, workspace};
+use crate::{Error, FmiVersion, FmuModel, Platform, Start, macos_stub, tools, workspace};
 
 /// The glibc that zig links for: that of RHEL 7, and the oldest that Rust supports.
 const OLDEST_GLIBC: &str = "2.17";
@@ -51,7 +51,7 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
         Platform::Linux64 | Platform::Aarch64Linux => Linker::Zig,
         Platform::Win64 => Linker::Mingw,
         Platform::Darwin64 | Platform::Aarch64Darwin if cfg!(target_os = "macos") => Linker::Host,
-        // zig links for macOS too, but exports names of Rust's that are nobody's business.
+        // zig links for macOS too, but also exports Rust's internal names.
         Platform::Darwin64 | Platform::Aarch64Darwin => Linker::Lld,
     };
     match linker {
@@ -74,7 +74,7 @@ const START_VALUES: &str = "FMU_START_VALUES";
 ///
 /// # Errors
 /// The compiler cannot be run or fails, or its result cannot be read.
-pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
+pub fn compile(model: &FmuModel, start: &Start, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     run_cargo(&[(model, fmi)], start.text().as_deref(), plan)?;
     let built = plan.platform.built_library(model.library(fmi));
     let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);
@@ -89,12 +89,12 @@ pub fn compile(model: &Model, start: &Start, fmi: FmiVersion, plan: &Plan) -> Re
 ///
 /// # Errors
 /// The compiler cannot be run or fails.
-pub fn compile_together(libraries: &[(&Model, FmiVersion)], plan: &Plan) -> Result<(), Error> {
+pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
     if plan.platform.is_apple() || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, None, plan) }
 }
 
 /// Calls cargo for these libraries, with start values that the libraries read from their text.
-fn run_cargo(libraries: &[(&Model, FmiVersion)], start: Option<&str>, plan: &Plan) -> Result<(), Error> {
+fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], start: Option<&str>, plan: &Plan) -> Result<(), Error> {
     let mut command = plan.cargo();
     command.args(["--profile", PROFILE, "--target-dir"]).arg(workspace::target_directory());
     for (model, fmi) in libraries {

@@ -2,7 +2,7 @@
 
 use crate::archive::Contents;
 use crate::reference::{self, Stimuli};
-use crate::{FmiVersion, Model, Platform, Start, documentation, terminals};
+use crate::{FmiVersion, FmuModel, Platform, Start, documentation, terminals};
 
 /// Under which licences the FMU and its sources are: the choice is the user's.
 pub const LICENCES: &str = concat!(
@@ -15,7 +15,7 @@ pub const LICENCES: &str = concat!(
 
 /// The files of a model's FMU of a version of FMI with these libraries, which start with these
 /// values.
-pub fn contents(model: &Model, start: &Start, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
+pub fn contents(model: &FmuModel, start: &Start, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
     let mut contents = Contents::new();
     contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());
     contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());

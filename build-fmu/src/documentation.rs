@@ -3,14 +3,14 @@
 use std::fmt::Write;
 
 use crate::model::Wording;
-use crate::{FmiVersion, Model, Start};
+use crate::{FmiVersion, FmuModel, Start};
 
 /// A part of the documentation.
 pub struct Section {
     /// Fragment of a link to the section.
     pub anchor: &'static str,
     pub heading: &'static str,
-    /// Text under the heading, with placeholders in double braces: see [`Model::wording`].
+    /// Text under the heading, with placeholders in double braces: see [`FmuModel::wording`].
     pub html: &'static str,
 }
 
@@ -19,7 +19,7 @@ const PAGE: &str = include_str!("../documentation/page.html");
 const STYLE: &str = include_str!("../documentation/style.css");
 
 /// `documentation/index.html`: the model's sections, then its tables of variables.
-pub fn page(model: &Model, start: &Start, fmi: FmiVersion) -> String {
+pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
     let variables = model.variables(fmi, start);
     let description = (model.functions.description)(start.slots());
     let token = match fmi {

@@ -24,7 +24,9 @@ pub enum Error {
     #[error("FMI has no platform name for this machine; choose a platform with --platform")]
     NoHostPlatform,
     /// The library compiled, but is unfit to ship.
-    #[error("the library for {platform} is not fit to be shipped: {reason}")]
+    #[error(
+        "the library for {platform} must not be shipped: {reason}; build it with cargo build-fmu from a clean checkout"
+    )]
     Library { platform: Platform, reason: LibraryError },
     /// A file that should be there cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
@@ -40,7 +42,7 @@ pub enum Error {
     Path { file: PathBuf, reason: String },
     /// The option applies to none of the models.
     #[error("--{option} applies to none of the chosen models ({who}); choose others with --model, or omit it")]
-    NotTaken { option: &'static str, who: &'static str },
+    NotApplicable { option: &'static str, who: &'static str },
     /// Array variables need a version of FMI that has them.
     #[error("--arrays needs --fmi 3: FMI 2.0 has no array variables")]
     NoArrays,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::{Error, FmiVersion, Model, Platform, Start};
+use crate::{Error, FmiVersion, FmuModel, Platform, Start};
 use crate::{archive, compile, contents, library, workspace};
 
 /// An FMU that has been written.
@@ -20,10 +20,10 @@ pub struct Built {
 /// Without platforms the FMU is for this machine.
 ///
 /// # Errors
-/// A tool that is missing, a library that does not compile or is not fit to be shipped, a file that
+/// A tool that is missing, a library that does not compile or must not be shipped, a file that
 /// cannot be written.
 pub fn build(
-    model: &Model,
+    model: &FmuModel,
     fmi: FmiVersion,
     platforms: &[Platform],
     output: &Path,
@@ -37,7 +37,7 @@ pub fn build(
 /// # Errors
 /// As [`build`].
 pub fn build_with(
-    model: &Model,
+    model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,
     platforms: &[Platform],
@@ -55,7 +55,7 @@ pub fn build_with(
 ///
 /// # Errors
 /// A tool that is missing, or a library that does not compile.
-pub fn compile_together(libraries: &[(&Model, FmiVersion)], platforms: &[Platform]) -> Result<(), Error> {
+pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], platforms: &[Platform]) -> Result<(), Error> {
     compile::plan(platforms)?.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
 }
 
@@ -63,14 +63,19 @@ pub fn compile_together(libraries: &[(&Model, FmiVersion)], platforms: &[Platfor
 ///
 /// # Errors
 /// As [`build`].
-pub fn fmu(model: &Model, fmi: FmiVersion, platforms: &[Platform], report: impl FnMut(&str)) -> Result<Vec<u8>, Error> {
+pub fn fmu(
+    model: &FmuModel,
+    fmi: FmiVersion,
+    platforms: &[Platform],
+    report: impl FnMut(&str),
+) -> Result<Vec<u8>, Error> {
     fmu_with(model, &Start::own(model), fmi, platforms, report)
 }
 
 /// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as
 /// [`build`].
 pub(crate) fn fmu_with(
-    model: &Model,
+    model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,
     platforms: &[Platform],

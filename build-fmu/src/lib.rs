@@ -1,8 +1,14 @@
 //! Builds a model's shared library for each platform and packs it into an FMU.
 //!
-//! `cargo build-fmu` is the command; [`build`] is the same for a program. [`contents`] lists the
-//! files of an FMU, [`model`] the models, [`platform`] the platforms, [`fmi_version`] the versions
-//! of FMI. [`ssp`] packs several FMUs into a system.
+//! `cargo build-fmu` is the command; [`build`] is the same for a program.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`contents`] | the files of an FMU |
+//! | [`model`] | the models |
+//! | [`platform`] | the platforms |
+//! | [`fmi_version`] | the versions of FMI |
+//! | [`ssp`] | systems: packages of several FMUs |
 
 pub mod archive;
 pub mod compile;
@@ -27,6 +33,6 @@ pub mod workspace;
 pub use error::Error;
 pub use fmi_version::FmiVersion;
 pub use fmu::{Built, build, build_with, compile_together, fmu};
-pub use model::{MODELS, Model};
+pub use model::{FmuModel, MODELS};
 pub use platform::Platform;
 pub use start_values::Start;

@@ -34,7 +34,7 @@ pub enum LibraryError {
     #[error("it lacks {}", .0.join(", "))]
     Lacks(Vec<String>),
     /// Exported names that are not functions of FMI.
-    #[error("it exports {}, which FMI does not know", .0.join(", "))]
+    #[error("it exports {}, which FMI does not define", .0.join(", "))]
     Exports(Vec<String>),
     /// A directory in which the system would search for libraries.
     #[error("it has a search path for libraries (RPATH)")]

@@ -1,5 +1,5 @@
-//! Linking for macOS on other systems, without Apple's development kit: what the linker needs of it
-//! is the list of names in the system's library, and zig carries that.
+//! Linking for macOS on other systems, without Apple's development kit. The linker needs only the
+//! list of names in the system's library, which zig contains.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::{Error, Platform, tools, workspace};
 
-/// Makes a directory that stands in for the development kit: it says which names the system's
-/// library has.
+/// Makes a directory that replaces the development kit: it lists the names in the system's library.
 ///
 /// # Errors
 /// There is no zig, or its list cannot be read, or a file cannot be written.
@@ -27,8 +26,8 @@ pub fn development_kit(platform: Platform) -> Result<PathBuf, Error> {
 /// The names in all documents of a text-based stub file: whatever is listed under `symbols` of any
 /// kind.
 ///
-/// The system's library is an umbrella over many, each with a document of its own and its own
-/// processors, which to the one who links are all the same.
+/// The system's library is an umbrella over many, each with its own document and processors. A
+/// linker does not distinguish them.
 fn names(text: &str) -> BTreeSet<&str> {
     let lists = text.split("symbols:").skip(1).filter_map(|rest| rest.split_once('[')?.1.split_once(']'));
     lists.flat_map(|(list, _)| list.split(',')).map(str::trim).filter(|name| !name.is_empty()).collect()

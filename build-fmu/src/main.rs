@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use moris_build_fmu::model::{MOTORCYCLE, WASHOUT, path_values};
-use moris_build_fmu::{Error, FmiVersion, MODELS, Model, Platform, Start, build_with, compile_together, workspace};
+use moris_build_fmu::{Error, FmiVersion, FmuModel, MODELS, Platform, Start, build_with, compile_together, workspace};
 use moris_setup::{NamedValues, load_rig, load_set};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and
@@ -66,15 +66,16 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments) -> Result<(), Error> {
     let output = arguments.output.clone().unwrap_or_else(workspace::default_output);
-    let chosen = |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
-    let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
+    let chosen =
+        |model: &&FmuModel| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
+    let models: Vec<&FmuModel> = MODELS.iter().filter(chosen).collect();
     let versions = fmi_versions(arguments)?;
     // Before anything is compiled.
     check_used(arguments, &models)?;
-    let start = |model: &&Model| Start::with(model, &start_values(arguments, model)?);
+    let start = |model: &&FmuModel| Start::with(model, &start_values(arguments, model)?);
     let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
     let of_version = |fmi| models.iter().zip(&starts).map(move |(&model, start)| (model, start, fmi));
-    let fmus: Vec<(&Model, &Start, FmiVersion)> = versions.into_iter().flat_map(of_version).collect();
+    let fmus: Vec<(&FmuModel, &Start, FmiVersion)> = versions.into_iter().flat_map(of_version).collect();
     let own = fmus.iter().filter(|(_, start, _)| start.is_own()).map(|&(model, _, fmi)| (model, fmi));
     compile_together(&own.collect::<Vec<_>>(), &arguments.platform)?;
     for (model, start, fmi) in fmus {
@@ -95,28 +96,28 @@ fn fmi_versions(arguments: &Arguments) -> Result<Vec<FmiVersion>, Error> {
 }
 
 /// Checks that each option with start values applies to one of the models.
-fn check_used(arguments: &Arguments, models: &[&Model]) -> Result<(), Error> {
+fn check_used(arguments: &Arguments, models: &[&FmuModel]) -> Result<(), Error> {
     if arguments.rig.is_some() && !models.iter().any(|model| model.has_rig()) {
-        return Err(Error::NotTaken { option: "rig", who: "only models with a platform have a rig" });
+        return Err(Error::NotApplicable { option: "rig", who: "only models with a platform have a rig" });
     }
     if arguments.path.is_some() && !models.iter().any(|model| model.name == MOTORCYCLE.name) {
-        return Err(Error::NotTaken { option: "path", who: "only the motorcycle follows one" });
+        return Err(Error::NotApplicable { option: "path", who: "only the motorcycle follows one" });
     }
-    if !arguments.parameters.is_empty() && !models.iter().any(|model| takes_parameters(arguments, model)) {
+    if !arguments.parameters.is_empty() && !models.iter().any(|model| accepts_parameters(arguments, model)) {
         let who = "with several models they are the washout's; choose another model alone with --model";
-        return Err(Error::NotTaken { option: "parameters", who });
+        return Err(Error::NotApplicable { option: "parameters", who });
     }
     Ok(())
 }
 
 /// Parameters are the washout's, or those of a model that is chosen alone.
-fn takes_parameters(arguments: &Arguments, model: &Model) -> bool {
+fn accepts_parameters(arguments: &Arguments, model: &FmuModel) -> bool {
     arguments.model.len() == 1 || model.name == WASHOUT.name
 }
 
 /// Start values that replace a model's own: the rig where it has one, and over it the parameters
 /// where they are its own.
-fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Error> {
+fn start_values(arguments: &Arguments, model: &FmuModel) -> Result<NamedValues, Error> {
     let mut values = NamedValues::new();
     if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {
         values.extend(load_rig(file)?.values());
@@ -124,7 +125,7 @@ fn start_values(arguments: &Arguments, model: &Model) -> Result<NamedValues, Err
     if let Some(file) = arguments.path.as_ref().filter(|_| model.name == MOTORCYCLE.name) {
         values.extend(path_values(file)?);
     }
-    if takes_parameters(arguments, model) {
+    if accepts_parameters(arguments, model) {
         for set in &arguments.parameters {
             values.extend(load_set(set, model.functions.identity.rows)?);
         }
@@ -143,8 +144,8 @@ mod tests {
     fn error_of(arguments: &[&str]) -> Option<String> {
         let arguments = Arguments::parse_from([&["build-fmu"], arguments].concat());
         let chosen =
-            |model: &&Model| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
-        let models: Vec<&Model> = MODELS.iter().filter(chosen).collect();
+            |model: &&FmuModel| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
+        let models: Vec<&FmuModel> = MODELS.iter().filter(chosen).collect();
         check_used(&arguments, &models).err().map(|error| error.to_string())
     }
 

@@ -1,5 +1,5 @@
-//! A reference ride inside the FMU: an input, and the output that belongs to it, so that whoever
-//! loads the FMU can see whether the tool at hand runs it right.
+//! A reference ride inside the FMU: an input, and the output that belongs to it. With it, users of
+//! the FMU can check that their tool runs it right.
 //!
 //! The files are those of the layered standard fmi-ls-ref: a manifest, a list of experiments, and
 //! for each of them a table of inputs and one of outputs. The outputs are computed by the model in
@@ -46,11 +46,11 @@ pub struct Stimuli {
 }
 
 impl Stimuli {
-    /// Reads a table: comma-separated, a line of names, of which the first is `time`, then numbers,
-    /// time ascending.
+    /// Reads a comma-separated table. Its first line has the names, of which the first is `time`.
+    /// The others are numbers, with time ascending.
     ///
     /// # Panics
-    /// It is something else. The tables belong to the sources.
+    /// The text is no such table. The tables belong to the sources.
     pub fn new(text: &'static str) -> Self {
         let mut lines = text.lines();
         let names = lines.next().expect("a line of names").split(',').collect();

@@ -3,7 +3,7 @@
 use moris_interface::{Causality, write_start_values};
 use moris_setup::{NamedValues, parameter_file};
 
-use crate::{Error, Model};
+use crate::{Error, FmuModel};
 
 /// The start values of a model's FMU.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub struct Start {
 
 impl Start {
     /// The model's own.
-    pub fn own(model: &Model) -> Self {
+    pub fn own(model: &FmuModel) -> Self {
         Start { overrides: Vec::new(), slots: (model.functions.start)(&[]) }
     }
 
@@ -25,7 +25,7 @@ impl Start {
     ///
     /// # Errors
     /// The model cannot start with them, or they contradict each other.
-    pub fn with(model: &Model, values: &NamedValues) -> Result<Self, Error> {
+    pub fn with(model: &FmuModel, values: &NamedValues) -> Result<Self, Error> {
         let identity = &model.functions.identity;
         let own = (model.functions.start)(&[]);
         let mut slots = own.clone();
@@ -48,7 +48,7 @@ impl Start {
         Ok(start)
     }
 
-    fn check(&self, model: &Model) -> Result<(), Error> {
+    fn check(&self, model: &FmuModel) -> Result<(), Error> {
         let refused = |error| Error::Start { model: model.name, error };
         (model.functions.check)(&self.slots).map_err(refused)?;
         if self.is_own() { Ok(()) } else { (model.consistency)(&self.slots).map_err(refused) }
@@ -75,7 +75,7 @@ impl Start {
     }
 
     /// The overrides as a parameter file.
-    pub fn file(&self, model: &Model) -> String {
+    pub fn file(&self, model: &FmuModel) -> String {
         let identity = &model.functions.identity;
         let named: NamedValues =
             self.overrides.iter().map(|&(slot, value)| (identity.variable_name(slot), value)).collect();

@@ -7,7 +7,7 @@ use moris_interface::{Identity, Row};
 use moris_model_description::to_xml;
 use serde::Serialize;
 
-use crate::{FmiVersion, Model};
+use crate::{FmiVersion, FmuModel};
 
 /// Path of the file in an FMU.
 pub const FILE: &str = "terminalsAndIcons/terminalsAndIcons.xml";
@@ -71,7 +71,7 @@ struct Member {
 ///
 /// # Panics
 /// A terminal names a row that the model does not have. Terminals belong to the sources.
-pub fn xml(model: &Model, fmi: FmiVersion) -> String {
+pub fn xml(model: &FmuModel, fmi: FmiVersion) -> String {
     let identity = &model.functions.identity;
     let element = |terminal: &Terminal| TerminalElement {
         name: terminal.name,

@@ -1,5 +1,5 @@
-//! The tools that compiling for another platform needs: whether they are there, and how to get
-//! them.
+//! The tools that compiling for another platform needs: a check that they are
+//! there, and how to get them.
 
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -21,7 +21,7 @@ pub fn zigbuild(platform: Platform) -> Result<(), Error> {
     Ok(())
 }
 
-/// The directory of what zig knows of the systems for which it compiles.
+/// The directory of zig's libraries for the systems for which it compiles.
 ///
 /// # Errors
 /// zig is missing.

@@ -1,4 +1,4 @@
-//! Where things are on the machine that builds.
+//! Directories and tools of the machine that builds.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -16,13 +16,13 @@ pub fn default_output() -> PathBuf {
     root().join("target").join("fmu")
 }
 
-/// Where cargo compiles.
+/// Directory in which cargo compiles.
 pub fn target_directory() -> PathBuf {
     env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |directory| root().join(directory))
 }
 
-/// Directories of this machine that must not show in a library, and what is written in their place:
-/// the workspace, where cargo keeps the dependencies' sources, and where rustc keeps its own.
+/// Directories of this machine that must not show in a library, and the names that replace them.
+/// They are the workspace, cargo's sources of the dependencies, and rustc's own sources.
 ///
 /// # Errors
 /// rustc cannot be asked.
@@ -33,7 +33,7 @@ pub fn private_paths() -> Result<Vec<(PathBuf, &'static str)>, Error> {
     Ok(paths)
 }
 
-/// Where the compiler and the standard libraries of its targets are.
+/// Directory of the compiler and of its targets' standard libraries.
 ///
 /// # Errors
 /// rustc cannot be asked.

@@ -8,12 +8,12 @@ use moris_build_fmu::archive::{Contents, pack};
 use moris_build_fmu::contents::contents;
 use moris_build_fmu::model::WASHOUT;
 use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR};
-use moris_build_fmu::{FmiVersion, MODELS, Model, Platform, Start, workspace};
+use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Platform, Start, workspace};
 use moris_model_description::fmi2::scalar_variable::{ScalarVariable, Values};
 use moris_model_description::fmi3::Layout;
 use zip::ZipArchive;
 
-fn with_every_platform(model: &Model, fmi: FmiVersion) -> Contents {
+fn with_every_platform(model: &FmuModel, fmi: FmiVersion) -> Contents {
     let library = |&platform: &Platform| (platform, format!("library for {platform}").into_bytes());
     contents(model, &Start::own(model), fmi, Platform::value_variants().iter().map(library).collect())
 }
@@ -23,13 +23,13 @@ fn washout_with_every_platform() -> Contents {
 }
 
 /// The page of documentation in a model's FMU.
-fn documentation(model: &Model, fmi: FmiVersion) -> String {
+fn documentation(model: &FmuModel, fmi: FmiVersion) -> String {
     let page = with_every_platform(model, fmi).remove("documentation/index.html");
     String::from_utf8(page.expect("there is a page")).unwrap()
 }
 
 /// The names of a model's variables.
-fn variable_names(model: &Model, fmi: FmiVersion) -> Vec<String> {
+fn variable_names(model: &FmuModel, fmi: FmiVersion) -> Vec<String> {
     let identity = model.functions.identity;
     match fmi {
         FmiVersion::Fmi2 | FmiVersion::Fmi3(Layout::Scalars) => {
@@ -155,7 +155,7 @@ fn the_documentation_is_complete_and_needs_no_network() {
     }
 }
 
-fn check_page(model: &Model, page: &str) {
+fn check_page(model: &FmuModel, page: &str) {
     assert!(!page.contains("{{"), "a place was left empty");
     assert!(!page.contains("http"), "something comes from outside");
     for anchor in page.split("href=\"#").skip(1).map(|rest| rest.split('"').next().unwrap()) {
@@ -228,7 +228,7 @@ fn the_licences_are_there() {
 }
 
 /// A model's reference ride: the files' texts by their names, the manifest's first.
-fn reference_ride(model: &Model, fmi: FmiVersion) -> [String; 4] {
+fn reference_ride(model: &FmuModel, fmi: FmiVersion) -> [String; 4] {
     let contents = with_every_platform(model, fmi);
     let file = |name: &str| {
         let path = format!("extra/org.fmi-standard.fmi-ls-ref/{name}");

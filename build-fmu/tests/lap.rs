@@ -1,5 +1,5 @@
-//! The lap of MotorcycleLap.ssp: the models of its FMUs with its start values and connections,
-//! stepped as a co-simulation tool steps them, with one step of delay for each connection.
+//! The lap of MotorcycleLap.ssp: the models of its FMUs, with its start values and connections.
+//! They are stepped as by a co-simulation tool, with one step of delay for each connection.
 
 use moris_build_fmu::ssp::{self, MOTORCYCLE_LAP, system::Connection};
 use moris_interface::SlotModel;
@@ -7,8 +7,8 @@ use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
 
-/// Least RMS errors of surge and sway on this lap that any controller could reach: those of `moris
-/// simulate` for the motorcycle's outputs \[m/s²\].
+/// Least RMS errors of surge and sway that any controller could reach on this lap \[m/s²\]. They
+/// are those of `moris simulate` for the motorcycle's outputs.
 const BOUND: [f64; 2] = [0.79, 0.00];
 
 /// A component with its values in slots.

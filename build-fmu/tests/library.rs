@@ -1,4 +1,4 @@
-//! Libraries that are fit to be shipped and such that are not, compiled here by rustc.
+//! Checks of libraries before they are shipped: sound and unsound ones, compiled here by rustc.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

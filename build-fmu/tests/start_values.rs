@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use moris_build_fmu::contents::contents;
 use moris_build_fmu::model::{STEWART_PLATFORM, WASHOUT};
-use moris_build_fmu::{FmiVersion, MODELS, Model, Start};
+use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Start};
 use moris_model_description::fmi3::Layout;
 use moris_setup::rig_file::RigFile;
 use moris_setup::{NamedValues, load_rig, load_set};
@@ -31,7 +31,7 @@ fn refusal(values: &NamedValues) -> String {
     Start::with(&WASHOUT, values).expect_err("these values must be refused").to_string()
 }
 
-fn start_of(model: &Model, start: &Start, name: &str) -> f64 {
+fn start_of(model: &FmuModel, start: &Start, name: &str) -> f64 {
     start.slots()[model.functions.identity.slot(name).unwrap()]
 }
 
@@ -120,7 +120,10 @@ fn what_a_washout_cannot_start_with_is_refused_with_the_reason() {
     let message = refusal(&named(&[("actuator.maxLength", 1.2)]));
     assert!(message.contains("outside its stroke"), "{message}");
     let message = refusal(&named(&[("safety.z.positionLimit", 0.4)]));
-    assert!(message.contains("safety.z.positionLimit: is 0.4, but in heave the rig reaches only 0.344 m"), "{message}");
+    assert!(
+        message.contains("safety.z.positionLimit: is 0.4 m, but in heave the rig reaches only 0.344 m"),
+        "{message}"
+    );
     let message = refusal(&named(&[("tilt.rateLimit", -0.1)]));
     assert!(message.contains("tilt.rateLimit"), "{message}");
 }

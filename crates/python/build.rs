@@ -1,4 +1,4 @@
-//! Lets the linkers of macOS leave Python's symbols open, so that cargo alone can
+//! Lets the linker on macOS leave Python's symbols undefined. Cargo can then
 //! build the module there.
 
 fn main() {

@@ -1,4 +1,4 @@
-//! A hostile host's calls by FMI 2.0, led by the fuzzer: the same driver as in the tests.
+//! A hostile host's calls by FMI 2.0, chosen by the fuzzer. The driver is that of the tests.
 
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! A hostile host's calls by FMI 3.0, led by the fuzzer: the same driver as in the tests. The first
-//! byte says whether the host has read the description with scalars or that with arrays.
+//! A hostile host's calls by FMI 3.0, chosen by the fuzzer. The driver is that of the tests. The
+//! first byte says which description the host has read: with scalars or with arrays.
 
 #![no_main]
 

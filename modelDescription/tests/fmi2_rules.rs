@@ -1,5 +1,5 @@
-//! Requirements of FMI 2.0 on a model description, and errors that no validator reports, checked on
-//! the text of the file with an XML reader that knows nothing of how it was written.
+//! Requirements of FMI 2.0 on a model description, and errors that no validator reports. They are
+//! checked on the text of the file with an independent XML reader.
 
 mod document;
 mod small_model;
@@ -15,7 +15,7 @@ use moris_washout::Washout;
 use roxmltree::{Document, Node};
 use small_model::Small;
 
-/// Every check, on each model that there is and on one with a variable of every kind.
+/// Every check, on every model of the workspace and on one with a variable of every kind.
 macro_rules! on_every_model {
     ($($check:ident)+) => {
         mod washout { $( #[test] fn $check() { super::$check::<super::Washout>(); } )+ }
@@ -117,8 +117,8 @@ fn variables_are_the_models<M: Model>() {
     }
 }
 
-/// Inputs and outputs before parameters, of which the ten rows that matter most come first and a
-/// rig's joints last. The elements of an array are consecutive.
+/// Inputs and outputs come before parameters. Of the parameters, the ten rows that matter most come
+/// first and a rig's joints last. The elements of an array are consecutive.
 fn what_matters_comes_first<M: Model>() {
     let xml = to_xml(&describe::<M>());
     let document = Document::parse(&xml).unwrap();

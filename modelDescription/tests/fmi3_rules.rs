@@ -1,6 +1,5 @@
-//! Requirements of FMI 3.0 on a model description, checked on the text of the file with an XML
-//! reader that knows nothing of how it was written, and against the description for FMI 2.0,
-//! which has its own rules.
+//! Requirements of FMI 3.0 on a model description. They are checked on the text of the file with an
+//! independent XML reader, and against the description for FMI 2.0, which has its own tests.
 
 mod document;
 mod small_model;
@@ -19,7 +18,7 @@ use moris_washout::Washout;
 use roxmltree::{Document, Node};
 use small_model::Small;
 
-/// Every check, on both descriptions of each model that there is and of one with a
+/// Every check, on both descriptions of every model of the workspace and of one with a
 /// variable of every kind.
 macro_rules! on_every_model {
     ($($check:ident)+) => {
@@ -90,7 +89,7 @@ fn variables_by_reference<'a, 'input>(document: &'a Document<'input>) -> Vec<Nod
     variables
 }
 
-/// The variables that the description is to have: each with its name, its row and its slots.
+/// The variables that the description must have, each with its name, its row and its slots.
 fn places(identity: &Identity, layout: Layout) -> Vec<(String, &'static Row, Range<usize>)> {
     let mut first = 0;
     let mut places = Vec::new();
@@ -149,8 +148,8 @@ fn size(variable: Node) -> usize {
         .product()
 }
 
-/// The variables' elements, in their order, are the scalar variables that FMI 2.0 has under the
-/// same value references, with the same start values, units, ranges, causality and variability.
+/// The variables' elements, in their order, must be the scalar variables that FMI 2.0 has under the
+/// same value references. Start values, units, ranges, causality and variability must be the same.
 fn variables_have_the_values_of_fmi_2<M: Model>(layout: Layout) {
     let (xml2, xml3) = (to_xml(&describe::<M>()), xml::<M>(layout));
     let (document2, document3) = (Document::parse(&xml2).unwrap(), Document::parse(&xml3).unwrap());

@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::filter::bumpless::Bump;
+use crate::filter::bumpless::FadingOffset;
 use crate::filter::chain::{Chains, Denominator};
 use crate::interface::AngularParameters;
 use crate::motion::Motion;
@@ -13,7 +13,7 @@ use crate::motion::Motion;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AngularChannel {
     chains: Chains,
-    bump: Bump,
+    offset: FadingOffset,
     /// The rates at the end of the last step \[rad/s\].
     rates: Vector3<f64>,
 }
@@ -22,27 +22,29 @@ impl AngularChannel {
     /// At rest.
     pub fn new(parameters: &AngularParameters, order: i32) -> Self {
         let chains = Chains::new(denominators(parameters, order));
-        AngularChannel { chains, bump: Bump::default(), rates: Vector3::zeros() }
+        AngularChannel { chains, offset: FadingOffset::default(), rates: Vector3::zeros() }
     }
 
-    /// Takes other filter parameters at an instant at which the input changes from `before` to
-    /// `after` because of other new parameters: angles and rates stay what they are, and the
+    /// Changes the filter parameters without a jump: angles and rates stay what they are, and the
     /// difference fades away.
+    ///
+    /// The input changes from `before` to `after` at the same instant, because of
+    /// other new parameters.
     pub fn retune(&mut self, parameters: &AngularParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
         let rates = self.chains.high_pass(before);
         self.chains.retune(denominators(parameters, order), 1);
-        self.bump.add(rates - self.chains.high_pass(after));
+        self.offset.add(rates - self.chains.high_pass(after));
     }
 
     /// Advances by `step` seconds while the rates go linearly from `start` to `end`. Returns angle,
     /// rate and acceleration of roll, pitch and yaw.
     ///
-    /// The acceleration is the mean over the step, from one step's rate to the next one's: the
-    /// accelerations add up to the rates, also where the input jumps between two steps.
+    /// The acceleration is the mean over the step, from one step's rate to the next one's. The
+    /// accelerations therefore add up to the rates, also where the input jumps between two steps.
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, step: f64) -> Motion<Vector3<f64>> {
-        let (bump_start, bump_end) = self.bump.advance(step);
-        let end = end + bump_end;
-        self.chains.advance(start + bump_start, end, step);
+        let (offset_start, offset_end) = self.offset.advance(step);
+        let end = end + offset_end;
+        self.chains.advance(start + offset_start, end, step);
         let rates = self.chains.high_pass(end);
         let acceleration = (rates - self.rates) / step;
         self.rates = rates;

@@ -1,5 +1,6 @@
-//! Block (4): what turning the platform about its origin adds at the washout location:
-//! accelerations, and gravity where it is not tilt coordination's.
+//! Block (4): the effect of the platform's rotation about its origin at the washout location.
+//!
+//! The effect consists of accelerations, and of gravity as far as that is not tilt coordination's.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,8 +18,10 @@ pub fn centripetal(angular_velocity: Vector3<f64>, arm: Vector3<f64>) -> Vector3
     angular_velocity.cross(&angular_velocity.cross(&arm))
 }
 
-/// Part of gravity in the specific force where the platform has the orientation R and not its tilt
-/// alone, R_t: in the base frame, (1 - R R_t^T) (0, 0, g).
+/// The gravity that the tilt alone does not add to the specific force: in the base frame,
+/// (1 - R R_t^T) (0, 0, g).
+///
+/// R is the platform's orientation, and R_t its tilt alone.
 pub fn added_gravity(rotation: &Matrix3<f64>, tilt: &Tilt, gravity: f64) -> Vector3<f64> {
     let (sin_roll, cos_roll) = libm::sincos(tilt.roll);
     let (sin_pitch, cos_pitch) = libm::sincos(tilt.pitch);
@@ -26,9 +29,10 @@ pub fn added_gravity(rotation: &Matrix3<f64>, tilt: &Tilt, gravity: f64) -> Vect
     Vector3::new(0.0, 0.0, gravity) - rotation * tilted
 }
 
-/// The acceleration to compensate, in the base frame, for a platform that turns like this, of which
-/// `tilt` is tilt coordination's part; `arm` is the washout location relative to the platform's
-/// origin, in the base frame.
+/// Acceleration to compensate, in the base frame, for a platform that turns as `turning` says.
+///
+/// `tilt` is tilt coordination's part of the orientation. `arm` is the washout location relative to
+/// the platform's origin, in the base frame.
 pub fn compensated(
     compensation: Compensation,
     turning: &RotationalMotion,

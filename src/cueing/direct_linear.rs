@@ -1,12 +1,12 @@
 //! Block (3), direct linear motion: the high-frequency specific force, integrated twice, moves the
-//! platform, and the safety units keep it inside its limits.
+//! platform. The safety units keep it inside its limits.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::cueing::safety::SafetyUnits;
 use crate::cueing::splitter::high_pass_denominators;
-use crate::filter::bumpless::Bump;
+use crate::filter::bumpless::FadingOffset;
 use crate::filter::chain::Chains;
 use crate::interface::{SafetyParameters, SplitterParameters};
 use crate::motion::Motion;
@@ -15,7 +15,7 @@ use crate::motion::Motion;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DirectLinearMotion {
     chains: Chains,
-    bump: Bump,
+    offset: FadingOffset,
     safety: SafetyUnits,
 }
 
@@ -23,25 +23,28 @@ impl DirectLinearMotion {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
     pub fn new(parameters: &SplitterParameters, order: i32, longest_step: f64) -> Self {
         let chains = Chains::new(high_pass_denominators(parameters, order));
-        DirectLinearMotion { chains, bump: Bump::default(), safety: SafetyUnits::new(longest_step) }
+        DirectLinearMotion { chains, offset: FadingOffset::default(), safety: SafetyUnits::new(longest_step) }
     }
 
-    /// Takes other filter parameters at an instant at which the input changes from `before` to
-    /// `after` because of other new parameters: position, velocity and acceleration stay what they
-    /// are, and the difference fades away.
+    /// Changes the filter parameters without a jump: position, velocity and acceleration stay what
+    /// they are, and the difference fades away.
+    ///
+    /// The input changes from `before` to `after` at the same instant, because of
+    /// other new parameters.
     pub fn retune(&mut self, parameters: &SplitterParameters, order: i32, before: Vector3<f64>, after: Vector3<f64>) {
         let acceleration = self.chains.high_pass(before);
         self.chains.retune(high_pass_denominators(parameters, order), 2);
-        self.bump.add(acceleration - self.chains.high_pass(after));
+        self.offset.add(acceleration - self.chains.high_pass(after));
     }
 
-    /// Advances the filters by `step` seconds while the input, a force in the base frame,
-    /// goes linearly from `start` to `end`. Returns the surge, sway and heave from
-    /// neutral that they demand.
+    /// Advances the filters by `step` seconds while the input goes linearly from `start` to `end`.
+    /// Returns the surge, sway and heave from neutral that they demand.
+    ///
+    /// The input is a force in the base frame.
     pub fn advance_filters(&mut self, [start, end]: [Vector3<f64>; 2], step: f64) -> Motion<Vector3<f64>> {
-        let (bump_start, bump_end) = self.bump.advance(step);
-        let end = end + bump_end;
-        self.chains.advance(start + bump_start, end, step);
+        let (offset_start, offset_end) = self.offset.advance(step);
+        let end = end + offset_end;
+        self.chains.advance(start + offset_start, end, step);
         Motion {
             position: self.chains.second_integral(),
             velocity: self.chains.first_integral(),
@@ -61,7 +64,7 @@ impl DirectLinearMotion {
         self.motion()
     }
 
-    /// Goes on from the motion that the platform really makes.
+    /// Continues from the platform's real motion.
     pub fn continue_from(&mut self, real: &Motion<Vector3<f64>>) {
         self.safety.continue_from(real);
     }

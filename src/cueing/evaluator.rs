@@ -1,4 +1,4 @@
-//! The evaluator (the paper's section 5): what the rider really feels on the commanded motion.
+//! The evaluator (the paper's section 5): what the rider feels on the commanded motion.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -7,8 +7,7 @@ use crate::cueing::compensation::{centripetal, tangential};
 use crate::platform::LocationFrame;
 use crate::platform::PlatformMotion;
 
-/// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in the
-/// axes of the frame there.
+/// Specific force \[m/s2\] and angular velocity \[rad/s\] at the washout location, in its axes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Felt {
     pub specific_force: Vector3<f64>,
@@ -17,8 +16,8 @@ pub struct Felt {
 
 /// f^H = R_B^H (p_head'' - g), eq. (5) with g = (0, 0, -gravity) and every term of p_head''.
 ///
-/// The rider's own leaning is not the platform's doing: the head is taken as at rest
-/// relative to the platform.
+/// The head is taken as at rest relative to the platform: the platform does not
+/// cause the rider's leaning.
 #[inline(always)]
 pub fn felt(platform: &PlatformMotion, head: &LocationFrame, gravity: f64) -> Felt {
     let rotation = platform.orientation.rotation;

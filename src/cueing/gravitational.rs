@@ -28,15 +28,15 @@ pub struct Tilt {
 /// Eq. (8): the tilt at which the rider, whose head leans by `lean`, feels `force` (in
 /// head axes) along x and y.
 ///
-/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept
-/// inside the angle limit, and so is the roll after the lean is taken off. Also returns
-/// whether they had to be.
+/// pitch = -asin(ax/g), roll = asin(ay/(g cos pitch)) - lean. The arcsines are kept inside
+/// the angle limit, and so is the roll after the lean is subtracted. Also returns true if
+/// one of them had to be.
 pub fn tilt_target(force: Vector3<f64>, gravity: f64, lean: f64, angle_limit: f64) -> (Tilt, bool) {
     let pitch = -libm::asin(force.x / gravity);
-    // g cos(pitch), as a root that need not wait for the arcsine.
+    // g cos(pitch), as a root that does not depend on the arcsine.
     let head_roll = libm::asin(force.y / (gravity * gravity - force.x * force.x).sqrt());
     let roll = head_roll - lean;
-    // An angle that does not exist is not a number, and not inside.
+    // The arcsine of a number beyond 1 is NaN, which is not inside.
     let inside = |angle: f64| angle.abs() <= angle_limit;
     if inside(pitch) && inside(head_roll) && inside(roll) {
         (Tilt { roll, pitch }, false)
@@ -76,9 +76,10 @@ impl GravitationalStrategy {
 /// Deviation of the tilt from its target above which it counts as limited \[rad\]: 0.001 degrees.
 const LAGGING: f64 = 2e-5;
 
-/// One step of one angle behind its target, whose rate is known from its last two values: a
-/// target inside the limits is tracked without lag, any other in nearly the shortest time
-/// and without overshoot.
+/// One step of one angle towards its target, and true if the angle then lags behind.
+///
+/// The target's rate is taken from its last two values. A target inside the limits is tracked
+/// without lag. Any other is tracked in nearly the shortest time and without overshoot.
 #[inline(always)]
 fn track(motion: &Motion, previous: f64, target: f64, limits: &Limits, step: f64) -> (Motion, bool) {
     let rate = ((target - previous) / step).clamp(-limits.velocity, limits.velocity);

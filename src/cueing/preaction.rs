@@ -1,11 +1,15 @@
-//! Preaction for a brusque stop (the paper's section 6).
+//! Preaction for an abrupt stop (the paper's section 6).
 //!
-//! A vehicle that brakes to a standstill takes the whole of its deceleration away at once, but the
-//! tilt that stands for it may only go at its rate limit. So begin before: from speed and
-//! deceleration it is known when the stop comes. The tilt goes at its rate ahead of the stop and
-//! after it, and what it lacks before and has too much after is held, as far as the stroke reaches,
-//! by surge: backwards ever faster until the stop, and slower again from there. For that the
-//! platform is moved forward in good time, too gently to be felt.
+//! An abrupt stop ends the whole deceleration at once, but the tilt that represents it can only
+//! change at its rate limit. Preaction therefore begins before the stop, whose time follows from
+//! speed and deceleration.
+//!
+//! - Tilt: it changes at its rate limit, from before the stop until after it.
+//! - Surge: it adds the force that the tilt lacks before the stop, and cancels the rest of the tilt
+//!   after it, as far as the stroke reaches. The platform moves backwards ever faster until the
+//!   stop, and slows down after it.
+//! - Reserve: well before the stop the platform moves forward, too gently to be felt,
+//!   to make room for that.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +17,7 @@ use crate::interface::{SafetyParameters, TiltParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 
-/// Watches the vehicle brake, and acts ahead of its stop.
+/// Preaction with its state: the predicted stop, the tilt ahead of it and the surge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StopPreaction {
     /// The longest step that may ever be taken \[s\].
@@ -24,8 +28,8 @@ pub struct StopPreaction {
     time_left: f64,
     /// Largest rate of the force represented by the tilt \[m/s3\].
     slew: f64,
-    /// The force that the tilt was to stand for at the end of the last step, and whether that
-    /// was less than asked for.
+    /// Force that the tilt was to represent at the end of the last step \[m/s2\]. `reduced` is true
+    /// if that was less than asked for.
     tilted_for: f64,
     reduced: bool,
     /// Tilt left after the stop, as a force \[m/s2\]; never positive.
@@ -37,9 +41,9 @@ pub struct StopPreaction {
 /// Motion of the surge.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Phase {
-    /// Gently forward if a stop is coming, and to neutral if not.
+    /// Gently forward if a stop is coming, else to neutral.
     Waiting,
-    /// Backwards, ever faster, to this acceleration at the stop \[m/s2\].
+    /// Backwards with a growing acceleration, which reaches this one at the stop \[m/s2\].
     Launching { acceleration: f64 },
     /// Slowing down after the stop, from this speed \[m/s\].
     Recovering { from: f64 },
@@ -47,29 +51,30 @@ enum Phase {
 
 /// Time constant of the deceleration's smoothing \[s\].
 const SMOOTHING: f64 = 0.2;
-/// Less than this is not braking \[m/s2\].
+/// Smallest deceleration that counts as braking \[m/s2\].
 const LEAST_DECELERATION: f64 = 0.5;
-/// The fraction of the force for which the platform is still tilted at the stop: so much error
-/// before it as after it.
+/// Fraction of the force for which the platform is still tilted at the stop. The errors before and
+/// after the stop are then about equal.
 const FRACTION_AT_STOP: f64 = 0.45;
-/// The surge is launched so long before the stop, and recovers in the same time \[s\].
+/// Time from the surge's launch to the stop, and from the stop to the end of its recovery \[s\].
 const LAUNCH_TIME: f64 = 1.5;
 /// The fractions of the safety limits that the launch uses.
 const FRACTION_OF_POSITION: f64 = 0.9;
 const FRACTION_OF_VELOCITY: f64 = 0.8;
-/// The fraction of the way back that the launch is planned for: the stop may
+/// Fraction of the room behind the platform for which the launch is planned: the stop may
 /// come later than foreseen.
 const FRACTION_OF_ROOM: f64 = 0.9;
-/// The platform is moved forward from so long before the stop \[s\] ...
+/// Time before the stop at which the platform begins to move forward \[s\].
 const POSITIONING_TIME: f64 = 9.0;
-/// ... with an acceleration that riders hardly perceive \[m/s2\], and not fast \[m/s\].
+/// Acceleration of this forward motion, which riders hardly perceive \[m/s2\], and its
+/// largest speed \[m/s\].
 const GENTLE_ACCELERATION: f64 = 0.05;
 const GENTLE_VELOCITY: f64 = 0.3;
-/// Slower than this the surge has recovered \[m/s\].
+/// Speed below which the surge has recovered \[m/s\].
 const RECOVERED: f64 = 1e-3;
 
 impl StopPreaction {
-    /// Nothing ahead.
+    /// At rest, with no stop ahead.
     pub fn new(longest_step: f64) -> Self {
         StopPreaction {
             longest_step,
@@ -84,8 +89,8 @@ impl StopPreaction {
         }
     }
 
-    /// Lets `step` seconds pass, at whose end the force to be felt along x is `force` \[m/s2\], and
-    /// the vehicle's acceleration and speed are these \[m/s2, m/s\].
+    /// Advances by `step` seconds. At their end, `force` is the force to be felt along x \[m/s2\].
+    /// `acceleration` \[m/s2\] and `speed` \[m/s\] are the vehicle's.
     pub fn advance(
         &mut self,
         [force, acceleration, speed]: [f64; 3],
@@ -101,7 +106,7 @@ impl StopPreaction {
             self.time_left = speed / self.deceleration;
             self.carried = 0.0;
         } else {
-            // A stop: the tilt goes on as it went.
+            // A stop: the tilt continues at its rate limit.
             let left_over = if self.reduced { self.tilted_for - force } else { self.carried };
             self.time_left = f64::INFINITY;
             self.carried = (left_over + self.slew * step).min(0.0);
@@ -111,7 +116,8 @@ impl StopPreaction {
         self.move_surge(force, safety, step);
     }
 
-    /// Force for tilt, and force for the splitter, in place of this force.
+    /// The force along x that replaces `force` in the cue, for tilt and for the
+    /// splitter's high-pass.
     pub fn tilted_force(&self, force: f64) -> f64 {
         if self.time_left.is_finite() {
             force.max(FRACTION_AT_STOP * force - self.slew * self.time_left)
@@ -120,7 +126,7 @@ impl StopPreaction {
         }
     }
 
-    /// Time until the vehicle stands, infinite while it does not brake \[s\].
+    /// Time until the vehicle stops, infinite while it does not brake \[s\].
     pub fn time_left(&self) -> f64 {
         self.time_left
     }
@@ -132,16 +138,17 @@ impl StopPreaction {
 
     fn move_surge(&mut self, force: f64, safety: &SafetyParameters, step: f64) {
         let farthest = FRACTION_OF_POSITION * safety.position_limit.x;
-        // Recovering from here takes a third of its time at this speed.
+        // The recovery covers a third of its time times the present speed.
         let room = (self.surge.position + farthest).max(0.0);
         let launching = self.time_left < LAUNCH_TIME && -self.surge.velocity * LAUNCH_TIME < 3.0 * room;
         self.phase = match self.phase {
-            // Given up before it has gone backwards at all: there is nothing to recover from.
+            // Cancelled before the platform moved backwards: there is nothing to recover from.
             Phase::Launching { .. } if !launching && self.surge.velocity > -RECOVERED => Phase::Waiting,
             Phase::Launching { .. } if !launching => Phase::Recovering { from: -self.surge.velocity },
             Phase::Recovering { .. } if self.surge.velocity > -RECOVERED => Phase::Waiting,
             Phase::Waiting if launching => {
-                // Both halves together go 1/3 of acceleration times time squared, at most half of it times time fast.
+                // Both halves together cover acceleration * time^2 / 3, at a speed of at most
+                // acceleration * time / 2.
                 let fastest = FRACTION_OF_VELOCITY * safety.velocity_limit.x;
                 let room = FRACTION_OF_ROOM * room;
                 let acceleration = (3.0 * room / (LAUNCH_TIME * LAUNCH_TIME)).min(2.0 * fastest / LAUNCH_TIME);
@@ -165,7 +172,7 @@ impl StopPreaction {
         };
     }
 
-    /// The surge on its way to a place, too gently to be felt.
+    /// The surge after a step towards a position, too gentle to be felt.
     fn gently_towards(&self, position: f64, safety: &SafetyParameters, step: f64) -> Motion {
         let limits =
             Limits::symmetric(safety.position_limit.x, GENTLE_VELOCITY, GENTLE_ACCELERATION, self.longest_step);

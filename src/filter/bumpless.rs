@@ -6,22 +6,22 @@ use serde::{Deserialize, Serialize};
 
 /// A correction to the inputs of three filters that decays to zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Bump {
+pub struct FadingOffset {
     value: Vector3<f64>,
 }
 
-/// Time constant with which a bump fades \[s\].
+/// Time constant of the decay of an offset \[s\].
 const TIME_CONSTANT: f64 = 0.5;
-/// Bumps below this are over.
+/// Offsets below this become zero.
 const OVER: f64 = 1e-15;
 
-impl Bump {
+impl FadingOffset {
     /// Adds a correction.
     pub fn add(&mut self, value: Vector3<f64>) {
         self.value += value;
     }
 
-    /// Lets `step` seconds pass; the correction at their start and end.
+    /// Advances by `step` seconds. Returns the correction at their start and end.
     pub fn advance(&mut self, step: f64) -> (Vector3<f64>, Vector3<f64>) {
         let start = self.value;
         if start != Vector3::zeros() {

@@ -1,9 +1,11 @@
 //! The filter chain: high-pass, low-pass, velocity and position from one state.
 //!
 //! With D(s) = s^n + c1 s^(n-1) + ... + cn, the chain is D(s) xi = u. Its highest derivative is the
-//! high-pass, s^n/D u = u - (c1 xi^(n-1) + ... + cn xi), and what is subtracted there is the
-//! low-pass 1 - s^n/D, so that the two add up to the input exactly, eq. (6). The first integral of
-//! the high-pass is xi^(n-1) and the second xi^(n-2): no integrator runs free, nothing drifts.
+//! high-pass: s^n/D u = u - (c1 xi^(n-1) + ... + cn xi). The part subtracted there is the low-pass,
+//! 1 - s^n/D. The two therefore add up to the input exactly, eq. (6).
+//!
+//! The first integral of the high-pass is xi^(n-1), the second xi^(n-2). No integrator runs free,
+//! so that nothing drifts.
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
@@ -54,7 +56,8 @@ fn transition(denominator: &Denominator, step: f64) -> Transition {
     matrix[(0, 4)] = 1.0;
     matrix[(4, 5)] = 1.0;
     let scaled = matrix * step;
-    // A state that somebody made up can have any coefficients, and on infinite ones the exponential never ends.
+    // A deserialized state can have any coefficients, and on infinite ones the
+    // exponential never ends.
     let usable = scaled.iter().all(|entry| entry.abs() < 1e30);
     let exponential = if usable { scaled.exp() } else { SMatrix::zeros() };
     let [a, b, c, d, input, slope] = std::array::from_fn(|j| f64x4::from([0, 1, 2, 3].map(|i| exponential[(i, j)])));
@@ -74,7 +77,7 @@ pub struct Chains {
     states: [f64x4; 3],
 }
 
-/// State below this is rest: what decays for long would otherwise end in denormal
+/// State below this is set to zero: what decays for long would otherwise end in denormal
 /// numbers, which are slow.
 const REST: f64x4 = f64x4::new([1e-30; 4]);
 
@@ -99,7 +102,7 @@ impl Chains {
         }
     }
 
-    /// For steps of this length: rarely another than the last.
+    /// Computes the transitions for steps of this length, which rarely changes.
     #[cold]
     fn prepare(&mut self, step: f64) {
         self.transitions = self.denominators.map(|denominator| transition(&denominator, step));
@@ -143,11 +146,11 @@ impl Chains {
         Vector3::from_fn(|k, _| self.states[k].as_array()[i])
     }
 
-    /// Takes other coefficients, keeping the first `kept` states and every later term of the
+    /// Changes the coefficients, keeping the first `kept` states and every later term of the
     /// low-pass as they are.
     ///
-    /// The states that make up the platform's motion are kept; the later ones only remember, and
-    /// are rescaled so that what the filter has already washed out stays so.
+    /// The first states make up the platform's motion and are kept. The later ones are memory only.
+    /// They are rescaled so that what the filter has already washed out stays so.
     pub fn retune(&mut self, denominators: [Denominator; 3], kept: usize) {
         for ((old, new), state) in self.denominators.iter().zip(&denominators).zip(&mut self.states) {
             for i in kept..new.order {

@@ -18,7 +18,7 @@ pub struct CriticallyDamped {
     decay: f64,
 }
 
-/// State below this is rest: what decays for long would otherwise end in denormal
+/// State below this is set to zero: what decays for long would otherwise end in denormal
 /// numbers, which are slow.
 const REST: f64x4 = f64x4::new([1e-30; 4]);
 
@@ -38,8 +38,8 @@ impl CriticallyDamped {
     /// Advances by `step` seconds while the input goes linearly from `start` to `end`; `omega`
     /// \[rad/s\] is above 0.
     ///
-    /// Exact: the response to a ramp of slope s is the ramp, late by 2/omega, and what the outputs
-    /// and their slopes differ from that decays as ((1 + omega t) e + t e') exp(-omega t).
+    /// The solution is exact. The response to a ramp of slope s is the ramp, late by 2/omega. A
+    /// deviation e from it, with slope e', decays as ((1 + omega t) e + t e') exp(-omega t).
     pub fn advance(&mut self, start: Vector3<f64>, end: Vector3<f64>, omega: f64, step: f64) {
         let angle = omega * step;
         if angle != self.angle {

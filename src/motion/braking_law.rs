@@ -1,15 +1,15 @@
-//! The braking law: follow a target, and never exceed a position, velocity or acceleration
-//! limit, whatever it does.
+//! The braking law: follows a target without exceeding a limit of position, velocity or
+//! acceleration, whatever the target does.
 //!
 //! One law serves the safety units, the actuator guard and the tilt tracker. It rests on one
 //! function, [`approach_velocity`]: the velocity from which one can still stop within a distance.
-//! Over a step the acceleration is constant, so position and velocity at the steps' ends are exact
-//! and nothing happens between them unseen.
+//! The acceleration is constant over a step. Position and velocity at the steps' ends are therefore
+//! exact, and determine the motion between them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::motion::Motion;
-use crate::motion::extremes::{max, min};
+use crate::motion::min_max::{max, min};
 
 /// Limits of a motion along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,8 +18,8 @@ pub struct Limits {
     pub max: f64,
     pub velocity: f64,
     pub acceleration: f64,
-    /// The longest step that may ever be taken \[s\]: steps may differ, and whatever the next one
-    /// is, there must be room to brake in it.
+    /// The longest step that may ever be taken \[s\]. Steps may differ: there must be room to brake
+    /// in the next one, however long it is.
     pub longest_step: f64,
 }
 
@@ -29,9 +29,9 @@ impl Limits {
         Limits { min: -position, max: position, velocity, acceleration, longest_step }
     }
 
-    /// The motion after one step towards a target that is at `target.position` at the step's end
-    /// and has `target.velocity`, catching up with at most `catch_up` of acceleration. The limits
-    /// hold whatever the target.
+    /// The motion after one step towards a target. At the step's end the target is at
+    /// `target.position` and has `target.velocity`. Catching up uses an acceleration of at most
+    /// `catch_up`. The limits hold whatever the target.
     ///
     /// If the motion is already outside its limits (they may have been lowered), it comes back
     /// inside as fast as the acceleration limit allows.
@@ -43,8 +43,8 @@ impl Limits {
         self.at_velocity(motion, demanded, step)
     }
 
-    /// The motion after one step at whose end this velocity is demanded. The limits hold whatever
-    /// it is, as in [`Limits::follow`].
+    /// The motion after one step, with this velocity demanded at its end. The limits hold whatever
+    /// the demand, as in [`Limits::follow`].
     #[inline(always)]
     pub fn at_velocity(&self, motion: &Motion, demanded: f64, step: f64) -> Motion {
         let Motion { position, velocity, .. } = *motion;
@@ -78,25 +78,28 @@ impl Limits {
     }
 }
 
-/// The velocity to have at the end of this step, if at its end `distance` would be left at zero
-/// velocity, so as to stop there: w with w^2/(2 a) + w h = distance.
+/// Velocity w at a step's end that leads to a stop in time: w^2/(2 a) + w h = `distance`.
 ///
-/// The first term is the braking distance, v = sqrt(2 a x); the second is what the step itself
-/// covers and what makes the law land without overshoot in discrete time: near the end it asks for
-/// distance/h, and along it the deceleration never exceeds a, since sqrt(v^2 + (a h)^2) - a h >=
-/// v - a h. Where the next step may be longer, h is the mean of this step and the longest.
+/// `distance` is what would be left at the step's end if the velocity there were zero; a is the
+/// acceleration and h the step. The first term is the braking distance, v = sqrt(2 a x). The
+/// second is what the step itself covers. It makes the law land without overshoot in discrete
+/// time: near the end the law demands distance/h. Along it the deceleration never exceeds a, since
+/// sqrt(v^2 + (a h)^2) - a h >= v - a h. Where the next step may be longer, h is the mean of this
+/// step and the longest.
 pub fn approach_velocity(distance: f64, acceleration: f64, step: f64) -> f64 {
     let per_step = acceleration * step;
     let magnitude = (per_step * per_step + 2.0 * acceleration * distance.abs()).sqrt() - per_step;
     magnitude.copysign(distance)
 }
 
-/// A motion that has caught up joins its target when it is this fraction of what one step at the
-/// acceleration limit covers away from where its velocity takes it: far below what can be measured.
+/// A motion that has caught up joins its target when it is at most this times a h^2 away from
+/// where its velocity takes it. Here a is the acceleration limit and h the step. That is far below
+/// what can be measured.
 pub const REJOIN_DISTANCE: f64 = 0.01;
-/// Factor of a limit that may be reached but for rounding.
+/// Factor on a limit that allows for rounding.
 pub const WITH_ROUNDING: f64 = 1.0 + 1e-9;
 /// Largest rounding error of a difference of positions \[m\].
 pub const ROUNDING: f64 = f64::EPSILON;
-/// Catching up uses half the acceleration; the other half is for the target's own.
+/// Fraction of the acceleration that catching up uses; the rest is for the
+/// target's own acceleration.
 pub const CATCH_UP_FRACTION: f64 = 0.5;

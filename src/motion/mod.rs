@@ -1,17 +1,17 @@
 //! Motion along lines and about axes, and the braking law that keeps it within limits.
 //!
-//! [`Motion`] is that of one thing, or of three side by side.
+//! [`Motion`] is one motion, or three side by side.
 
 pub mod braking_law;
-pub(crate) mod extremes;
 pub(crate) mod lanes;
+pub(crate) mod min_max;
 pub mod orientation;
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-/// Position, velocity and acceleration of something that moves along a line, in SI units; with
-/// vectors those of three things side by side, along x, y, z or in roll, pitch, yaw.
+/// Position, velocity and acceleration of a motion along a line or about an axis, in SI units. With
+/// vectors, those of three motions side by side: along x, y, z or in roll, pitch, yaw.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Motion<T = f64> {
     pub position: T,
@@ -27,12 +27,12 @@ impl Motion {
 }
 
 impl Motion<Vector3<f64>> {
-    /// One of them.
+    /// The motion on one axis.
     pub fn axis(&self, k: usize) -> Motion {
         Motion { position: self.position[k], velocity: self.velocity[k], acceleration: self.acceleration[k] }
     }
 
-    /// Each from its axis.
+    /// The motions of three axes side by side.
     pub fn from_axes(motion: impl Fn(usize) -> Motion) -> Self {
         let axes = [motion(0), motion(1), motion(2)];
         Motion {
@@ -42,7 +42,7 @@ impl Motion<Vector3<f64>> {
         }
     }
 
-    /// Adds a motion to one of them.
+    /// Adds a motion to that on one axis.
     pub fn add_to_axis(&mut self, k: usize, motion: &Motion) {
         self.position[k] += motion.position;
         self.velocity[k] += motion.velocity;

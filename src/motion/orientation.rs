@@ -70,8 +70,8 @@ impl Orientation {
     }
 
     /// Angular velocity in the reference frame from the angles' rates, eq. (10): omega = E (roll,
-    /// pitch, yaw)', where E's columns are the axes about which the three angles turn. In axes that
-    /// turn with the heading.
+    /// pitch, yaw)'. E's columns are the axes about which the three angles turn. It is computed in
+    /// axes that turn with the heading.
     pub fn angular_velocity(&self, rates: RollPitchYaw) -> Vector3<f64> {
         self.out_of_heading(Vector3::new(
             self.cos_pitch * rates.roll,
@@ -82,8 +82,9 @@ impl Orientation {
 
     /// Angular acceleration in the reference frame: the time derivative of eq. (10).
     ///
-    /// In axes that turn with the heading, of what [`Orientation::angular_velocity`] has
-    /// there, and of the heading.
+    /// It is computed in axes that turn with the heading, as the sum of two parts. One is the
+    /// derivative of the components of [`Orientation::angular_velocity`] there, the other the
+    /// effect of the heading's rate.
     pub fn angular_acceleration(&self, rates: RollPitchYaw, accelerations: RollPitchYaw) -> Vector3<f64> {
         let (sin, cos) = (self.sin_pitch, self.cos_pitch);
         self.out_of_heading(Vector3::new(
@@ -141,8 +142,8 @@ impl RotationalMotion {
     }
 }
 
-/// The inverse of eq. (10), from sine and cosine of yaw and of pitch; the latter's cosine is
-/// divided by: see [`away_from_zero`].
+/// The inverse of eq. (10), from sine and cosine of yaw and of pitch. It divides by the cosine of
+/// pitch: see [`away_from_zero`].
 pub fn rates_from_reference(
     omega: Vector3<f64>,
     (sin_yaw, cos_yaw): (f64, f64),
@@ -152,8 +153,8 @@ pub fn rates_from_reference(
     RollPitchYaw::new(roll, cos_yaw * omega.y - sin_yaw * omega.x, omega.z + sin_pitch * roll)
 }
 
-/// The cosine of a pitch to divide by in inverting eq. (10), which is singular at 90 degrees: of
-/// magnitude 0.1 at least, so that the rates stay finite beyond a pitch of 84 degrees.
+/// The cosine of a pitch as a divisor, with a magnitude of at least 0.1. The inverse of eq. (10) is
+/// singular at 90 degrees; so bounded, the rates stay finite beyond a pitch of 84 degrees.
 pub fn away_from_zero(cos_pitch: f64) -> f64 {
     const SMALLEST: f64 = 0.1;
     cos_pitch.abs().max(SMALLEST).copysign(cos_pitch)

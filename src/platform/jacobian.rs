@@ -1,11 +1,11 @@
-//! The platform's Jacobian: how the legs' rates follow from the platform's velocity.
+//! The platform's Jacobian, from the platform's velocity to the legs' rates.
 
 use nalgebra::{Matrix6, Vector6};
 
 use super::{Geometry, Joints, Pose};
 
-/// A row for each leg; columns: velocity x, y, z \[m/s\], angular velocity x, y, z
-/// \[rad/s\], in the base frame.
+/// The Jacobian, with a row for each leg. Its columns are the velocity x, y, z \[m/s\] and the
+/// angular velocity x, y, z \[rad/s\], in the base frame.
 pub type Jacobian = Matrix6<f64>;
 
 /// The Jacobian in a pose: row i is (n_i, R a_i x n_i), with n_i the direction of leg i.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::PlatformCoordinates;
 use crate::motion::Motion;
-use crate::motion::extremes::max;
+use crate::motion::min_max::max;
 
 /// A trajectory of the platform from a moving state to rest, and the time already spent on it.
 ///
@@ -74,7 +74,7 @@ impl StopPlan {
     pub fn times_until_within(&self, limits: &Vector3<f64>) -> [f64; 3] {
         let StopPlan { start, durations, elapsed } = self;
         std::array::from_fn(|k| {
-            // An axis that rests from the start has no time of its own: the product is no number.
+            // On an axis that rests from the start the product is NaN; its time is then zero.
             let end = durations.linear[k] * (1.0 - limits[k] / start.linear.velocity[k].abs());
             max(end - elapsed, 0.0)
         })

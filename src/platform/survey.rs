@@ -1,4 +1,4 @@
-//! A survey of a rig: is its platform free of singularities wherever its legs can go?
+//! A survey of a rig for singularities, over all lengths of its legs.
 
 use nalgebra::Vector3;
 
@@ -14,8 +14,8 @@ const PARTS: usize = 2;
 
 /// Result of a survey over a grid of leg lengths, 4 levels for each leg.
 ///
-/// Both figures are of the Jacobian with angular velocity counted as the speed of a point at the
-/// platform joints' mean radius, so that they have no unit and do not depend on the rig's size.
+/// In the Jacobian, angular velocity counts as the speed of a point at the platform joints' mean
+/// radius. Both figures therefore have no unit and do not depend on the rig's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Survey {
     /// Smallest singular value.
@@ -32,10 +32,10 @@ pub struct SurveyFailed {
 
 /// Surveys a rig over the whole box of its leg lengths.
 ///
-/// From neutral the platform is followed by forward kinematics from grid point to grid
-/// point, each one leg's move away from the last. At each the Jacobian must be well
-/// conditioned and its determinant of the sign it has at neutral: a change of sign tells of
-/// a singularity between the points.
+/// From neutral the platform is followed by forward kinematics from grid point to grid point,
+/// each one leg's move away from the last. At each the Jacobian must be well conditioned, and
+/// its determinant must have the sign that it has at neutral. A change of sign means a
+/// singularity between the points.
 ///
 /// ```
 /// use moris_washout::Rig;

@@ -79,4 +79,4 @@ def test_the_bound_encloses_scipy_s_optimum():
     assert least <= means + 1e-6
     assert abs(attained - whole) < 2e-3 * whole
     assert attained - least < 0.1 * attained, "scipy has little room to be wrong in"
-    assert means > 0.3, "the ride asks for too much, or there is nothing to compare"
+    assert means > 0.3, "nothing is left to compare"

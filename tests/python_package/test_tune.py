@@ -111,7 +111,7 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
         "platform": {"radius": 0.85, "degrees": [-52, 52, 68, 172, 188, 292]},
         "actuator": {"minLength": 1.0, "maxLength": 1.6, "velocityLimit": 1.0, "accelerationLimit": 15.0},
     }
-    with pytest.raises(moris.NoParametersFound, match="no parameters were found with which every recording stays clear"):
+    with pytest.raises(moris.NoFeasibleParameters, match="no parameters were found with which every recording stays clear"):
         moris.tune(recordings[:1], rig=rig, stroke_reserve=0.29, groups=["angular"], evaluations=20)
 
 

@@ -81,7 +81,7 @@ def leg_ends(data, run, k):
 
 def projected(page, point):
     """Where a point must be in the picture, from nothing but where the camera stands and the focal length."""
-    camera = page.evaluate("(({azimuth, elevation, eye, focal, middle}) => ({azimuth, elevation, eye, focal, middle}))(rideReport.view.camera)")
+    camera = page.evaluate("(({azimuth, elevation, eye, focal, middle}) => ({azimuth, elevation, eye, focal, middle}))(simulationReport.view.camera)")
     a, e = camera["azimuth"], camera["elevation"]
     ahead = [-math.cos(e) * math.cos(a), -math.cos(e) * math.sin(a), -math.sin(e)]
     right = [-math.sin(a), math.cos(a), 0.0]
@@ -92,7 +92,7 @@ def projected(page, point):
 
 
 def assert_legs_are_drawn(page, data, run, k, what):
-    drawn = page.evaluate("rideReport.view.drawnLegs")
+    drawn = page.evaluate("simulationReport.view.drawnLegs")
     for leg, (ends, pictures) in enumerate(zip(leg_ends(data, run, k), drawn, strict=True)):
         near(math.dist(*ends), run["legs"][leg][k], ROUNDING, f"{what}, length of leg {leg + 1}")
         for end, picture in zip(ends, pictures):
@@ -106,7 +106,7 @@ def pages_are_quiet_and_ask_for_nothing(browser):
         for scheme in ("light", "dark"):
             with opened(browser, name, color_scheme=scheme) as page:
                 assert not page.locator("#alarm").is_visible()
-                page.evaluate("rideReport.seek(3.7)")
+                page.evaluate("simulationReport.seek(3.7)")
                 page.screenshot(path=PICTURES / f"{name}-{scheme}.png")
 
 
@@ -135,7 +135,7 @@ def the_head_leans_with_the_rider(browser):
             turn = rotation(*(angle[k] for angle in run["orientation"]))
             place = [axis[k] + sum(turn[i][j] * head[j] for j in range(3)) for i, axis in enumerate(run["position"])]
             set_slider(page, run["times"][k])
-            near(math.dist(projected(page, place), page.evaluate("rideReport.view.drawnHead")), 0.0, PIXEL, f"head at sample {k}")
+            near(math.dist(projected(page, place), page.evaluate("simulationReport.view.drawnHead")), 0.0, PIXEL, f"head at sample {k}")
         assert max(abs(run["lean"][k]) for k in (1800, 2600)) > 0.1, "nobody leans at the samples looked at"
 
 
@@ -143,13 +143,13 @@ def the_head_leans_with_the_rider(browser):
 def the_mouse_turns_the_view(browser):
     data = plain("two-runs")
     with opened(browser, "two-runs") as page:
-        before = page.evaluate("rideReport.view.drawnLegs")
+        before = page.evaluate("simulationReport.view.drawnLegs")
         box = page.locator("#view").bounding_box()
         page.mouse.move(box["x"] + 200, box["y"] + 300)
         page.mouse.down()
         page.mouse.move(box["x"] + 320, box["y"] + 340, steps=5)
         page.mouse.up()
-        assert math.dist(before[0][1], page.evaluate("rideReport.view.drawnLegs")[0][1]) > 20
+        assert math.dist(before[0][1], page.evaluate("simulationReport.view.drawnLegs")[0][1]) > 20
         assert_legs_are_drawn(page, data, data["runs"][0], 0, "turned")
         for name in ("side", "front", "above", "oblique"):
             page.get_by_role("button", name=name).click()
@@ -208,16 +208,16 @@ def charts_are_zoomed_and_clicked(browser):
         x_of = lambda time: box["x"] + 52 + (box["width"] - 62) * time / 60
         y = box["y"] + 20
         page.mouse.click(x_of(30), y)
-        near(page.evaluate("rideReport.now.time"), 30, 0.1, "clicked time")
+        near(page.evaluate("simulationReport.now.time"), 30, 0.1, "clicked time")
         page.mouse.move(x_of(20), y)
         page.mouse.down()
         page.mouse.move(x_of(45), y, steps=4)
         page.mouse.up()
-        for found, expected in zip(page.evaluate("rideReport.now.shown"), (20, 45)):
+        for found, expected in zip(page.evaluate("simulationReport.now.shown"), (20, 45)):
             near(found, expected, 0.1, "shown time")
         page.screenshot(path=PICTURES / "zoomed.png")
         page.get_by_role("button", name="Whole ride").click()
-        assert page.evaluate("rideReport.now.shown") == [0, 60]
+        assert page.evaluate("simulationReport.now.shown") == [0, 60]
 
 
 @check
@@ -227,12 +227,12 @@ def the_wheel_zooms_and_moves(browser):
         box = page.locator(".plot").first.bounding_box()
         x_of = lambda share: box["x"] + 52 + (box["width"] - 62) * share
         y = box["y"] + 20
-        shown = lambda: page.evaluate("rideReport.now.shown")
+        shown = lambda: page.evaluate("simulationReport.now.shown")
         page.mouse.move(x_of(0.5), y)
         page.keyboard.down("Control")
         page.mouse.wheel(0, -400)
         page.keyboard.up("Control")
-        page.wait_for_function("rideReport.now.shown[1] < 60")
+        page.wait_for_function("simulationReport.now.shown[1] < 60")
         zoomed = shown()
         near(sum(zoomed) / 2, 30, 0.2, "middle of the zoom")
         page.keyboard.down("Shift")
@@ -283,7 +283,7 @@ def curves_differ_without_colour_and_in_words(browser):
 def findings_and_axes_are_those_of_all_runs(browser):
     """Findings follow the run that is shown; the vertical axis does not change with it."""
     with opened(browser, "two-runs") as page:
-        ranges = lambda: page.evaluate("rideReport.ranges()")
+        ranges = lambda: page.evaluate("simulationReport.ranges()")
         before = ranges()
         for name, text in (("soft", "four seconds less"), ("small-motions", "hold the platform back"), ("default", "No leg comes")):
             page.get_by_role("button", name=name).click()
@@ -340,12 +340,12 @@ def it_plays_at_real_speed(browser):
         page.clock.pause_at(3_600_000)
         page.get_by_role("button", name="Play").click()
         page.clock.run_for(2000)
-        near(page.evaluate("rideReport.now.time"), 2.0, 0.05, "time after two seconds")
+        near(page.evaluate("simulationReport.now.time"), 2.0, 0.05, "time after two seconds")
         page.locator("#speed").select_option("5")
         page.clock.run_for(2000)
-        near(page.evaluate("rideReport.now.time"), 12.0, 0.2, "time after two more, five times as fast")
+        near(page.evaluate("simulationReport.now.time"), 12.0, 0.2, "time after two more, five times as fast")
         page.clock.run_for(12000)
-        assert page.evaluate("[rideReport.now.time, rideReport.now.playing]") == [60, False]
+        assert page.evaluate("[simulationReport.now.time, simulationReport.now.playing]") == [60, False]
         assert page.locator("#play").inner_text() == "Play"
 
 

@@ -1,5 +1,5 @@
-//! The braking law: inviolable, invisible while it has nothing to do, and
-//! without a jump in between.
+//! The braking law: its limits always hold, inside them it changes nothing, and
+//! it acts without a jump.
 
 use moris_washout::cueing::direct_linear::DirectLinearMotion;
 use moris_washout::cueing::safety::SafetyUnits;
@@ -14,7 +14,7 @@ use crate::common::chain::Chain;
 use crate::common::random::Random;
 use crate::common::{cases, parameters};
 
-/// A target that moves as nothing can, and now and then as something can.
+/// A target that often jumps, to numbers of any size or none, and otherwise moves as a body can.
 fn hostile_target(random: &mut Random, last: &Motion, step: f64) -> Motion {
     match random.below(8) {
         0 => Motion {
@@ -55,7 +55,7 @@ proptest! {
     fn limits_hold_whatever_the_target(
         seed: u64, velocity in 0.1..3.0, acceleration in 1.0..30.0, range in 0.01..1.0, longest in 1e-4..0.05, kept in 1..30_u64,
     ) {
-        // Axes of different temper.
+        // Different limits on each axis.
         let limits = SafetyParameters {
             position_limit: range * Vector3::new(1.0, 0.3, 2.0),
             velocity_limit: velocity * Vector3::new(1.0, 2.0, 0.5),
@@ -149,7 +149,8 @@ fn the_limit_is_reached_and_left_without_a_jump() {
         let demand = unit.advance_filters([force; 2], 0.001);
         let now = *unit.advance_within_limits(&demand, &safety, 0.001);
         let moved = now.position - before.position - 0.0005 * (now.velocity + before.velocity);
-        // A jump is what velocities do not account for: at most the hundredth of what an acceleration does in a step.
+        // A jump is a displacement beyond the mean velocity times the step. It
+        // is at most 0.01 a h^2.
         assert!(moved.amax() <= 0.0101 * 10.0 * 1e-6, "at {k}: {moved}");
         assert!((now.velocity - before.velocity).amax() <= 10.0 * 0.001 * (1.0 + 1e-9));
         farthest = farthest.max(now.position.amax());

@@ -1,5 +1,5 @@
-//! Where the paper is silent, contradicts itself or errs, and what the washout does: one
-//! test for each erratum.
+//! The washout's behaviour where the paper is silent, contradicts itself or errs. Each
+//! erratum has one test.
 
 use moris_washout::cueing::compensation::{added_gravity, centripetal, tangential};
 use moris_washout::cueing::gravitational::Tilt;
@@ -49,8 +49,8 @@ fn an_upright_head_is_above_the_platforms_origin() {
     }
 }
 
-/// The largest disturbance of the felt surge by pitching alone, with this item of `compensation`:
-/// the platform pitches because the vehicle does, and gravity's part of what is felt is taken off.
+/// The largest disturbance of the felt surge by pitching alone, with this item of `compensation`.
+/// The platform pitches because the vehicle does. Gravity's part of the felt surge is subtracted.
 fn disturbance_by_pitching(compensation: f64) -> f64 {
     let mut washout =
         washout(&[("compensation", compensation), ("splitter.x.omega1", 0.2), ("splitter.x.omega2", 0.2)]);
@@ -66,8 +66,8 @@ fn disturbance_by_pitching(compensation: f64) -> f64 {
     largest
 }
 
-/// The largest error of the felt surge and sway on a vehicle that pitches and rolls
-/// and is not accelerated.
+/// The largest error of the felt surge and sway on a vehicle that turns without acceleration.
+/// It pitches and rolls.
 fn error_of_turning(compensation: f64) -> f64 {
     let slow = [
         ("splitter.x.omega1", 0.03),
@@ -124,7 +124,8 @@ fn the_tangential_term_is_the_larger_and_is_compensated() {
 
 #[test]
 fn tangential_and_centripetal_terms_are_those_of_circular_motion() {
-    // A point on a circle of radius 2 in the x-y plane, angle angle: p'' from the coordinates' second derivatives.
+    // A point on a circle of radius 2 in the x-y plane, at the angle `angle`: p'' from the second
+    // derivatives of the coordinates.
     let (radius, angle, rate, acceleration) = (2.0, 0.7_f64, 1.3, -0.4);
     let (s, c) = angle.sin_cos();
     let arm = Vector3::new(radius * c, radius * s, 0.0);
@@ -139,7 +140,7 @@ fn tangential_and_centripetal_terms_are_those_of_circular_motion() {
 
 #[test]
 fn eq_8_takes_the_components_in_the_heads_axes() {
-    // In the head's axes the steady state is exact; what the base's would give is far from it.
+    // In the head's axes the steady state is exact; in the base's it is far from that.
     let mut washout = washout(&[]);
     ride(&mut washout, 60.0, 0.01, |_| accelerating(2.5, 2.0, 0.0), |_, _| {});
     let output = washout.output();

@@ -15,7 +15,7 @@ use crate::common::cases;
 use crate::common::random::Random;
 use crate::common::rotation::{Vec3, to_base, turn};
 
-/// How far the joints of the base and of the platform are above their planes \[m\].
+/// Heights of the joints of the base and of the platform above their planes \[m\].
 const BASE_HEIGHTS: [f64; 6] = [0.02, -0.03, 0.0, 0.04, -0.01, 0.03];
 const PLATFORM_HEIGHTS: [f64; 6] = [-0.02, 0.01, 0.03, 0.0, -0.04, 0.02];
 
@@ -200,7 +200,7 @@ fn forward_kinematics_inverts_at_random_points_of_the_box() {
     }
 }
 
-/// Rounding keeps legs of hundreds of metres from the tolerance; what is reached is accepted.
+/// On legs of kilometres, rounding errors exceed the tolerance; the pose reached is accepted.
 #[test]
 fn forward_kinematics_of_a_huge_rig_ends_where_rounding_does() {
     const SIZE: f64 = 2000.0;

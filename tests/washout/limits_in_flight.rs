@@ -1,4 +1,4 @@
-//! Limits changed in motion, and machines slower than what is demanded of them: no limit gives way.
+//! Limits changed in motion, and machines slower than their demand: all limits hold.
 
 use moris_washout::interface::RollPitchYaw;
 use moris_washout::{Input, Parameters, Washout};
@@ -8,9 +8,9 @@ use crate::common::limits::Watch;
 use crate::common::random::Random;
 use crate::common::{G, accelerating, parameters};
 
-/// Pushes along one axis for `change_at` seconds, changes a parameter, and pushes on for 4 s. All
-/// the time the legs and the platform keep the limits; those of the platform are the old ones until
-/// it can have come to rest within them.
+/// Pushes along one axis for `change_at` seconds, changes a parameter, and pushes on for 4 s. The
+/// legs and the platform keep their limits all the time. The platform's old limits apply until it
+/// can have come to rest within the new ones.
 fn push_and_change(set: &[(&str, f64)], push: Vector3<f64>, change_at: f64, name: &str, value: f64) {
     const STEP: f64 = 0.001;
     let before = parameters(set);

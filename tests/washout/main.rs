@@ -1,7 +1,7 @@
-//! The mathematics of the washout against closed forms, integrations, differences and identities
-//! that are computed here, with code of its own.
+//! The mathematics of the washout against closed forms, integrations, differences and identities.
+//! All of these are computed here, with independent code.
 //!
-//! One binary for all topics: they share helpers, and are linked once.
+//! There is one binary for all topics: they share helpers, and are linked once.
 
 mod braking_law;
 mod chain;

@@ -1,4 +1,4 @@
-//! The paper's three runs, and what it claims of them.
+//! The paper's three runs, and its claims about them.
 
 use moris_washout::{Input, Output, Washout, presets};
 
@@ -7,8 +7,8 @@ use crate::common::{correlation, from_neutral, parameters, rms_difference, washo
 
 const STEP: f64 = 0.001;
 
-/// Rides a run with the default parameters, and checks what holds in all of
-/// them. Returns the outputs.
+/// Simulates a run with the paper's parameters, and checks what holds in all
+/// runs. Returns the outputs.
 fn simulated(duration: f64, input: impl Fn(f64) -> Input) -> Vec<Output> {
     let mut washout = washout(&[]);
     let tilt = parameters(&[]).tilt;

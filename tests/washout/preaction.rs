@@ -1,5 +1,5 @@
-//! Preaction: a brusque stop is felt far better, and a braking that is released
-//! is felt as without it.
+//! Preaction: an abrupt stop is felt far better. A braking that is released before the stop is felt
+//! as without preaction.
 
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::{Input, Output, Parameters, Washout, presets};
@@ -42,7 +42,7 @@ fn smooth(t: f64, start: f64, duration: f64) -> (f64, f64) {
 /// When the paper's third run stops \[s\].
 const STOP: f64 = 22.0 + 10.5 / 2.0 + 2.2 * 11.0 / 3.5;
 
-/// The paper's third run: accelerate, and brake with 3.5 m/s2 to a brusque stop.
+/// The paper's third run: accelerate, and brake with 3.5 m/s2 to an abrupt stop.
 fn run_c(t: f64) -> (f64, f64) {
     if t >= STOP {
         return (0.0, 0.0);
@@ -53,8 +53,8 @@ fn run_c(t: f64) -> (f64, f64) {
     (2.2 * (up - down) - 3.5 * brake, 2.2 * (gained - held) - 3.5 * lost)
 }
 
-/// From 28 m/s, braked with 3 m/s2 from 2 s on; until `RELEASE` tenths of a second later, when the
-/// brake is let go in another.
+/// From 28 m/s, braked with 3 m/s2 from 2 s on. `RELEASE` tenths of a second later the brake is
+/// released within another tenth.
 fn braked<const RELEASE: u32>(t: f64) -> (f64, f64) {
     let (brake, lost) = smooth(t, 2.0, 1.0);
     let (release, kept) = smooth(t, 2.0 + 0.1 * f64::from(RELEASE), 0.1);
@@ -94,7 +94,7 @@ fn a_braking_released_early_changes_nothing() {
 
 #[test]
 fn a_braking_released_with_the_stop_in_sight_is_felt_as_without() {
-    // 5 s before it would stand the platform has been moved forward, and nothing else.
+    // 5 s before the stop the platform has moved forward, and nothing else has happened.
     let (_, on) = simulated(true, 40.0, braked::<50>);
     let (_, off) = simulated(false, 40.0, braked::<50>);
     let mut moved = 0.0_f64;
@@ -112,7 +112,7 @@ fn a_braking_released_at_the_last_moment_is_forgotten() {
     let (asked, outputs) = simulated(true, 40.0, braked::<80>);
     let (_, without) = simulated(false, 40.0, braked::<80>);
     assert!(outputs.iter().all(|output| !output.actuator_limited && !output.safety_active));
-    // No worse than without: letting go is as brusque as a stop.
+    // No worse than without: the release is as abrupt as a stop.
     let all = 0..outputs.len();
     assert!(errors(&asked, &outputs, all.clone()).0 < errors(&asked, &without, all).0);
     assert!(displacement(outputs.last().unwrap()) < 1e-3);

@@ -96,7 +96,7 @@ fn no_tunable_parameter_makes_anything_jump() {
                 assert_no_jump(&changed.output(), &unchanged.output(), &what);
             };
             after(&mut changed);
-            // What follows may not jump either, and the legs keep their limits.
+            // The steps after that may not jump either, and the legs keep their limits.
             let mut watch = Watch::new(changed.parameters(), &changed.output());
             let mut last = changed.output();
             for k in 6001..9000 {
@@ -144,7 +144,7 @@ fn retuning_with_the_same_parameters_changes_nothing() {
     assert!((a.orientation.to_vector() - b.orientation.to_vector()).amax() < 1e-12);
 }
 
-/// The filters of the rates remember what they were driven by, low-passed rates included.
+/// The rates that drive the angular channel are the low-passed ones. Retuning continues from those.
 #[test]
 fn a_change_elsewhere_leaves_the_angular_channel_as_it_is() {
     let mut changed = washout(&[]);
@@ -164,9 +164,11 @@ fn a_change_elsewhere_leaves_the_angular_channel_as_it_is() {
     }
 }
 
-/// A washout retuned at rest moves as one that was made with the parameters. Two exceptions:
-/// without removal of gravity rest is itself a cue, which fades in after a change, and the adaptive
-/// strategy's gains start at their nominal values but move there after a change.
+/// A washout retuned at rest moves as one that was made with the parameters.
+///
+/// There are two exceptions. Without removal of gravity, rest is itself a cue, which fades in
+/// after a change. The adaptive strategy's gains start at their nominal values, but after a change
+/// they only move there.
 #[test]
 fn after_retuning_at_rest_the_motion_is_the_new_parameters() {
     let strategy = Washout::IDENTITY.slot("strategy").unwrap();

@@ -1,5 +1,8 @@
-//! For small signals on a single axis the washout is linear: its position is s^2/D of the force,
-//! its angle s^3/D of the rate, and its tilt the arcsine of 1 - s^4/D.
+//! Linearity of the washout for small signals on a single axis.
+//!
+//! - Position: s^2/D of the force.
+//! - Angle: s^3/D of the rate.
+//! - Tilt: the arcsine of 1 - s^4/D of the force, over gravity.
 
 use moris_washout::Input;
 use nalgebra::Vector3;
@@ -11,15 +14,15 @@ const STEP: f64 = 0.001;
 /// 0.01 m/s2 or rad/s.
 const AMPLITUDE: f64 = 0.01;
 
-/// The default set's D(s) = (s + 2.5)^4 and (s + 1)^4, as xi'''' = u - ...; the states
+/// The paper's set has D(s) = (s + 2.5)^4 and (s + 1)^4, here as xi'''' = u - ... . The states
 /// are xi''' down to xi.
 fn chain_derivative(omega: f64, u: f64, [a, b, c, d]: &[f64; 4]) -> [f64; 4] {
     let (o2, o3, o4) = (omega * omega, omega.powi(3), omega.powi(4));
     [u - 4.0 * omega * a - 6.0 * o2 * b - 4.0 * o3 * c - o4 * d, *a, *b, *c]
 }
 
-/// The chain's states over 20 s of an input held over each millisecond, with eight steps
-/// of Runge-Kutta in each.
+/// The chain's states over 20 s, with the input held over each millisecond. Each has eight
+/// steps of Runge-Kutta.
 fn integrated(omega: f64, u: impl Fn(f64) -> f64) -> Vec<[f64; 4]> {
     let mut state = [0.0; 4];
     (0..20_000)

@@ -1,4 +1,4 @@
-//! The outputs that tell of limits.
+//! The outputs that report limits.
 
 use moris_washout::interface::{RollPitchYaw, StrategyKind};
 use moris_washout::{Input, Output, Washout};
@@ -28,7 +28,7 @@ fn the_stroke_margin_is_the_distance_to_the_nearer_end_of_any_stroke() {
     assert!(near_short > 100 && near_long > 100, "{near_short} {near_long}");
 }
 
-/// Blows and rests, each of which makes something be limited for a while.
+/// Blows and rests. Each blow makes a limit act for a while.
 fn blows(k: usize, force: f64, rate: f64) -> Input {
     let blow = |period: usize, value: f64| if (k / period).is_multiple_of(5) { value } else { 0.0 };
     Input {
@@ -39,8 +39,7 @@ fn blows(k: usize, force: f64, rate: f64) -> Input {
     }
 }
 
-/// Their derivatives, which a host may ask for, are differences of the legs'
-/// velocities over a step.
+/// The derivatives of the legs' velocities, which a host may ask for, are differences over a step.
 #[test]
 fn a_limited_platform_has_the_accelerations_of_its_velocities() {
     const STEP: f64 = 0.001;
@@ -78,8 +77,8 @@ fn flags(output: &Output) -> [bool; 3] {
     [output.tilt_limited, output.safety_active, output.actuator_limited]
 }
 
-/// How often each flag's cause ended before the last internal step of a communication step,
-/// whose flags tell of all.
+/// Number of communication steps in which each flag's cause ended before the last internal step. A
+/// communication step's flags cover all its internal steps.
 fn ended_within_a_step(set: &[(&str, f64)], force: f64, rate: f64) -> [usize; 3] {
     const INTERNAL: usize = 8;
     const STEP: f64 = 0.001;
@@ -114,8 +113,8 @@ fn the_flags_tell_of_every_internal_step() {
     assert!(tilt > 1 && safety > 1 && actuator > 1, "{tilt} {safety} {actuator}");
 }
 
-/// Limits of velocity tightened in motion show in the status until they are kept, whatever the
-/// strategy.
+/// A limit of velocity tightened in motion shows in the status until it is kept,
+/// whatever the strategy.
 #[test]
 fn a_speed_above_a_tightened_limit_shows() {
     use StrategyKind::{Adaptive, Classical, Optimal, Predictive};

@@ -1,5 +1,5 @@
-//! `cargo describe-models`: writes every model's descriptions into the files that are checked in
-//! under `modelDescription`, so that every change of an interface shows in a diff.
+//! `cargo describe-models`: writes every model's descriptions into the files under
+//! `modelDescription`. They are checked in, so that every change of an interface shows in a diff.
 
 use std::fs;
 use std::io;

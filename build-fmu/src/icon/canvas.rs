@@ -11,14 +11,14 @@ pub type Point = (f32, f32);
 /// A colour: red, green and blue.
 pub type Colour = [u8; 3];
 
-/// The picture, and how what is drawn is moved and scaled on its way there.
+/// The picture, with the transformation applied to what is drawn.
 pub struct Canvas {
     picture: Pixmap,
     transform: Transform,
 }
 
 impl Canvas {
-    /// An empty picture, drawn on as it is.
+    /// An empty picture, without a transformation.
     pub fn new() -> Self {
         let picture = Pixmap::new(u32::from(SIZE), u32::from(SIZE)).expect("the size is not zero");
         Canvas { picture, transform: Transform::identity() }

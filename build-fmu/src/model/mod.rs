@@ -6,7 +6,7 @@ mod washout;
 
 use std::path::PathBuf;
 
-use moris_interface::{Identity, Model as Interface, ParameterError, SlotModel, start_values};
+use moris_interface::{Identity, Model, ParameterError, SlotModel, start_values};
 use moris_model_description::{fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
@@ -21,10 +21,10 @@ pub use stewart_platform::STEWART_PLATFORM;
 pub use washout::WASHOUT;
 
 /// Every model, in the order in which they are built.
-pub const MODELS: &[Model] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
+pub const MODELS: &[FmuModel] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
 
 /// Data of a model for the build.
-pub struct Model {
+pub struct FmuModel {
     /// The model's name, which in the FMU is also the shared library's.
     pub name: &'static str,
     /// The cargo packages that are the shared libraries for FMI 2.0 and for FMI 3.0.
@@ -82,8 +82,8 @@ impl Wording {
 pub struct ModelFns {
     /// Who it is and what its variables are.
     pub identity: Identity,
-    /// The start values with others, by slot, laid over the model's own.
-    pub start: fn(others: &[(usize, f64)]) -> Vec<f64>,
+    /// The start values with overrides by slot.
+    pub start: fn(overrides: &[(usize, f64)]) -> Vec<f64>,
     /// Checks that the model can start with these values.
     pub check: fn(start: &[f64]) -> Result<(), ParameterError>,
     /// The model description of FMI 2.0.
@@ -100,7 +100,7 @@ pub struct ModelFns {
 
 impl ModelFns {
     /// From the model of this type.
-    const fn from<M: Interface>() -> Self {
+    const fn from<M: Model>() -> Self {
         ModelFns {
             identity: M::IDENTITY,
             start: start_values::<M>,
@@ -145,7 +145,7 @@ const fn terminal(
     Terminal { name, kind, text, members }
 }
 
-impl Model {
+impl FmuModel {
     /// The cargo package that is the shared library.
     pub fn package(&self, fmi: FmiVersion) -> &'static str {
         fmi.choose(self.packages[0], self.packages[1])

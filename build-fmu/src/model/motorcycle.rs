@@ -8,12 +8,12 @@ use moris_motorcycle::path::table::from_csv;
 
 use moris_setup::{NamedValues, changed};
 
-use super::{Model, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
+use super::{FmuModel, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
 use crate::{Error, icon};
 
 /// The motorcycle's FMU.
-pub const MOTORCYCLE: Model = Model {
+pub const MOTORCYCLE: FmuModel = FmuModel {
     name: "Motorcycle",
     packages: ["moris-motorcycle-fmi2", "moris-motorcycle-fmi3"],
     libraries: ["Motorcycle", "Motorcycle_fmi3"],
@@ -22,11 +22,7 @@ pub const MOTORCYCLE: Model = Model {
     derived_start_values: |_| NamedValues::new(),
     consistency: |_| Ok(()),
     sections: &[
-        Section {
-            anchor: "what",
-            heading: "Overview",
-            html: include_str!("../../documentation/Motorcycle/what.html"),
-        },
+        Section { anchor: "what", heading: "Overview", html: include_str!("../../documentation/Motorcycle/what.html") },
         Section {
             anchor: "connect",
             heading: "Connections",

@@ -5,12 +5,12 @@ use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
-use super::{ACTUATORS, Model, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, terminal};
+use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
 /// The platform's FMU.
-pub const STEWART_PLATFORM: Model = Model {
+pub const STEWART_PLATFORM: FmuModel = FmuModel {
     name: "StewartPlatform",
     packages: ["moris-stewart-platform-fmi2", "moris-stewart-platform-fmi3"],
     libraries: ["StewartPlatform", "StewartPlatform_fmi3"],

@@ -4,12 +4,12 @@ use moris_interface::SlotModel;
 use moris_setup::{NamedValues, check_consistency};
 use moris_washout::Washout;
 
-use super::{ACTUATORS, Model, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
+use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
 use crate::documentation::Section;
 use crate::icon;
 
 /// The washout's FMU.
-pub const WASHOUT: Model = Model {
+pub const WASHOUT: FmuModel = FmuModel {
     name: "MorisWashout",
     packages: ["moris-washout-fmi2", "moris-washout-fmi3"],
     libraries: ["MorisWashout", "MorisWashout_fmi3"],

@@ -1,8 +1,8 @@
 //! System structure packages (SSP 1.0): several FMUs, how they are connected, and the parameters
 //! they start with.
 //!
-//! `cargo build-ssp` is the command; [`build`] is the same for a program. Which systems there are
-//! is in [`system`], what is written of one in [`describe`](mod@describe) and [`parameter_set`], in
+//! `cargo build-ssp` is the command; [`build`] is the same for a program. The systems are in
+//! [`system`]. Their files are made by [`describe`](mod@describe) and [`parameter_set`], in
 //! the terms of [`schema`].
 
 pub mod describe;
@@ -34,15 +34,15 @@ pub enum Form {
 /// Where a package has its FMUs and parameters.
 const RESOURCES: &str = "resources";
 
-/// Builds a system's package of this form into the directory `output`, which is made where it does
-/// not exist, and says through `report` what it does, a line at a time.
+/// Builds a system's package of this form into the directory `output`, which is created if it does
+/// not exist. Progress goes to `report`, a line at a time.
 ///
-/// Without platforms the FMUs are for this machine. They are of FMI 2.0, which is what SSP 1.0
-/// knows.
+/// Without platforms the FMUs are for this machine. They are of FMI 2.0, the version
+/// that SSP 1.0 supports.
 ///
 /// # Errors
-/// An FMU cannot be built, the system's parameters name what there is not, or the package cannot be
-/// written.
+/// An FMU cannot be built, the system's parameters name something that does not exist, or the
+/// package cannot be written.
 pub fn build(
     system: &System,
     form: Form,
@@ -68,7 +68,7 @@ pub fn build(
 /// The files of a package without its FMUs.
 ///
 /// # Errors
-/// The system's parameters name what there is not.
+/// The system's parameters name something that does not exist.
 pub fn description(system: &System, form: Form) -> Result<Contents, Error> {
     let parameters = match system.place {
         Place::Sets => parameter_set::read(system)?,

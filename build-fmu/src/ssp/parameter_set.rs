@@ -14,7 +14,7 @@ pub type ByComponent = Vec<(String, Vec<schema::Parameter>)>;
 /// The parameters of a system's components.
 ///
 /// # Errors
-/// The text is no TOML, or names a component, a parameter or a value that there is not.
+/// The text is no TOML, or names a component, a parameter or a value that does not exist.
 pub fn read(system: &System) -> Result<ByComponent, Error> {
     let parameters = |(component, values): (&Component, Table)| {
         let (name, identity) = (component.name, &component.model.functions.identity);

@@ -8,7 +8,7 @@ use crate::{Error, Start};
 /// The start values of each component's FMU, in the components' order.
 ///
 /// # Errors
-/// The text is no TOML, or names a component, a parameter or a value that there is not.
+/// The text is no TOML, or names a component, a parameter or a value that does not exist.
 pub fn read(system: &System) -> Result<Vec<Start>, Error> {
     let tables = match system.place {
         Place::Sets => Vec::new(),

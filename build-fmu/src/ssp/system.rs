@@ -4,7 +4,7 @@ use moris_interface::{Causality, Identity};
 use toml::{Table, Value};
 
 use crate::Error;
-use crate::model::{MOTORCYCLE, Model, STEWART_PLATFORM, WASHOUT};
+use crate::model::{FmuModel, MOTORCYCLE, STEWART_PLATFORM, WASHOUT};
 
 /// FMUs and how they are connected.
 pub struct System {
@@ -55,9 +55,9 @@ pub struct Port {
 /// An FMU in a system.
 pub struct Component {
     pub name: &'static str,
-    pub model: &'static Model,
-    /// Outputs to be seen from outside besides the connected ones: these variables, and those whose
-    /// names begin so and go on with a dot or an index. `*` stands for an index.
+    pub model: &'static FmuModel,
+    /// Outputs with a connector although nothing is connected to them: these variables, and those
+    /// whose names continue one of these with a dot or an index. `*` stands for an index.
     pub shown: &'static [&'static str],
 }
 
@@ -90,8 +90,8 @@ pub const MOTORCYCLE_SIMULATOR: System = System {
     step_size: 0.001,
 };
 
-/// The simulator on a lap: the motorcycle follows the path by itself, and the washout knows what
-/// comes.
+/// The simulator on a lap: the motorcycle follows the path by itself, and the
+/// washout has a preview.
 pub const MOTORCYCLE_LAP: System = System {
     name: "MotorcycleLap",
     text: "A motorcycle that rides a lap by itself, the washout filter with a preview of it, and the Stewart platform",
@@ -176,10 +176,10 @@ fn simulator_connections(preview: Preview) -> Vec<Connection> {
         to: (to, input),
     };
     let delivered = names(&MOTORCYCLE.functions.identity, Causality::Output);
-    let is_taken = |name: &String| preview == Preview::Connected || !name.starts_with("vehicle.preview.");
+    let is_connected = |name: &String| preview == Preview::Connected || !name.starts_with("vehicle.preview.");
     let taken = names(&WASHOUT.functions.identity, Causality::Input)
         .into_iter()
-        .filter(|name| delivered.contains(name) && is_taken(name));
+        .filter(|name| delivered.contains(name) && is_connected(name));
     let mut connections: Vec<Connection> =
         taken.map(|name| connect(("motorcycle", name.clone()), ("washout", name))).collect();
     for quantity in ["length", "velocity"] {
@@ -203,7 +203,7 @@ impl System {
     /// The components that the parameters name, each with its table.
     ///
     /// # Errors
-    /// The text is no TOML, names a component that there is not, or has no table for one.
+    /// The text is no TOML, names a component that does not exist, or has no table for one.
     pub fn parameter_tables(&self) -> Result<Vec<(&'static Component, Table)>, Error> {
         let error = |reason: String| Error::Parameters { reason };
         let tables: Table = self.parameters.parse().map_err(|reason: toml::de::Error| error(reason.to_string()))?;
@@ -220,7 +220,7 @@ impl System {
 }
 
 impl Component {
-    /// True for an output that is a connector of the system.
+    /// True for an output that is to have a connector although nothing is connected to it.
     pub fn shows(&self, name: &str) -> bool {
         self.shown.iter().any(|shown| match shown.split_once('*') {
             Some((start, end)) => name.strip_prefix(start).is_some_and(|rest| rest.ends_with(end)),

@@ -1,4 +1,4 @@
-//! A batch gives what single simulations give, whatever the number of cores, and rejects
+//! A batch gives the results of single simulations on any number of cores. It rejects
 //! what cannot be simulated.
 
 use moris_batch::{Fit, Manoeuvre, simulate, simulations};

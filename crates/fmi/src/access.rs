@@ -12,10 +12,10 @@ pub trait OrderedSlots: Iterator<Item = (u32, i32)> + Clone {}
 impl<I: Iterator<Item = (u32, i32)> + Clone> OrderedSlots for I {}
 
 impl<M: Model> Instance<M> {
-    /// Reads the variables into `buffer`, which is for as many values as they have.
+    /// Reads the variables into `buffer`, which has the length of all their values.
     ///
     /// # Errors
-    /// A slot of no variable, or of one of another type; then nothing is written.
+    /// A slot has no variable, or one of another type. Then nothing is written.
     #[inline]
     pub fn get<S: Scalar>(
         &mut self,
@@ -33,20 +33,21 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Writes `values`, of which there are as many as the variables have. Tunable parameters that
-    /// change between steps take effect at once, all of the call together.
+    /// Writes `values`, one for each value of the variables. Tunable parameters that change between
+    /// steps take effect at once, all of the call together.
     ///
     /// # Errors
-    /// A slot of no variable, of one of another type, or of one that cannot be set now; a value
-    /// outside the variable's range, or that the model refuses. Then nothing has changed.
+    /// A slot has no variable, one of another type, or one that cannot be set now. Or a value is
+    /// outside the variable's range, or refused by the model. Then nothing has changed.
     #[inline]
     pub fn set<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
-        // Inputs can be set in every mode in which anything can, and the calling sequences let nothing be set in others.
+        // Inputs can be set in every mode in which any variable can. In other modes the calling
+        // sequences refuse the call.
         let is_for_input = |(slot, values): (u32, &[S])| {
             self.info::<S>(slot).is_some_and(|info| matches!(info.role, Role::Input { .. }) && accepts(info, values))
         };
         if !variables.with_values(values).all(is_for_input) {
-            return self.set_others(variables, values);
+            return self.set_parameters(variables, values);
         }
         if self.state.mode != Mode::StepComplete {
             self.state.dirty = true;
@@ -55,11 +56,11 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// Gives inputs a time derivative that holds for the next step.
+    /// Sets time derivatives of inputs for the next step.
     ///
     /// # Errors
-    /// A reference to anything but a continuous real input, an order other than 1, a value that is
-    /// not finite. Then nothing has changed.
+    /// A reference is not that of a continuous real input, an order is not 1, or a value is not
+    /// finite. Then nothing has changed.
     pub fn set_input_derivatives(
         &mut self,
         references: &[u32],
@@ -82,8 +83,8 @@ impl<M: Model> Instance<M> {
     /// Reads the outputs' time derivatives into `values`, which has as many as `requests`.
     ///
     /// # Errors
-    /// A slot of anything but a continuous real output, or an order other than 1;
-    /// then nothing is written.
+    /// A slot is not that of a continuous real output, an order is not 1, or the model is not
+    /// initialized. Then nothing is written.
     pub fn get_output_derivatives(
         &mut self,
         requests: impl OrderedSlots,
@@ -158,7 +159,7 @@ impl<M: Model> Instance<M> {
     /// Sets variables that are not all inputs, or refuses to. Out of the way of the calls that set
     /// inputs at every step.
     #[inline(never)]
-    fn set_others<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
+    fn set_parameters<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
         let mode = self.state.mode;
         let is_settable = |(slot, values): (u32, &[S])| {
             self.info::<S>(slot).is_some_and(|info| info.settable.contains(mode) && accepts(info, values))
@@ -221,7 +222,7 @@ impl<M: Model> Instance<M> {
     fn why_not_settable<S: Scalar>(&self, variables: impl Variables, values: &[S]) -> CallError {
         let about_slots = variables.slots().filter_map(|slot| self.why_slot_not_settable::<S>(slot));
         let about_values =
-            one_by_one(variables, values).filter_map(|(slot, value)| self.why_value_not_taken(slot, value.to_slot()));
+            one_by_one(variables, values).filter_map(|(slot, value)| self.why_value_rejected(slot, value.to_slot()));
         first(about_slots.chain(about_values))
     }
 
@@ -237,7 +238,7 @@ impl<M: Model> Instance<M> {
         }
         let name = self.name(slot);
         Some(CallError::error(match info.role {
-            Role::Time => format!("{name} cannot be set: it follows from the steps"),
+            Role::Time => format!("{name} cannot be set: it is the time and advances with the steps"),
             Role::Output { .. } => format!("{name} cannot be set: it is an output"),
             Role::Parameter | Role::Input { .. } => format!(
                 "{name} cannot be set in state '{}', but only in: {}. Reset the instance to set a fixed parameter again",
@@ -247,16 +248,14 @@ impl<M: Model> Instance<M> {
         }))
     }
 
-    fn why_value_not_taken(&self, reference: u32, value: f64) -> Option<CallError> {
+    fn why_value_rejected(&self, reference: u32, value: f64) -> Option<CallError> {
         let slot = reference as usize;
         if self.tables.infos[slot].accepts(value) {
             return None;
         }
         let (name, reason) = (self.name(reference), M::IDENTITY.row(slot).reason(value));
         let old = self.state.values[slot];
-        Some(CallError::discard(format!(
-            "{name} {reason}. No value of this call has been taken; {name} is still {old}"
-        )))
+        Some(CallError::discard(format!("{name} {reason}. No value of this call has been set; {name} is still {old}")))
     }
 }
 

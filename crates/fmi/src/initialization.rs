@@ -1,4 +1,4 @@
-//! From the start values to the first step.
+//! The experiment's times and the initialization.
 
 use moris_interface::{Model, SlotModel};
 
@@ -6,10 +6,10 @@ use crate::instance_state::Experiment;
 use crate::{CallError, Instance, Mode};
 
 impl<M: Model> Instance<M> {
-    /// Defines between which times \[s\] the instance runs.
+    /// Sets the start and stop time \[s\].
     ///
     /// # Errors
-    /// A time or a tolerance that cannot be; then nothing has changed.
+    /// A time or the tolerance is out of range. Then nothing has changed.
     pub fn define_experiment(
         &mut self,
         start: f64,
@@ -17,13 +17,19 @@ impl<M: Model> Instance<M> {
         tolerance: Option<f64>,
     ) -> Result<(), CallError> {
         if !start.is_finite() {
-            return Err(CallError::error(format!("the start time {start} is not a finite number")));
+            return Err(CallError::error(format!(
+                "the start time {start} is not a finite number; pass a time in seconds"
+            )));
         }
         if let Some(stop) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
-            return Err(CallError::error(format!("the stop time {stop} is not a time after the start time {start}")));
+            return Err(CallError::error(format!(
+                "the stop time {stop} must be finite and at least the start time {start}"
+            )));
         }
         if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance > 0.0)) {
-            return Err(CallError::error(format!("the tolerance {tolerance} is not a positive number")));
+            return Err(CallError::error(format!(
+                "the tolerance {tolerance} must be positive and finite; it is not used"
+            )));
         }
         self.state.experiment = Some(Experiment { start, stop });
         self.set_time(start);
@@ -33,7 +39,7 @@ impl<M: Model> Instance<M> {
     /// Begins the initialization.
     ///
     /// # Errors
-    /// No experiment has been defined; then nothing has changed.
+    /// No experiment has been defined. Then nothing has changed.
     pub fn enter_initialization(&mut self) -> Result<(), CallError> {
         if self.state.experiment.is_none() {
             return Err(CallError::error("the experiment has not been set up"));

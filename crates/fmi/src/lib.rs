@@ -1,10 +1,12 @@
 //! Exports a model as the C functions of FMI.
 //!
 //! [`export_fmi2!`] and [`export_fmi3!`] make a shared library's functions from a
-//! [`Model`](moris_interface::Model): a `cdylib` needs no more than that line. What every version
-//! of FMI needs is in this crate's root, without a C type in it: an [`Instance`] with its values,
-//! its modes and its state; and what C makes of that in every version is in [`abi`]. What the
-//! versions need on top of it is in [`fmi2`] and [`fmi3`].
+//! [`Model`](moris_interface::Model). A `cdylib` needs only that line.
+//!
+//! - The crate's root holds the parts common to all versions of FMI, without C types: an
+//!   [`Instance`] with its values, modes and state.
+//! - [`abi`] holds the parts of the C interface that all versions share.
+//! - [`fmi2`] and [`fmi3`] hold the C functions of each version.
 //!
 //! Nothing here writes to standard output or standard error, reads the
 //! environment, or starts a thread.

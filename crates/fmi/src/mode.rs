@@ -1,12 +1,12 @@
-//! Where in its life an instance is.
+//! The state of an instance in the calling sequence.
 
 use serde::{Deserialize, Serialize};
 
 /// The states of the calling sequences (FMI 2.0: 4.2.4; FMI 3.0: 2.3 and 4.2) that
 /// an instance can be in.
 ///
-/// It computes within the call and never asks for a shorter step, so it is never in the states
-/// "step failed", "step in progress" or "step canceled".
+/// An instance computes within the call and never rejects a valid step. So it is never in the
+/// states "step failed", "step in progress" or "step canceled".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Mode {
     Instantiated,

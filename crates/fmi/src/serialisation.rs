@@ -30,10 +30,14 @@ impl<M: Model> InstanceState<M> {
     /// # Errors
     /// The bytes are anything but what [`InstanceState::to_bytes`] of this very model gave.
     pub fn from_bytes(mut bytes: &[u8], tables: &Tables) -> Result<Self, CallError> {
-        let refuse = |why: &str| CallError::error(format!("the serialized state is refused: {why}"));
+        let refuse = |why: &str| {
+            CallError::error(format!(
+                "the serialized state is rejected: {why}; pass bytes from the serialization function of the same FMU"
+            ))
+        };
         let truncated = || refuse("it is truncated");
         if take(&mut bytes).ok_or_else(truncated)? != MARK {
-            return Err(refuse("it is no state of an instance"));
+            return Err(refuse("it is not the state of an instance"));
         }
         if u32::from_le_bytes(take(&mut bytes).ok_or_else(truncated)?) != FORMAT {
             return Err(refuse("it comes from another version of this FMU"));
@@ -49,7 +53,7 @@ impl<M: Model> InstanceState<M> {
         }
         match postcard::take_from_bytes::<Self>(bytes) {
             Ok((run, [])) if run.is_coherent(tables) => Ok(run),
-            _ => Err(refuse("its contents make no sense")),
+            _ => Err(refuse("its contents are inconsistent")),
         }
     }
 

@@ -8,8 +8,8 @@ use crate::{CallError, Instance};
 const LIMIT_TOLERANCE: f64 = 1e-9;
 /// Tolerance of a host's time, relative to the step ...
 const STEP_TOLERANCE: f64 = 1e-6;
-/// ... and to the time itself: a few units in the last place. More would let a step be made twice
-/// late in a long run, or where time is that of a calendar.
+/// ... and to the time itself: a few units in the last place. A larger one would accept a repeated
+/// step late in a long simulation, or at a calendar's time.
 const TIME_TOLERANCE: f64 = 8.0 * f64::EPSILON;
 
 impl<M: Model> Instance<M> {
@@ -17,7 +17,8 @@ impl<M: Model> Instance<M> {
     /// computes it, so that nothing accumulates. The inputs' derivatives hold for this step only.
     ///
     /// # Errors
-    /// A step that cannot be made; then nothing has changed.
+    /// The step does not begin at the present time, is not positive, is too long, or ends beyond
+    /// the stop time. Or the model is not initialized. Then nothing has changed.
     #[inline]
     pub fn step(&mut self, time: f64, step: f64) -> Result<(), CallError> {
         let end = time + step;
@@ -52,13 +53,21 @@ impl<M: Model> Instance<M> {
         let stop = self.state.experiment.and_then(|experiment| experiment.stop).unwrap_or(f64::INFINITY);
         let longest = self.state.model.as_ref().map_or(f64::INFINITY, M::longest_step);
         CallError::error(if !(step > 0.0 && step.is_finite()) {
-            format!("the communication step size {step} is not a positive, finite number")
+            format!(
+                "the communication step size {step} is not a positive, finite number; pass the length of the step in seconds"
+            )
         } else if !end.is_finite() {
-            format!("the communication point {time} is not a finite number, or the step ends beyond all numbers")
+            format!(
+                "the communication point {time} is not a finite number, or the end of the step overflows; the present time is {present}"
+            )
         } else if step > longest * (1.0 + LIMIT_TOLERANCE) {
-            format!("the communication step size {step} is longer than {longest}, the longest possible here")
+            format!(
+                "the communication step size {step} is longer than {longest}, the longest possible; divide it or raise solver.maxStep"
+            )
         } else if end > stop + LIMIT_TOLERANCE * (stop.abs() + step) {
-            format!("the step from {time} to {end} goes beyond the stop time {stop} that was set up")
+            format!(
+                "the step from {time} to {end} goes beyond the stop time {stop} of the experiment; shorten it, or set up the experiment without a stop time"
+            )
         } else {
             format!("the communication point {time} is not the present one, {present}: step from there")
         })

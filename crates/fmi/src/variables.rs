@@ -1,11 +1,11 @@
-//! The variables that a call gets or sets, whatever a version of FMI takes a variable for.
+//! The variables that a call gets or sets, in any version of FMI.
 
 use std::mem::MaybeUninit;
 use std::slice::{from_mut, from_ref};
 
-/// The variables that a call is about. Each is known by its first slot and has a part of the call's
-/// values: one value in FMI 2.0, where a variable is a slot, and in FMI 3.0, where it is a row, as
-/// many as the row has slots.
+/// The variables that a call gets or sets. Each is identified by its first slot and has a part of
+/// the call's values. In FMI 2.0 a variable is a slot and has one value. In FMI 3.0 it is a row and
+/// has as many values as the row has slots.
 pub trait Variables: Copy {
     /// The variables' first slots.
     fn slots(self) -> impl Iterator<Item = u32>;

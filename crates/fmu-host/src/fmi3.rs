@@ -35,7 +35,7 @@ impl Library {
     /// Loads the library.
     ///
     /// # Errors
-    /// It cannot be loaded, or lacks a function of FMI 3.0.
+    /// The library cannot be loaded, or lacks a function of FMI 3.0.
     pub fn open(path: &Path) -> Result<Library, HostError> {
         let library_error = |source| HostError::Library { path: path.into(), source };
         // SAFETY: what loading the library runs is the FMU's; to open an FMU is to trust it.

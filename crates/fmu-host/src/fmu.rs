@@ -33,7 +33,7 @@ impl Fmu {
     /// Opens an FMU's archive.
     ///
     /// # Errors
-    /// It is no FMU for co-simulation, or has no shared library for this platform.
+    /// The file is not an FMU for co-simulation, or has no shared library for this platform.
     pub fn open(path: &Path) -> Result<Fmu, HostError> {
         let directory = archive::unpack(path)?;
         let description = Description::parse(&archive::read(&directory.path().join("modelDescription.xml"))?)?;
@@ -47,7 +47,7 @@ impl Fmu {
     /// [`Fmu::with_variables`].
     ///
     /// # Errors
-    /// It cannot be loaded, or lacks a function of FMI 2.0.
+    /// The library cannot be loaded, or lacks a function of FMI 2.0.
     pub fn from_library(library: &Path, guid: &str) -> Result<Fmu, HostError> {
         Self::load(library, guid, None, HashMap::new(), None)
     }

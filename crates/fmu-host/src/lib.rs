@@ -1,5 +1,5 @@
-//! A host for FMUs of FMI 2.0 for co-simulation: opens them, sets and gets variables, steps them,
-//! as a simulation tool does, and knows nothing of how they are made.
+//! A host for FMUs of FMI 2.0 for co-simulation. It opens them, sets and gets variables, and steps
+//! them, as a simulation tool does. It is independent of the crates that make the FMUs.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), moris_fmu_host::HostError> {

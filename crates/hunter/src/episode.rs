@@ -98,7 +98,7 @@ impl Episode {
     /// The episode as a TOML file.
     ///
     /// # Errors
-    /// None that is known: every number has a form in TOML.
+    /// No error is known: TOML can represent every number.
     pub fn to_toml(&self) -> Result<String> {
         toml::to_string(self).context("writing the episode")
     }

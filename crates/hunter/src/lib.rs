@@ -1,9 +1,9 @@
 //! A search for anything that makes the washout break a limit.
 //!
-//! The search draws [machines](machine), [episodes](scenario) on them and drives a [target]: the
-//! washout through the crate or through the C functions of its shared library. The [oracle] judges
-//! the outputs; it knows nothing of how they are made. An episode that breaks a limit is
-//! [shrunk](shrink) to a short one, which a file holds and `--replay` repeats.
+//! The search draws random [machines](machine) and [episodes](scenario), and runs the episodes on a
+//! [target]. A target is the washout, called through the crate or through the C functions of its
+//! shared library. The [oracle] judges a target by its outputs alone. An episode that breaks a
+//! limit is [shrunk](shrink) to a short one. It is saved to a file, and `--replay` repeats it.
 //!
 //! | module | content |
 //! |---|---|

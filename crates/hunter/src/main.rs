@@ -115,7 +115,7 @@ fn hunt(arguments: &Arguments) -> Result<bool> {
     let mut progress = |summary: &Summary| {
         for (number, found) in summary.found.iter().enumerate().skip(printed) {
             eprintln!();
-            if let Err(error) = tell(arguments, number, found) {
+            if let Err(error) = report(arguments, number, found) {
                 eprintln!("error: {error:#}");
             }
         }
@@ -159,7 +159,7 @@ fn line(summary: &Summary) -> String {
 }
 
 /// Prints what was found, and keeps it in a file if --save is given.
-fn tell(arguments: &Arguments, number: usize, found: &Found) -> Result<()> {
+fn report(arguments: &Arguments, number: usize, found: &Found) -> Result<()> {
     match &found.failure {
         Failure::Breach(breach) => println!("BREACH {breach}; found after {} steps", found.found_after),
         Failure::Refused(reason) => println!("FAILURE: {reason}"),

@@ -1,12 +1,15 @@
-//! The judgement of a run by its outputs alone.
+//! Judgement of a simulation by its outputs alone.
 //!
 //! # Promise
-//! No actuator is commanded beyond its stroke, speed or acceleration, and surge, sway and heave
-//! keep the safety limits on position, velocity and acceleration, at every instant. The oracle
-//! knows the outputs at the communication points, the lengths h of the steps between them and the
-//! parameters set. With q a leg's length or a coordinate, v the velocity reported with it, m = (q -
-//! q') / h the mean velocity over a step (a prime marks the value before) and A the limit of the
-//! acceleration, a motion that keeps its limits at every instant has
+//! No actuator is ever commanded beyond its stroke, speed or acceleration. Surge, sway and heave
+//! keep the safety limits on position, velocity and acceleration at every instant. The oracle knows
+//! the outputs at the communication points, the step lengths h and the parameters. Symbols:
+//!
+//! - q: a leg's length or a coordinate; v: the velocity reported with it.
+//! - m = (q - q') / h: the mean velocity over a step. A prime marks the value of the previous step.
+//! - V and A: the limits of velocity and acceleration.
+//!
+//! A motion that keeps its limits at every instant has
 //!
 //! | quantity | bound | because |
 //! |---|---|---|
@@ -17,16 +20,18 @@
 //! | 2 (m - m') / (h + h') | A | the same, with a trapezoid as weight, whatever h and h' |
 //! | the reported acceleration | A | |
 //!
-//! A communication step may span several internal steps: the left sides are means then, and the
-//! bounds hold all the same. Before the first step the platform rests, so that v' = 0 there.
+//! A communication step may span several internal steps. The left sides are then means, and the
+//! bounds still hold. Before the first step the platform rests, so v' = 0.
 //!
 //! # Tolerances
 //! Positions: [`POSITION_TOLERANCE`]. Velocities and accelerations: [`RELATIVE_TOLERANCE`] of the
-//! limit, and the rounding of the difference. A leg's length comes from p + R a - b with a few
-//! roundings each of numbers no larger than the three vectors: it is known to [`ROUNDINGS`] units
-//! of the sum of their lengths. So is a coordinate, which follows from lengths where legs limit the
-//! motion. A velocity is known to as many units of the speed that it belongs to. A difference over
-//! h is known to twice that over h.
+//! limit, and the rounding error of the difference.
+//!
+//! A leg's length is computed from p + R a - b with a few roundings of numbers no larger than the
+//! three vectors. Its error is at most [`ROUNDINGS`] units in the last place of the sum of their
+//! lengths. The same holds for a coordinate, because it follows from lengths where legs limit the
+//! motion. The error of a velocity is at most as many units of the corresponding speed. The error
+//! of a difference over h is twice that, over h.
 //!
 //! # Limits changed in flight
 //! The legs' limits never change. A safety limit that is tightened cannot always be kept at once.
@@ -37,11 +42,10 @@
 //! - a position beyond the new limit keeps the old one, and once the axis has come to rest
 //!   it only comes nearer.
 //!
-//! An axis has settled after the time that is left of any stop within the old limits that may
-//! have begun before the change, the settling time. From then on velocity and acceleration keep
-//! the new limits. A position beyond its limit may stay there, but only comes nearer: nothing
-//! obliges a platform at rest to move. Of changes in quick succession the largest limits count
-//! until the last has settled.
+//! The settling time is the remaining time of any stop within the old limits that may have begun
+//! before the change. After it, velocity and acceleration keep the new limits. A position beyond
+//! its limit may stay there, but never moves away from it: a platform at rest need not move. After
+//! several changes in quick succession, the largest limits count until the last change has settled.
 
 use serde::{Deserialize, Serialize};
 
@@ -49,12 +53,12 @@ use serde::{Deserialize, Serialize};
 pub const POSITION_TOLERANCE: f64 = 1e-9;
 /// Tolerance of a velocity or an acceleration beyond its limit, relative to the limit.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
-/// Roundings that a length, a coordinate or a velocity may have gone through, in units in the
+/// Largest rounding error of a length, a coordinate or a velocity, in units in the
 /// last place of its parts.
 pub const ROUNDINGS: f64 = 8.0;
-/// Stopping times that an axis is given for a stop.
+/// Number of stopping times that an axis is allowed for a stop.
 const STOPPING_TIMES: f64 = 4.0;
-/// Longest steps that an axis is given to settle beside them.
+/// Longest steps by which the settling time is extended.
 const SETTLING_STEPS: f64 = 8.0;
 
 /// The outputs that the oracle knows. Positions in m from neutral; lengths in m; the
@@ -181,11 +185,11 @@ impl std::fmt::Display for Breach {
     }
 }
 
-/// The largest ratio of each quantity to its limit so far; of positions, the excess in
+/// Largest ratio so far of each quantity to its limit. For positions, the largest excess in
 /// units of the tolerance.
 pub type Worst = [f64; QUANTITIES.len()];
 
-/// One axis with the limits that it is held to.
+/// One axis with the limits that it must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Axis {
     /// Position limit set last.
@@ -207,8 +211,8 @@ struct Axis {
 }
 
 impl Axis {
-    /// Puts the velocity limit in force for an axis that has this velocity: the one set last, or
-    /// the speed where that is above it.
+    /// Updates the velocity limit in force for an axis with this velocity: the limit set last.
+    /// While the speed is above it, the speed itself, but at most the previous limit in force.
     #[inline(always)]
     fn limit_speed(&mut self, velocity: f64) {
         self.velocity = self.velocity_limit.max(self.velocity.min(velocity.abs()));
@@ -220,21 +224,20 @@ impl Axis {
 pub struct Oracle {
     machine: Machine,
     axes: [Axis; 3],
-    /// True if some axis is held to limits other than those set last, and the time that
-    /// is left for it \[s\].
+    /// True if the limits in force on some axis differ from those set last, and the
+    /// remaining settling time \[s\].
     settling: bool,
     remaining: f64,
-    /// What is left of the longest stop that may have begun by now \[s\].
+    /// Remaining time of the longest stop that may have begun by now \[s\].
     stopping: f64,
     before: Sample,
-    /// Mean velocities over the last step, legs first, and how long that was;
-    /// zero before the first.
+    /// Mean velocities over the last step, legs first, and its length. Zero before the first step.
     mean: [f64; 9],
     last_step: f64,
 }
 
 impl Oracle {
-    /// Begins at rest with the outputs before the first step.
+    /// An oracle for a platform at rest, with the outputs before the first step.
     pub fn new(machine: Machine, safety: &Safety, at_rest: &Sample) -> Self {
         let axes = std::array::from_fn(|k| Axis {
             position_limit: safety.position[k],
@@ -250,7 +253,7 @@ impl Oracle {
         Oracle { machine, axes, settling: false, remaining: 0.0, stopping: 0.0, before: *at_rest, mean, last_step }
     }
 
-    /// Other safety limits from here on.
+    /// Changes the safety limits.
     pub fn change(&mut self, safety: &Safety) {
         let steps = SETTLING_STEPS * self.last_step.max(self.machine.longest_step);
         self.remaining = self.remaining.max(self.stopping + steps);
@@ -260,7 +263,7 @@ impl Oracle {
             axis.velocity_limit = safety.velocity[k];
             axis.acceleration_limit = safety.acceleration[k];
             axis.position = axis.position.max(safety.position[k]);
-            // From now on, not only from the next step on, a speed above the limit does not grow.
+            // A speed above the limit must not grow from now on, not only from the next step on.
             axis.limit_speed(self.before.velocity[k]);
             axis.acceleration[0] = axis.acceleration[0].max(safety.acceleration[k]);
             axis.slowest = axis.slowest.min(safety.acceleration[k]);
@@ -268,21 +271,23 @@ impl Oracle {
         }
     }
 
-    /// The longest time that a stop from this state may take within the limits in force since the
-    /// axes settled last: the time to stop surge, sway and heave with their accelerations and the
-    /// joints with the legs', several times over, because the legs' acceleration is needed for
-    /// their turning, too.
+    /// The longest time that a stop from this state may take, within the limits in force since
+    /// the axes settled last.
+    ///
+    /// It is a multiple of the time to stop surge, sway and heave with their accelerations, and the
+    /// joints with the legs' acceleration. The multiple allows for the part of the legs'
+    /// acceleration that their turning needs.
     fn longest_stop(&self, sample: &Sample) -> f64 {
         let axes = (0..3).map(|k| sample.velocity[k].abs() / self.axes[k].slowest);
         STOPPING_TIMES * axes.fold(self.machine.joint_speed(sample) / self.machine.acceleration, f64::max)
     }
 
-    /// Judges the outputs after a step of `step` seconds, and keeps the worst.
+    /// Judges the outputs after a step of `step` seconds, and updates the worst ratios.
     ///
     /// # Errors
-    /// The worst breach of this step; its number is left at 0.
+    /// The worst breach of this step, with the step number 0.
     #[inline]
-    pub fn judge(&mut self, now: &Sample, step: f64, worst: &mut Worst) -> Result<(), Breach> {
+    pub fn check(&mut self, now: &Sample, step: f64, worst: &mut Worst) -> Result<(), Breach> {
         if self.settling {
             self.tighten(step);
         }
@@ -305,8 +310,9 @@ impl Oracle {
         Ok(())
     }
 
-    /// Every quantity of this step with its leg or axis, its value less rounding, and its limit. A
-    /// position's value is the excess over its limit, and its limit the tolerance of it.
+    /// Every quantity of this step with its leg or axis, its value less the rounding
+    /// error, and its limit. For a position, the value is the excess over its limit, and
+    /// the limit is the tolerance.
     #[inline(always)]
     fn measure(&self, now: &Sample, step: f64, mut each: impl FnMut(Quantity, usize, f64, f64)) {
         let Machine { stroke, velocity: fastest, acceleration: most, size, .. } = self.machine;
@@ -384,23 +390,23 @@ impl Oracle {
         for (k, axis) in self.axes.iter_mut().enumerate() {
             self.mean[6 + k] = (now.position[k] - self.before.position[k]) / step;
             axis.acceleration[1] = axis.acceleration[0];
-            // Both do nothing unless a limit was tightened.
+            // The two updates have no effect unless a limit was tightened.
             axis.stopped |= now.velocity[k] * self.before.velocity[k] <= 0.0 || !self.settling;
             if axis.stopped {
                 axis.position = axis.position_limit.max(axis.position.min(now.position[k].abs()));
             }
             axis.limit_speed(now.velocity[k]);
         }
-        // A stop that began earlier, from a faster state, may still be going on.
+        // A stop that began earlier, from a faster state, may still be in progress.
         self.stopping = self.longest_stop(now).max(self.stopping - step);
         self.last_step = step;
         self.before = *now;
     }
 
-    /// Lets time pass for the axes to settle.
+    /// Counts the settling time down, and puts the limits set last in force at its end.
     #[cold]
     fn tighten(&mut self, step: f64) {
-        // A step that begins before they must have settled may hold the end of a stop.
+        // A step that begins within the settling time may still contain the end of a stop.
         if self.remaining <= 0.0 {
             self.settling = false;
             for axis in &mut self.axes {
@@ -422,7 +428,7 @@ struct Rounding {
 }
 
 impl Rounding {
-    /// For positions and velocities known to these roundings, over a step and the one before.
+    /// From the rounding errors of positions and velocities, over a step and the previous one.
     #[inline(always)]
     fn new(position: f64, velocity: f64, step: f64, last: f64) -> Self {
         let mean = 2.0 * position / step;

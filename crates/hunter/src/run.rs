@@ -37,7 +37,7 @@ impl Runner {
     /// Finds the variables.
     ///
     /// # Errors
-    /// A variable that there is not: the washout's interface is another.
+    /// The washout's interface lacks a variable.
     pub fn new() -> Result<Self> {
         let variables = Variables::new();
         let slot = |name: &str| variables.slot(name);
@@ -79,7 +79,7 @@ impl Runner {
     /// Runs an episode on its machine until its end or the first breach.
     ///
     /// # Errors
-    /// A call that is refused although it is right, or a name that is no variable's.
+    /// A valid call is refused, or a name in the episode is not that of a variable.
     pub fn run<T: Target>(&self, episode: &Episode, target: &mut T) -> Result<Outcome> {
         target.rewind();
         let mut slots = self.variables.values(&episode.parameters)?;
@@ -125,7 +125,7 @@ impl Runner {
             time += length;
             sample = target.sample(neutral_height);
             outcome.steps += 1;
-            if let Err(breach) = oracle.judge(&sample, length, &mut outcome.worst) {
+            if let Err(breach) = oracle.check(&sample, length, &mut outcome.worst) {
                 outcome.breach = Some(Breach { step, ..breach });
                 break;
             }

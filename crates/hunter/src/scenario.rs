@@ -8,8 +8,7 @@ use crate::random::Random;
 use crate::signal::{Signal, VELOCITIES};
 use crate::variables::Variables;
 
-/// An episode has at most so many steps, of which each has at most so many
-/// internal ones on average.
+/// Largest number of steps of an episode, and largest mean number of internal steps in a step.
 const MOST_STEPS: usize = 4000;
 const MOST_INTERNAL_STEPS: f64 = 12.0;
 /// The shortest and the longest communication step \[s\].
@@ -149,8 +148,7 @@ impl<'a> Scenarios<'a> {
         events
     }
 
-    /// Some safety limits smaller by up to four orders of magnitude, and as they were a while
-    /// later.
+    /// Some safety limits, reduced by up to four orders of magnitude and restored a while later.
     fn tighten_and_loosen(
         &self,
         random: &mut Random,
@@ -199,7 +197,7 @@ fn draw_signal(
     let sign = if random.chance(0.5) { 1.0 } else { -1.0 };
     let phase = if random.chance(0.5) { 0.0 } else { random.between(0.0, 6.3) };
     if hostile && random.chance(0.5) {
-        return Signal::Unusable { held: random.pick(&[1, 30, 300]), seed: random.seed() };
+        return Signal::NonFinite { held: random.pick(&[1, 30, 300]), seed: random.seed() };
     }
     match random.below(12) {
         0..=3 => Signal::Square { amplitude, frequency, phase },

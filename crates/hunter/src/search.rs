@@ -24,11 +24,11 @@ pub struct Plan {
     pub seed: u64,
     /// Number of the first machine.
     pub first_machine: u64,
-    /// The search ends when it has made so many communication steps ...
+    /// The search ends after this number of communication steps ...
     pub steps: u64,
-    /// ... or looked at so many machines ...
+    /// ... or this number of machines ...
     pub machines: u64,
-    /// ... or found so many breaches.
+    /// ... or this number of failures.
     pub breaches: usize,
     /// Threads that search.
     pub threads: usize,
@@ -36,13 +36,13 @@ pub struct Plan {
     pub shrink: bool,
 }
 
-/// Something that must not be.
+/// Failure of an episode.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Failure {
     /// A limit is broken.
     Breach(Breach),
-    /// A right call is refused, or the washout panics.
+    /// A valid call is refused, or the washout panics.
     Refused(String),
 }
 
@@ -53,7 +53,8 @@ pub struct Found {
     pub episode: Episode,
     /// The failure in it.
     pub failure: Failure,
-    /// Steps of the episode in which it was found.
+    /// Number of steps up to the breach before shrinking, or of the whole episode
+    /// after a refused call.
     pub found_after: usize,
 }
 
@@ -62,7 +63,7 @@ pub struct Found {
 pub struct Summary {
     pub seed: u64,
     pub first_machine: u64,
-    /// Machines that were made, and those that were refused.
+    /// Number of machines that were built, and of those that were refused.
     pub machines: u64,
     pub refused_machines: u64,
     pub episodes: u64,
@@ -74,10 +75,10 @@ pub struct Summary {
     pub found: Vec<Found>,
 }
 
-/// Episodes on a machine of the default geometry, and on others, which take longer to make.
+/// Episodes on a machine of the default geometry, and on others, which take longer to build.
 const EPISODES: [usize; 2] = [4, 24];
 
-/// Refused machines, without one that is made, after which the search gives up.
+/// Number of refused machines after which the search gives up, if none was built before.
 const MOST_REFUSED: u64 = 50;
 
 /// Data shared by the threads.
@@ -94,11 +95,11 @@ struct Shared<'a> {
     stop: AtomicBool,
 }
 
-/// Searches with one target a thread. `progress` hears of the search once a second, and at
-/// once of what is found.
+/// Searches with one target a thread. `progress` is called once a second, and at
+/// once for each failure.
 ///
 /// # Errors
-/// A target cannot be made, or the washout's interface is another.
+/// A target cannot be created, or the washout's interface lacks a variable.
 pub fn search<T: Target>(
     plan: &Plan,
     target: impl Fn() -> Result<T> + Sync,
@@ -208,7 +209,7 @@ impl Shared<'_> {
         Ok(())
     }
 
-    /// Runs an episode; what fails in it, if anything.
+    /// Runs an episode and returns its failure, if any.
     fn run<T: Target>(&self, episode: &Episode, target: &mut T) -> Option<Failure> {
         let failure = match catch_unwind(AssertUnwindSafe(|| self.runner.run(episode, target))) {
             Ok(Ok(outcome)) => {

@@ -1,4 +1,4 @@
-//! From an episode that breaks a limit to a short and simple one that does so, too.
+//! Reduction of an episode that breaks a limit to a short and simple one that also breaks a limit.
 
 use anyhow::Result;
 
@@ -8,11 +8,11 @@ use crate::run::Runner;
 use crate::signal::Signal;
 use crate::target::Target;
 
-/// Runs that shrinking may take.
+/// Largest number of runs for shrinking.
 const MOST_RUNS: usize = 4000;
 
-/// The shortest and simplest episode found, with its breach. Every change is kept that still leads
-/// to a breach, of whatever quantity, and in no more steps.
+/// The shortest and simplest episode found, with its breach. A change is kept if the episode still
+/// breaks a limit of any quantity, in no more steps.
 ///
 /// # Errors
 /// As [`Runner::run`].
@@ -52,7 +52,7 @@ impl<T: Target> Shrinker<'_, T> {
         self.runner.make(&self.best.parameters, self.target)
     }
 
-    /// Takes the candidate if it breaks a limit. One that cannot be run does not.
+    /// Accepts the candidate if it breaks a limit. A candidate that cannot be run is not accepted.
     fn accepts(&mut self, candidate: Episode) -> Result<bool> {
         if self.runs == 0 || candidate == self.best {
             return Ok(false);
@@ -180,7 +180,7 @@ impl<T: Target> Shrinker<'_, T> {
         Ok(())
     }
 
-    /// Rounds every number to as few digits as do.
+    /// Rounds every number to the fewest digits with which a limit is still broken.
     fn round_numbers(&mut self) -> Result<()> {
         let count = numbers(&mut self.best.clone()).len();
         for i in 0..count {
@@ -224,7 +224,7 @@ fn numbers(episode: &mut Episode) -> Vec<&mut f64> {
     numbers
 }
 
-/// The number with so many significant digits.
+/// The number with `digits` significant digits.
 fn rounded(number: f64, digits: usize) -> f64 {
     format!("{number:.*e}", digits - 1).parse().unwrap_or(number)
 }

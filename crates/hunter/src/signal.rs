@@ -31,7 +31,7 @@ pub enum Signal {
     Ramp { rate: f64 },
     /// NaN, infinities, numbers near the ends of the range, and ordinary ones; a new
     /// choice every `held` steps.
-    Unusable { held: usize, seed: u32 },
+    NonFinite { held: usize, seed: u32 },
     /// `amplitude` with the sign of a velocity of the last output: it always pushes along, or
     /// against with a negative one.
     Pushing { amplitude: f64, velocity: usize },
@@ -73,7 +73,7 @@ impl Signal {
                 }
             }
             Signal::Ramp { rate } => rate * time,
-            Signal::Unusable { held, seed } => unusable(bits_at(seed, step / held.max(1))),
+            Signal::NonFinite { held, seed } => non_finite(bits_at(seed, step / held.max(1))),
             Signal::Pushing { amplitude, velocity } => {
                 let velocity = velocities[velocity % VELOCITIES];
                 if velocity == 0.0 { amplitude } else { amplitude.copysign(amplitude * velocity) }
@@ -94,7 +94,7 @@ impl Signal {
             | Signal::Flips { amplitude, .. }
             | Signal::Pushing { amplitude, .. } => vec![amplitude],
             Signal::Ramp { rate } => vec![rate],
-            Signal::Unusable { .. } => vec![],
+            Signal::NonFinite { .. } => vec![],
         }
     }
 }
@@ -105,7 +105,7 @@ fn square(amplitude: f64, angle: f64) -> f64 {
 }
 
 /// Values that no vehicle gives, among a few that one does.
-fn unusable(bits: u64) -> f64 {
+fn non_finite(bits: u64) -> f64 {
     const VALUES: [f64; 16] = [
         f64::NAN,
         f64::INFINITY,

@@ -31,7 +31,7 @@ impl Variables {
     /// The slot of the variable of this name.
     ///
     /// # Errors
-    /// There is none.
+    /// The washout has no variable of this name.
     pub fn slot(&self, name: &str) -> Result<usize> {
         self.slots.get(name).copied().with_context(|| format!("{name} is no variable of the washout"))
     }

@@ -52,12 +52,12 @@ fn pieces(pieces: &[(f64, f64)]) -> Vec<(f64, f64, f64, f64)> {
     samples
 }
 
-fn judge(mover: Mover, samples: &[(f64, f64, f64, f64)]) -> Result<Worst, Breach> {
+fn check(mover: Mover, samples: &[(f64, f64, f64, f64)]) -> Result<Worst, Breach> {
     let mut oracle = Oracle::new(MACHINE, &SAFETY, &at_rest());
     let mut worst = Worst::default();
     for pair in samples.windows(2) {
         let (time, x, v, a) = pair[1];
-        oracle.judge(&sample(mover, x, v, a), time - pair[0].0, &mut worst)?;
+        oracle.check(&sample(mover, x, v, a), time - pair[0].0, &mut worst)?;
     }
     Ok(worst)
 }
@@ -70,7 +70,7 @@ fn bang_bang(acceleration: f64, speed: f64) -> Vec<(f64, f64, f64, f64)> {
 #[test]
 fn a_motion_at_its_limits_is_accepted_and_known_to_be_there() {
     for (mover, acceleration) in [(Mover::Leg, 15.0), (Mover::Surge, 10.0)] {
-        let worst = judge(mover, &bang_bang(acceleration, 1.0)).unwrap();
+        let worst = check(mover, &bang_bang(acceleration, 1.0)).unwrap();
         let largest = worst.iter().copied().fold(0.0, f64::max);
         assert!((0.999_999..1.000_001).contains(&largest), "{mover:?}: {largest}");
     }
@@ -80,7 +80,7 @@ fn a_motion_at_its_limits_is_accepted_and_known_to_be_there() {
 fn a_thousandth_of_a_percent_beyond_a_limit_is_seen() {
     for (mover, acceleration) in [(Mover::Leg, 15.0), (Mover::Surge, 10.0)] {
         for (acceleration, speed) in [(acceleration * 1.000_01, 0.9), (acceleration * 0.9, 1.000_01)] {
-            judge(mover, &bang_bang(acceleration, speed)).expect_err("this breaks a limit");
+            check(mover, &bang_bang(acceleration, speed)).expect_err("this breaks a limit");
         }
     }
 }
@@ -91,7 +91,7 @@ fn breaks(mover: Mover, change: impl Fn(usize, &mut (f64, f64, f64, f64)), expec
     for (number, sample) in samples.iter_mut().enumerate() {
         change(number, sample);
     }
-    let breach = judge(mover, &samples).expect_err("this breaks a limit");
+    let breach = check(mover, &samples).expect_err("this breaks a limit");
     assert!(expected.contains(&breach.quantity), "{breach}");
 }
 
@@ -101,7 +101,8 @@ fn each_quantity_is_looked_at() {
         Acceleration, LegAcceleration, LegLength, LegPositionAgainstVelocity, LegSecondDifference, LegVelocity,
         NotFinite, Position, PositionAgainstVelocity, SecondDifference, Velocity, VelocityDifference,
     };
-    // Positions that nobody's velocity explains, velocities that no position follows, one sample aside.
+    // Positions that contradict the velocities, velocities that contradict the
+    // positions, one outlier.
     let jump = |number: usize, value: &mut f64, size: f64| *value += if number == 9 { size } else { 0.0 };
     breaks(Mover::Leg, |n, s| jump(n, &mut s.1, 1e-3), &[LegPositionAgainstVelocity, LegSecondDifference]);
     breaks(Mover::Surge, |n, s| jump(n, &mut s.1, 1e-3), &[PositionAgainstVelocity, SecondDifference]);
@@ -111,11 +112,11 @@ fn each_quantity_is_looked_at() {
     breaks(Mover::Surge, |n, s| jump(n, &mut s.3, f64::NAN), &[NotFinite]);
     // Far away, as slow as it may be: legs end at 0.3 m from here, surge at 0.45 m.
     let far =
-        |mover, distance: f64| judge(mover, &pieces(&[(0.05, 10.0), (distance / 0.5 - 0.05, 0.0), (0.05, -10.0)]));
+        |mover, distance: f64| check(mover, &pieces(&[(0.05, 10.0), (distance / 0.5 - 0.05, 0.0), (0.05, -10.0)]));
     assert!(far(Mover::Leg, 0.3 - 1e-6).is_ok() && far(Mover::Surge, 0.45 - 1e-6).is_ok());
     assert_eq!(far(Mover::Leg, 0.3 + 1e-6).unwrap_err().quantity, LegLength);
     assert_eq!(far(Mover::Surge, 0.45 + 1e-6).unwrap_err().quantity, Position);
-    let fast = |mover| judge(mover, &pieces(&[(0.11, 10.0), (0.11, -10.0)])).unwrap_err().quantity;
+    let fast = |mover| check(mover, &pieces(&[(0.11, 10.0), (0.11, -10.0)])).unwrap_err().quantity;
     assert_eq!([fast(Mover::Leg), fast(Mover::Surge)], [LegVelocity, Velocity]);
 }
 
@@ -126,14 +127,14 @@ fn steps_of_a_microsecond_are_not_judged_by_their_rounding() {
     for step in 1..100_000 {
         let time = 1e-6 * f64::from(step);
         let (x, v) = (2.5 * time * time, 5.0 * time);
-        // The position as it comes out of sums of larger numbers.
+        // The position with the rounding of sums of larger numbers.
         let surge = sample(Mover::Surge, (1.1 + x) - 1.1, v, 5.0);
         let leg = sample(Mover::Leg, x, v, 5.0);
         let both = Sample { length: leg.length, leg_velocity: leg.leg_velocity, ..surge };
         let mut heave = both;
         heave.position.swap(0, 2);
         heave.velocity.swap(0, 2);
-        oracle.judge(&heave, 1e-6, &mut worst).unwrap_or_else(|breach| panic!("at {time}: {breach}"));
+        oracle.check(&heave, 1e-6, &mut worst).unwrap_or_else(|breach| panic!("at {time}: {breach}"));
     }
 }
 
@@ -145,7 +146,7 @@ fn changed(position: f64, velocity: f64, safety: &Safety) -> Oracle {
     for step in 1..=100 {
         let t = 0.01 * f64::from(step) * time;
         let v = velocity * t / time;
-        oracle.judge(&sample(Mover::Surge, 0.5 * v * t, v, velocity / time), 0.01 * time, &mut worst).unwrap();
+        oracle.check(&sample(Mover::Surge, 0.5 * v * t, v, velocity / time), 0.01 * time, &mut worst).unwrap();
     }
     oracle.change(safety);
     oracle
@@ -161,7 +162,7 @@ fn go_on(oracle: &mut Oracle, mut position: f64, mut velocity: f64, pieces: &[(f
             position += (velocity + 0.5 * acceleration * step) * step;
             velocity += acceleration * step;
             let velocity = if velocity.abs() < 1e-12 { 0.0 } else { velocity };
-            oracle.judge(&sample(Mover::Surge, position, velocity, acceleration), step, &mut worst)?;
+            oracle.check(&sample(Mover::Surge, position, velocity, acceleration), step, &mut worst)?;
         }
     }
     Ok(())
@@ -190,7 +191,7 @@ fn after_a_change_a_speed_above_the_new_limit_does_not_grow_in_the_first_step() 
     let (step, acceleration, mut worst) = (0.02, 8.0, Worst::default());
     let (position, velocity) = (0.1 + (0.5 + 0.5 * acceleration * step) * step, 0.5 + acceleration * step);
     let grown = sample(Mover::Surge, position, velocity, acceleration);
-    let breach = oracle.judge(&grown, step, &mut worst).unwrap_err();
+    let breach = oracle.check(&grown, step, &mut worst).unwrap_err();
     assert!(matches!(breach.quantity, Quantity::Velocity | Quantity::MeanVelocity), "{breach}");
 }
 

@@ -96,7 +96,7 @@ fn the_same_seed_finds_the_same() {
     assert_eq!(hunt().found, hunt().found);
 }
 
-/// A washout that nobody can make.
+/// A target that refuses all machines.
 struct Refusing;
 
 impl Target for Refusing {

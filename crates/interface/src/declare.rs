@@ -2,12 +2,17 @@
 
 /// Declares a struct of variables.
 ///
-/// Each field: the FMI name (a template, see [`Row`](crate::Row)), the Rust name and type, the unit
-/// in brackets where it is a real with one, the range in braces, and the start value. Both ends of
-/// a range are inside it, and all checks take it from here. The start value is a constant
-/// expression: the compiler evaluates it, so that no machine's arithmetic changes it. A variability
-/// before the name replaces that of the struct. The doc comment is the variable's description
-/// everywhere: write one sentence, without markup.
+/// Each field has these parts, in this order:
+///
+/// - the variability, where it differs from the struct's;
+/// - the FMI name, a template, see [`Row`](crate::Row);
+/// - the Rust name and type;
+/// - the unit in brackets, for reals only;
+/// - the range in braces. It includes both ends, and all checks use it;
+/// - the start value, a constant expression. The compiler evaluates it, so that no machine's
+///   arithmetic changes it.
+///
+/// The doc comment is the variable's description everywhere. Write one sentence without markup.
 ///
 /// ```
 /// use moris_interface::{interface, units::*, Group, Variability};
@@ -113,12 +118,13 @@ macro_rules! interface {
     (@range $range:expr) => { Some($crate::interface!(@bounds $range)) };
     (@bounds) => { (f64::MIN, f64::MAX) };
     (@bounds $range:expr) => {
-        // Whole numbers and reals alike.
+        // For integers and reals.
         const { (*($range).start() as f64, *($range).end() as f64) }
     };
 }
 
-/// Declares a struct of groups, itself a group: its rows are theirs, one group after another.
+/// Declares a struct of groups, which is itself a group. Its rows are the rows of
+/// its groups, in order.
 #[macro_export]
 macro_rules! interface_tree {
     (

@@ -17,8 +17,8 @@ pub trait Field: Copy {
     /// True if every scalar is within `range`, ends included.
     #[inline]
     fn is_within(self, (min, max): (f64, f64)) -> bool {
-        let mut room = [0.0; LARGEST_FIELD];
-        let slots = &mut room[..Self::COUNT * Self::COMPONENTS.len()];
+        let mut buffer = [0.0; LARGEST_FIELD];
+        let slots = &mut buffer[..Self::COUNT * Self::COMPONENTS.len()];
         self.write(slots);
         slots.iter().fold(true, |all, &value| all & (min <= value) & (value <= max))
     }
@@ -26,8 +26,8 @@ pub trait Field: Copy {
     /// Every scalar moved to the nearest end of `range` if it is outside, or to `rest`
     /// if it is not a number.
     fn sanitized(self, rest: Self, (min, max): (f64, f64)) -> Self {
-        let mut room = [[0.0; LARGEST_FIELD]; 2];
-        let [slots, rests] = room.each_mut().map(|room| &mut room[..Self::COUNT * Self::COMPONENTS.len()]);
+        let mut buffer = [[0.0; LARGEST_FIELD]; 2];
+        let [slots, rests] = buffer.each_mut().map(|buffer| &mut buffer[..Self::COUNT * Self::COMPONENTS.len()]);
         self.write(slots);
         rest.write(rests);
         for (slot, rest) in slots.iter_mut().zip(rests) {

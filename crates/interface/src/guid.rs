@@ -1,4 +1,4 @@
-//! The GUID by which a host knows that a model description and a binary belong together.
+//! The GUID by which a host matches a model description and a binary.
 
 use crate::{Causality, Identity, Kind, Model, start_values};
 
@@ -7,12 +7,13 @@ pub fn guid<M: Model>() -> String {
     guid_of::<M>(&start_values::<M>(&[]))
 }
 
-/// The GUID of a model with these start values, one for each slot: a hash of its name, version,
-/// variables and the start values that a host can set, so that a model description is refused by
-/// every binary whose interface differs from it in anything.
+/// The GUID of a model with these start values, one for each slot.
 ///
-/// The outputs' start values are computed, and come out differently where a host has set the
-/// processor to round or to flush small numbers otherwise; they are left out.
+/// It is a hash of the model's name, version, variables and the start values that a host can set. A
+/// binary refuses a model description if its own interface differs in any of these.
+///
+/// The outputs' start values are not part of it. They are computed, and depend on the host's
+/// rounding mode and flushing of small numbers.
 pub fn guid_of<M: Model>(start: &[f64]) -> String {
     let identity = M::IDENTITY;
     let mut hash = Fnv::new();

@@ -52,7 +52,10 @@ pub fn check_fixed<G: Group, const N: usize>(rows: &[Row], before: &G, after: &G
         if row.variability == Variability::Fixed
             && let Some(element) = before[mine.clone()].iter().zip(&after[mine]).position(|(old, new)| old != new)
         {
-            return refuse(row.variable_name(element), "is fixed once the model has started; start another");
+            return refuse(
+                row.variable_name(element),
+                "is fixed after initialization; create a new instance to change it",
+            );
         }
     }
     Ok(())
@@ -88,8 +91,8 @@ pub trait Group: Default + 'static {
     /// their slopes are zero.
     fn extrapolated(&self, slope: &Self, time: f64) -> Self {
         const { assert!(slot_count(Self::ROWS) <= MOST_EXTRAPOLATED) }
-        let mut room = [[0.0; MOST_EXTRAPOLATED]; 2];
-        let [values, slopes] = room.each_mut().map(|room| &mut room[..const { slot_count(Self::ROWS) }]);
+        let mut buffer = [[0.0; MOST_EXTRAPOLATED]; 2];
+        let [values, slopes] = buffer.each_mut().map(|buffer| &mut buffer[..const { slot_count(Self::ROWS) }]);
         self.write(&mut Writer::new(values));
         slope.write(&mut Writer::new(slopes));
         for (value, slope) in values.iter_mut().zip(slopes) {

@@ -56,8 +56,8 @@ pub struct Item {
 
 /// One line of the interface.
 ///
-/// In `name`, `#` stands for the 1-based index of an array and `@` for the component:
-/// `rig.base[#].@` with `count` 6 and components x, y, z is eighteen variables,
+/// In `name`, `#` stands for the 1-based index of an array and `@` for the component. For example,
+/// `rig.base[#].@` with `count` 6 and components x, y, z is eighteen variables. They are
 /// `rig.base[1].x` to `rig.base[6].z`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
@@ -65,12 +65,12 @@ pub struct Row {
     pub causality: Causality,
     pub variability: Variability,
     pub kind: Kind,
-    /// Elements of the array; 1 for a row that is none.
+    /// Number of elements of the array; 1 for a row that is not an array.
     pub count: usize,
     /// Components of an element: `["x", "y", "z"]`, say, or `[""]`.
     pub components: &'static [&'static str],
     /// The smallest and the largest value allowed, both inclusive. An input beyond them counts as
-    /// the nearer one, any other variable takes no such value.
+    /// the nearer one. For other variables such values are rejected.
     pub range: Option<(f64, f64)>,
     text: &'static str,
 }
@@ -88,7 +88,7 @@ impl Row {
         range: Option<(f64, f64)>,
         text: &'static str,
     ) -> Self {
-        // Only reals are continuous; booleans and whole numbers among them are discrete.
+        // Only reals are continuous. Booleans, integers and enumerations are discrete instead.
         let variability = match (kind, variability) {
             (Kind::Boolean | Kind::Integer | Kind::Enumeration(_), Variability::Continuous) => Variability::Discrete,
             (_, variability) => variability,
@@ -96,8 +96,8 @@ impl Row {
         Row { name, causality, variability, kind, count, components, range, text }
     }
 
-    /// The smallest and the largest value, whatever the row says of them; NaN and the infinities
-    /// are never between them.
+    /// The smallest and the largest value; those of the type where the row has no range. They never
+    /// admit NaN and the infinities.
     pub const fn bounds(&self) -> (f64, f64) {
         match (self.range, self.kind) {
             (Some(range), _) => range,
@@ -114,8 +114,8 @@ impl Row {
         (min..=max).contains(&value)
     }
 
-    /// The reason why the row's scalar variable cannot have this value, in words that go on its
-    /// name.
+    /// The reason why the row's scalar variable cannot have this value, as text
+    /// that follows its name.
     pub fn reason(&self, value: f64) -> String {
         let expected = match (self.kind, self.range) {
             (Kind::Enumeration(enumeration), _) => {
@@ -157,7 +157,7 @@ impl Row {
         self.name.replace('#', &index.to_string()).replace('@', component)
     }
 
-    /// The name of the row as one array variable: the template without its places
+    /// The name of the row as one array variable: the template without the placeholders
     /// for index and component.
     pub fn array_name(&self) -> String {
         self.name.replace("[#]", "").replace(".@", "")
@@ -167,7 +167,7 @@ impl Row {
 /// The smallest and the largest value of the row of this name.
 ///
 /// # Panics
-/// If no row has this name; in a constant, the compiler says so.
+/// If no row has this name. In a constant this is a compile error.
 pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
     let mut r = 0;
     while r < rows.len() {
@@ -179,11 +179,11 @@ pub const fn bounds_of(rows: &[Row], name: &str) -> (f64, f64) {
     panic!("no row has this name")
 }
 
-/// The rows, of which those of these names are tunable: for a model that has another's struct, and
-/// can change in flight what the other cannot.
+/// The rows, with those of these names made tunable. For a model that reuses another model's struct
+/// but can change more of its parameters in flight.
 ///
 /// # Panics
-/// If a name is no row's; in a constant, the compiler says so.
+/// If no row has one of the names. In a constant this is a compile error.
 pub const fn with_tunable<const N: usize>(mut rows: [Row; N], names: &[&str]) -> [Row; N] {
     let mut n = 0;
     while n < names.len() {

@@ -1,5 +1,5 @@
-//! The bound for a desired specific force that is read from standard input, a number a line, on
-//! the default rig's surge:
+//! The bound on the surge of the default rig. The desired specific force is read from standard
+//! input, one number a line:
 //!
 //!     cargo run --release --package moris-measures --example bound -- <seconds between samples> <seconds an interval>
 

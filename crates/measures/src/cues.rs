@@ -1,8 +1,10 @@
-//! Time above the perception thresholds: cues that the rider senses on the platform and should not,
-//! and cues that should be felt and are not.
+//! Time above the perception thresholds: false cues, which should not be sensed on the platform,
+//! and missing cues, which should be.
 //!
-//! The thresholds apply to what the vestibular model senses, as in Reid and Nahon (1985): 0.17 m/s2
-//! in surge and sway, 0.28 m/s2 in heave, 3.0 deg/s in roll, 3.6 deg/s in pitch, 2.6 deg/s in yaw.
+//! The thresholds apply to the vestibular model's response, as in Reid and Nahon (1985):
+//!
+//! - specific force: 0.17 m/s2 in surge and sway, 0.28 m/s2 in heave;
+//! - angular velocity: 3.0 deg/s in roll, 3.6 deg/s in pitch, 2.6 deg/s in yaw.
 
 /// Least sensed specific force that is perceived, by axis x, y, z \[m/s2\].
 pub const FORCE_THRESHOLDS: [f64; 3] = [0.17, 0.17, 0.28];
@@ -10,7 +12,7 @@ pub const FORCE_THRESHOLDS: [f64; 3] = [0.17, 0.17, 0.28];
 /// Least sensed angular velocity that is perceived, by axis x, y, z \[rad/s\].
 pub const RATE_THRESHOLDS: [f64; 3] = [3.0_f64.to_radians(), 3.6_f64.to_radians(), 2.6_f64.to_radians()];
 
-/// Shares of the samples, 0 to 1.
+/// Fractions of the samples, 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cues {
     /// Sensed in the vehicle.
@@ -21,7 +23,7 @@ pub struct Cues {
     pub missing_cues: f64,
 }
 
-/// Compares what is sensed in the vehicle and on the platform.
+/// Compares the signals sensed in the vehicle and on the platform.
 pub fn cues(desired: &[f64], felt: &[f64], threshold: f64) -> Cues {
     let perceived = |value: f64| if value.abs() >= threshold { value.signum() } else { 0.0 };
     let fraction = |holds: fn(f64, f64) -> bool| {

@@ -8,9 +8,9 @@ use realfft::RealFftPlanner;
 
 use crate::fidelity::{CONSTANT, correlation, mean};
 
-/// Longest delay, of either sign, that is looked for \[s\].
+/// Longest delay considered, of either sign \[s\].
 const LONGEST_DELAY: f64 = 2.0;
-/// Correlation below which, at any shift, two signals are not the same signal, only later.
+/// Least correlation at the best shift for one signal to count as the other one delayed.
 const SAME_SIGNAL: f64 = 0.9;
 /// Accuracy of the correlations from the Fourier transform.
 const ACCURACY: f64 = 1e-9;
@@ -21,9 +21,9 @@ const LEAST_ENERGY: f64 = 1e-6;
 /// found between the samples by a parabola through the best shift and its neighbours. The
 /// correlation at a shift is Pearson's over the samples that overlap.
 ///
-/// None where a signal is constant, where the best correlation is below 0.9, and where
-/// the best shift is not within two seconds or half the signals' length: such signals
-/// have no delay in common.
+/// The delay is `None` where a signal is constant or the best correlation is below 0.9. It is also
+/// `None` where the best shift is not within two seconds or half the signals' length. Such signals
+/// have no common delay.
 pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     let longest = ((LONGEST_DELAY / step).round() as usize).min(desired.len() / 2);
     let approximate = correlations(desired, felt, longest)?;
@@ -43,10 +43,10 @@ pub fn delay(desired: &[f64], felt: &[f64], step: f64) -> Option<f64> {
     Some((best as f64 - longest as f64 + vertex) * step)
 }
 
-/// The correlations at all shifts from `-longest` to `longest` samples; none where
+/// The correlations at all shifts from `-longest` to `longest` samples. `None` where
 /// an overlap is constant.
 fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64>> {
-    // Without their means the signals' products are small, and so are the errors of the sums.
+    // The means are removed, so that the products and the errors of their sums are small.
     let centred = |values: &[f64]| {
         let mean = mean(values);
         values.iter().map(|value| value - mean).collect::<Vec<f64>>()
@@ -90,7 +90,8 @@ fn products(desired: &[f64], felt: &[f64], longest: usize) -> Vec<f64> {
     let (desired, mut felt) = (spectrum(desired), spectrum(felt));
     felt.iter_mut().zip(&desired).for_each(|(f, d)| *f *= d.conj());
     let mut products = inverse.make_output_vec();
-    // The first and the last line of the spectrum of a real signal are real; rounding must not leave anything else.
+    // The first and the last line of the spectrum of a real signal are real. Rounding may have
+    // left an imaginary part.
     let last = felt.len() - 1;
     (felt[0].im, felt[last].im) = (0.0, 0.0);
     inverse.process(&mut felt, &mut products).expect("the buffers are the plan's own");

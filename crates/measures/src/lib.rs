@@ -1,8 +1,7 @@
-//! Measures of motion cue quality, and the best quality that a rig permits.
+//! Measures of motion-cue quality, and a bound of the quality that a rig permits.
 //!
-//! Plain series go in ([`Run`]): what the vehicle's rider would feel, what the rider on the
-//! platform feels, and what the platform did. [`Measures`] come out, and [`Measures::rows`] lists
-//! them for people, each with its unit, definition and source.
+//! The input is a [`Run`]: series of the desired, the felt and the platform's motion. The result is
+//! [`Measures`]. [`Measures::rows`] lists them with unit, definition and source.
 //!
 //! | module | what it measures |
 //! |---|---|

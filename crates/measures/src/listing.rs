@@ -173,24 +173,24 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
             Some(bound.rms_error),
             "m/s²",
             3,
-            "The smallest RMS error that any controller could reach, even one that knows the whole ride beforehand, on the \
-             linearised axis under the same limits of tilt, tilt rate, travel, speed and acceleration.",
+            "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
+             same limits of tilt, tilt rate, travel, speed and acceleration.",
         ),
         row(
-            "left on the table",
+            "gap to the bound",
             Some((felt - bound.rms_error).max(0.0)),
             "m/s²",
             3,
-            "RMS error beyond the bound: what a better controller could gain at most.",
+            "RMS error beyond the bound: the most that a better controller could gain.",
         ),
         row(
-            "error, of what is desired",
+            "relative error",
             percentage(felt),
             "%",
             1,
-            "RMS error as a fraction of the RMS of the desired specific force without gravity: 100 % is to stand still.",
+            "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.",
         ),
-        row("bound, of what is desired", percentage(bound.rms_error), "%", 1, "The bound as the same fraction."),
+        row("relative bound", percentage(bound.rms_error), "%", 1, "The bound as the same fraction."),
     ]
 }
 
@@ -248,7 +248,7 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
             "Fraction of the steps in which the actuator guard limited an actuator.",
         ),
         row(
-            "from neutral at the end",
+            "final distance from neutral",
             effort.final_distance,
             "m",
             3,

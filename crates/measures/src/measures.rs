@@ -40,8 +40,8 @@ impl Measures {
     pub fn of(run: &Run) -> Result<Self, RunError> {
         run.check()?;
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
-        let force = Channel { organ: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
-        let rate = Channel { organ: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
+        let force = Channel { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
+        let rate = Channel { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
         let [force_x, force_y, force_z] = force.compare(run.desired_force, run.felt_force);
         let [rate_x, rate_y, rate_z] = rate.compare(run.desired_rate, run.felt_rate);
         Ok(Measures {
@@ -58,7 +58,7 @@ impl Measures {
 
 /// Sensed vector signal.
 struct Channel<'a> {
-    organ: &'a SensorModel,
+    sensor: &'a SensorModel,
     rest: [f64; 3],
     thresholds: [f64; 3],
     step: f64,
@@ -77,7 +77,7 @@ impl Channel<'_> {
     }
 
     fn compare_axis(&self, k: usize, desired: &[f64], felt: &[f64]) -> Comparison {
-        let sense = |signal| sensed(self.organ, signal, self.rest[k], self.step);
+        let sense = |signal| sensed(self.sensor, signal, self.rest[k], self.step);
         let (sensed_desired, sensed_felt) = (sense(desired), sense(felt));
         Comparison {
             raw: fidelity(desired, felt, self.step),

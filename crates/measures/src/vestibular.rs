@@ -1,5 +1,5 @@
-//! The vestibular model: what the semicircular canals and the otoliths make of angular
-//! velocity and specific force.
+//! The vestibular model: response of the semicircular canals to angular velocity, and of the
+//! otoliths to specific force.
 //!
 //! Both are linear and of second order, with the parameters of Telban and Cardullo (2005):
 //!
@@ -8,11 +8,12 @@
 //! - semicircular canals, from angular velocity to sensed angular velocity: 5.73 * 80 s^2 /
 //!   ((1 + 80 s)(1 + 5.73 s)).
 //!
-//! The otoliths sense a force that lasts at 0.4 of its size and a quick one at 0.8; the canals
-//! sense quick turning at its size and forget a rate that lasts within some ten seconds.
+//! The otoliths respond to a sustained force with a gain of 0.4, and to a quick one with a gain of
+//! 0.8. The canals respond to quick turning with a gain of 1. Their response to a sustained rate
+//! decays within some ten seconds.
 //!
-//! Each is discretised exactly for a signal that goes linearly from sample to sample (first-order
-//! hold), by the matrix exponential.
+//! Each is discretised by the matrix exponential, exactly for a signal that is linear between its
+//! samples (first-order hold).
 
 use nalgebra::SMatrix;
 
@@ -38,15 +39,14 @@ pub const OTOLITHS: SensorModel = SensorModel::new([0.4, 0.4 * 10.0, 0.0], 5.0, 
 /// The semicircular canals: angular velocity to sensed angular velocity.
 pub const CANALS: SensorModel = SensorModel::new([0.0, 0.0, 5.73 * 80.0], 80.0, 5.73);
 
-/// Response of an organ to a signal that is sampled every `step` seconds, having been at `rest`
-/// for ever before its first sample. The organ's answer to `rest` itself is left out: what is
-/// sensed is the change from it.
-pub fn sensed(organ: &SensorModel, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
-    let [b0, b1, b2] = organ.numerator;
-    let [a1, a2] = organ.denominator;
-    let transition = transition(organ, step);
-    // a2 answer'' + a1 answer' + answer = u; what is sensed is b2 answer'' + b1 answer' + b0 answer.
-    let (mut answer, mut rate) = (0.0, 0.0);
+/// Response of a sensor to a signal that is sampled every `step` seconds and was at `rest` before
+/// its first sample. The response to `rest` itself is omitted: the result is the deviation from it.
+pub fn sensed(sensor: &SensorModel, signal: &[f64], rest: f64, step: f64) -> Vec<f64> {
+    let [b0, b1, b2] = sensor.numerator;
+    let [a1, a2] = sensor.denominator;
+    let transition = transition(sensor, step);
+    // a2 response'' + a1 response' + response = u; the sensed value is b2 response'' + b1 response' + b0 response.
+    let (mut response, mut rate) = (0.0, 0.0);
     let mut before = None;
     signal
         .iter()
@@ -54,20 +54,20 @@ pub fn sensed(organ: &SensorModel, signal: &[f64], rest: f64, step: f64) -> Vec<
             let end = value - rest;
             if let Some(start) = before {
                 let slope = (end - start) / step;
-                let next = |row: [f64; 4]| row[0] * answer + row[1] * rate + row[2] * start + row[3] * slope;
-                (answer, rate) = (next(transition[0]), next(transition[1]));
+                let next = |row: [f64; 4]| row[0] * response + row[1] * rate + row[2] * start + row[3] * slope;
+                (response, rate) = (next(transition[0]), next(transition[1]));
             }
             before = Some(end);
-            let acceleration = (end - a1 * rate - answer) / a2;
-            b2 * acceleration + b1 * rate + b0 * answer
+            let acceleration = (end - a1 * rate - response) / a2;
+            b2 * acceleration + b1 * rate + b0 * response
         })
         .collect()
 }
 
-/// The exact step of the answer and its rate for an input that is linear in time: what each of
-/// answer, rate, the input and its slope adds.
-fn transition(organ: &SensorModel, step: f64) -> [[f64; 4]; 2] {
-    let [a1, a2] = organ.denominator;
+/// The exact step of the response and its rate for an input that is linear in time. Each row holds
+/// the coefficients of the response, its rate, the input and the input's slope.
+fn transition(sensor: &SensorModel, step: f64) -> [[f64; 4]; 2] {
+    let [a1, a2] = sensor.denominator;
     #[rustfmt::skip]
     let matrix = SMatrix::<f64, 4, 4>::new(
         0.0,       1.0,      0.0,      0.0,
@@ -119,14 +119,14 @@ mod tests {
 
     #[test]
     fn a_vibration_is_sensed_with_the_transfer_function_s_modulus() {
-        for (organ, slow, quick) in [(&OTOLITHS, 5.0, 0.016), (&CANALS, 80.0, 5.73)] {
+        for (sensor, slow, quick) in [(&OTOLITHS, 5.0, 0.016), (&CANALS, 80.0, 5.73)] {
             for omega in [0.05, 0.5, 5.0] {
                 let periods = (600.0 * omega / (2.0 * PI)).floor();
                 let length = (periods * 2.0 * PI / omega / STEP).round() as usize;
                 let signal: Vec<f64> = (0..4 * length).map(|k| (omega * k as f64 * STEP).sin()).collect();
-                let settled = &sensed(organ, &signal, 0.0, STEP)[3 * length..];
+                let settled = &sensed(sensor, &signal, 0.0, STEP)[3 * length..];
                 let rms = (settled.iter().map(|y| y * y).sum::<f64>() / length as f64).sqrt();
-                let [b0, b1, b2] = organ.numerator;
+                let [b0, b1, b2] = sensor.numerator;
                 let numerator = (b0 - b2 * omega * omega).hypot(b1 * omega);
                 let modulus = numerator / (1.0_f64.hypot(slow * omega) * 1.0_f64.hypot(quick * omega));
                 assert!((rms * 2.0_f64.sqrt() - modulus).abs() < 1e-3 * modulus, "{rms} {modulus} at {omega} rad/s");

@@ -21,7 +21,7 @@ const SURGE: AxisLimits = AxisLimits {
     }),
 };
 
-/// So little tilt that a ride is at its limit.
+/// Little tilt, so that its limit is active.
 const LITTLE_TILT: AxisLimits = AxisLimits {
     tilt: Some(TiltLimits { angle: 0.03, rate: 0.3, acceleration: 0.5, head_height: 1.2, gravity: 9.80665 }),
     ..SURGE

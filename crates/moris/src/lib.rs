@@ -1,13 +1,18 @@
 //! The workbench: from a recording and a rig to a tuned washout and a report.
 //!
-//! One module a command: [`rig`] checks a platform, [`simulate`] simulates a recording on it,
-//! [`measure`] prints a table of the measures of many, [`tune`] searches for better
-//! parameters, [`frequency_response`] measures a frequency response, [`parameters`] lists all
-//! parameters, [`help`] writes completions for shells and man pages, [`schema`] the schemas
-//! of files for editors.
+//! Each command has a module:
 //!
-//! [`recording`] reads recordings, for every command that needs one. Rigs and parameters are read
-//! by the crate `moris-setup`.
+//! - [`rig`] checks a platform.
+//! - [`simulate`] simulates recordings on it.
+//! - [`measure`] prints a table of the measures of several recordings.
+//! - [`tune`] searches for better parameters.
+//! - [`frequency_response`] measures a frequency response.
+//! - [`parameters`] lists all parameters.
+//! - [`help`] writes shell completions and man pages.
+//! - [`schema`] writes schemas of the files, for editors.
+//!
+//! [`recording`] reads recordings for all commands. The crate `moris-setup`
+//! reads rigs and parameters.
 
 #![forbid(unsafe_code)]
 
@@ -24,5 +29,5 @@ pub mod simulate;
 pub mod text_table;
 pub mod tune;
 
-/// Directory for reports unless `--report` gives another. No directory of the sources is called so.
+/// Default directory for reports. No directory of the sources has this name.
 pub const REPORT_DIRECTORY: &str = "moris-report";

@@ -8,14 +8,14 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 /// Time between the lines of a log.
 const LOG_EVERY: Duration = Duration::from_secs(2);
-/// Time between two pictures of the bar, which shows that the command is alive.
+/// Time between two updates of the bar.
 const TICK: Duration = Duration::from_millis(200);
 
 /// Progress of one recording through its phases.
 pub struct Progress {
     name: String,
     bar: ProgressBar,
-    /// Lines where standard error is no terminal; none where it is one.
+    /// Lines for a standard error that is not a terminal; none for a terminal.
     log: Option<Log>,
 }
 
@@ -31,7 +31,7 @@ impl Progress {
     /// Begins with a phase of unknown length, which is shown at once.
     ///
     /// # Errors
-    /// There are none: the bar's template is fixed.
+    /// No error is possible, because the bar's template is fixed.
     pub fn new(name: &str, phase: &'static str) -> Result<Self> {
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg} {wide_bar} {percent:>3} %")?);
@@ -44,7 +44,7 @@ impl Progress {
         Ok(progress)
     }
 
-    /// Begins the next phase, of so many steps; 0 where their number is unknown.
+    /// Begins the next phase of `steps` steps; 0 where their number is unknown.
     pub fn phase(&mut self, phase: &'static str, steps: u64) {
         self.bar.set_message(format!("{}: {phase}", self.name));
         self.bar.set_length(steps.max(1));
@@ -59,7 +59,7 @@ impl Progress {
     pub fn step(&mut self) {
         let Some(log) = &mut self.log else { return self.bar.inc(1) };
         log.done += 1;
-        // A look at the clock takes longer than a look at a counter.
+        // Reading the clock takes longer than reading a counter.
         if log.done.is_multiple_of(256) && log.total > 0 && log.last.elapsed() > LOG_EVERY {
             log.last = Instant::now();
             eprintln!("{}: {}, {} %", self.name, log.phase, 100 * log.done / log.total);

@@ -1,12 +1,14 @@
-//! For small signals the washout is linear, and what is felt has a closed form in
-//! HP = s^4/D, LP = 1 - HP.
+//! Small-signal response of the washout, compared with its closed form in HP =
+//! s^4/D and LP = 1 - HP.
 //!
-//! With u the force, w the rate, h the head's height and theta = -LP u/g the tilt that the force
-//! asks for, full compensation takes h theta'' off the platform's acceleration before the
-//! high-pass: felt = HP (u - h theta'') + h theta'' + LP u = (1 - (h/g) s^2 LP^2) u, and the pitch
-//! rate is -s LP u/g. A rate turns the platform by s^3/D w: felt is s^4/D w, and gravity,
-//! compensated like a tilt, brings -(g - h s^2 LP) s^3/D w along surge (with the other sign along
-//! sway, where a roll to the right feels like a force to the left).
+//! Symbols: u is the force, w the rate, h the head's height.
+//!
+//! - A force u demands the tilt theta = -LP u/g. Full compensation subtracts h theta'' from the
+//!   platform's acceleration before the high-pass. So felt = HP (u - h theta'') + h theta'' + LP
+//!   u = (1 - (h/g) s^2 LP^2) u, and the pitch rate is -s LP u/g.
+//! - A rate w rotates the platform by s^3/D w, and the felt rate is s^4/D w. Gravity, compensated
+//!   like a tilt, adds -(g - h s^2 LP) s^3/D w along surge. Along sway the sign is opposite: a roll
+//!   to the right feels like a force to the left.
 
 use moris::frequency_response::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
 use moris::frequency_response::excitation::{Amplitudes, frequencies};
@@ -17,8 +19,8 @@ use moris_washout::{Parameters, presets};
 const GRAVITY: f64 = 9.80665;
 const HEAD: f64 = 1.2;
 const SMALL: f64 = 1e-3;
-/// Remainder of a sine of 15.8 rad/s after steps of a millisecond, as the tilt, felt through its
-/// acceleration, shows it: (w h)^2/2.
+/// Relative error at 15.8 rad/s with steps of a millisecond, as it appears in the tilt, which is
+/// felt through its acceleration: (w h)^2/2, with h the step.
 const TOLERANCE: f64 = 1.3e-4;
 
 /// 1 - s^4/D with D = (s^2 + 2 zeta omega s + omega^2)^2.
@@ -108,8 +110,8 @@ fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
     assert!(surge.distortion[Pitch as usize] > 0.02, "{}", surge.distortion[Pitch as usize]);
 }
 
-/// A vehicle that pitches without accelerating feels gravity along surge; where the whole of
-/// gravity is removed, none of it is cued, and only the rate is left.
+/// A vehicle that pitches without accelerating has gravity along surge. If all of gravity is
+/// removed, only the rate is cued.
 #[test]
 fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
     let mut parameters = presets::parameters(presets::PAPER);

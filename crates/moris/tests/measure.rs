@@ -105,7 +105,7 @@ fn targets_that_are_missed_are_named_and_fail_a_check() {
     let tight = ["--geometric-mean", "0.001", "--ratio", "0.001", "--heave", "0", "--cues", "-1"];
     let (output, text) = measure(directory.path(), &[&["ride.csv", "--check"], &tight[..]].concat());
     assert!(!output.status.success());
-    for expected in ["Geometric mean over 2 channels", "ride, surge: ", "ride, sway: ", "ride, heave: ", "Roll rate: "]
+    for expected in ["geometric mean over 2 channels", "ride, surge: ", "ride, sway: ", "ride, heave: ", "Roll rate: "]
     {
         assert!(text.contains(expected), "{expected}: {text}");
     }

@@ -1,5 +1,4 @@
-//! Recordings: the same ride in other units, axes and forms is the same ride, and what is wrong
-//! is told with its place.
+//! Recordings: units, axes and formats are converted, and errors name their place in the file.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -19,7 +18,7 @@ use tempfile::TempDir;
 
 const GRAVITY: f64 = 9.80665;
 
-/// A sample of a made-up ride: time, specific force, body rates, roll, pitch, yaw,
+/// A sample of an artificial recording: time, specific force, body rates, roll, pitch, yaw,
 /// all in SI units, z up.
 type Sample = [f64; 10];
 
@@ -160,8 +159,8 @@ fn removed_gravity_is_put_back_by_the_orientation() {
     assert_same(&read(&without, &options), &expected);
 }
 
-/// Without orientation, gravity removal of either kind takes (0, 0, g) away: what is cued is
-/// what differs from rest.
+/// Without orientation, gravity removal of either kind subtracts (0, 0, g). The cue is the
+/// difference from rest.
 #[test]
 fn without_orientation_what_is_cued_is_what_differs_from_rest() {
     let recording = read(&plain(), &ConventionOptions::default());
@@ -226,7 +225,7 @@ fn wrong_units_and_axes_are_recognised() {
     let turned = csv(PLAIN, &samples(), |s| vec![s[0], s[3], s[2], s[1], s[4], s[5], s[6]]);
     assert!(refusal(&turned, &default).contains("x is nearest to the vertical"));
 
-    // And so is the opposite: units and axes that are said, but are not the recording's.
+    // Given units and axes that are not the recording's are also refused.
     let said = |options: ConventionOptions| refusal(&plain(), &options);
     assert!(
         said(ConventionOptions { force_unit: Some(ForceUnit::Gravity), ..default.clone() })
@@ -304,7 +303,7 @@ fn unequal_steps_are_refused_and_can_be_interpolated() {
     for (time, input) in recording.times().zip(recording.inputs()) {
         assert!((input.specific_force - Vector3::new(0.1 * time, -0.2 * time, GRAVITY)).amax() < 1e-12);
     }
-    // A long gap is told of.
+    // A long gap causes a warning.
     let gap: Vec<Sample> = kept.iter().copied().filter(|s| !(1.0..2.0).contains(&s[0])).collect();
     let recording = read(&csv(PLAIN, &gap, |s| s[..7].to_vec()), &options);
     assert!(
@@ -366,8 +365,8 @@ fn field() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Whatever a file holds, it is a ride of finite numbers at equal steps, or an
-    /// error that names the file.
+    /// Any file gives a recording of finite numbers at equal steps, or an error that names the
+    /// file.
     #[test]
     fn no_file_is_a_panic(
         steps in prop::collection::vec(prop_oneof![6 => Just(0.01), 1 => -1.0..1.0f64, 1 => any::<f64>()], 0..30),

@@ -2,14 +2,14 @@
 //! manner of Sharp (1971).
 //!
 //! The bodies are those of [`crate::whipple`], in its axes: x forward, y to the RIGHT, z DOWN from
-//! the rear contact; all angles positive to the right. The equations are derived from the same
-//! kinetic and potential energy, before the wheels are forbidden to slip sideways; with infinitely
-//! stiff tyres they are Whipple's. They are linear in the state and their coefficients linear in
-//! the speed, so that a model is two matrices.
+//! the rear contact. All angles are positive to the right. The equations are derived from the same
+//! kinetic and potential energy, without the constraint that the wheels do not slip sideways. With
+//! infinitely stiff tyres they are Whipple's. They are linear in the state and their coefficients
+//! linear in the speed, so that a model is two matrices.
 //!
-//! The lean of these linear equations stands for the TANGENT of the roll angle: so a steady turn,
-//! where they say speed times yaw rate = gravity times lean, is balanced at any roll angle, and no
-//! state rolls beyond 90 degrees.
+//! The lean of these linear equations is the TANGENT of the roll angle. In a steady turn, speed
+//! times yaw rate equals gravity times lean. With the tangent, such a turn is balanced at any roll
+//! angle, and no state rolls beyond 90 degrees.
 
 use nalgebra::{Matrix2, Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
@@ -17,9 +17,12 @@ use serde::{Deserialize, Serialize};
 use crate::interface::{Machine, Parameters};
 use crate::whipple::{Bicycle, Body, Totals, Wheel};
 
-/// Places in the state: lateral velocity of the rear contact in axes of the heading \[m/s\], yaw
-/// rate, lean rate, steer rate \[rad/s\], lean (the roll's tangent), steer \[rad\], lateral force
-/// on the rear and on the front tyre \[N\].
+/// Indices of the state's variables.
+///
+/// - lateral velocity of the rear contact, in axes of the heading \[m/s\];
+/// - yaw rate, lean rate and steer rate \[rad/s\];
+/// - lean (the roll's tangent) and steer angle \[rad\];
+/// - lateral forces on the rear and the front tyre \[N\].
 pub mod place {
     pub const VELOCITY: usize = 0;
     pub const YAW_RATE: usize = 1;
@@ -39,8 +42,8 @@ pub type State = SVector<f64, SIZE>;
 /// A matrix that acts on the lateral state.
 pub type StateMatrix = SMatrix<f64, SIZE, SIZE>;
 
-/// Units of a state that begins with the lateral one, in which all its numbers are of about the
-/// same size: forces in kN.
+/// Units in which the variables of a state that begins with the lateral one are of
+/// similar size: forces in kN.
 pub fn units<const N: usize>() -> SVector<f64, N> {
     let mut units = SVector::repeat(1.0);
     units[place::REAR_FORCE] = 1e3;
@@ -48,7 +51,7 @@ pub fn units<const N: usize>() -> SVector<f64, N> {
     units
 }
 
-/// A tyre: forces for slip and camber, and how far it rolls until they are there.
+/// A tyre: forces for slip and camber, and the relaxation length with which they build up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tyre {
     /// Lateral force for a small slip angle \[N/rad\].
@@ -92,16 +95,16 @@ pub struct Design {
 pub struct Lateral {
     pub constant: StateMatrix,
     pub per_speed: StateMatrix,
-    /// Feet on the road and firm hands when they hold fully, and dampers on both contacts then, for
-    /// a tyre that does not roll is a spring without any damping.
+    /// Feet on the road and hands on the bars at full support, and dampers on both contacts. The
+    /// dampers are needed because a tyre at standstill is an undamped spring.
     pub hold: StateMatrix,
-    /// Of a torque between rider and bars \[N m\], positive to the right.
+    /// Effect of a torque between rider and bars \[N m\], positive to the right.
     pub torque: State,
-    /// Of the torso's lean \[rad\] ...
+    /// Effect of the torso's lean \[rad\].
     pub torso: State,
-    /// ... and of its second derivative \[rad/s2\].
+    /// Effect of its second derivative \[rad/s2\].
     pub torso_acceleration: State,
-    /// Of the wind's force to the right \[N\].
+    /// Effect of the wind's force to the right \[N\].
     pub wind: State,
 }
 
@@ -115,7 +118,7 @@ pub struct Actions {
 }
 
 impl Lateral {
-    /// The equations, or `None` where the masses make no positive definite mass matrix.
+    /// The equations, or `None` where the mass matrix is not positive definite.
     ///
     /// With q = (lateral displacement of the rear contact, yaw, lean, steer):
     /// M q'' + v G q' + D q' + g K q = Q.
@@ -163,8 +166,8 @@ impl Lateral {
         Some(lateral)
     }
 
-    /// A tyre's force F on the motorcycle, and how it follows the slip velocity s: sigma F' = -v F
-    /// - C s + v C_camber camber.
+    /// Adds a tyre's force F on the motorcycle. It follows the slip velocity s by
+    /// sigma F' = v (C_camber camber - F) - C s.
     fn add_tyre(&mut self, contact: &Contact, inverse: &Matrix4<f64>) {
         let Contact { force, arms, steer_slip, steer_camber, tyre } = contact;
         let force = *force;
@@ -177,9 +180,8 @@ impl Lateral {
         self.per_speed[(force, STEER)] = (tyre.cornering * steer_slip + tyre.camber * steer_camber) / tyre.relaxation;
     }
 
-    /// Feet and hands when they hold fully: a stiffness against roll, and as much damping as brings
-    /// the motorcycle upright without swinging; and the same for the bars, which fall to a side by
-    /// their own weight.
+    /// Adds feet and hands at full support: a stiffness against roll, with critical damping. Hands
+    /// have the same on the bars, which would otherwise turn to a side by their own weight.
     fn add_feet_and_hands(&mut self, t: &Totals, k0: &Matrix2<f64>, inverse: &Matrix4<f64>) {
         let feet = (2, LEAN, LEAN_RATE, FEET_STIFFNESS * k0[(0, 0)].abs(), t.t_xx);
         let hands = (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll);
@@ -209,10 +211,10 @@ impl Lateral {
 
 /// A tyre on the road.
 struct Contact {
-    /// The place of its force in the state.
+    /// Index of its force in the state.
     force: usize,
-    /// Lateral displacement of the contact by each of q, which is the generalised force of a unit
-    /// lateral force.
+    /// Lateral displacement of the contact per coordinate of q. This is also the generalised force
+    /// of a unit lateral force.
     arms: Vector4<f64>,
     /// Fraction of the steer angle that turns the wheel in the road's plane, and fraction that
     /// cambers it.
@@ -280,7 +282,7 @@ pub fn foot_support(speed: f64, fastest: f64) -> f64 {
 }
 
 impl Design {
-    /// From the interface's parameters: z is up there.
+    /// From the interface's parameters, where z is up.
     pub fn new(parameters: &Parameters) -> Design {
         let Parameters { machine, tyres, rider, longitudinal, run, .. } = parameters;
         let bicycle = bicycle(machine);

@@ -1,8 +1,8 @@
-//! A motorcycle and its rider: from throttle, brake, lean and wind to the specific force at the
-//! rider's head.
+//! A motorcycle and its rider. The inputs are throttle, brake, lean and wind; the main output is
+//! the specific force at the rider's head.
 //!
-//! [`Motorcycle`] is stepped beside a washout filter, whose inputs are its first outputs, by the
-//! same names and in the same frames.
+//! [`Motorcycle`] is stepped together with a washout. Its first outputs are the washout's inputs,
+//! with the same names and frames.
 //!
 //! | module | contents |
 //! |---|---|
@@ -15,10 +15,10 @@
 //! | [`pose`] | the pose in the world, and the specific force at the head |
 //! | [`state`] | the state vector and its integration |
 //!
-//! Frames: x forward, y left, z up; roll positive to the right, pitch positive nose down, yaw
-//! positive to the left; only [`lateral`] and [`whipple`] keep the axes of their literature, y to
-//! the right and z down. All quantities are in SI units. Sines, cosines and their like come from
-//! the crate `libm`, so that every platform computes the same bits.
+//! Frames: x forward, y left, z up. Roll is positive to the right, pitch positive nose down, yaw
+//! positive to the left. Only [`lateral`] and [`whipple`] use the axes of their literature, y to
+//! the right and z down. All quantities are in SI units. Trigonometric and similar functions are
+//! those of the crate `libm`, so that every platform computes the same bits.
 //!
 //! A step allocates nothing, does no I/O and does not panic, for any input.
 
@@ -44,7 +44,7 @@ pub use interface::{Course, Input, Output, Parameters};
 pub use moris_interface::{Model, ParameterError};
 pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};
 
-// The snippets of this page, as doc tests.
+// The snippets of `docs/motorcycle.md` as doc tests.
 #[cfg(doctest)]
 #[doc = include_str!("../../../docs/motorcycle.md")]
 mod page {}

@@ -1,12 +1,13 @@
 //! Speed and pitch: drive, brakes, drag, rolling resistance, tyre friction, standstill.
 //!
-//! The whole machine pitches about the point of the road under its centre of mass, so that a mass
-//! at the height z moves with the velocity v + z p' (p the pitch, nose down). With the wheels' spin
-//! in the mass m' and the moment of inertia J about that point,
+//! The whole machine pitches by p, nose down, about the point of the road under its centre of mass.
+//! A mass at the height z then moves with the velocity v + z p'. With m' the mass including the
+//! wheels' spin, and J the moment of inertia about that point,
 //!
 //! m' v' + m h p'' = X_f + X_r - D + W,   m h v' + J p'' = Q - (D - W) z_D,
 //!
-//! Q the moment of the suspension. The forces on the tyres act where nothing moves by pitching.
+//! with Q the moment of the suspension. The tyres' forces act at the road, which does
+//! not move with the pitch.
 
 use serde::{Deserialize, Serialize};
 
@@ -188,13 +189,13 @@ impl Longitudinal {
             + self.static_moment * speed * pitch_rate
     }
 
-    /// Drive or brakes reduced so that a fraction of the weight stays on either wheel: by the
-    /// balance of moments in a steady acceleration, and by the present load while the springs still
-    /// move.
+    /// Drive or brakes, reduced so that a fraction of the weight stays on either wheel. The limit
+    /// is that of the balance of moments in a steady acceleration. While the springs still move,
+    /// the present load also limits the forces.
     fn keep_wheels_down(&self, forces: Wheels, loads: &Wheels, resistance: f64) -> (Wheels, bool) {
         let p = &self.parameters;
         let reserve = p.lift_reserve * (self.static_loads.front + self.static_loads.rear);
-        // The tyres' whole force that shifts this much load to the rear wheel.
+        // The tyres' total force that shifts this load to the rear wheel.
         let force_for = |shift: f64| {
             let acceleration = (shift * self.wheelbase - resistance * p.aero_height) / self.static_moment;
             self.inertia * acceleration + resistance
@@ -214,7 +215,7 @@ impl Longitudinal {
     }
 }
 
-/// Fraction of a force that a load permits: 1 above the reserve, falling to 0 with the load.
+/// Fraction of a force that a load permits: 1 above the reserve, decreasing to 0 with the load.
 fn light(load: f64, reserve: f64) -> f64 {
     if load < reserve { load / reserve } else { 1.0 }
 }

@@ -38,25 +38,26 @@ pub struct Motorcycle {
     suspension: Suspension,
     geometry: Geometry,
     rider: Rider,
-    ride: Ride,
+    run: RunState,
     output: Output,
     output_derivative: Output,
     /// The path and the rider's gains on it; none without a path.
     follower: Option<Box<Follower>>,
-    /// The ride of the next seconds; none without a path, and after the ride.
+    /// The simulation of the next seconds. None without a path, or after the
+    /// path was left or a fall.
     forerun: Option<Box<Forerun>>,
 }
 
-/// The state, and the stage of a ride on a path.
+/// The state, and the stage on a path.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ride {
+pub struct RunState {
     state: State,
     stage: Stage,
     /// True if friction limited a tyre's lateral force in the last internal step.
     grip_limited: bool,
 }
 
-/// Stage of a ride on a path.
+/// Stage on a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum Stage {
     /// On the path, or without one.
@@ -115,7 +116,7 @@ impl Model for Motorcycle {
             suspension,
             geometry: Geometry::new(parameters),
             rider,
-            ride: Ride { state, stage: Stage::Riding, grip_limited: false },
+            run: RunState { state, stage: Stage::Riding, grip_limited: false },
             output: Output::default(),
             output_derivative: rest_rate(),
             follower,
@@ -141,7 +142,7 @@ impl Model for Motorcycle {
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
         let fastest = fastest(parameters, &longitudinal)?;
-        let State { rider: state, lateral, speed, .. } = &self.ride.state;
+        let State { rider: state, lateral, speed, .. } = &self.run.state;
         let same_gains = parameters.rider.torque_weight == self.parameters.rider.torque_weight;
         let (rider, error) = if same_gains && fastest <= self.rider.fastest() {
             check_step(parameters, &suspension)?;
@@ -154,13 +155,13 @@ impl Model for Motorcycle {
             (rider, error)
         };
         let follower = Follower::new(parameters, &self.lateral, &rider, &longitudinal)?;
-        self.ride.state.rider.error = error;
+        self.run.state.rider.error = error;
         self.rider = rider;
         self.longitudinal = longitudinal;
         self.suspension = suspension;
         self.parameters = *parameters;
         self.follower = follower;
-        // The next seconds come out otherwise.
+        // The simulation of the next seconds is no longer valid.
         self.forerun = None;
         Ok(())
     }
@@ -184,7 +185,7 @@ impl Model for Motorcycle {
         for k in 0..steps as u32 {
             let at = |t: f64| between(&start, &end, (f64::from(k) + t) / steps);
             let inputs = [at(0.0), at(0.5), at(1.0)];
-            self.ride = self.advanced(&self.ride, &inputs, size);
+            self.run = self.advanced(&self.run, &inputs, size);
             self.look_ahead(&inputs[2], size);
         }
         let before = self.output;
@@ -221,7 +222,7 @@ impl Motorcycle {
 
     /// The state now.
     pub fn state(&self) -> &State {
-        &self.ride.state
+        &self.run.state
     }
 
     /// The rider on the path; `None` without one.
@@ -230,8 +231,8 @@ impl Motorcycle {
     }
 
     /// One step by the classical Runge-Kutta rule. A speed below zero becomes zero.
-    fn advanced(&self, ride: &Ride, [start, middle, end]: &[Input; 3], size: f64) -> Ride {
-        let Ride { state, stage, .. } = *ride;
+    fn advanced(&self, run: &RunState, [start, middle, end]: &[Input; 3], size: f64) -> RunState {
+        let RunState { state, stage, .. } = *run;
         let ahead = self.ahead(&state, stage);
         let motion = |state: &State, input: &Input| self.motion(state, input, stage, &ahead);
         let k1 = motion(&state, start).derivative;
@@ -240,14 +241,14 @@ impl Motorcycle {
         let last = motion(&state.plus(&k3, size), end);
         let k4 = last.derivative;
         let end = state.plus(&k1, size / 6.0).plus(&k2, size / 3.0).plus(&k3, size / 3.0).plus(&k4, size / 6.0);
-        let mut ride = Ride { state: end.flush_small(), ..*ride };
-        ride.state.speed = ride.state.speed.max(0.0);
+        let mut run = RunState { state: end.flush_small(), ..*run };
+        run.state.speed = run.state.speed.max(0.0);
         if let Some(limits) = last.grip {
-            (ride.state.lateral, _) = held(&ride.state.lateral, limits);
-            ride.grip_limited = last.grip_limited;
-            ride.stage = self.stage(&ride);
+            (run.state.lateral, _) = held(&run.state.lateral, limits);
+            run.grip_limited = last.grip_limited;
+            run.stage = self.stage(&run);
         }
-        ride
+        run
     }
 
     /// The rider's actions for the path ahead; none without one.
@@ -259,15 +260,15 @@ impl Motorcycle {
         }
     }
 
-    /// Stage of a ride on a path.
-    fn stage(&self, ride: &Ride) -> Stage {
+    /// Stage on a path.
+    fn stage(&self, run: &RunState) -> Stage {
         let Parameters { rider, path, .. } = &self.parameters;
-        let state = &ride.state;
+        let state = &run.state;
         let roll = libm::atan(state.lateral[place::LEAN]);
         if grip::has_fallen(roll, rider.lean_limit, state.speed, state.lateral[place::VELOCITY]) {
             return Stage::Fallen;
         }
-        match ride.stage {
+        match run.stage {
             Stage::Riding if state.place.deviation.abs() > path.half_width => Stage::OffPath,
             stage => stage,
         }
@@ -377,35 +378,35 @@ impl Motorcycle {
         Wheels { front: of(loads.front, state[place::FRONT_FORCE]), rear: of(loads.rear, state[place::REAR_FORCE]) }
     }
 
-    /// Begins the ride of the next seconds where the motorcycle is; none without a path, and after
-    /// the ride.
+    /// Starts the simulation of the next seconds at the motorcycle's state. None without a path, or
+    /// after the path was left or a fall.
     fn begin_forerun(&mut self, input: &Input) {
-        let on_path = self.follower.is_some() && self.ride.stage == Stage::Riding;
-        self.forerun = on_path.then(|| Box::new(Forerun::new(self.ride, self.record(&self.ride, input))));
+        let on_path = self.follower.is_some() && self.run.stage == Stage::Riding;
+        self.forerun = on_path.then(|| Box::new(Forerun::new(self.run, self.record(&self.run, input))));
     }
 
-    /// Keeps the ride of the next seconds ahead of a motorcycle that has advanced by `step`
-    /// seconds.
+    /// Keeps the simulation of the next seconds ahead of a motorcycle that has
+    /// advanced by `step` seconds.
     fn look_ahead(&mut self, input: &Input, step: f64) {
         if self.follower.is_none() {
             return;
         }
-        let here = self.ride.state;
-        let ended = self.ride.stage != Stage::Riding;
+        let here = self.run.state;
+        let ended = self.run.stage != Stage::Riding;
         if ended || self.forerun.as_ref().is_none_or(|forerun| forerun.is_wrong(&here)) {
             self.begin_forerun(input);
         }
         if let Some(mut forerun) = self.forerun.take() {
             let inputs = [*input; 3];
-            let advanced = |ride: &Ride, size: f64| self.advanced(ride, &inputs, size);
-            forerun.follow(step, self.parameters.run.max_step, &here, advanced, |ride| self.record(ride, input));
+            let advanced = |run: &RunState, size: f64| self.advanced(run, &inputs, size);
+            forerun.follow(step, self.parameters.run.max_step, &here, advanced, |run| self.record(run, input));
             self.forerun = Some(forerun);
         }
     }
 
     /// A record of a ride.
-    fn record(&self, ride: &Ride, input: &Input) -> Record {
-        let Ride { state, stage, .. } = ride;
+    fn record(&self, run: &RunState, input: &Input) -> Record {
+        let RunState { state, stage, .. } = run;
         let motion = self.motion(state, input, *stage, &self.ahead(state, *stage));
         let force = self.head(state, &motion.derivative).specific_force;
         let place = state.place;
@@ -430,7 +431,7 @@ impl Motorcycle {
 
     /// The outputs in the present state with these inputs.
     fn output_for(&self, input: &Input) -> Output {
-        let Ride { state, stage, .. } = &self.ride;
+        let RunState { state, stage, .. } = &self.run;
         let motion = self.motion(state, input, *stage, &self.ahead(state, *stage));
         let head = self.head(state, &motion.derivative);
         let felt = head.specific_force;
@@ -474,7 +475,7 @@ impl Motorcycle {
             path_deviation: -state.place.deviation,
             path_heading: -state.place.heading,
             planned_speed: self.follower.as_ref().map_or(0.0, |on| on.planned_speed(state.place.distance)),
-            grip_limited: self.ride.grip_limited,
+            grip_limited: self.run.grip_limited,
             off_path: *stage == Stage::OffPath,
             fallen: *stage == Stage::Fallen,
             preview_count,

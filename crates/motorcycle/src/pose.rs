@@ -1,10 +1,10 @@
 //! Position of motorcycle and head in the world, and specific force at the head: exact for any
 //! angles.
 //!
-//! Axes as everywhere outside [`crate::lateral`]: x forward, y left, z up; roll, pitch (nose down)
-//! and yaw of R = Rz(yaw) Ry(pitch) Rx(roll). The motorcycle's plane rolls about the line through
-//! the rear contact along the heading; in that plane the machine heaves; and it pitches about the
-//! point of the road under its centre of mass:
+//! The axes are those outside [`crate::lateral`]: x forward, y left, z up. Roll, pitch (nose down)
+//! and yaw are those of R = Rz(yaw) Ry(pitch) Rx(roll). The motorcycle's plane rolls about the line
+//! through the rear contact along the heading. In that plane the machine heaves, and pitches about
+//! the point of the road under its centre of mass:
 //!
 //! p_head = p_contact + Rz(yaw) Rx(roll) (x_c, 0, heave) + R (head - (x_c, 0, 0)), and the head's
 //! own axes are R Rx(torso's lean).
@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::interface::Parameters;
 use crate::lateral::bicycle;
 
-/// The places of pitch axis and head.
+/// Positions of the pitch axis and the head.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Geometry {
     /// The point of the road under the centre of mass.
@@ -102,8 +102,8 @@ impl Geometry {
         Head { point, specific_force, orientation: chassis.orientation, angular_velocity: chassis.velocity }
     }
 
-    /// The head relative to the pitch axis in the chassis: eq. (4) of the paper, the torso turning
-    /// about the seat.
+    /// The head relative to the pitch axis in the chassis, with the torso rotating about the seat:
+    /// eq. (4) of the paper.
     fn head_from_axis(&self, torso: Motion) -> Point {
         let (sin, cos) = libm::sincos(torso.position);
         let along = Vector3::new(0.0, -sin, cos) * self.torso_length;
@@ -117,7 +117,7 @@ impl Geometry {
     }
 }
 
-/// A point that moves in a frame that turns about the origin: its motion in the reference frame.
+/// Motion in the reference frame of a point that moves in a frame that rotates about the origin.
 fn carried(frame: &RotationalMotion, point: &Point) -> Point {
     let rotation = frame.orientation.rotation;
     let (position, velocity) = (rotation * point.position, rotation * point.velocity);
@@ -144,7 +144,7 @@ impl std::ops::Add for Point {
     }
 }
 
-/// Something that turns by roll, pitch and yaw, as these move.
+/// Rotation by roll, pitch and yaw with these motions.
 fn turning(angles: [Motion; 3]) -> RotationalMotion {
     RotationalMotion::new(&Motion::from_axes(|k| angles[k]))
 }

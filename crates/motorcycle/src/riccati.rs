@@ -5,11 +5,11 @@ use nalgebra::{SMatrix, SVector};
 /// The gain row k of the control u = -k x that minimises the integral of x' Q x + u^2 / `ease` for
 /// x' = A x + b u.
 ///
-/// Chu, Fan, Lin, "A structure-preserving doubling algorithm for continuous-time algebraic Riccati
-/// equations", Linear Algebra Appl. 396 (2005): the equation is mapped to a discrete one by a
-/// Cayley transformation, whose solution is the limit of a doubling recursion that converges
-/// quadratically. `shift` \[1/s\] is the transformation's: any positive number, best of the size of
-/// the system's poles. `None` where there is no stabilising solution.
+/// The method is that of Chu, Fan, Lin, "A structure-preserving doubling algorithm for
+/// continuous-time algebraic Riccati equations", Linear Algebra Appl. 396 (2005). A Cayley
+/// transformation maps the equation to a discrete one. A doubling recursion converges quadratically
+/// to its solution. `shift` \[1/s\] is the transformation's parameter: any positive number, best of
+/// the size of the system's poles. `None` where there is no stabilising solution.
 pub fn lqr_gain<const N: usize>(
     a: &SMatrix<f64, N, N>,
     b: &SVector<f64, N>,
@@ -20,8 +20,8 @@ pub fn lqr_gain<const N: usize>(
     Some(cost_to_go(a, b, q, ease, shift)? * b * ease)
 }
 
-/// The symmetric matrix P with which x' P x is the cost of [`lqr_gain`]'s control from the state x
-/// on; otherwise as [`lqr_gain`].
+/// The symmetric matrix P for which x' P x is the cost of [`lqr_gain`]'s control from the state x.
+/// Arguments and `None` are as for [`lqr_gain`].
 pub fn cost_to_go<const N: usize>(
     a: &SMatrix<f64, N, N>,
     b: &SVector<f64, N>,
@@ -54,7 +54,7 @@ pub fn cost_to_go<const N: usize>(
     None
 }
 
-/// Each doubling squares the error; a solution that exists is there after a dozen.
+/// Largest number of doublings. Each squares the error: if there is a solution, a dozen reach it.
 const MOST_DOUBLINGS: usize = 40;
 
 /// The symmetric part: keeps rounding from adding up.

@@ -1,10 +1,14 @@
 //! The rider: reference lean, steering torque and torso.
 //!
-//! The rider follows a lean by steering torque: the torque of the steady turn with that lean, less
-//! a gain on the deviation of the whole lateral state from that turn's, less a gain on the
-//! accumulated error of the lean. The gains minimise a quadratic cost (LQR). They are computed at
-//! the beginning for speeds from walking pace to the top speed, and interpolated. Below walking
-//! pace feet and hands replace them ([`crate::lateral::foot_support`]).
+//! The rider follows a reference lean by steering torque. The torque has three parts:
+//!
+//! - the torque of the steady turn with that lean;
+//! - minus a gain times the deviation of the lateral state from that turn's;
+//! - minus a gain times the accumulated error of the lean.
+//!
+//! The gains minimise a quadratic cost (LQR). They are computed at the beginning for speeds from
+//! walking pace to the top speed, and interpolated. Below walking pace feet and hands replace them,
+//! see [`crate::lateral::foot_support`].
 
 use moris_interface::ParameterError;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
@@ -67,7 +71,7 @@ pub struct Rider {
     gains: SVector<GainSet, SPEEDS>,
     speeds: Speeds,
     parameters: interface::Rider,
-    /// Largest tangent of the lean: of the rider's limit, and of what the tyres hold.
+    /// Largest tangent of the lean, by the rider's limit and the tyres' friction.
     largest_lean: f64,
     steer_lock: f64,
 }
@@ -101,7 +105,7 @@ impl Rider {
         Ok(rider)
     }
 
-    /// Sets all limits and frequencies by these parameters; the gains stay.
+    /// Sets all limits and frequencies by these parameters; the gains do not change.
     pub fn set_limits(&mut self, parameters: &Parameters) {
         let limits = &parameters.rider;
         self.parameters = *limits;
@@ -109,7 +113,7 @@ impl Rider {
         self.steer_lock = parameters.machine.steer_lock;
     }
 
-    /// The speed \[m/s\] up to which there are gains.
+    /// The largest speed \[m/s\] for which there are gains.
     pub fn fastest(&self) -> f64 {
         self.speeds.fastest
     }
@@ -130,9 +134,9 @@ impl Rider {
     }
 
     /// Accumulated error \[s\] with which the torque of this rider equals that of `other`, the
-    /// rider up to now. The torque does not jump then, and the difference fades as the error does.
+    /// rider so far. The torque then does not jump, and the difference decays with the error.
     pub fn error_for_torque_of(&self, other: &Rider, state: &State, lateral: &lateral::State, speed: f64) -> f64 {
-        /// Largest change of the error \[s\]: about what accumulates in a rough simulation.
+        /// Largest change of the error \[s\]: about the error accumulated in a rough simulation.
         const LARGEST: f64 = 0.2;
         let (gains, other_gains) = (self.gains(speed), other.gains(speed));
         let jump = self.torque(state, lateral, &gains, 0.0) - other.torque(state, lateral, &other_gains, 0.0);
@@ -188,7 +192,7 @@ impl Rider {
     /// Second derivative of the reference roll angle on a path, for the second derivative `control`
     /// of its tangent.
     ///
-    /// It ends rates beyond the rider's limit, and leaves room to stop ahead of the largest lean.
+    /// It reduces rates beyond the rider's limit, and slows down in time before the largest lean.
     pub fn lean_acceleration(&self, state: &State, gains: &GainSet, feet: f64, control: f64) -> f64 {
         let lean = libm::tan(state.lean);
         let (square, most) = (1.0 + lean * lean, self.steepest(gains));
@@ -216,10 +220,12 @@ const FRICTION_FRACTION: f64 = 0.9;
 /// Time constant with which foot support discharges accumulated errors \[s\].
 pub(crate) const FORGETTING: f64 = 0.5;
 
-/// Rates at which a reference lean on a path nears its limit, and its rate the fastest \[1/s\].
+/// Rates \[1/s\] at which a reference lean on a path approaches its limit, and its
+/// rate the largest rate.
 const LIMIT_APPROACH: f64 = 8.0;
 const LIMIT_RATE: f64 = 30.0;
-/// Natural frequency with which the reference lean on a path ends below walking pace \[1/s\].
+/// Natural frequency with which the reference lean on a path returns to zero below
+/// walking pace \[1/s\].
 const UPRIGHT: f64 = 4.0;
 
 /// The limited value: at most `limit` to either side.
@@ -227,9 +233,10 @@ pub(crate) fn within(value: f64, limit: f64) -> f64 {
     value.max(-limit).min(limit)
 }
 
-/// Gains at a speed: the steady turn, and the gains that minimise the integral of the squares of
-/// lean / 0.1, lean rate / 0.5, steer / 0.2, steer rate / 2, accumulated error / 0.1 and torque /
-/// weight.
+/// Gains at a speed, and the steady turn.
+///
+/// The gains minimise the integral of the sum of these squares: lean / 0.1, lean rate / 0.5, steer
+/// / 0.2, steer rate / 2, accumulated error / 0.1 and torque / weight.
 fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Option<GainSet> {
     let (turn, turn_torque) = steady_turn(&lateral.state_matrix(speed, 0.0), &lateral.torque)?;
     let (a, torque) = plant(lateral, speed, limits.feet_speed);
@@ -261,8 +268,8 @@ fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Opt
 /// See [`lqr_gain`] \[1/s\].
 const CAYLEY_SHIFT: f64 = 20.0;
 
-/// Lateral state and torque of a steady turn with the lean 1: all but lean and its rates solve six
-/// equations.
+/// Lateral state and torque of a steady turn with the lean 1. Lean rate and steer rate are zero.
+/// The other five variables and the torque solve six equations.
 fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lateral::State, f64)> {
     use place::{FRONT_FORCE, LEAN, LEAN_RATE, REAR_FORCE, STEER, STEER_RATE, VELOCITY, YAW_RATE};
     let rows = [VELOCITY, YAW_RATE, LEAN_RATE, STEER_RATE, REAR_FORCE, FRONT_FORCE];
@@ -278,8 +285,10 @@ fn steady_turn(a: &lateral::StateMatrix, torque: &lateral::State) -> Option<(lat
     Some((turn, solution[5]))
 }
 
-/// Plant of the lean control at a speed: matrix of the lateral state and the accumulated error of
-/// the lean, and effect of a torque, both with the foot support at that speed.
+/// Plant of the lean control at a speed, with the foot support at that speed.
+///
+/// The first part is the matrix of the lateral state and the accumulated error of the lean, the
+/// second the effect of a torque.
 fn plant(lateral: &Lateral, speed: f64, feet_speed: f64) -> (SMatrix<f64, SIZE, SIZE>, SVector<f64, SIZE>) {
     let feet = foot_support(speed, feet_speed);
     let mut a = SMatrix::<f64, SIZE, SIZE>::zeros();

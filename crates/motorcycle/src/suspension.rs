@@ -1,10 +1,13 @@
 //! Springs, dampers, heave and the tyres' loads, in the motorcycle's leaning plane.
 //!
-//! The sprung mass rests on two upright springs and dampers. With heave u upwards and pitch p nose
-//! down from rest, and F the upward force of springs and dampers beyond that at rest: m u'' = F_f +
-//! F_r + W_z - m n, where n is what leaning and cornering add to gravity along the plane; their
-//! moment about the centre of mass is l_r F_r - l_f F_f. The pitch itself goes with the speed:
-//! [`crate::longitudinal`].
+//! The sprung mass m rests on two upright springs and dampers. Heave u (up) and pitch p (nose down)
+//! are relative to rest. F is the upward force of spring and damper beyond that at rest, W_z the
+//! wind's upward force. Leaning and cornering add n to gravity along the plane. Then
+//!
+//! m u'' = F_f + F_r + W_z - m n,
+//!
+//! and the moment of springs and dampers about the centre of mass is l_r F_r - l_f F_f. The
+//! equation of the pitch is coupled with that of the speed, see [`crate::longitudinal`].
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -104,7 +107,7 @@ impl Suspension {
             + self.mass * state.velocity.x * state.velocity.x)
     }
 
-    /// Power that the dampers take \[W\].
+    /// Power dissipated by the dampers \[W\].
     pub fn damping_power(&self, state: &State) -> f64 {
         let p = &self.parameters;
         let rate = self.travel(&state.velocity);

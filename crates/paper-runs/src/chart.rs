@@ -1,8 +1,7 @@
 //! Draws curves over time into an SVG file.
 //!
-//! The canvas is large and so is the writing, because the coordinates of a drawing are whole
-//! pixels: shown at half its size, which is about the width of a page, a picture's curves are
-//! smooth.
+//! The coordinates of a drawing are whole pixels. So the canvas and its text are large: at half
+//! size, about the width of a page, the curves are smooth.
 
 use std::path::Path;
 
@@ -21,7 +20,7 @@ const TEXT: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const LIMIT: RGBColor = RGBColor(190, 30, 45);
 
-/// Fraction of a panel's height that its legend has to itself, above the curves.
+/// Fraction of a panel's height reserved for its legend, above the curves.
 const LEGEND_HEIGHT: f64 = 0.16;
 /// Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a pixel.
 const TOLERANCE: f64 = 0.0005;
@@ -29,12 +28,12 @@ const TOLERANCE: f64 = 0.0005;
 /// A diagram of curves over time.
 #[derive(Clone, Debug)]
 pub struct Panel {
-    /// Stands above.
+    /// Title above the diagram.
     pub title: String,
     /// Label of the vertical axis.
     pub quantity: &'static str,
     pub curves: Vec<Curve>,
-    /// Values that the curves must not cross, drawn as lines.
+    /// Limits of the curves, drawn as lines.
     pub limits: Vec<f64>,
 }
 
@@ -51,10 +50,10 @@ pub struct Curve {
 /// Style of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stroke {
-    /// Wide enough to show on both sides of a fine one on top of it.
+    /// Wide enough to be seen on both sides of a fine curve on top of it.
     Broad,
     Fine,
-    /// Lets another of the same course show through the gaps.
+    /// Shows a coincident curve below it through the gaps.
     Dashed,
 }
 
@@ -127,7 +126,7 @@ fn in_drawing_order(curves: &[Curve]) -> impl Iterator<Item = &Curve> {
     curves.iter().filter(move |curve| !is_dashed(curve)).chain(curves.iter().filter(is_dashed))
 }
 
-/// From the lowest value to the highest, with a margin, and room for the legend above.
+/// From the lowest value to the highest, with a margin, and space for the legend above.
 fn vertical_range(panel: &Panel) -> (f64, f64) {
     let values =
         || panel.curves.iter().flat_map(|curve| &curve.points).map(|point| point.1).chain(panel.limits.clone());

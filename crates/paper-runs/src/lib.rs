@@ -1,7 +1,6 @@
-//! The paper's runs on the FMU: what goes in, what comes out, how good it is, and its figures 5 to
-//! 9.
+//! The paper's runs on the FMU: inputs, outputs and measures, and the paper's figures 5 to 9.
 //!
-//! The command is in `main.rs`; here are its parts, for tests and other programs to use.
+//! The command is in `main.rs`. This library holds its parts for tests and other programs.
 
 mod chart;
 pub mod figures;

@@ -1,15 +1,17 @@
-//! The paper's three runs, and a brisk variant of the first, as the motion of the rider's head.
+//! The paper's three runs, a brisk variant of the first, and a town run, as
+//! motions of the rider's head.
 //!
-//! The paper prints no amplitudes; those here are a choice in the spirit of its figures. Everything
-//! is in closed form, so that nothing recorded is needed and every value can be checked by hand.
+//! The paper gives no amplitudes; those here are chosen after its figures. All runs are in closed
+//! form, so that every value can be checked by hand.
 
 use std::f64::consts::TAU;
 
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
-/// When run c comes to a stop \[s\]. The speed gained is 2.2 m/s2 for 11 s (from the middle of one
-/// ramp to that of the next); braking with 3.5 m/s2 takes as much away, counted from the middle of
-/// its own ramp.
+/// Time at which run c stops \[s\].
+///
+/// The speed gained is that of 2.2 m/s2 for 11 s, from the middle of one ramp to the middle of the
+/// next. Braking with 3.5 m/s2, from the middle of its own ramp, loses the same speed.
 pub const STOP: f64 = 22.0 + 10.5 / 2.0 + 2.2 * 11.0 / 3.5;
 
 /// The motion of the rider's head at one time.
@@ -46,7 +48,7 @@ impl Motion {
 pub struct Manoeuvre {
     /// The name in tables and figures.
     pub name: &'static str,
-    /// Motion of the motorcycle.
+    /// Description of the motorcycle's motion.
     pub text: &'static str,
     /// \[s\]
     pub duration: f64,
@@ -76,8 +78,8 @@ pub const B: Manoeuvre =
 pub const C: Manoeuvre =
     Manoeuvre { name: "c", text: "accelerate, brake to a brusque stop", duration: 50.0, motion: run_c };
 
-/// A car through town: three starts and stops, two bends and a lane change. The paper has no such
-/// run; it compares the strategies.
+/// A car in town: three starts and stops, two bends and a lane change. The run is not the paper's.
+/// It serves to compare the strategies.
 pub const TOWN: Manoeuvre =
     Manoeuvre { name: "town", text: "a car through town: starts, stops, bends", duration: 90.0, motion: town };
 
@@ -116,7 +118,7 @@ fn town(t: f64) -> Motion {
     let starts_and_stops = [
         [(1.8, 2.0, 1.0), (-1.8, 8.0, 1.5), (-2.5, 16.0, 0.8), (2.5, 20.1, 0.8)],
         [(1.5, 24.0, 1.0), (-1.5, 29.0, 1.5), (-1.5, 38.0, 1.0), (1.5, 43.0, 1.0)],
-        // The last one ends at rest: 9.575 m/s by then, at 3 m/s2.
+        // The last braking ends at rest: from 9.575 m/s, at 3 m/s2.
         [(2.0, 47.0, 0.8), (-2.0, 51.0, 1.0), (-3.0, 58.0, 0.6), (3.0, 58.0 + 9.575 / 3.0, 0.6)],
     ];
     let bends = [(2.0, 20.5, 0.8), (-2.0, 23.5, 0.8), (-1.8, 31.0, 1.0), (1.8, 34.5, 1.0)];
@@ -126,11 +128,11 @@ fn town(t: f64) -> Motion {
     Motion { acceleration: [surge, sway, 0.0], speed, ..Motion::default() }
 }
 
-/// A run in a straight line from rest, whose acceleration changes by so much \[m/s2\], from when,
-/// and in what time \[s\].
+/// A run in a straight line from rest. Each change of the acceleration has its size \[m/s2\],
+/// start and duration \[s\].
 fn straight(t: f64, changes: &[(f64, f64, f64)]) -> Motion {
     let sum = |term: fn(f64, f64, f64) -> f64| changes.iter().map(|&(change, a, b)| change * term(t, a, b)).sum();
-    // At the end rounding leaves a speed of no number, or one below zero.
+    // At the end, rounding may leave a speed slightly below zero.
     let speed = f64::max(sum(rise_integral), 0.0);
     Motion { acceleration: [sum(rise), 0.0, 0.0], speed, ..Motion::default() }
 }

@@ -1,5 +1,4 @@
-//! Steps the FMU through a run as a host does: through its C functions, one value reference at a
-//! time.
+//! Steps the FMU through a run by its C functions, as a host does.
 
 use anyhow::{Context, Result, ensure};
 use moris_fmu_host::{Fmu, Instance, Status};
@@ -42,15 +41,15 @@ const OUTPUTS: [&str; 17] = [
 
 const FLAGS: [&str; 3] = ["status.tiltLimited", "status.safetyActive", "status.actuatorLimited"];
 
-/// Makes one run with one set of parameters, in communication steps of `step` seconds.
+/// Simulates one run with one set of parameters, in communication steps of `step` seconds.
 ///
-/// Inputs are set at the beginning of a step and held, as a simple host does; felt and desired are
-/// compared at its end. So what is felt answers to inputs that are a step old, and the delays that
-/// are measured count this in.
+/// Inputs are set at the beginning of a step and held, as by a simple host. Felt and desired
+/// signals are compared at its end. So the felt signals respond to inputs that are one step old,
+/// and the measured delays include this step.
 ///
 /// # Errors
 /// The step is not between 0 and the run's duration, the FMU lacks a variable, or one of its
-/// functions fails: the error carries the FMU's message.
+/// functions fails. The error then contains the FMU's message.
 pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64) -> Result<Recording> {
     ensure!(step > 0.0 && step <= run.duration, "the step must be between 0 and {} s, not {step} s", run.duration);
     let references = References::of(fmu)?;

@@ -132,7 +132,7 @@ pub fn platform_table(recordings: &[Recording]) -> Table {
             "tilt limited [%]",
             "safety active [%]",
             "actuator limited [%]",
-            "from neutral at the end [mm]",
+            "final distance from neutral [mm]",
         ],
         text_columns: 2,
         rows: recordings.iter().map(row).collect(),

@@ -1,8 +1,8 @@
-//! Leaves out of a curve what nobody can see.
+//! Reduction of a curve's points without a visible change.
 
-/// The fewest points, roughly, whose connecting lines stay within `tolerance` of all points in y:
-/// the algorithm of Ramer, Douglas and Peucker. The points ascend in x; the first and the last
-/// stay.
+/// About the fewest points whose connecting lines stay within `tolerance` of all points in
+/// y, by the algorithm of Ramer, Douglas and Peucker. The points ascend in x. The first
+/// and the last are kept.
 pub fn thin(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64)> {
     if points.len() < 3 {
         return points.to_vec();

@@ -51,8 +51,8 @@ pub fn bound(py: Python, reason: &dyn Display) -> PyErr {
 }
 
 /// A search that found no parameters that keep the limits.
-pub fn nothing_found(py: Python, reason: &dyn Display) -> PyErr {
-    exception(py, "NoParametersFound", (reason.to_string(),))
+pub fn infeasible(py: Python, reason: &dyn Display) -> PyErr {
+    exception(py, "NoFeasibleParameters", (reason.to_string(),))
 }
 
 /// Parameters of which no kind of message is known.

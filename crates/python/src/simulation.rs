@@ -21,7 +21,7 @@ use crate::setup;
 use crate::variables::Variables;
 use crate::washout::parameter_dict;
 
-/// A measure as Python gets it: subject, name, value, unit, definition, source.
+/// A measure for Python: subject, name, value, unit, definition, source.
 type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &'static str);
 
 /// A simulated recording.
@@ -85,7 +85,7 @@ impl PySimulation {
         findings::of(&self.outcome).into_iter().map(|finding| finding.text).collect()
     }
 
-    /// The samples' times, their inputs and outputs row by row, and the names of the columns.
+    /// The samples' times, the inputs and outputs row by row, and the names of the columns.
     #[allow(clippy::type_complexity)]
     fn samples<'py>(
         &self,
@@ -117,7 +117,7 @@ impl PySimulation {
         self.outcome.rows().into_iter().map(measure).collect()
     }
 
-    /// The report's page, with other simulations of the same recording beside this one.
+    /// The report's page, with other simulations of the same recording for comparison.
     fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> PyResult<String> {
         let outcomes: Vec<Outcome> =
             std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
@@ -126,7 +126,7 @@ impl PySimulation {
     }
 }
 
-/// A host that previews so many seconds of a recording.
+/// A host with a preview of the recording of this length \[s\].
 ///
 /// # Errors
 /// `ValueError`: longer than a preview can be.
@@ -143,8 +143,8 @@ fn measure(row: Row) -> Measure {
     (row.subject, row.name, row.value, row.unit, row.definition, row.source)
 }
 
-/// The bound on surge, sway and heave: least RMS error, RMS of what is desired, and the felt
-/// specific force of the best trajectory; none on an axis on which nothing is desired.
+/// The bound on surge, sway and heave: least RMS error, RMS of the desired signal, and felt
+/// specific force of the best trajectory. None on an axis with no desired motion.
 ///
 /// # Errors
 /// `BoundError`: the recording is too short, or the solver fails.

@@ -9,15 +9,18 @@ use pyo3::prelude::*;
 use crate::error;
 use crate::setup::rig_of;
 
-/// The rig that the washout has by default.
+/// The washout's default rig.
 const DEFAULT_RIG: &str = include_str!("../../moris/rigs/default.toml");
 
 /// An axis: name, reach [m or rad], speed [m/s or rad/s], acceleration [m/s2 or rad/s2].
 type AxisAlone = (&'static str, f64, f64, Option<f64>, Option<f64>);
 
-/// Properties of a rig: its name, the axes alone, volumes of the workspace with standard errors,
-/// smallest singular value and worst condition number, or leg lengths at a singularity, and it
-/// all as text and picture.
+/// Properties of a rig, in this order:
+///
+/// - name, and properties of each axis alone;
+/// - volumes of the workspace, level and tilted, with standard errors;
+/// - smallest singular value and worst condition number, or else leg lengths at a singularity;
+/// - the survey as text and as picture.
 type Properties = (String, Vec<AxisAlone>, [(f64, f64); 2], Option<(f64, f64)>, Option<[f64; 6]>, String, String);
 
 /// Surveys a rig.

@@ -15,9 +15,9 @@ use crate::recording::PyRecording;
 use crate::setup;
 use crate::simulation::host;
 
-/// The measures of a sweep, each a subject, a name and a unit: all that there are, on every axis.
+/// All measures of a sweep, on every axis: subject, name and unit.
 static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock::new(|| {
-    // Any run has them in which something is desired on every axis.
+    // Any run with desired motion on every axis has all measures.
     let count = 8;
     let force: Vec<[f64; 3]> = (0..count).map(|k| [f64::from(k); 3]).collect();
     let still = vec![[0.0; 3]; force.len()];
@@ -47,13 +47,13 @@ pub fn sweep_measures() -> Vec<(String, &'static str, &'static str)> {
 
 /// Simulates recordings with parameter sets and measures them.
 ///
-/// Returns the measures (sets, recordings, measures), NaN where one is not defined, and for
-/// each set the message of its error or None. Each recording is previewed so many seconds.
-/// `threads` = 1 stays on this thread, any other
-/// number uses all cores.
+/// Returns the measures (sets, recordings, measures), NaN where one is not defined, and for each
+/// set the message of its error or None. `preview` is the length of the preview [s]. `threads` = 1
+/// uses this thread only, any other number all cores.
 ///
 /// # Errors
-/// `TypeError`: a set is of no type that parameters have. `ValueError`: too long a preview.
+/// `TypeError`: a set is not of a type that parameters can have. `ValueError`:
+/// the preview is too long.
 #[pyfunction]
 #[allow(clippy::type_complexity, clippy::too_many_arguments)]
 pub fn sweep_chunk<'py>(

@@ -23,7 +23,7 @@ use crate::recording::PyRecording;
 use crate::setup;
 use crate::washout::parameter_dict;
 
-/// Time between two looks at progress and signals.
+/// Time between two checks of progress and signals.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// Result of a tuning: parameters, sets tried, summary, the first line, is it worse, was it
@@ -42,7 +42,8 @@ pub struct PyTuning {
     groups: Vec<Group>,
 }
 
-/// A number of error channels and what they come to, as it is sent between machines.
+/// A cost as it is sent between machines: error of each channel, total error, and fraction of
+/// the time in violation.
 type Sent = ([f64; 6], f64, f64);
 
 #[pymethods]
@@ -94,7 +95,7 @@ impl PyTuning {
     }
 
     /// Searches. `observe(name, tried, error)` returns False to end it with the best so far.
-    /// `patience` ends a search after so many sets without a smaller error.
+    /// `patience` ends a search after this number of sets without a smaller error.
     /// `evaluate(names, values)` computes costs elsewhere, `parallel` of them at a time; without it
     /// they are computed here.
     #[allow(clippy::too_many_arguments)]
@@ -167,7 +168,7 @@ impl PyTuning {
         let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
         let Tested { setup: tuned, results, fraction } = done.map_err(|reason| {
             if reason.is::<NoFeasibleParameters>() {
-                error::nothing_found(py, &reason)
+                error::infeasible(py, &reason)
             } else {
                 error::parameter(py, reason.to_string())
             }
@@ -226,7 +227,7 @@ fn remote<'a>(
     })
 }
 
-/// Tells Python of progress and asks for signals; false if the search is to end.
+/// Reports progress to Python and checks for signals. Returns false if the search is to end.
 fn look(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult<bool> {
     py.check_signals()?;
     match progress {

@@ -40,7 +40,7 @@ impl Variables {
     /// The slots of a name.
     ///
     /// # Errors
-    /// There is no variable of this name: those that look most like it.
+    /// There is no variable of this name. The message lists the most similar names.
     pub fn slots(&self, name: &str) -> PyResult<Range<usize>> {
         self.slots.get(name).cloned().ok_or_else(|| {
             let near = nearest(name, self.slots.keys().map(String::as_str));

@@ -19,19 +19,20 @@ use crate::{error, setup};
 /// The washout filter on its platform: from the motion of a vehicle's rider to the
 /// motion of a platform.
 ///
-/// Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z. SI units throughout.
+/// Frames: x forward, y left, z up. Roll, pitch and yaw are about x, y and z. All units are SI.
 ///
-/// rig: path of a rig file, or a dict with its keys; None is the default rig. parameters: name of a
-/// preset, path of a parameter file, dict of values by the names of the FMU's variables, or a list
-/// of these, of which later ones override earlier ones. strategy: "classical", "adaptive",
-/// "optimal" or "predictive"; None is the parameters'.
+/// - rig: path of a rig file, or a dict with its keys. None is the default rig.
+/// - parameters: name of a preset, path of a parameter file, dict of values by the names of the
+///   FMU's variables, or a list of these. In a list, later ones override earlier ones.
+/// - strategy: "classical", "adaptive", "optimal" or "predictive". None is the
+///   parameters' strategy.
 ///
 /// Raises ParameterError for a name or a value that cannot be used.
 #[pyclass(module = "moris", name = "Washout", eq)]
 #[derive(Clone, PartialEq)]
 pub struct PyWashout {
     washout: Washout,
-    /// False before the first step, at which the input's lean and engagement are taken as they are.
+    /// False before the first step. There the input's lean and engagement apply at once.
     started: bool,
 }
 
@@ -54,17 +55,23 @@ impl PyWashout {
     /// Advances by `dt` seconds with one sample of input, and returns the outputs
     /// at the end of the step.
     ///
-    /// dt: length of the step [s]. specific_force: x, y, z at the rider's head, in head axes
-    /// [m/s2]; (0, 0, 9.80665) at rest. angular_velocity: x, y, z of the vehicle [rad/s], in the
-    /// axes that `angularVelocityFrame` says. orientation: roll, pitch, yaw of the vehicle [rad];
-    /// positive pitch is nose down. speed: forward [m/s]. lean: of the rider's torso, to the right
-    /// [rad]. engaged: False returns the platform to neutral. preview: (K, 2), the x and y of
-    /// specific_force to come, K at most 20 [m/s2]; element k is that of k + 1 times preview_step
-    /// after the step's start. preview_step: from 0.01 to 10 [s], by default 0.2. Only the strategy
-    /// "predictive" makes use of a preview; it ends before an element that is NaN.
+    /// - dt: length of the step [s].
+    /// - specific_force: x, y, z at the rider's head, in head axes [m/s2]; (0, 0, 9.80665) at rest.
+    /// - angular_velocity: x, y, z of the vehicle [rad/s], in the axes given by
+    ///   `angularVelocityFrame`.
+    /// - orientation: roll, pitch, yaw of the vehicle [rad]; positive pitch is nose down.
+    /// - speed: forward [m/s].
+    /// - lean: of the rider's torso, to the right [rad].
+    /// - engaged: False returns the platform to neutral.
+    /// - preview: (K, 2), the future x and y of specific_force [m/s2], with K at most 20. Element k
+    ///   is that at k + 1 times preview_step after the step's start. Only the strategy "predictive"
+    ///   uses it. It ends before the first element that is NaN.
+    /// - preview_step: time between the elements of the preview, from 0.01 to 10 [s], by default
+    ///   0.2.
     ///
-    /// Within the step the input goes from the last one to this one, or is held, as
-    /// `input.reconstruction` says. Any input is safe: what is not a number counts as at rest.
+    /// Within the step the input is interpolated from the last one to this one, or held, as
+    /// `input.reconstruction` specifies. Any input is safe: NaN counts as the value at rest, and a
+    /// value outside its range as the range's end.
     #[pyo3(signature = (dt, specific_force=None, angular_velocity=None, orientation=None, speed=0.0, lean=0.0, engaged=true, *, preview=None, preview_step=None))]
     #[allow(clippy::too_many_arguments)]
     fn step(
@@ -101,16 +108,21 @@ impl PyWashout {
     /// Steps through arrays of N samples, and returns the outputs at each: Outputs
     /// with arrays of N rows.
     ///
-    /// time: (N,) [s], increasing. specific_force: (N, 3) [m/s2]. angular_velocity: (N, 3) [rad/s].
-    /// orientation: (N, 3), roll, pitch, yaw [rad]. speed: (N,) [m/s]. lean: (N,) [rad]. engaged:
-    /// (N,) bool. inputs: "slopes" goes linearly from sample to sample, as a host that gives input
-    /// derivatives; "values" gives each sample at the start of its step, as a host that gives none.
-    /// preview: (N, K, 2), the x and y of specific_force to come as of each sample, as for step;
-    /// preview_step: time from one of its elements to the next [s], by default 0.2.
+    /// - time: (N,) [s], increasing.
+    /// - specific_force: (N, 3) [m/s2].
+    /// - angular_velocity: (N, 3) [rad/s].
+    /// - orientation: (N, 3), roll, pitch, yaw [rad].
+    /// - speed: (N,) [m/s].
+    /// - lean: (N,) [rad].
+    /// - engaged: (N,) bool.
+    /// - preview: (N, K, 2), the future x and y of specific_force at each sample, as for step.
+    /// - preview_step: time between the elements of the preview [s], by default 0.2.
+    /// - inputs: "slopes" interpolates linearly between samples, as a host that sets input
+    ///   derivatives. "values" sets each sample at the start of its step, as a host that sets none.
     ///
-    /// The first row is the output before the first step. A further call goes on from there, its
-    /// first sample being the last of the call before. Other threads of Python run meanwhile.
-    /// Raises RecordingError for arrays that do not fit together.
+    /// The first row is the output before the first step. A further call continues from there; its
+    /// first sample is the last one of the previous call. Other Python threads can run meanwhile.
+    /// Raises RecordingError for arrays whose shapes do not match.
     #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, preview=None, preview_step=None, inputs="slopes"))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
@@ -172,11 +184,11 @@ impl PyWashout {
         py.import("moris._outputs")?.getattr("Outputs")?.call1((times, rows, VARIABLES.names.clone()))
     }
 
-    /// Changes parameters in motion. The platform does not jump; what the new
-    /// parameters change fades in.
+    /// Changes parameters in motion. The platform does not jump; the effect of the
+    /// new parameters fades in.
     ///
     /// parameters: as for the constructor. Raises ParameterError for a name or a value that cannot
-    /// be used, or a fixed parameter that would change; nothing has changed then.
+    /// be used, or if a fixed parameter would change. No parameter has then changed.
     fn retune(&mut self, py: Python, parameters: &Bound<PyAny>) -> PyResult<()> {
         let changed = moris_setup::overlaid(self.washout.parameters(), &setup::values(parameters)?);
         self.washout.retune(&changed).map_err(|error| error::refused(py, &error, &all(&changed)))
@@ -219,7 +231,7 @@ impl PyWashout {
 
     #[staticmethod]
     fn _from_state(state: &[u8]) -> PyResult<Self> {
-        let refused = |reason: &str| PyValueError::new_err(format!("the state of a washout is refused: {reason}"));
+        let refused = |reason: &str| PyValueError::new_err(format!("the state of a washout is rejected: {reason}"));
         let (version, body) = postcard::take_from_bytes::<String>(state).map_err(|_| refused("it is damaged"))?;
         if version != guid::<Washout>() {
             return Err(refused("another version of moris wrote it; write it again with this one"));

@@ -1,5 +1,4 @@
-//! Limits that contradict each other: each can be used, but one of them is not what its author
-//! thinks.
+//! Checks for contradicting limits: each is valid, but one of them never has an effect.
 
 use moris_interface::ParameterError;
 use moris_washout::Parameters;
@@ -14,13 +13,13 @@ use crate::ranges::{Axis, single_axis_range};
 pub fn check_consistency(parameters: &Parameters) -> Result<(), ParameterError> {
     let limits = parameters.safety.position_limit;
     for (place, axis) in [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate() {
-        let reach = single_axis_range(&parameters.rig, axis).smaller();
+        let reach = single_axis_range(&parameters.rig, axis).min_reach();
         if limits[place] > reach {
             return Err(ParameterError {
                 variable: format!("safety.{}.positionLimit", ["x", "y", "z"][place]),
                 reason: format!(
-                    "is {}, but in {} the rig reaches only {reach:.3} m from neutral; give a smaller limit, or in a rig file \
-                     none, and it follows from the rig",
+                    "is {} m, but in {} the rig reaches only {reach:.3} m from neutral; reduce it, or omit it from the rig \
+                     file to derive it from the rig",
                     limits[place],
                     axis.name()
                 ),

@@ -1,13 +1,14 @@
 //! Rig files and parameter files, in TOML.
 //!
-//! A parameter file gives values by the names of the FMU's variables ([`parameter_file`]), a rig
-//! file says where a platform's joints are and what its legs can do ([`rig_file`]). Both come down
-//! to [`NamedValues`], so that one may be laid over the other, and both over any model that has
-//! variables of these names. [`Setup`] puts them together and checks that a washout can be made of
-//! them.
+//! - A parameter file ([`parameter_file`]) holds values by the names of the FMU's variables.
+//! - A rig file ([`rig_file`]) holds a platform's joints and the limits of its legs.
 //!
-//! Every name is checked against the interface's rows, and a wrong one is answered with the right
-//! ones that look most like it.
+//! Both are converted to [`NamedValues`]. Such values can override each other, and
+//! those of any model with variables of these names. A [`Setup`] combines them and
+//! checks that they make a washout.
+//!
+//! Every name is checked against the interface's rows. For an unknown name, the error lists the
+//! most similar known ones.
 
 #![forbid(unsafe_code)]
 

@@ -1,13 +1,12 @@
-//! Values by the names of variables: what files come down to.
+//! Values by the names of variables, as read from files.
 
 use moris_interface::{Group, Identity, Reader, Row, Writer, slot_count};
 
-/// Names of variables with their values, as they lie in slots: enumerations counted from 1,
-/// booleans as 0 and 1. A later value of the same name stands over an earlier one.
+/// Names of variables with their values, encoded as in slots: enumerations counted from 1, booleans
+/// as 0 and 1. A later value of the same name overrides an earlier one.
 pub type NamedValues = Vec<(String, f64)>;
 
-/// A group of variables with these values laid over it. Names that are not the group's are left
-/// out.
+/// A group of variables overridden by these values. Names that are not the group's are ignored.
 pub fn overlaid<G: Group>(group: &G, values: &[(String, f64)]) -> G {
     let mut slots = vec![0.0; slot_count(G::ROWS)];
     group.write(&mut Writer::new(&mut slots));
@@ -26,7 +25,7 @@ pub fn all<G: Group>(group: &G) -> NamedValues {
     variable_names(G::ROWS).zip(slots).collect()
 }
 
-/// The values of those of a group's variables that are not the default's.
+/// The values of a group's variables that differ from the default.
 pub fn changed<G: Group>(group: &G) -> NamedValues {
     all(group)
         .into_iter()

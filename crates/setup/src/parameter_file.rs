@@ -8,7 +8,7 @@
 //! ```
 //!
 //! All values are in the units of the FMU's variables, which are SI. Every parameter of the model
-//! may be given, the rig's among them; what is not given stays as it is.
+//! may be given, including the rig's. Other parameters keep their values.
 
 use std::fmt::Write;
 
@@ -19,12 +19,12 @@ use crate::named_values::variable_names;
 use crate::names::nearest;
 use crate::{Error, NamedValues};
 
-/// The values in the text of a parameter file for a model with these rows. `source_name` is what
-/// errors call the file.
+/// The values in the text of a parameter file for a model with these rows. `source_name` is the
+/// file's name in errors.
 ///
 /// # Errors
-/// Text that is not TOML, a name that is no parameter of the model, a value that the parameter
-/// cannot have.
+/// The text is not TOML, a name is not that of a parameter of the model, or a
+/// value is out of range.
 pub fn read(text: &str, source_name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
     let table: Table = text.parse().map_err(|error: toml::de::Error| Error::Toml {
         source_name: source_name.to_owned(),
@@ -83,7 +83,7 @@ impl Reader<'_> {
     }
 }
 
-/// A value of a file as it lies in the row's slot, or what is wrong with it.
+/// A file's value in the encoding of the row's slot, or the reason why it cannot be used.
 fn slot_value(row: &Row, value: &Value) -> Result<f64, String> {
     match (row.kind, value) {
         (Kind::Real(_), Value::Float(number)) => in_range(row, *number),
@@ -119,7 +119,8 @@ fn what_it_takes(kind: Kind) -> String {
 
 /// The text of a parameter file with these values, each with its unit and description in a comment.
 ///
-/// `heading` stands above, as a comment of one or more lines. Names that no row has are left out.
+/// `heading` is written above, as a comment of one or more lines. Names that no row has are
+/// omitted.
 pub fn write(heading: &str, values: &[(String, f64)], rows: &[Row]) -> String {
     let mut text = String::new();
     for line in heading.lines() {
@@ -152,7 +153,7 @@ fn description(row: &Row) -> String {
     }
 }
 
-/// A slot's value as a file gives it.
+/// A slot's value in the notation of a file.
 fn written(row: &Row, value: f64) -> String {
     match row.kind {
         Kind::Real(_) => Value::Float(value).to_string(),

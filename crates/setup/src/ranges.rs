@@ -41,8 +41,8 @@ pub struct Range {
 }
 
 impl Range {
-    /// The smaller of the two ways.
-    pub fn smaller(self) -> f64 {
+    /// Smaller of the reaches in the two directions.
+    pub fn min_reach(self) -> f64 {
         self.max.min(-self.min)
     }
 }
@@ -58,8 +58,8 @@ pub fn displaced(rig: &Rig, axis: Axis, amount: f64) -> Pose {
     }
 }
 
-/// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\];
-/// negative where a leg would have to be longer or shorter than it can be.
+/// Stroke margin in a pose: smallest distance of a leg from either end of its stroke \[m\].
+/// Negative where a leg would have to be beyond its stroke.
 pub fn stroke_margin(rig: &Rig, pose: &Pose) -> f64 {
     let lengths = leg_lengths(&Geometry::from(rig), pose);
     lengths.iter().map(|length| (length - rig.min_length).min(rig.max_length - length)).fold(f64::INFINITY, f64::min)
@@ -71,7 +71,7 @@ pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
     Range { min: -reach(rig, axis, -1.0), max: reach(rig, axis, 1.0) }
 }
 
-/// Farthest that is looked for: translations \[shares of the longest leg\], rotations \[rad\].
+/// Largest reach considered: translations \[multiples of the longest leg\], rotations \[rad\].
 const FARTHEST: [f64; 2] = [2.0, std::f64::consts::FRAC_PI_2];
 /// Number of points checked on the path, so that a leg that leaves its stroke and returns is found.
 const PARTS: u32 = 2000;
@@ -95,7 +95,7 @@ fn reach(rig: &Rig, axis: Axis, sign: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// The figures of the default rig, by an independent computation.
+    /// The reaches of the default rig, compared with an independent computation.
     #[test]
     fn the_default_rig_reaches_as_far_as_it_is_said_to() {
         let range = |axis| single_axis_range(&Rig::default(), axis);

@@ -43,7 +43,7 @@ use crate::ranges::{Axis, displaced, single_axis_range, stroke_margin};
 use crate::{Error, NamedValues};
 
 /// Fraction of the reach along an axis alone that a safety unit allows where the file does not say.
-pub const SAFETY_SHARE: f64 = 0.95;
+pub const SAFETY_FRACTION: f64 = 0.95;
 
 /// A rig file's contents; see the [module](self).
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
@@ -234,8 +234,8 @@ impl RigFile {
             if !reaches_neutral {
                 return defaults.safety.position_limit;
             }
-            let smaller = |axis| single_axis_range(&rig, axis).smaller();
-            SAFETY_SHARE * Vector3::new(smaller(Axis::Surge), smaller(Axis::Sway), smaller(Axis::Heave))
+            let min_reach = |axis| single_axis_range(&rig, axis).min_reach();
+            SAFETY_FRACTION * Vector3::new(min_reach(Axis::Surge), min_reach(Axis::Sway), min_reach(Axis::Heave))
         };
         Parameters {
             safety: SafetyParameters {

@@ -11,7 +11,7 @@ use crate::names::nearest;
 use crate::rig_file::RigFile;
 use crate::{Error, NamedValues, SETS, parameter_file, rig_file};
 
-/// A washout's parameters, put together from files and sets and checked, and what they are called.
+/// A washout's parameters from files and sets, checked, and their names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
     /// The rig's name.
@@ -26,12 +26,11 @@ pub struct Setup {
 const DEFAULT_RIG: &str = "default rig";
 
 impl Setup {
-    /// Puts together the default parameters, the rig of a file laid over them, and then parameter
-    /// sets one over the other: each the name of a shipped set or a parameter file.
+    /// Combines the default parameters, a rig file and parameter sets. Each overrides the values
+    /// before it. A set is the name of a shipped set or a parameter file.
     ///
     /// # Errors
-    /// A file that cannot be read, a name or value in it that cannot be, or parameters of which no
-    /// washout can be made.
+    /// A file cannot be read, a name or value in it is invalid, or the parameters make no washout.
     pub fn load(rig: Option<&Path>, sets: &[String]) -> Result<Self, Error> {
         let rig = rig.map(load_rig).transpose()?;
         let mut parameters = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
@@ -46,7 +45,7 @@ impl Setup {
         })
     }
 
-    /// The values that are not the default's.
+    /// The values that differ from the default parameters.
     pub fn values(&self) -> NamedValues {
         changed(&self.parameters)
     }
@@ -64,7 +63,7 @@ pub fn load_rig(file: &Path) -> Result<RigFile, Error> {
 /// with these rows.
 ///
 /// # Errors
-/// There is neither, or [`parameter_file::read`] rejects the file.
+/// There is no such set or file, or [`parameter_file::read`] rejects the file.
 pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
     if let Some((_, set)) = SETS.iter().find(|(known, _)| *known == name) {
         return Ok(set.iter().map(|(variable, value)| ((*variable).to_owned(), *value)).collect());

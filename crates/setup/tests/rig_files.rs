@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use moris_setup::ranges::{Axis, single_axis_range};
-use moris_setup::rig_file::{SAFETY_SHARE, read};
+use moris_setup::rig_file::{SAFETY_FRACTION, read};
 use moris_setup::{load_rig, overlaid};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Parameters, Rig};
@@ -50,8 +50,8 @@ fn the_safety_units_follow_from_the_rig_where_the_file_does_not_say() {
     let text = default_text();
     let without = &text[..text.find("[safety]").unwrap()];
     let parameters = read(without, "my.toml").unwrap().parameters();
-    let reach = [Axis::Surge, Axis::Sway, Axis::Heave].map(|axis| single_axis_range(&parameters.rig, axis).smaller());
-    assert_eq!(parameters.safety.position_limit, SAFETY_SHARE * Vector3::from(reach));
+    let reach = [Axis::Surge, Axis::Sway, Axis::Heave].map(|axis| single_axis_range(&parameters.rig, axis).min_reach());
+    assert_eq!(parameters.safety.position_limit, SAFETY_FRACTION * Vector3::from(reach));
     assert_eq!(parameters.safety.velocity_limit, Parameters::default().safety.velocity_limit);
 }
 

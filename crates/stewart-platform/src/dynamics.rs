@@ -1,17 +1,21 @@
-//! From the legs' forces to the platform's acceleration, and back: Newton's and Euler's equations
-//! at one instant.
+//! Forward and inverse dynamics: Newton's and Euler's equations for the platform on its
+//! legs, at one instant.
 //!
-//! The legs have no mass, so that each pushes along itself and nothing else. With x'' = (p'',
-//! alpha) the acceleration of the platform's origin and F the legs' forces, M x'' + c = J^T F: M is
-//! the body's matrix of inertia at the origin, c its weight and what turning adds, J the Jacobian
-//! of the legs. The legs accelerate by L'' = J x'' + d.
+//! The legs have no mass, so that each transmits a force along its axis only. The equations are
+//!
+//! M x'' + c = J^T F, L'' = J x'' + d.
+//!
+//! - x'' = (p'', alpha): linear acceleration of the platform's origin, and angular acceleration.
+//! - F: forces of the legs; L: lengths of the legs; J: Jacobian of the legs.
+//! - M: inertia matrix of the body at the origin; c: its weight and its velocity-dependent forces.
+//! - d: accelerations of the legs while x'' is zero.
 
 use moris_washout::platform::{Geometry, PlatformMotion, jacobian, leg_accelerations};
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::body::Body;
 
-/// The equations at an instant: with the platform where it is and as fast as it is.
+/// The equations at an instant, for given pose and velocities of the platform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dynamics {
     /// J.
@@ -20,15 +24,15 @@ pub struct Dynamics {
     mobility: Matrix6<f64>,
     /// M.
     inertia: Matrix6<f64>,
-    /// c: force \[N\] and moment about the platform's origin \[N m\] that no acceleration takes.
+    /// c: force \[N\] and moment about the platform's origin \[N m\] at zero acceleration.
     bias: Vector6<f64>,
     /// d: accelerations of the legs while x'' is zero \[m/s2\].
     drift: Vector6<f64>,
 }
 
 impl Dynamics {
-    /// For a motion's pose and velocities; its accelerations do not count. `gravity` points down
-    /// \[m/s2\].
+    /// The equations for a motion's pose and velocities. Its accelerations are ignored. `gravity`
+    /// is the downward acceleration \[m/s2\].
     pub fn new(geometry: &Geometry, body: &Body, motion: &PlatformMotion, gravity: f64) -> Self {
         let rotation = motion.orientation.rotation;
         let arm = rotation * body.centre;
@@ -42,7 +46,8 @@ impl Dynamics {
             PlatformMotion { acceleration: Vector3::zeros(), angular_acceleration: Vector3::zeros(), ..*motion };
         Dynamics {
             jacobian: jacobian(geometry, &motion.pose()),
-            // A body with mass and extent has an inverse; parameters without are refused.
+            // The matrix of a body with mass and extent is invertible. Other
+            // parameters are refused.
             mobility: inertia.try_inverse().unwrap_or_else(Matrix6::zeros),
             inertia,
             bias: stacked(force, moment),
@@ -50,9 +55,10 @@ impl Dynamics {
         }
     }
 
-    /// The legs' forces \[N\] that accelerate them so \[m/s2\]: inverse dynamics.
+    /// The legs' forces \[N\] for these accelerations of the legs \[m/s2\]: inverse dynamics.
     pub fn forces(&self, leg_accelerations: &Vector6<f64>) -> Vector6<f64> {
-        // Rigs are checked to be free of singularities, so that J has an inverse wherever the legs can be.
+        // Rigs are checked to have no singularities, so that J is invertible in every
+        // pose within the stroke.
         let acceleration = self.jacobian.lu().solve(&(leg_accelerations - self.drift)).unwrap_or_else(Vector6::zeros);
         let wrench = self.inertia * acceleration + self.bias;
         self.jacobian.transpose().lu().solve(&wrench).unwrap_or_else(Vector6::zeros)
@@ -68,15 +74,15 @@ impl Dynamics {
         self.jacobian * self.acceleration(forces) + self.drift
     }
 
-    /// J M^-1 J^T: how much each leg accelerates for a force of each \[1/kg\]; symmetric and
-    /// positive definite.
+    /// J M^-1 J^T: acceleration of each leg per force of each leg \[1/kg\]. The matrix is symmetric
+    /// and positive definite.
     pub fn leg_mobility(&self) -> Matrix6<f64> {
         self.jacobian * self.mobility * self.jacobian.transpose()
     }
 }
 
-/// M: what force and moment at the platform's origin accelerating it takes, with the centre of mass
-/// at `arm` from it.
+/// M: force and moment at the platform's origin per unit of its acceleration. The centre of mass is
+/// at `arm` from the origin.
 fn spatial_inertia(mass: f64, arm: Vector3<f64>, about_origin: Matrix3<f64>) -> Matrix6<f64> {
     let moment = mass * arm.cross_matrix();
     let mut matrix = Matrix6::zeros();

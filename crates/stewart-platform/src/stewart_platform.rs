@@ -124,7 +124,7 @@ impl Model for StewartPlatform {
         MOST_INTERNAL_STEPS * self.parameters.setting.max_step
     }
 
-    /// Advances by `step` seconds while the commands go on at the commanded rates.
+    /// Advances by `step` seconds with commands that change at the commanded rates.
     ///
     /// Any input is safe: a length outside the stroke is rejected, and the previous command is
     /// kept. A step shorter than [`SHORTEST_STEP`] does nothing; one longer than
@@ -134,8 +134,8 @@ impl Model for StewartPlatform {
         self.step_between(input, &Input { length: end, ..*input }, step);
     }
 
-    /// Advances by `step` seconds while the lengths and the rider's lean go linearly from `start`
-    /// to `end`; the commanded rates do not count.
+    /// Advances by `step` seconds. The lengths and the rider's lean change linearly from `start` to
+    /// `end`; the commanded rates are ignored.
     fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
@@ -155,8 +155,8 @@ impl Model for StewartPlatform {
         }
     }
 
-    /// Lengths go on at the slopes that the host gives, and at the commanded
-    /// rates where it gives none.
+    /// Lengths change at the slopes that the host sets, and at the commanded
+    /// rates where it sets none.
     fn input_after(start: &Input, slope: &Input, step: f64) -> Input {
         let rates = std::array::from_fn(|i| if slope.length[i] != 0.0 { slope.length[i] } else { start.velocity[i] });
         start.extrapolated(&Input { length: rates, velocity: [0.0; 6], ..*slope }, step)

@@ -1,11 +1,11 @@
-//! Specific force of a leaning rider on a platform at rest: gravity rotated by the lean, so that
-//! the force to the left is g sin(lean), and its rate g cos(lean) times the lean's.
+//! Specific force of a leaning rider on a platform at rest: gravity rotated by the lean. The force
+//! to the left is g sin(lean). Its rate is g cos(lean) times the lean's rate.
 
 use moris_stewart_platform::{Input, Model, Parameters, StewartPlatform};
 
 const RATE: f64 = 0.4;
 
-/// The input at neutral with the rider leaning like this.
+/// The input at neutral with this lean of the rider.
 fn leaning(lean: f64) -> Input {
     Input { lean, ..Input::default() }
 }

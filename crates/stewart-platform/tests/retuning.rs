@@ -1,11 +1,11 @@
-//! Parameters that change in flight: what has inertia does not jump, and the new values hold from
-//! then on.
+//! Parameters that change in flight. Lengths and their rates do not jump, and the new
+//! values apply from then on.
 
 use moris_stewart_platform::{Input, Model, Output, Parameters, StewartPlatform};
 
 const STEP: f64 = 0.001;
 
-/// A platform in motion, and the input that goes on moving it.
+/// Input of a platform in motion.
 fn input(time: f64) -> Input {
     let neutral = Input::default();
     let lengths = std::array::from_fn(|i| neutral.length[i] + 0.05 * (6.0 * time + 0.3 * i as f64).sin());
@@ -25,8 +25,8 @@ fn in_motion() -> StewartPlatform {
     platform
 }
 
-/// The largest change of a length less what its rate covers, and of a rate over what its
-/// acceleration limit allows.
+/// The largest change of a length less that by its rate, and the largest change of a rate beyond
+/// its acceleration limit.
 fn jumps(before: &Output, after: &Output, acceleration: f64) -> (f64, f64) {
     let mut jumps = (0.0_f64, 0.0_f64);
     for i in 0..6 {
@@ -65,7 +65,8 @@ fn lengths_and_rates_do_not_jump() {
         let limit = parameters.actuators.force_limit;
         assert_eq!(after.force, before.force.map(|force| force.clamp(-limit, limit)), "{name}");
         assert_eq!(after.stop_force, before.stop_force, "{name}");
-        // Drives that lack force are carried by the body's momentum, and keep no acceleration limit.
+        // Drives with too little force are moved by the body's momentum, and keep
+        // no acceleration limit.
         let allowed = if *name == "force limit" { 100.0 } else { parameters.rig.acceleration_limit };
         let mut last = before;
         for k in 0..500 {
@@ -79,7 +80,7 @@ fn lengths_and_rates_do_not_jump() {
     }
 }
 
-/// After the transition the platform is one that has had the parameters all the time.
+/// After the transition the platform behaves as if it had always had the parameters.
 #[test]
 fn the_new_values_hold() {
     let changes: &[Change] = &[
@@ -100,7 +101,8 @@ fn the_new_values_hold() {
         let (is, should) = (platform.output(), expected.output());
         for i in 0..6 {
             assert!((is.length[i] - should.length[i]).abs() < 1e-7, "{} {}", is.length[i], should.length[i]);
-            // Commands in the delay line may be joined in other places. The rider's weight is 130 N a leg.
+            // Commands in the delay line may be interpolated at other points. The rider's
+            // weight is 130 N a leg.
             assert!((is.force[i] - should.force[i]).abs() < 5.0, "{} {}", is.force[i], should.force[i]);
         }
     }

@@ -46,9 +46,11 @@ pub fn fmi3() -> fmi3::Api {
     api
 }
 
-/// Makes the library's first call, which silences panics. Linked in here it has the fuzzer's own
-/// hook, which is set again after that: from here on a panic, the host's or the library's, ends the
-/// process with its text.
+/// Makes the library's first call, which silences panics, and then sets the
+/// fuzzer's panic hook again.
+///
+/// The library is linked in here and shares that hook. From then on a panic, the host's or the
+/// library's, ends the process with its text.
 fn keeping_the_hook(first_call: impl FnOnce() -> bool) {
     let hook = std::panic::take_hook();
     let is_refused = first_call();

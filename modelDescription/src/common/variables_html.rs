@@ -12,9 +12,10 @@ pub(crate) struct Notation {
     pub type_name: fn(&Row) -> String,
 }
 
-/// The tables of a model's variables as HTML: one table for the inputs, the outputs, the parameters
-/// that can be changed while the simulation runs, and those that cannot, with a row for each row of
-/// the interface. `start` has the start value of each slot.
+/// The tables of a model's variables as HTML, with a row for each row of the interface.
+///
+/// There is one table each for inputs, outputs, parameters that can be changed while the simulation
+/// runs, and parameters that cannot. `start` has the start value of each slot.
 pub(crate) fn html(identity: &Identity, start: &[f64], notation: &Notation) -> String {
     let mut html = String::new();
     for section in SECTIONS {
@@ -23,7 +24,7 @@ pub(crate) fn html(identity: &Identity, start: &[f64], notation: &Notation) -> S
     html
 }
 
-/// A table: its anchor, its heading and which rows it holds.
+/// A table: its anchor, its heading and a predicate for its rows.
 struct Section {
     anchor: &'static str,
     heading: &'static str,
@@ -76,7 +77,7 @@ fn row_html(row: &Row, start: &[f64], notation: &Notation) -> String {
     )
 }
 
-/// The template with what its places stand for: `rig.base[1…6].{x, y, z}`.
+/// The row's name with its index and components filled in: `rig.base[1…6].{x, y, z}`.
 pub(crate) fn name_html(row: &Row) -> String {
     let components = format!("<i>{{{}}}</i>", row.components.join(",\u{a0}"));
     let index = format!("<i>1…{}</i>", row.count);
@@ -97,8 +98,7 @@ fn unit_html(kind: Kind) -> String {
     }
 }
 
-/// One value where all of the row's variables start alike, else the values, an
-/// array element a line.
+/// One value if all of the row's variables start alike, else the values, an array element a line.
 fn start_html(row: &Row, start: &[f64]) -> String {
     if start.iter().all(|value| value == &start[0]) {
         return value_html(row.kind, start[0]);

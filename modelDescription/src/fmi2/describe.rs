@@ -18,8 +18,8 @@ pub fn describe<M: Model>() -> ModelDescription {
     describe_with::<M>(&start_values::<M>(&[]))
 }
 
-/// The model description of a model that is exported for co-simulation with these start
-/// values, one for each slot.
+/// The model description of a model that is exported for co-simulation with these start values.
+/// `start` has one for each slot.
 ///
 /// Variables are listed as [`Identity::listed_slots`] orders them, and a value
 /// reference is a slot's number.
@@ -109,10 +109,12 @@ fn values(kind: Kind, range: Option<(f64, f64)>, start: Option<f64>) -> Values {
     }
 }
 
-/// At communication points the outputs depend on no input: they change only in a step, and so a
-/// host knows that there is no algebraic loop. During initialisation they are those of the model at
-/// rest, and what that depends on is the model's affair (the washout's felt force follows the
-/// rider's lean): no dependencies are given, which means on all that is known.
+/// At communication points the outputs depend on no input: they change only in a step. A host
+/// therefore knows that there is no algebraic loop.
+///
+/// During initialisation the outputs are those of the model at rest. The model decides what they
+/// depend on: the washout's felt force follows the rider's lean. No dependencies are given there,
+/// which means on all that is known.
 fn model_structure(identity: &Identity) -> ModelStructure {
     let is_output = |&(_, slot): &(u32, usize)| identity.row(slot).causality == Causality::Output;
     let outputs: Vec<u32> = (1..).zip(identity.listed_slots()).filter(is_output).map(|(index, _)| index).collect();

@@ -16,7 +16,7 @@ pub struct ModelDescription {
     pub fmi_version: String,
     #[serde(rename = "@modelName")]
     pub model_name: String,
-    /// By which the binary knows that the description is its own.
+    /// Identifies the description as the binary's own.
     #[serde(rename = "@guid")]
     pub guid: String,
     #[serde(rename = "@description")]

@@ -18,8 +18,8 @@ pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
     describe_with::<M>(&start_values::<M>(&[]), layout)
 }
 
-/// The model description of a model that is exported for co-simulation with these start
-/// values, one for each slot.
+/// The model description of a model that is exported for co-simulation with these start values.
+/// `start` has one for each slot.
 ///
 /// Variables are listed in the order of the slots, and a value reference is the number of a
 /// variable's first slot.

@@ -1,5 +1,5 @@
-//! The schema of FMI 3.0, as far as a co-simulation FMU of ours uses it, and its
-//! description of a model.
+//! The description of a model by FMI 3.0, and its schema. The schema has the parts that a
+//! co-simulation FMU of ours uses.
 //!
 //! A row of the interface with several values is as many scalars or one array: see [`Layout`].
 

@@ -35,8 +35,8 @@ fn moving(before: Motion<Vector3<f64>>) -> SafetyUnits {
     SafetyUnits { motion: before, ..SafetyUnits::new(LONGEST_STEP) }
 }
 
-/// True if a demand on one axis is kept as it is; the mirrored demand must be treated alike, and
-/// the other axes must not care.
+/// True if a demand on one axis is kept as it is. The mirrored demand must be treated alike, and
+/// the other axes must not change that.
 fn keeps(k: usize, before: Motion, demand: Motion, step: f64) -> bool {
     let kept = [1.0, -1.0].map(|sign| {
         let mirrored = |motion: Motion| {

@@ -11,8 +11,8 @@
 //!     P1' = -K1 dJ/dP1,    P2' = -K2 dJ/dP2
 //! ```
 //!
-//! The sensitivities dx/dP1, dx/dP2 and dq/dP2 are integrated beside the motion. Towards the ends
-//! of the actuators' strokes travel becomes dearer.
+//! The sensitivities dx/dP1, dx/dP2 and dq/dP2 are integrated beside the motion. The weights of
+//! travel and of its velocity, rho_x and rho_v, increase near the ends of the actuators' strokes.
 
 use serde::{Deserialize, Serialize};
 
@@ -58,16 +58,16 @@ struct Adaptation {
     tilt: f64,
 }
 
-/// Sensitivities stay within this: what they are good for ends long before.
+/// Bound on the sensitivities. They are of no use long before they reach it.
 const LARGEST_SENSITIVITY: f64 = 1e3;
-/// The fraction of its nominal value below which no gain falls: without a gain, the tilt
-/// would never come back.
+/// The fraction of its nominal value below which no gain falls. Without a gain, the
+/// tilt would never return.
 const LEAST_GAIN: f64 = 0.1;
 /// While a limit holds the tilt, its sensitivity decays at this rate \[1/s\].
 const SENSITIVITY_DECAY: f64 = 0.2;
-/// Travel becomes dearer when less than this is left of a stroke \[m\] ...
+/// The weights of travel increase when less than this is left of a stroke \[m\] ...
 const NEAR_END: f64 = 0.1;
-/// ... up to so many times as dear at the end.
+/// ... by up to this many times their value, at its end.
 const DEARER: f64 = 10.0;
 
 impl From<&AdaptiveParameters> for Tuning {
@@ -92,13 +92,13 @@ impl Adaptive {
         Adaptive { models: *models, tuning: *tuning, axes: [axis; 2] }
     }
 
-    /// Takes other parameters. The gains go on from where they are.
+    /// Changes the parameters. The gains continue from where they are.
     pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) {
         (self.models, self.tuning) = (*models, *tuning);
     }
 
-    /// Decision for a step of `step` seconds that begins in these states, with these references at
-    /// its end, when the actuators have so much left of their strokes \[m\].
+    /// Decision for a step of `step` seconds. It begins in these states and has these references at
+    /// its end. The actuators have `stroke_margin` left of their strokes \[m\].
     pub fn decide(
         &mut self,
         states: &[AxisState; 2],

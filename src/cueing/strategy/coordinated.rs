@@ -8,13 +8,12 @@
 //!     felt = cos(q + b) a - H (alpha + b'') + (g + z'') sin(q + b)
 //! ```
 //!
-//! where b is what else turns the platform about that axis, z heave and H the height of the head. A
-//! strategy decides on the tilt's acceleration alpha and on a *dropped force* e; the travel's
-//! acceleration a follows from felt = r + e, with r the cue at the step's end. However seldom a
-//! strategy decides, what it does not drop is felt at once.
+//! where b is the platform's other rotation about that axis, z is heave and H the height of the
+//! head. A strategy decides on the tilt's acceleration alpha and on a *dropped force* e. The
+//! travel's acceleration a follows from felt = r + e, with r the cue at the step's end. The part of
+//! the cue that is not dropped is felt at once, however rarely a strategy decides.
 //!
-//! Strategies follow the *effective reference* f = r - g sin(b) + H b'', so that b is
-//! no concern of theirs.
+//! Strategies follow the *effective reference* f = r - g sin(b) + H b'', which already contains b.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -67,7 +66,7 @@ pub struct Circumstances<'a> {
     pub angles: &'a Motion<Vector3<f64>>,
     /// The rider's lean as far as the platform makes up for it \[rad\].
     pub lean: f64,
-    /// 1: engaged, 0: disengaged, between them: on the way.
+    /// 1: engaged, 0: disengaged; between them: being engaged or disengaged.
     pub engagement: f64,
     /// Time until the vehicle stands, infinite while no stop is foreseen \[s\].
     pub time_to_stop: f64,
@@ -77,11 +76,10 @@ pub struct Circumstances<'a> {
 const RETURN_FREQUENCY: f64 = 1.0;
 /// A tilt within this fraction of its angle's or rate's limit counts as limited.
 const NEARLY: f64 = 0.999;
-/// The determinant of the head's axes below which the platform is turned over; nothing
-/// more is divided by it.
+/// Smallest magnitude of the determinant of the head's axes that is divided by. Only a platform
+/// that is nearly turned on its side has a smaller one.
 const LEAST_DETERMINANT: f64 = 0.1;
-/// Heave under the predictive strategy stays below this, and is nearly what it
-/// was far below it \[m\].
+/// Bound on heave under the predictive strategy \[m\]. Heave far below it hardly changes.
 const SOFT_HEAVE: f64 = 0.1;
 
 impl Coordinated {
@@ -189,8 +187,8 @@ impl Coordinated {
         self.fraction = fraction;
     }
 
-    /// Surge and sway at the end of a step, so that the rider feels the cue less the dropped force;
-    /// `turning` is how the platform turns there, and `heave` how it heaves.
+    /// Surge and sway at the end of a step, such that the rider feels the cue plus the dropped
+    /// force. `turning` is the platform's rotation there, and `heave` its heave.
     pub fn travel(
         &self,
         circumstances: &Circumstances,
@@ -222,7 +220,7 @@ impl Coordinated {
         })
     }
 
-    /// Heave as this strategy lets it through.
+    /// Heave under this strategy: softly bounded by the predictive one, unchanged by the others.
     pub fn heave(&self, heave: &Motion) -> Motion {
         match &self.law {
             Law::Predictive(_) => softened(heave),
@@ -231,7 +229,7 @@ impl Coordinated {
     }
 }
 
-/// A motion at rest at neutral once it is too small to tell.
+/// The motion, with components that are too small to matter set to zero.
 fn flushed(motion: &Motion) -> Motion {
     Motion {
         position: at_rest_if_tiny(motion.position),
@@ -265,7 +263,7 @@ impl Circumstances<'_> {
     fn surroundings<'a>(&'a self, geometry: &'a Geometry) -> Surroundings<'a> {
         let Parameters { rig, predictive, angular, .. } = self.parameters;
         let stroke = [rig.min_length, rig.max_length];
-        // A margin beyond half the stroke would leave nothing.
+        // A margin of half the stroke would leave nothing: at most a quarter is kept.
         let margin = predictive.leg_margin.min(0.25 * (rig.max_length - rig.min_length));
         Surroundings {
             geometry,
@@ -279,7 +277,7 @@ impl Circumstances<'_> {
     }
 }
 
-/// Surge and sway as the strategies see them.
+/// The strategies' models of surge and sway.
 fn models(parameters: &Parameters) -> [AxisModel; 2] {
     let Parameters { tilt, safety, structure, .. } = parameters;
     let head_height = LocationFrame::new(structure, 0.0).point.z;

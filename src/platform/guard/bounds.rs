@@ -1,19 +1,21 @@
 //! Bounds on the derivatives of a leg's length, from bounds on the platform's coordinates.
 //!
-//! With g = p + R a - b the vector from joint to joint, L = |g|, and on a piece on which all
-//! coordinates have a steady acceleration v and s the largest linear speed and acceleration, W and
-//! e the largest sums of the magnitudes of the angles' rates and accelerations, r = |a|:
+//! The vector of a leg from joint to joint is g = p + R a - b, its length L = |g|, and r = |a|. The
+//! bounds hold on a piece on which all coordinates have a steady acceleration. There, v and s are
+//! the largest linear speed and acceleration. W and e are the largest sums of the magnitudes of the
+//! angles' rates and accelerations. Then
 //!
 //! |g'| <= G1 = v + W r, |g''| <= G2 = s + (W² + e) r, |g'''| <= G3 = (W³ + 3 W e) r.
 //!
 //! Each angle's rotation has derivatives of norm at most 1, and R is the product of three such
-//! rotations: the products' terms add up to the powers of W. L L' = g·g' then gives, with n = g/L
-//! and g'⊥ the part of g' across n,
+//! rotations. The products' terms therefore add up to the powers of W. With n = g/L and g'⊥ the
+//! part of g' across n, L L' = g·g' gives
 //!
-//! L'' = n·g'' + |g'⊥|²/L, L''' = 3 (g'⊥·g''⊥ - L' |g'⊥|²/L)/L + n·g''',
+//! L'' = n·g'' + |g'⊥|²/L, L''' = 3 (g'⊥·g''⊥ - L' |g'⊥|²/L)/L + n·g'''.
 //!
-//! and so |L'| <= G1, |L''| <= G2 + G1²/L and |L'''| <= 3 G1 (G2 + k G1²/L)/L + G3, where k = 2/(3
-//! √3) is the largest value of x (1 - x²) for x from 0 to 1.
+//! With k = 2/(3 √3), the largest value of x (1 - x²) for x from 0 to 1, it follows that
+//!
+//! |L'| <= G1, |L''| <= G2 + G1²/L, |L'''| <= 3 G1 (G2 + k G1²/L)/L + G3.
 
 /// Largest value of x (1 - x²).
 const LARGEST_PRODUCT: f64 = 0.384_900_179_459_750_5;

@@ -1,10 +1,11 @@
 //! The certificate: proof that a transition, and a stop plan after it, keep every
 //! limit at every instant.
 //!
-//! A transition from (q0, u0) to (q1, u1) over a step h stands for a trajectory with the steady
-//! acceleration c = (u1 - u0)/h, and a gap d = q1 - q0 - (u0 + u1) h/2 at its end. The gap counts
-//! as an acceleration of 2 |d|/h²: limits that hold on the trajectory with it are exceeded by no
-//! difference of the positions or velocities at the steps' ends.
+//! A transition goes from position q0 and velocity u0 to q1 and u1 in a step h. It stands
+//! for a trajectory with the steady acceleration c = (u1 - u0)/h, and a gap d = q1 - q0 -
+//! (u0 + u1) h/2 at its end. The gap counts as an acceleration of 2 |d|/h². Limits that hold
+//! on the trajectory with this added also hold for the differences of the positions and
+//! velocities at the steps' ends.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -13,16 +14,16 @@ use super::bounds::JointBounds;
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law::{Limits, ROUNDING, WITH_ROUNDING};
-use crate::motion::extremes::{max, min};
+use crate::motion::min_max::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion};
 
-/// The fraction of the legs' acceleration that stopping takes; the rest is for what the legs
-/// do because they turn.
+/// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
+/// accelerations that the legs' rotation causes.
 const STOP_FRACTION: f64 = 0.6;
-/// Stop plans are divided so finely that the bound between two points is about this fraction of
-/// the acceleration limit.
+/// Stop plans are divided into cells. The bound on what happens between two points is about this
+/// fraction of the acceleration limit.
 const MARGIN: f64 = 0.05;
 /// The largest number of cells into which the longest piece of a stop plan is divided.
 const MOST_CELLS: f64 = 12.0;
@@ -35,7 +36,7 @@ pub struct Machine {
     /// The farthest joint from the platform's origin \[m\].
     radius: f64,
     /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke
-    /// by what a leg can move beyond both ends of a transition, A h²/8 for the longest step h.
+    /// by [`stroke_reserve`].
     pub limits: Limits,
     /// Duration of a stop for each m/s of a leg \[s2/m\].
     stop_time_per_speed: f64,
@@ -78,7 +79,10 @@ impl Speed {
     }
 }
 
-/// The reserve that a stroke keeps at either end for what happens between the ends of a step \[m\].
+/// The reserve of a stroke at either end for what happens between the ends of a step \[m\].
+///
+/// It is what a leg can move beyond both ends of a transition: A h²/8 for the longest step h, or V
+/// h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
 pub fn stroke_reserve(rig: &Rig, longest_step: f64) -> f64 {
     (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
 }
@@ -102,18 +106,19 @@ impl Machine {
         }
     }
 
-    /// The limits within which each leg pursues a demand: a little inside the certified stroke, so
-    /// that a leg at the end of it is drawn back and does not keep the others from moving.
+    /// The limits within which each leg pursues a demand: a little inside the certified stroke. A
+    /// leg at the end of the stroke is then drawn back and does not keep the others from moving.
     pub fn pursuit_limits(&self) -> Limits {
         const INSET: f64 = 1e-5;
         let inset = INSET * (self.limits.max - self.limits.min);
         Limits { min: self.limits.min + inset, max: self.limits.max - inset, ..self.limits }
     }
 
-    /// Durations of a certified stop from the candidate, if bounds on the whole way there and to
-    /// rest are enough to certify it, without a look at any point of the way.
+    /// Duration of a certified stop from the candidate, if bounds on the whole way there and to
+    /// rest are enough to certify it. No point of the way is evaluated.
     ///
-    /// The whole way lies within (stop duration/2 + step) times the largest speed of the candidate.
+    /// The whole way lies within (stop duration/2 + step) times the largest
+    /// speed in the transition.
     #[inline(always)]
     pub fn certify_by_bounds(&self, from: State, to: Candidate, safety: &SafetyParameters, step: f64) -> Option<f64> {
         let (now, next) = (from.coordinates, to.coordinates);
@@ -174,8 +179,9 @@ impl Machine {
         keeps.then_some(plan)
     }
 
-    /// The stop from the candidate within the safety limits: all coordinates in one duration that
-    /// suits the fastest leg and the safety limits of acceleration, an axis with less room sooner.
+    /// The stop from the candidate within the safety limits. All coordinates stop in one
+    /// duration that suits the fastest leg and the safety limits of acceleration. An axis with
+    /// less room stops sooner.
     fn stop_plan(&self, to: Candidate, safety: &SafetyParameters) -> Option<StopPlan> {
         let Motion { position, velocity, .. } = to.coordinates.linear;
         let fastest_leg = to.legs.velocity.iter().fold(0.0, |fastest, velocity| max(velocity.abs(), fastest));
@@ -185,7 +191,7 @@ impl Machine {
         let mut durations = StopDurations::common(duration);
         for k in 0..3 {
             let speed = velocity[k].abs();
-            // Seen from the candidate: one that is back inside a tightened limit stays inside.
+            // From the candidate on: one that is back inside a tightened limit stays inside.
             let (lowest, highest) = reachable(to.coordinates, safety, k);
             let room = if velocity[k] >= 0.0 { highest - position[k] } else { position[k] - lowest };
             // At rest, the quotient is infinite or no number.
@@ -212,7 +218,7 @@ impl Machine {
         let speeds = [max(before.linear, after.linear), max(before.angular, after.angular)];
         let accelerations = [linear.start.acceleration.norm(), sum_of_magnitudes(&angles.start.acceleration)];
         let bounds = JointBounds::new(speeds, accelerations, self.radius);
-        // The gap at the end, as accelerations for who sees lengths and for who sees rates.
+        // The gap at the end as accelerations: one from lengths, one from rates.
         let gaps = std::array::from_fn(|i| {
             let length = without_rounding(to.legs.length[i] - right.length[i]).abs();
             let rate = without_rounding(to.legs.velocity[i] - right.velocity[i]).abs();
@@ -274,12 +280,12 @@ impl Machine {
         true
     }
 
-    /// True if the legs keep their limits in an interval of steady coordinates'
-    /// accelerations, judged by their motion at both ends; `gaps` are accelerations that each
-    /// leg needs besides \[m/s2\].
+    /// True if the legs keep their limits in an interval in which the coordinates' accelerations
+    /// are steady. The legs' motion at both ends decides. `gaps` are accelerations that each leg
+    /// needs besides \[m/s2\].
     ///
-    /// No instant is farther than half the interval d from the nearer end, from where the leg's
-    /// jerk J is bounded. So the acceleration differs from that end's by at most J d/2; speed and
+    /// No instant is farther than half the interval d from the nearer end, and the leg's jerk J is
+    /// bounded. The acceleration therefore differs from that end's by at most J d/2. Speed and
     /// length follow by integration from that end.
     pub(super) fn interval_keeps_legs(
         &self,
@@ -363,8 +369,8 @@ pub fn axes_keep_limits(
     keeps
 }
 
-/// The positions that an axis may have from now on. Beyond the parameter it may come
-/// nearer, not go farther.
+/// The lowest and the highest position that an axis may have from now on. Beyond its limit it may
+/// come nearer to neutral, but not go farther.
 fn reachable(from: &PlatformCoordinates, safety: &SafetyParameters, k: usize) -> (f64, f64) {
     const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let (position, limit) = (from.linear.position[k], safety.position_limit[k]);

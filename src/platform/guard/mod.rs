@@ -1,5 +1,5 @@
-//! The actuator guard: stroke, speed and acceleration of each leg, and the safety limits of surge,
-//! sway and heave, whatever is demanded.
+//! The actuator guard keeps stroke, speed and acceleration of each leg, and the safety limits of
+//! surge, sway and heave, whatever is demanded.
 //!
 //! The guard is a reference governor with a backup stop plan. Its invariant: **the state lies on a
 //! certified stop plan**, a trajectory to rest on which every limit holds at every instant. A step
@@ -26,7 +26,7 @@ use super::stop_plan::{StopDurations, StopPlan};
 use super::{Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE, WITH_ROUNDING};
-use crate::motion::extremes::{max, min};
+use crate::motion::min_max::{max, min};
 
 /// The guard with the motion that the platform is commanded, and with its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,8 +70,8 @@ impl ActuatorGuard {
         }
     }
 
-    /// Advances by `step` seconds, at whose end the platform is to move as `demand` says; `motion`
-    /// is the same, in the base frame. `safety` are the limits of surge, sway and heave in force.
+    /// Advances by `step` seconds. At their end the platform is to move as `demand` says; `motion`
+    /// is the same in the base frame. `safety` are the limits of surge, sway and heave in force.
     #[inline(always)]
     pub fn advance(
         &mut self,
@@ -112,9 +112,10 @@ impl ActuatorGuard {
         });
     }
 
-    /// A certified stop plan from the candidate on which no axis keeps its limit of velocity later
-    /// than on the plan held, where a tightened limit is not kept yet; `followed` is the plan held
-    /// at the step's end.
+    /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
+    /// than the plan held. This matters where a tightened limit is not kept yet.
+    ///
+    /// `followed` is the plan held, at the step's end.
     fn certified(&self, to: Candidate, followed: &StopPlan, safety: &SafetyParameters, step: f64) -> Option<StopPlan> {
         let plan = self.machine.certify(self.state(), to, safety, step)?;
         let limits = WITH_ROUNDING * safety.velocity_limit;
@@ -122,9 +123,9 @@ impl ActuatorGuard {
         (0..3).all(|k| next[k] <= held[k]).then_some(plan)
     }
 
-    /// True if the platform may go over to the demand from where it is: the positions differ from
-    /// what the velocities account for by no more than a hundredth of what an acceleration at its
-    /// limit does in a step.
+    /// True if the platform may join the demand. The positions must differ from what the
+    /// velocities account for by at most [`REJOIN_DISTANCE`] a h², with the limit of
+    /// acceleration a and the step h.
     fn has_caught_up(&self, demand: Candidate, safety: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * step * step;
         let (legs, next) = (&self.legs, demand.legs);
@@ -139,7 +140,7 @@ impl ActuatorGuard {
         })
     }
 
-    /// Goes on to a state from which this plan is certified, or which lies on it.
+    /// Commits a state from which this plan is certified, or which lies on it.
     #[inline(always)]
     fn accept(&mut self, state: Candidate, plan: StopPlan) {
         self.motion = *state.motion;

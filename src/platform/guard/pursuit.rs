@@ -11,7 +11,8 @@ use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits};
 use crate::platform::stop_plan::StopPlan;
 use crate::platform::{Legs, PlatformCoordinates, PlatformMotion, inverse_kinematics, jacobian};
 
-/// Between the plan and the pursuit, the farthest certified candidate is found to a part in 2^6.
+/// Number of bisections between the plan and the pursuit. They find the farthest certified
+/// candidate to a part in 2^6.
 const BISECTIONS: usize = 6;
 
 /// A candidate of its own.
@@ -28,8 +29,8 @@ impl Trial {
 }
 
 impl ActuatorGuard {
-    /// The state nearest to a pursuit of the demand that is certified, with its plan; else the next
-    /// state on the plan held, which is `followed` at the step's end.
+    /// The certified state nearest to a pursuit of the demand, with its plan. Without one, the next
+    /// state on the plan held; `followed` is that plan at the step's end.
     pub(super) fn nearest(
         &self,
         demand: Candidate,
@@ -54,8 +55,8 @@ impl ActuatorGuard {
         })
     }
 
-    /// The state that the platform gets to if each leg pursues its target under its own limits, and
-    /// surge, sway and heave keep theirs. Nothing depends on its being certified.
+    /// The state that the platform reaches if each leg pursues its target under its own limits, and
+    /// surge, sway and heave keep theirs. It need not be certified.
     fn pursued(
         &self,
         now: &PlatformCoordinates,
@@ -64,13 +65,13 @@ impl ActuatorGuard {
         step: f64,
     ) -> PlatformCoordinates {
         let rates = Vector6::from(self.each_leg_pursued(target, step));
-        // The Jacobian where the platform will be, not where it is: the legs have to arrive without a jump.
+        // The Jacobian where the platform will be: the legs have to arrive without a jump.
         let ahead = now.coasted(step).motion(self.machine.neutral_height);
         let twist = jacobian(&self.machine.geometry, &ahead.pose()).lu().solve(&rates).unwrap_or_else(Vector6::zeros);
         let velocity: Vector3<f64> = twist.fixed_rows::<3>(0).into();
         let rates = ahead.orientation.rates(twist.fixed_rows::<3>(3).into()).to_vector();
         let PlatformCoordinates { linear, angles } = now;
-        // All change less where one may not change so much: the legs would go elsewhere otherwise.
+        // If one may not change so much, all change less: the legs would go elsewhere otherwise.
         let change = velocity - linear.velocity;
         let least = Vector3::repeat(f64::MIN_POSITIVE);
         let fraction = (step * safety.acceleration_limit).component_div(&change.abs().sup(&least)).min().min(1.0);

@@ -28,8 +28,9 @@ pub fn to_platform([roll, pitch, yaw]: Vec3, v: Vec3) -> Vec3 {
     rotate_x(-roll, rotate_y(-pitch, rotate_z(-yaw, v)))
 }
 
-/// The angular velocity in the base's axes about which a frame turns from angles `before` to angles
-/// `after`, for a small turn over `duration`: the vector of the skew part of R(after) R(before)^T.
+/// The angular velocity, in the base's axes, of a frame that turns from angles `before` to angles
+/// `after` within `duration`. The turn must be small: it is the vector of the skew part of
+/// R(after) R(before)^T.
 pub fn turn(before: Vec3, after: Vec3, duration: f64) -> Vec3 {
     let turned = |axis: Vec3| to_base(after, to_platform(before, axis));
     let (x, y, z) = (turned([1.0, 0.0, 0.0]), turned([0.0, 1.0, 0.0]), turned([0.0, 0.0, 1.0]));

@@ -1,5 +1,5 @@
-//! A model that does nothing, as a shared library of FMI 2.0: what is left of an exchange is the
-//! cost of the C functions.
+//! A model that does nothing, as a shared library of FMI 2.0. An exchange with it costs
+//! only the C functions.
 
 pub mod model;
 

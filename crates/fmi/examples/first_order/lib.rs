@@ -1,5 +1,5 @@
-//! A small model as a shared library: the least that an FMU's library needs, and what the tests
-//! load.
+//! A small model as a shared library. It is the least that an FMU's library
+//! needs. The tests load it.
 
 pub mod model;
 

@@ -1,9 +1,9 @@
 //! The processor's floating-point arithmetic during a call.
 //!
 //! A host may round otherwise than to nearest, flush subnormal numbers to zero, or trap on inexact
-//! results: its own code needs it so, or a library in its process has left it so. A model's results
-//! must not depend on that, and Rust itself assumes the default. So a call computes with the
-//! default, and the host finds its own setting again.
+//! results. Its own code may need that, or a library in its process may have set it. A model's
+//! results must not depend on the setting, and Rust itself assumes the default. So a call computes
+//! with the default and restores the host's setting afterwards.
 
 use std::hint::black_box;
 
@@ -12,7 +12,7 @@ use control_word::{ControlWord, DEFAULT, FLAGS, read, write};
 /// Runs `body` with the default arithmetic: round to nearest, subnormal numbers
 /// as they are, no traps.
 ///
-/// The usual host has set nothing else; then the cost is that of reading the setting.
+/// Most hosts use the default. The only cost then is that of reading the setting.
 #[inline]
 pub fn with_default<R>(body: impl FnOnce() -> R) -> R {
     let host = read();
@@ -23,13 +23,13 @@ pub fn with_default<R>(body: impl FnOnce() -> R) -> R {
 #[inline(never)]
 fn replacing<R>(host: ControlWord, body: impl FnOnce() -> R) -> R {
     write(DEFAULT);
-    // Opaque to the compiler, which may not compute anything of `body` before the setting is the default.
+    // Opaque to the compiler, which must not compute any part of `body` before the default is set.
     let result = black_box(body)();
     write(host);
     result
 }
 
-/// MXCSR, which is all that `f64` goes by; the x87 unit is not used.
+/// The register MXCSR, which controls all `f64` arithmetic. The x87 unit is not used.
 #[cfg(target_arch = "x86_64")]
 mod control_word {
     use std::arch::asm;
@@ -37,7 +37,7 @@ mod control_word {
     pub type ControlWord = u32;
     /// All traps masked, round to nearest, neither FTZ nor DAZ.
     pub const DEFAULT: ControlWord = 0x1f80;
-    /// Exception flags since the host last cleared them: no setting.
+    /// Exception flags raised since the host last cleared them. They are not part of the setting.
     pub const FLAGS: ControlWord = 0x3f;
 
     #[inline(always)]
@@ -111,7 +111,7 @@ mod tests {
         write(DEFAULT);
         assert_eq!(inside.0 & !FLAGS, DEFAULT);
         assert_eq!(inside.1, 1.0 / 3.0);
-        // The inexact quotient has left no flag, which would be news to the host.
+        // The inexact quotient has left no exception flag.
         assert_eq!(after, STRANGE);
     }
 

@@ -7,8 +7,7 @@ use moris_interface::{Identity, Model};
 use super::{Function, with_default_arithmetic};
 use crate::{CallError, Instance, Mode, Severity, panics};
 
-/// The host of an instance, as one version of FMI has it: takes messages and reports of how calls
-/// end.
+/// The host of an instance in one version of FMI. It receives messages and the status of each call.
 pub trait Host {
     /// Status of a call.
     type Status;
@@ -25,17 +24,17 @@ pub trait Host {
     }
     /// Reports a stage of the instance's life to a host that logs events.
     fn event(&self, text: &str);
-    /// Tells the host why a call does not do what was asked; gives back how the call ends.
+    /// Logs why a call failed. Returns the call's status.
     fn failure(&self, severity: Severity, text: &str) -> Self::Status;
 }
 
-/// Mark at the beginning of every component until it is freed; unlikely elsewhere.
+/// Mark at the beginning of every component until it is freed. Other memory is unlikely to hold it.
 const MARK: u64 = u64::from_le_bytes(*b"instance");
 
-/// An instance, and where its messages go.
+/// An instance and its host's logger.
 #[repr(C)]
 pub struct Component<M, H> {
-    /// Looked at before the rest is believed.
+    /// Checked before any other field is read.
     mark: u64,
     pub instance: Instance<M>,
     pub logger: H,
@@ -47,35 +46,39 @@ impl<M, H> Component<M, H> {
         Box::into_raw(Box::new(Component { mark: MARK, instance, logger })).cast()
     }
 
-    /// The component that `pointer` leads to. `None` if it is null or leads to something else, a
-    /// freed component for one, as far as that is visible.
+    /// The component that `pointer` points to. `None` if the pointer is null or misaligned, or if
+    /// the memory does not hold the mark, as after the component was freed.
     ///
     /// # Safety
-    /// `pointer` is null or leads to memory that can be read; if it is a component, it is one of
-    /// the model `M` and the host `H`, and nothing else uses it during `'a`.
+    /// `pointer` is null or points to readable memory. If it points to a component, that component
+    /// is one of the model `M` and the host `H`, and nothing else uses it during `'a`.
     #[inline]
     pub unsafe fn at<'a>(pointer: *mut c_void) -> Option<&'a mut Self> {
         let pointer = pointer.cast::<Self>();
-        // SAFETY: not null and aligned where it is read; for the rest the caller vouches, and all bits make a mark.
+        // SAFETY: the pointer is not null and is aligned where it is read. The caller guarantees
+        // readable memory, and any bits are a valid `u64`.
         let marked = !pointer.is_null() && pointer.is_aligned() && unsafe { pointer.cast::<u64>().read() } == MARK;
-        // SAFETY: it has the mark, so that `into_pointer` made it.
+        // SAFETY: the memory has the mark, so `into_pointer` made the component.
         marked.then(|| unsafe { &mut *pointer })
     }
 
-    /// Ends the component, so that its memory is no longer taken for one.
+    /// Clears the mark, so that the memory is no longer taken for a component, and frees it.
     ///
     /// # Safety
-    /// The component comes from [`Component::at`], and nobody uses it from here on.
+    /// The component comes from [`Component::at`], and nothing uses it afterwards.
     pub unsafe fn free(component: *mut Self) {
-        // SAFETY: the field is there; volatile, for nobody is seen to read it again.
+        // SAFETY: the field is valid. The write is volatile, because the compiler sees no later
+        // read and would omit it.
         unsafe { (&raw mut (*component).mark).write_volatile(0) };
         // SAFETY: `into_pointer` made it.
         drop(unsafe { Box::from_raw(component) });
     }
 }
 
-/// Runs a function of the interface on the component: checks that the function is allowed now,
-/// computes with the default arithmetic, tells the host what went wrong, and lets no panic out.
+/// Runs a function of the interface on the component.
+///
+/// Checks that the function is allowed now, computes with the default arithmetic, reports errors to
+/// the host and catches panics.
 ///
 /// # Safety
 /// `component` is null, or a component of the model `M` and the host `H` that is not freed yet and
@@ -86,7 +89,7 @@ pub unsafe fn call<M: Model, H: Host>(
     function: &Function,
     body: impl FnOnce(&mut Component<M, H>) -> Result<(), CallError>,
 ) -> H::Status {
-    // SAFETY: the caller vouches for it.
+    // SAFETY: guaranteed by the caller.
     let Some(component) = (unsafe { Component::<M, H>::at(component) }) else { return H::ERROR };
     if !function.allowed.contains(component.instance.mode()) {
         return component.not_allowed(function);
@@ -106,7 +109,7 @@ impl<M: Model, H: Host> Component<M, H> {
         self.logger.failure(error.severity, &format!("{}: {text}", function.name))
     }
 
-    /// Complains of a panic, after which the instance cannot be used.
+    /// Reports a panic and puts the instance into the mode [`Mode::Error`].
     #[cold]
     #[inline(never)]
     fn fail(&mut self, function: &Function, error: CallError) -> H::Status {
@@ -121,7 +124,7 @@ impl<M: Model, H: Host> Component<M, H> {
             Mode::ALL.into_iter().filter(|&mode| function.allowed.contains(mode)).map(H::mode_name).collect();
         let allowed = if allowed.is_empty() { "none".into() } else { allowed.join(", ") };
         let state = H::mode_name(self.instance.mode());
-        let text = format!("not allowed in state '{state}'; the states in which it is: {allowed}");
+        let text = format!("not allowed in state '{state}'; allowed in: {allowed}");
         self.report(function, CallError::error(text))
     }
 }

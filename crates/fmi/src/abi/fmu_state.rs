@@ -13,18 +13,18 @@ use crate::{CallError, Guid, InstanceState};
 /// A saved state, as the host holds it.
 type FmuState = *mut c_void;
 
-/// Mark at the beginning of every state of this library; unlikely elsewhere.
+/// Mark at the beginning of every state of this library. Other memory is unlikely to hold it.
 const MARK: u64 = u64::from_le_bytes(*b"FMUstate");
 
 /// Target of an [`FmuState`].
 #[repr(C)]
 struct State<M> {
-    /// Belongs to whom; looked at before the rest is believed.
+    /// The state's owner. Checked before any other field is read.
     owner: Owner,
     instance: InstanceState<M>,
 }
 
-/// Tells a state of this model in this very library from other memory, as far as that can be done.
+/// Distinguishes a state of this model in this library from other memory, as far as possible.
 #[derive(Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 struct Owner {
@@ -44,7 +44,8 @@ impl Owner {
 /// `pointer` is null or leads to memory that can be read.
 unsafe fn state<M: Model>(pointer: FmuState, owner: Owner) -> Result<*mut State<M>, CallError> {
     let pointer = pointer.cast::<State<M>>();
-    // SAFETY: not null and aligned where it is read; for the rest the caller vouches, and all bits make an owner.
+    // SAFETY: the pointer is not null and is aligned where it is read. The caller guarantees
+    // readable memory, and any bits are a valid `Owner`.
     if pointer.is_null() || !pointer.is_aligned() || unsafe { pointer.cast::<Owner>().read() } != owner {
         return Err(CallError::error("the state is null, freed already, or none of this model's"));
     }
@@ -55,7 +56,7 @@ fn into_pointer<M: Model>(owner: Owner, instance: InstanceState<M>) -> FmuState 
     Box::into_raw(Box::new(State { owner, instance })).cast()
 }
 
-/// `fmi3GetFMUState`: into the state that is there, or else into a new one.
+/// `fmi3GetFMUState`: overwrites the state at `pointer`, or creates one if it is null.
 pub unsafe fn get<M: Model, H: Host>(component: *mut c_void, function: &Function, pointer: *mut FmuState) -> H::Status {
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's place for the state.
@@ -102,8 +103,9 @@ pub unsafe fn free<M: Model, H: Host>(
         }
         // SAFETY: the host's state.
         let state = unsafe { state::<M>(*pointer, Owner::of(component))? };
-        // SAFETY: it has this library's mark, so that `into_pointer` made it. The mark goes, so that its memory is no longer
-        // taken for a state; volatile, for nobody is seen to read it again.
+        // SAFETY: the state has this library's mark, so `into_pointer` made it. The mark is
+        // cleared, so that its memory is no longer taken for a state. The write is volatile,
+        // because the compiler sees no later read and would omit it.
         unsafe { (&raw mut (*state).owner.mark).write_volatile(0) };
         // SAFETY: as above.
         drop(unsafe { Box::from_raw(state) });
@@ -125,7 +127,7 @@ pub unsafe fn serialized_size<M: Model, H: Host>(
         // SAFETY: the host's state, which nobody changes during the call.
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
         let length = state.instance.to_bytes(component.instance.tables().guid)?.len();
-        // SAFETY: the host's room for the answer.
+        // SAFETY: the host's memory for the answer.
         unsafe { answer(size, length) }?;
         Ok(())
     };
@@ -142,7 +144,7 @@ pub unsafe fn serialize<M: Model, H: Host>(
     size: usize,
 ) -> H::Status {
     let body = |component: &mut Component<M, H>| {
-        // SAFETY: the host's state, which nobody changes during the call, and its room for `size` bytes.
+        // SAFETY: the host's state, which nobody changes during the call, and its memory for `size` bytes.
         let (state, buffer) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, buffer(bytes, size)?) };
         let bytes = state.instance.to_bytes(component.instance.tables().guid)?;
         let (length, available) = (bytes.len(), buffer.len());
@@ -156,7 +158,7 @@ pub unsafe fn serialize<M: Model, H: Host>(
     unsafe { call(component, function, body) }
 }
 
-/// `fmi3DeserializeFMUState`: into the state that is there, or else into a new one.
+/// `fmi3DeserializeFMUState`: overwrites the state at `pointer`, or creates one if it is null.
 pub unsafe fn deserialize<M: Model, H: Host>(
     component: *mut c_void,
     function: &Function,

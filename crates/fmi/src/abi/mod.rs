@@ -1,10 +1,10 @@
 //! Parts common to the C functions of all versions of FMI: access to an instance, pointers, states.
 //!
 //! # Safety
-//! All functions of the versions' modules take a host's pointers. Null pointers are refused;
-//! others have to be what the standard says: an instance or a state made by this library and
-//! not yet freed, arrays of the length given, strings ended by a zero. An instance is not used
-//! by two threads at once.
+//! All functions of the versions' modules take a host's pointers. Null pointers are refused.
+//! Other pointers must be what the standard requires: an instance or a state made by this library
+//! and not yet freed, arrays of the given length, zero-terminated strings. An instance is not
+//! used by two threads at once.
 
 #![allow(clippy::missing_safety_doc)] // stated above, once for all
 
@@ -21,7 +21,7 @@ pub use component::{Component, Host, call};
 pub use function::Function;
 pub(crate) use function::calling_sequence;
 
-/// Nothing: other systems need none of glibc's functions.
+/// Expands to nothing: other systems need none of glibc's functions.
 #[cfg(not(all(target_os = "linux", target_env = "gnu", any(target_arch = "x86_64", target_arch = "aarch64"))))]
 #[doc(hidden)]
 #[macro_export]

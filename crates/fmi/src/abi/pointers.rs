@@ -34,7 +34,8 @@ pub unsafe fn slice<'a, T>(pointer: *const T, length: usize) -> Result<&'a [T], 
 /// Room for `length` elements from `pointer` on; null will do for none.
 ///
 /// # Safety
-/// Unless null, `pointer` leads to room for `length` elements that nothing else uses during `'a`.
+/// Unless null, `pointer` points to memory for `length` elements that nothing
+/// else uses during `'a`.
 ///
 /// # Errors
 /// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
@@ -68,7 +69,7 @@ pub unsafe fn out_param<'a, T>(pointer: *mut T) -> Result<&'a mut T, NotAnArray>
 /// Writes the answer to where `pointer` leads.
 ///
 /// # Safety
-/// Unless null, `pointer` leads to room for a `T` that nothing else uses.
+/// Unless null, `pointer` points to memory for a `T` that nothing else uses.
 ///
 /// # Errors
 /// A pointer that is null or misaligned where it must not be, or a length beyond the address space.
@@ -105,6 +106,9 @@ impl From<NotAnArray> for CallError {
     #[cold]
     #[inline(never)]
     fn from(refused: NotAnArray) -> Self {
-        CallError::error(format!("a pointer to {} values is null or leads nowhere", refused.length))
+        CallError::error(format!(
+            "the array argument for {} values is null, misaligned or too long; pass valid memory",
+            refused.length
+        ))
     }
 }

@@ -1,8 +1,8 @@
-//! Which function is allowed in which state: the table of FMI 2.0, 4.2.4.
+//! States in which each function is allowed: the table of FMI 2.0, 4.2.4.
 //!
-//! Left out are the states that an instance here never is in, see [`Mode`](crate::Mode), and the
-//! functions that are allowed always. Beyond the table, inputs and other variables can be set, and
-//! are checked one by one, wherever any can.
+//! The table omits the states that an instance is never in, see [`Mode`](crate::Mode). It also
+//! omits the functions that are always allowed. The functions that set variables are allowed
+//! wherever any variable can be set. Each variable is then checked by itself.
 
 use crate::Mode::{Error as E, Initialization as N, Instantiated as I, StepComplete as C, Terminated as T};
 use crate::abi::calling_sequence;

@@ -45,16 +45,16 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
 
 fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expected: &[u8]) -> Result<(), CallError> {
     if name.is_none_or(CStr::is_empty) {
-        return Err(CallError::error("the instance has no name"));
+        return Err(CallError::error("instanceName is null or empty; pass a name"));
     }
     if fmu_type != CO_SIMULATION {
-        return Err(CallError::error("only co-simulation is possible"));
+        return Err(CallError::error("this FMU has no model exchange; instantiate it with fmi2CoSimulation"));
     }
     if guid.map(CStr::to_bytes) != Some(expected) {
         let given = guid.map_or("none".into(), CStr::to_string_lossy);
         let expected = String::from_utf8_lossy(expected);
         return Err(CallError::error(format!(
-            "the GUID is {given}, not {expected}: modelDescription.xml and the shared library do not belong together"
+            "the GUID is {given}, not {expected}: modelDescription.xml and the shared library do not belong together; unpack the FMU again"
         )));
     }
     Ok(())
@@ -73,8 +73,9 @@ pub unsafe fn set_debug_logging<M: Model>(
         for &category in unsafe { slice(categories, count) }? {
             // SAFETY: as above.
             let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
-            let category = LogCategory::named(&name)
-                .ok_or_else(|| CallError::error(format!("'{name}' is no category of modelDescription.xml")))?;
+            let category = LogCategory::named(&name).ok_or_else(|| {
+                CallError::error(format!("unknown log category '{name}'; modelDescription.xml lists the categories"))
+            })?;
             events |= matches!(category, LogCategory::Events | LogCategory::All);
         }
         component.logger.log_events(events && logging_on.0 != 0);

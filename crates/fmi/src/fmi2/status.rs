@@ -1,5 +1,5 @@
-//! The functions with which a host asks how a step went. A step is over when fmi2DoStep returns, so
-//! there is little to say.
+//! The functions that return the status of a step. A step is complete when fmi2DoStep returns, so
+//! most of them report an error.
 
 use std::ffi::c_int;
 
@@ -11,13 +11,13 @@ use crate::CallError;
 use crate::abi::pointers::answer;
 use crate::abi::{Function, call};
 
-/// `fmi2GetRealStatus`: the time of the last good step is known, and nothing else.
+/// `fmi2GetRealStatus`: only the time of the last successful step is known.
 pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, value: *mut fmi2Real) -> fmi2Status {
     let body = |component: &mut Component<M>| {
         if kind != LAST_SUCCESSFUL_TIME {
             return Err(not_known(kind));
         }
-        // SAFETY: the host's room for the answer.
+        // SAFETY: the host's memory for the answer.
         unsafe { answer(value, component.instance.time()) }?;
         Ok(())
     };
@@ -25,7 +25,7 @@ pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, v
     unsafe { call(component, &function::GET_REAL_STATUS, body) }
 }
 
-/// `fmi2GetBooleanStatus`: no run ends by itself.
+/// `fmi2GetBooleanStatus`: no simulation terminates by itself.
 pub unsafe fn get_boolean_status<M: Model>(
     component: fmi2Component,
     kind: c_int,
@@ -35,7 +35,7 @@ pub unsafe fn get_boolean_status<M: Model>(
         if kind != TERMINATED {
             return Err(not_known(kind));
         }
-        // SAFETY: the host's room for the answer.
+        // SAFETY: the host's memory for the answer.
         unsafe { answer(value, fmi2Boolean(0)) }?;
         Ok(())
     };
@@ -50,5 +50,5 @@ pub unsafe fn nothing_pending<M: Model>(component: fmi2Component, function: &Fun
 }
 
 fn not_known(kind: c_int) -> CallError {
-    CallError::discard(format!("nothing is known of status kind {kind}: a step is over when fmi2DoStep returns"))
+    CallError::discard(format!("status kind {kind} is not supported: a step is complete when fmi2DoStep returns"))
 }

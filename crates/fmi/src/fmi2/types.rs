@@ -113,9 +113,9 @@ pub enum fmi2Status {
 
 /// The value of fmi2Type that this library can be; as an `int`, for a host can send any.
 pub const CO_SIMULATION: c_int = 1;
-/// The value of fmi2StatusKind that asks for the time of the last good step.
+/// The value of fmi2StatusKind for the time of the last successful step.
 pub const LAST_SUCCESSFUL_TIME: c_int = 2;
-/// The value of fmi2StatusKind that asks whether the run has ended by itself.
+/// The value of fmi2StatusKind for a simulation that has terminated by itself.
 pub const TERMINATED: c_int = 3;
 
 /// The host's function for messages; what comes after `message` is for the format that this is.

@@ -1,9 +1,9 @@
-//! Which function is allowed in which state: FMI 3.0, 2.3 (common states) and 4.2 (co-simulation).
+//! States in which each function is allowed: FMI 3.0, 2.3 (common states) and 4.2 (co-simulation).
 //!
-//! Left out are the functions that are allowed always. Without structural parameters there is no
-//! configuration mode, and without event mode neither what leads into it nor what happens there;
-//! clocks, model exchange and scheduled execution there are none. The state error, after a panic of
-//! the model, is the standard's terminated.
+//! The functions that are always allowed are omitted. The models have no structural parameters, so
+//! there is no configuration mode. Event mode, clocks, model exchange and scheduled execution are
+//! not provided; their functions are allowed in no state. `E` is the state after a panic of the
+//! model. The standard has no such state and counts it as terminated.
 
 use crate::Mode::{Error as E, Initialization as N, Instantiated as I, StepComplete as C, Terminated as T};
 use crate::abi::calling_sequence;

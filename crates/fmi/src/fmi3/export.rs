@@ -147,13 +147,13 @@ macro_rules! export_fmi3 {
                 early_return: *mut fmi3Boolean,
                 last_successful_time: *mut f64,
             ) -> fmi3Status {
-                let answers = steps::StepAnswers {
+                let outcome = steps::StepOutcome {
                     event_handling_needed,
                     terminate_simulation,
                     early_return,
                     last_successful_time,
                 };
-                unsafe { steps::do_step::<$model>(instance, time, step, &answers) }
+                unsafe { steps::do_step::<$model>(instance, time, step, &outcome) }
             }
 
             #[unsafe(no_mangle)]
@@ -266,7 +266,7 @@ macro_rules! export_fmi3 {
                     (*const fmi3ValueReference, usize, *const fmi3ValueReference, usize, *const f64, usize, *mut f64, usize);
             }
 
-            $crate::export_fmi3_never! {
+            $crate::export_fmi3_unsupported! {
                 $model;
                 // Configuration mode and event mode.
                 fmi3EnterConfigurationMode ENTER_CONFIGURATION_MODE ();
@@ -379,7 +379,7 @@ macro_rules! export_fmi3_not_provided {
 /// Functions that are never allowed, with the types of the arguments after the instance.
 #[doc(hidden)] // for `export_fmi3!`
 #[macro_export]
-macro_rules! export_fmi3_never {
+macro_rules! export_fmi3_unsupported {
     ($model:ty; $($name:ident $constant:ident ($($argument:ty),*);)+) => {
         $(
             #[unsafe(no_mangle)]

@@ -48,30 +48,33 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
     }
 }
 
-/// Refuses what cannot be had; gives back the layout of the host's description.
+/// Refuses unsupported options. Returns the layout of the host's description.
 ///
 /// # Safety
 /// The request's strings are null, or ended by a zero.
 unsafe fn check_request(request: &Request, guid: &Guid) -> Result<Layout, CallError> {
-    // SAFETY: the caller vouches for it.
+    // SAFETY: guaranteed by the caller.
     let (name, token) = unsafe { (string(request.instance_name), string(request.instantiation_token)) };
     if name.is_none_or(|name| name.to_bytes().trim_ascii().is_empty()) {
-        return Err(CallError::error("the instance has no name"));
+        return Err(CallError::error("instanceName is null or empty; pass a name"));
     }
     let Some(layout) = token.and_then(|token| Layout::of_token(token.to_bytes(), guid)) else {
         let given = token.map_or("none".into(), CStr::to_string_lossy);
         let expected = String::from_utf8_lossy(guid);
         return Err(CallError::error(format!(
             "the instantiation token is {given}, not {expected}: \
-             modelDescription.xml and the shared library do not belong together"
+             modelDescription.xml and the shared library do not belong together; unpack the FMU again"
         )));
     };
     if request.event_mode_used.is_true() {
-        return Err(CallError::error("there is no event mode, as hasEventMode in modelDescription.xml says"));
+        return Err(CallError::error(
+            "this FMU has no event mode (hasEventMode in modelDescription.xml); pass eventModeUsed = false",
+        ));
     }
     if request.intermediate_variable_count > 0 {
         return Err(CallError::error(
-            "variables cannot be accessed within a step, as providesIntermediateUpdate in modelDescription.xml says",
+            "this FMU has no intermediate update (providesIntermediateUpdate in modelDescription.xml); pass none of \
+             requiredIntermediateVariables",
         ));
     }
     Ok(layout)
@@ -79,7 +82,10 @@ unsafe fn check_request(request: &Request, guid: &Guid) -> Result<Layout, CallEr
 
 /// `fmi3InstantiateModelExchange`, `fmi3InstantiateScheduledExecution`
 pub fn refuse_to_instantiate(function: &str, logger: &Logger) -> fmi3Instance {
-    logger.failure(Severity::Error, &format!("{function}: only co-simulation is possible"));
+    logger.failure(
+        Severity::Error,
+        &format!("{function}: this FMU is for co-simulation only; use fmi3InstantiateCoSimulation"),
+    );
     null_mut()
 }
 
@@ -99,7 +105,9 @@ pub unsafe fn set_debug_logging<M: Model>(
             // SAFETY: as above.
             let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
             let known = LOG_CATEGORIES.iter().map(|&(category, _)| category).find(|category| category.name() == name);
-            let unknown = || CallError::error(format!("'{name}' is no category of modelDescription.xml"));
+            let unknown = || {
+                CallError::error(format!("unknown log category '{name}'; modelDescription.xml lists the categories"))
+            };
             chosen.push(known.ok_or_else(unknown)?);
         }
         if count == 0 {

@@ -81,13 +81,13 @@ fn is_made_silently_unless_logging_is_on() {
 
 #[test]
 fn is_refused_with_a_reason() {
-    assert_refused(Request { name: None, ..Default::default() }, "", "no name");
-    assert_refused(Request { name: Some(c""), ..Default::default() }, "", "no name");
+    assert_refused(Request { name: None, ..Default::default() }, "", "pass a name");
+    assert_refused(Request { name: Some(c""), ..Default::default() }, "", "pass a name");
     assert_refused(Request { guid: None, ..Default::default() }, "name", "none");
     assert_refused(Request { guid: Some("{%s%n}".into()), ..Default::default() }, "name", "{%s%n}");
     assert_refused(Request { guid: Some(guid() + " "), ..Default::default() }, "name", &guid());
     for fmu_type in [0, 2, -1] {
-        assert_refused(Request { fmu_type, ..Default::default() }, "name", "co-simulation");
+        assert_refused(Request { fmu_type, ..Default::default() }, "name", "fmi2CoSimulation");
     }
 }
 

@@ -20,8 +20,8 @@ fn exports_the_functions_of_the_standard_and_nothing_else() {
     assert_eq!(defined, expected.len());
 }
 
-/// InstanceState in a process of its own, in which no other test has the library
-/// loaded: see the next test.
+/// Run in a separate process, in which no other test has loaded the library, by
+/// [`can_be_unloaded_and_loaded_again`].
 #[test]
 #[ignore = "a part of can_be_unloaded_and_loaded_again, which runs it"]
 fn load_and_unload_alone() {

@@ -1,5 +1,5 @@
-//! The C functions, tested as a host sees them: the shared library of a small model whose behaviour
-//! is known in closed form is loaded and called.
+//! Tests of the C functions of FMI 2.0 from a host's side. They load the shared library of a small
+//! model with a closed-form solution.
 
 mod calling_sequence;
 mod creation;

@@ -1,4 +1,4 @@
-//! A panic of the model stays in the library.
+//! Panics of the model, which do not leave the library.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use moris_fmu_host::{Instance, Status};
 
 use crate::fixture::*;
 
-/// The model has panicked: what remains is to look, to restore, and to begin again.
+/// Asserts that the model has panicked, and that the instance can still be read and reset.
 fn assert_failed(instance: &mut Instance, status: Status, parts: &[&str]) {
     assert_call_error(instance, status, Status::Error, parts);
     let status = instance.do_step(0.0, 0.1);
@@ -49,7 +49,7 @@ fn a_state_from_before_the_panic_can_be_restored() {
     assert_eq!(instance.free_state(state), Status::Ok);
 }
 
-/// InstanceState in a process of its own, so that its streams can be looked at: see the next test.
+/// Run in a separate process, whose output streams [`a_panic_prints_nothing`] reads.
 #[test]
 #[ignore = "a part of a_panic_prints_nothing, which runs it"]
 fn panic_in_a_process_of_its_own() {
@@ -69,8 +69,8 @@ fn a_panic_prints_nothing() {
     assert_eq!(String::from_utf8(child.stderr).unwrap(), "");
 }
 
-/// The library has a panic hook of its own: that of a host written in Rust, like
-/// this one, is as it was.
+/// The library has a panic hook of its own. The hook of a host written in Rust, such as
+/// this test, is unchanged.
 #[test]
 fn the_host_s_panics_are_still_its_own() {
     failed();

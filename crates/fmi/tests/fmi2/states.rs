@@ -98,7 +98,7 @@ fn damaged_bytes_are_refused() {
     let refused = |bytes: &[u8], instance: &mut Instance, what: &str| {
         assert!(instance.deserialize(bytes).is_err(), "{what}");
         let said = instance.take_messages();
-        assert!(said.last().unwrap().text.contains("the serialized state is refused"), "{what}");
+        assert!(said.last().unwrap().text.contains("the serialized state is rejected"), "{what}");
     };
     for length in 0..good.len() {
         refused(&good[..length], &mut instance, &format!("cut to {length}"));

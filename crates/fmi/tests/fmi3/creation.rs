@@ -76,9 +76,9 @@ fn is_made_silently_unless_logging_is_on() {
 
 #[test]
 fn is_refused_with_a_reason() {
-    assert_refused(&Request { name: None, ..Default::default() }, "no name");
-    assert_refused(&Request { name: Some(c""), ..Default::default() }, "no name");
-    assert_refused(&Request { name: Some(c" \t\n"), ..Default::default() }, "no name");
+    assert_refused(&Request { name: None, ..Default::default() }, "pass a name");
+    assert_refused(&Request { name: Some(c""), ..Default::default() }, "pass a name");
+    assert_refused(&Request { name: Some(c" \t\n"), ..Default::default() }, "pass a name");
     assert_refused(&Request { token: None, ..Default::default() }, "none");
     assert_refused(&Request { event_mode_used: 1, ..Default::default() }, "hasEventMode");
     let intermediate_variables = vec![reference("u")];
@@ -106,7 +106,7 @@ fn only_co_simulation_is_possible() {
     }
     let said = said.into_inner().unwrap();
     assert_eq!(said.len(), 2);
-    assert!(said.iter().all(|(status, _, text)| *status == ERROR && text.contains("only co-simulation")));
+    assert!(said.iter().all(|(status, _, text)| *status == ERROR && text.contains("for co-simulation only")));
 }
 
 #[test]

@@ -1,7 +1,7 @@
-//! The C functions of FMI 3.0, tested as a host sees them: the shared library of a small model with
-//! vectors, whose behaviour is known in closed form, is loaded and called.
+//! Tests of the C functions of FMI 3.0 from a host's side. They load the shared library of a small
+//! model with vectors and a closed-form solution.
 //!
-//! What all versions of FMI share is tested through the functions of FMI 2.0, in `tests/fmi2`.
+//! The parts common to all versions are tested through the functions of FMI 2.0, in `tests/fmi2`.
 
 mod calling_sequence;
 mod creation;

@@ -1,9 +1,11 @@
-//! The calling sequence as the standard has it, for tests to hold the functions against.
+//! The standard's calling sequence, with which tests compare the functions.
 
-/// FMI 3.0, 2.3 and 4.2: each function with the states in which it is allowed. I instantiated, N
-/// initialization mode, S step mode, T terminated, to which the standard counts an instance after
-/// an error (E), but for looking at it. Without structural parameters, event mode, clocks, model
-/// exchange and scheduled execution their functions are allowed in no state.
+/// FMI 3.0, 2.3 and 4.2: each function with the states in which it is allowed.
+///
+/// The states are I instantiated, N initialization mode, S step mode, T terminated and E after an
+/// error. The standard counts E as terminated. Here the derivatives and the dependencies of
+/// variables are allowed in T only. The functions for structural parameters, event mode, clocks,
+/// model exchange and scheduled execution are allowed in no state.
 pub const CALLING_SEQUENCE: &[(&str, &str)] = &[
     ("fmi3GetVersion", "INSTE"),
     ("fmi3SetDebugLogging", "INSTE"),

@@ -62,7 +62,7 @@ fn damaged_bytes_are_refused() {
         bytes[position] ^= 0x10;
         assert_eq!(instance.deserialize(&bytes), Err(ERROR), "at {position}");
     }
-    assert!(instance.last_message().2.contains("the serialized state is refused"));
+    assert!(instance.last_message().2.contains("the serialized state is rejected"));
     assert_eq!(instance.bytes(), good);
 }
 

@@ -1,4 +1,4 @@
-//! Expected state of an instance after the calls so far: a second, plain account of the standard.
+//! Expected state of an instance after the calls so far: a second, simple model of the standard.
 
 use moris_interface::{Causality, Identity, Kind, Model, SlotModel, Variability};
 use moris_washout::Washout;
@@ -12,7 +12,7 @@ pub const OK: i32 = 0;
 pub const DISCARD: i32 = 2;
 pub const ERROR: i32 = 3;
 
-/// An instance as it has to be.
+/// Expected state of an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
     /// The state, by the letter that it has in the calling sequences.
@@ -21,7 +21,7 @@ pub struct Expected {
     pub experiment: Option<(f64, f64)>,
     /// The present communication point \[s\].
     pub time: f64,
-    /// The values of all variables; those of the outputs are not looked at.
+    /// The values of all variables; those of the outputs are not checked.
     pub values: Vec<f64>,
     /// Length and velocity of the legs after the last step, where it is known.
     pub legs: Option<([f64; 6], [f64; 6])>,

@@ -1,4 +1,4 @@
-//! The host's logger: what an instance says is kept until it is looked at.
+//! The host's logger, which keeps an instance's messages until they are read.
 
 use std::ffi::{CStr, c_int, c_void};
 

@@ -1,7 +1,7 @@
-//! A host that does everything wrong that can be done with valid memory: random calls of all
-//! functions with right and wrong arguments, on several instances that exchange their states. After
-//! each call, what the library did is held against what the standard says, and what it shows
-//! against what was set. One driver serves both versions of FMI, and tests and fuzzer alike.
+//! A hostile host: random calls of all functions with right and wrong arguments. All memory is
+//! valid. Several instances exchange their states. After each call the status is compared with
+//! the standard and the values with those that were set. Tests and the fuzzer use one driver for
+//! both versions of FMI.
 
 mod calls;
 mod choices;

@@ -4,7 +4,7 @@ use moris_interface::{Causality, Kind, Row, Variability};
 
 use crate::library::*;
 
-/// The next number beyond an end of a range: a whole one for what is counted.
+/// The next number beyond each end of a range; the next whole number for integers.
 fn beyond(row: &Row) -> [f64; 2] {
     let (min, max) = row.bounds();
     if matches!(row.kind, Kind::Real(_)) { [min.next_down(), max.next_up()] } else { [min - 1.0, max + 1.0] }
@@ -29,7 +29,7 @@ fn every_number_that_a_host_sets_has_a_range_with_its_start_value_inside() {
     }
 }
 
-/// In initialization mode, and tunable ones between steps, too.
+/// Tested for all parameters in initialization mode, and for tunable ones between steps.
 #[test]
 fn parameters_take_the_ends_of_their_ranges_and_nothing_beyond() {
     for model in MODELS {
@@ -50,8 +50,8 @@ fn parameters_take_the_ends_of_their_ranges_and_nothing_beyond() {
                     }
                     let (min, max) = row.bounds();
                     if !stepping {
-                        // Together the ends may make no machine: whether they do is not asked before the end of the
-                        // initialization.
+                        // The ends of several ranges may contradict each other. Such contradictions
+                        // are checked only at the end of the initialization.
                         assert_eq!((instance.set(slot, min), instance.set(slot, max)), (OK, OK), "{name}");
                     }
                     for value in beyond(row) {
@@ -68,7 +68,7 @@ fn parameters_take_the_ends_of_their_ranges_and_nothing_beyond() {
     }
 }
 
-/// Rounding in a host may put an input a little beyond its range, which must not end a run.
+/// Rounding in a host may put an input slightly beyond its range. This must not end a simulation.
 #[test]
 fn inputs_beyond_their_range_count_as_its_end() {
     for model in MODELS {

@@ -1,4 +1,4 @@
-//! The shared library once more: Cargo builds a package's examples for its tests,
+//! The shared library as an example. For a package's tests, Cargo builds its examples
 //! but not its `cdylib`.
 
 #[path = "../src/lib.rs"]

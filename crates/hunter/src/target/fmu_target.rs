@@ -42,7 +42,7 @@ impl FmuTarget {
     /// Opens an FMU (a file ending in `.fmu`) or its shared library alone.
     ///
     /// # Errors
-    /// It cannot be opened.
+    /// The FMU or the library cannot be opened.
     pub fn open(file: &Path, variables: &Variables) -> Result<Self> {
         let fmu = if file.extension().is_some_and(|extension| extension == "fmu") {
             Fmu::open(file)?

@@ -29,18 +29,18 @@ pub trait Target {
     /// The parameters are refused.
     fn make(&mut self, slots: &[f64]) -> Result<()>;
 
-    /// Goes back to where [`Target::make`] left the machine, and forgets the saved states.
+    /// Returns the machine to its state after [`Target::make`], and discards the saved states.
     fn rewind(&mut self);
 
-    /// Sets the tunable parameters among these values of all variables; `changed` are the slots
-    /// that differ. False where they are refused, and then nothing has changed.
+    /// Sets the tunable parameters among these values of all variables. `changed` are the slots
+    /// that differ. Returns false if the values are refused; then nothing has changed.
     fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool;
 
-    /// Advances by `step` \[s\] while the inputs stay as they are at `start` or go
-    /// linearly to those at `end`.
+    /// Advances by `step` \[s\]. The inputs are held at `start`, or change linearly
+    /// from `start` to `end`.
     ///
     /// # Errors
-    /// A step that is refused.
+    /// The target refuses the step.
     fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()>;
 
     /// The outputs now; `neutral_height` is subtracted from the platform's height.
@@ -52,7 +52,7 @@ pub trait Target {
     /// The state cannot be saved.
     fn save(&mut self, scope: Scope) -> Result<()>;
 
-    /// Goes back to the saved state, which there must be.
+    /// Restores the saved state. One must have been saved.
     ///
     /// # Errors
     /// The state is refused.

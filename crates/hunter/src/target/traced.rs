@@ -1,4 +1,4 @@
-//! A target that writes down what it is fed and what comes out.
+//! A target that writes its outputs to a table.
 
 use std::io::Write;
 
@@ -20,7 +20,7 @@ impl<T: Target, W: Write> Traced<T, W> {
     /// Writes the table's head.
     ///
     /// # Errors
-    /// It cannot be written.
+    /// The head cannot be written.
     pub fn new(inner: T, mut out: W) -> Result<Self> {
         write!(out, "step")?;
         for name in ["position", "velocity", "acceleration", "angularVelocity"] {
@@ -60,7 +60,7 @@ impl<T: Target, W: Write> Target for Traced<T, W> {
         let linear = [position, velocity, acceleration, angular_velocity];
         let values = linear.into_iter().flatten().chain(length).chain(leg_velocity);
         let line = values.fold(format!("{:e}", self.step), |line, value| line + &format!(",{value:e}"));
-        // A table that nobody reads any more is no reason to stop.
+        // A closed table does not end the search.
         _ = writeln!(self.out, "{line}");
         sample
     }

@@ -1,17 +1,21 @@
-//! The value of a dual solution: a lower bound that rests on nothing but arithmetic.
+//! The value of a dual solution: a lower bound that does not rely on the solver.
 
 use clarabel::solver::SupportedConeT::ZeroConeT;
 
 use super::quadratic_program::QuadraticProgram;
 
-/// The dual value of these multipliers: no point within the program's constraints
+/// The dual value of these multipliers. No point within the program's constraints
 /// has a smaller objective.
 ///
-/// For any multipliers z, those of inequalities not negative, the objective x'Px/2 is at least the
-/// minimum over x of x'Px/2 + z'(Ax - b). That separates by variable: with c = A'z, an error e adds
-/// c e + e^2/2, which is never less than -c^2/2, and any other variable adds c x, which is never
-/// less than -|c| times the largest |x|. Multipliers that are a little off, as a solver's are, make
-/// the bound a little lower, not wrong.
+/// Let z be any multipliers, with those of inequalities not negative. The objective x'Px/2
+/// is at least the minimum over x of x'Px/2 + z'(Ax - b). The minimum separates by
+/// variable. With c = A'z:
+///
+/// - an error e adds c e + e^2/2, which is at least -c^2/2;
+/// - any other variable x adds c x, which is at least -|c| times the largest |x|.
+///
+/// Slightly inexact multipliers, such as a solver's, give a slightly lower bound that is still
+/// valid.
 pub fn dual_value(program: &QuadraticProgram, multipliers: &[f64]) -> f64 {
     let equalities = match program.cones[0] {
         ZeroConeT(count) => count,
@@ -42,7 +46,7 @@ mod tests {
 
     const HEAVE: AxisLimits = AxisLimits { min: -0.3, max: 0.3, velocity: 1.0, acceleration: 5.0, tilt: None };
 
-    /// Means of a force that asks for more travel than there is.
+    /// Program for the means of a force that demands more travel than the limits permit.
     fn program() -> QuadraticProgram {
         let means: Vec<f64> = (0..100).map(|k| 2.0 * (0.05 * f64::from(k)).sin()).collect();
         QuadraticProgram::new(&means, 0.05, &HEAVE, Kind::Relaxed)

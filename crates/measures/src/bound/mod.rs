@@ -1,18 +1,21 @@
-//! The bound: the smallest RMS error of the felt specific force that any controller, even one that
-//! knows the whole ride beforehand, could reach on one axis under the same limits.
+//! The bound: the smallest RMS error of the felt specific force that any controller could reach on
+//! one axis under the same limits. The controller may even know the whole recording in advance.
 //!
-//! The axis is linearised: felt = p'' - (h/g) tilt_force'' + tilt_force, where p is the platform's
-//! position, tilt_force = g sin(tilt) is what tilting adds to the force, and h the head's height
-//! above the platform, whose tangential acceleration the tilt causes. Surge goes with pitch, sway
-//! with roll, heave goes alone. Position, velocity and acceleration, tilt, its rate and its
-//! acceleration keep their limits; the axis starts at rest at neutral and may end anyhow.
+//! The axis is linearised: felt = p'' - (h/g) tilt_force'' + tilt_force. Here p is the platform's
+//! position, and tilt_force = g sin(tilt) is the specific force added by the tilt. The head's
+//! height h above the platform determines the tangential acceleration that the tilt causes at the
+//! head. Surge is combined with pitch, sway with roll; heave has no tilt. The limits are on
+//! position, velocity and acceleration, and on the tilt, its rate and its acceleration. The axis
+//! starts at rest at neutral; its final state is free.
 //!
 //! The best motion is found by a convex quadratic program over intervals of time.
-//! [`Bound::rms_error`] is a lower bound for every motion in continuous time, not only for those
-//! that the intervals can describe: the program keeps of a motion only what holds for all of
-//! them. It is not the solver's word for it either, but the value of a dual solution, computed here
-//! from the multipliers that the solver found. [`Bound::attained`] is the RMS error of a motion
-//! that keeps all limits, so that the true optimum lies between the two.
+//!
+//! - [`Bound::rms_error`] is a lower bound. Its program constrains only means over intervals
+//!   and their ends, so that accelerations may vary within an interval. The bound does not rely
+//!   on the solver's accuracy: it is the value of a dual solution, computed here from the
+//!   solver's multipliers.
+//! - [`Bound::attained`] is the RMS error of a motion that keeps all limits. The true optimum
+//!   lies between the two.
 
 mod certificate;
 mod quadratic_program;
@@ -67,7 +70,7 @@ pub struct Bound {
 /// Why there is no bound.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BoundError {
-    /// The time between samples is no time.
+    /// The time between samples is not above 0.
     #[error("the time between samples is {0} s; it must be above 0")]
     Step(f64),
     /// There is no recording, or it is shorter than one interval.
@@ -81,12 +84,12 @@ pub enum BoundError {
     /// A sample is not a number.
     #[error("sample {sample} of the desired specific force is {value}; it must be a finite number")]
     NotFinite {
-        /// Where it is, from 0.
+        /// Index of the sample, from 0.
         sample: usize,
         /// The value.
         value: f64,
     },
-    /// A limit allows nothing.
+    /// A limit is outside its permitted range.
     #[error("the {name} limit is {value}; it must be {needed}")]
     Limit {
         /// Which limit.
@@ -101,12 +104,15 @@ pub enum BoundError {
     Solver(String),
 }
 
-/// Intervals shorter than this gain nothing on smooth rides and cost time \[s\].
+/// Default length of an interval \[s\]. Shorter ones take more time and do not improve the bound
+/// on smooth recordings.
 pub const INTERVAL: f64 = 0.02;
 
-/// The bound for a desired specific force along one axis, as a deviation from rest (gravity taken
-/// off in heave), sampled every `step` seconds and linear in between. `interval` is how finely the
-/// motion is divided, [`INTERVAL`] by default; it is rounded to a number of steps, one at least.
+/// The bound for a desired specific force along one axis.
+///
+/// `desired` is the deviation from rest (in heave, without gravity), sampled every `step` seconds
+/// and linear in between. `interval` \[s\] is the length of the program's intervals, by default
+/// [`INTERVAL`]. It is rounded to a whole number of steps, at least one.
 ///
 /// # Errors
 /// The recording or the limits cannot be used, or the solver fails.
@@ -160,7 +166,7 @@ fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
     limit("gravity", gravity, gravity > 0.0, "above 0")
 }
 
-/// The mean of what goes linearly from sample to sample.
+/// The mean of a signal that is linear between its samples.
 fn mean_of_line(samples: &[f64]) -> f64 {
     let pairs = samples.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
     pairs.sum::<f64>() / (samples.len() - 1) as f64
@@ -179,7 +185,7 @@ fn solve(program: &QuadraticProgram) -> Result<Solution, BoundError> {
         .map_err(|error| BoundError::Solver(error.to_string()))?;
     solver.solve();
     match solver.solution.status {
-        // A solution of less accuracy is one all the same: what it is worth is computed afterwards.
+        // A less accurate solution is accepted, because its value is computed afterwards.
         SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
             Ok(Solution { x: solver.solution.x, z: solver.solution.z })
         }

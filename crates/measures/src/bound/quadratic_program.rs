@@ -1,23 +1,27 @@
 //! The quadratic program: minimise x'Px/2 subject to Ax + s = b, s = 0 for equalities
 //! and s >= 0 for the rest.
 //!
-//! Time is divided into intervals of length T. At each of their ends there are position p, velocity
-//! v, the tilt as the force that it adds, q = g sin(tilt) (`tilt_force`), and its rate q'; of each
-//! interval, the mean error e and the mean tilt m. The mean of p'' over an interval is the change
-//! of v over T, whatever the motion in between, so that
+//! Time is divided into intervals of length T. The variables at each end of an interval are the
+//! position p, the velocity v, the tilt q and its rate q'. The tilt is expressed as the force that
+//! it adds, q = g sin(tilt) (`tilt_force`). The variables of each interval are the mean error e and
+//! the mean tilt m. The mean of p'' over an interval is the change of v over T for any motion, so
 //!
 //! e_k = (v_k+1 - v_k)/T - (h/g)(q'_k+1 - q'_k)/T + m_k - f_k,
 //!
 //! with f_k the mean of the desired force. The integral of the squared error over an
 //! interval is at least T e_k^2.
 //!
-//! A motion's way over an interval differs from T (v_k + v_k+1)/2 by the integral of p'' times t
-//! (T - t)/2, which is at most T^3/12 times the limit of |p''|. So does the tilt's, and its mean
-//! from (q_k + q_k+1)/2 by at most T^2/12 times the limit of |q''|. The relaxed program asks for
-//! no more than this. The restricted one has constant accelerations over an interval, where the
-//! first two are zero and the third is known. Its positions and tilts are parabolas between the
-//! moments; such a one stays between the least and the greatest of its ends and of the point where
-//! the tangents at its ends meet, p_k + v_k T/2, so that this point too is kept within the limits.
+//! The relaxed program bounds three differences over an interval:
+//!
+//! - p_k+1 - p_k from T (v_k + v_k+1)/2, by T^3/12 times the limit of |p''|;
+//! - q_k+1 - q_k from T (q'_k + q'_k+1)/2, by T^3/12 times the limit of |q''|;
+//! - m_k from (q_k + q_k+1)/2, by T^2/12 times the limit of |q''|.
+//!
+//! In the restricted program, accelerations are constant over an interval. The first two
+//! differences are then zero, and the third is known. Positions and tilts are parabolas within an
+//! interval. A parabola lies between the least and the greatest of its two ends and the point
+//! where the tangents at its ends meet, p_k + v_k T/2. So the restricted program keeps this point
+//! within the limits, too.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, ZeroConeT};
@@ -25,10 +29,10 @@ use clarabel::solver::SupportedConeT::{self, NonnegativeConeT, ZeroConeT};
 use super::trajectory::{Knot, Trajectory};
 use super::{AxisLimits, TiltLimits};
 
-/// Which motions a program describes.
+/// The motions that a program describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// At least all that keep the limits.
+    /// A superset of the motions that keep the limits.
     Relaxed,
     /// Some of those that keep the limits: accelerations are constant over each interval.
     Restricted,
@@ -53,12 +57,12 @@ pub struct QuadraticProgram {
     arm: f64,
 }
 
-/// Variables of a moment.
+/// Number of variables at an end of an interval.
 const AT: usize = 4;
-/// Variables of a moment and of the interval that follows it.
+/// Number of variables at an end of an interval and of the interval that follows.
 const STRIDE: usize = 6;
 
-/// Where the variables are.
+/// Indices of the variables.
 fn position(k: usize) -> usize {
     STRIDE * k
 }
@@ -79,7 +83,7 @@ fn mean_tilt(k: usize) -> usize {
 }
 
 /// The limits in the program's terms: tilt_force = g sin(tilt) and its derivatives.
-struct Box {
+struct TiltBounds {
     tilt: f64,
     tilt_rate: f64,
     tilt_acceleration: f64,
@@ -87,12 +91,12 @@ struct Box {
     arm: f64,
 }
 
-impl Box {
+impl TiltBounds {
     /// With s = sin(tilt), |s'| <= |tilt'| and |s''| <= |tilt''| + sin(angle) tilt'^2.
     fn of(limits: &Option<TiltLimits>) -> Self {
         match limits {
-            None => Box { tilt: 0.0, tilt_rate: 0.0, tilt_acceleration: 0.0, arm: 0.0 },
-            Some(TiltLimits { angle, rate, acceleration, head_height, gravity }) => Box {
+            None => TiltBounds { tilt: 0.0, tilt_rate: 0.0, tilt_acceleration: 0.0, arm: 0.0 },
+            Some(TiltLimits { angle, rate, acceleration, head_height, gravity }) => TiltBounds {
                 tilt: gravity * angle.sin(),
                 tilt_rate: gravity * rate,
                 tilt_acceleration: gravity * (acceleration + angle.sin() * rate * rate),
@@ -106,7 +110,7 @@ impl QuadraticProgram {
     /// The program for these means of the desired force over each interval.
     pub fn new(means: &[f64], interval: f64, limits: &AxisLimits, kind: Kind) -> Self {
         let intervals = means.len();
-        let bounds = Box::of(&limits.tilt);
+        let bounds = TiltBounds::of(&limits.tilt);
         let mut rows = Rows::default();
         for variable in [position(0), velocity(0), tilt(0), tilt_rate(0)] {
             rows.equal(&[(variable, 1.0)], 0.0);
@@ -185,14 +189,14 @@ impl QuadraticProgram {
     }
 }
 
-/// A diagonal matrix with ones at these places.
+/// A diagonal matrix with ones at these indices.
 fn ones_at(places: impl Iterator<Item = usize>, size: usize) -> CscMatrix<f64> {
     let places: Vec<usize> = places.collect();
     let ones = vec![1.0; places.len()];
     CscMatrix::new_from_triplets(size, size, places.clone(), places, ones)
 }
 
-/// Rows of A and b, as they come.
+/// Rows of A and b, in the order in which they are added.
 #[derive(Default)]
 struct Rows {
     equalities: Entries,

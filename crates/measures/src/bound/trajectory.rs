@@ -25,16 +25,16 @@ pub struct Knot {
 }
 
 impl Trajectory {
-    /// The specific force that is felt at a time, as a deviation from rest \[m/s2\]; at the end of
-    /// an interval, that of the interval that begins there. Before the first interval and after
-    /// the last these go on.
+    /// Felt specific force at a time, as a deviation from rest \[m/s2\]. At the end of an
+    /// interval it is that of the next interval. Before the first and after the last interval,
+    /// these are extrapolated.
     pub fn felt(&self, time: f64) -> f64 {
         let last = self.knots.len() - 2;
         let k = ((time / self.interval).max(0.0) as usize).min(last);
         self.felt_within(k, time - k as f64 * self.interval)
     }
 
-    /// The specific force that is felt in interval `k`, `time` after its beginning.
+    /// Felt specific force in interval `k`, `time` after its beginning.
     fn felt_within(&self, k: usize, time: f64) -> f64 {
         let (from, to) = (&self.knots[k], &self.knots[k + 1]);
         let acceleration = (to.velocity - from.velocity) / self.interval;
@@ -43,8 +43,8 @@ impl Trajectory {
         acceleration - self.arm * tilt_acceleration + tilt
     }
 
-    /// RMS error against a desired force that goes linearly from sample to sample, in continuous
-    /// time and over its whole duration \[m/s2\]. An interval is a number of steps.
+    /// RMS error relative to a desired force that is linear between its samples, in continuous time
+    /// and over its whole duration \[m/s2\]. An interval is a whole number of steps.
     pub fn rms_error(&self, desired: &[f64], step: f64) -> f64 {
         let steps = (self.interval / step).round() as usize;
         let last = self.knots.len() - 2;

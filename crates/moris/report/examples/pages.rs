@@ -1,7 +1,7 @@
-//! Writes pages to look at and to test with, and beside each what is in it, as plain JSON:
+//! Writes pages for tests, and their data as plain JSON:
 //! `cargo run -p moris-report --example pages -- DIRECTORY`.
 //!
-//! The ride brings up everything that a report can show: all axes, and each kind of limit.
+//! The recording shows all parts of a report: all axes, and each kind of limit.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -12,7 +12,7 @@ use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 
 const GRAVITY: f64 = 9.80665;
-/// Would run a script, end an element, or break out of a string, if it were let.
+/// Text that would run a script, end an element, or break out of a string if it were not escaped.
 const HOSTILE: &str = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \"&lt;' {{data}} \u{2028} ?";
 
 fn main() {
@@ -129,7 +129,7 @@ fn rise(t: f64, start: f64, duration: f64) -> f64 {
     x * x * (3.0 - 2.0 * x)
 }
 
-/// Off, bends and bumps, and a brusque stop at 40 s.
+/// Accelerate, bends and bumps, and an abrupt stop at 40 s.
 fn input(t: f64) -> Input {
     let surge = 2.2 * (rise(t, 1.0, 3.0) - rise(t, 10.0, 3.0));
     let brake = if t < 40.0 { -3.5 * rise(t, 32.0, 4.0) } else { 0.0 };
@@ -146,7 +146,7 @@ fn input(t: f64) -> Input {
     input
 }
 
-/// The ride, stepped at 1 kHz; every so many steps are kept.
+/// The recording, stepped at 1 kHz. One of `every` steps is kept.
 fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -> Run {
     const STEP: f64 = 0.001;
     let mut washout = Washout::new(parameters).expect("the shipped parameters are good");

@@ -3,7 +3,7 @@ const alarmBox = document.getElementById("alarm");
 
 function raiseAlarm(what) {
   alarmBox.textContent = "This page could not be drawn completely: " + what
-    + ". The data are inside the file, unharmed; a newer browser may show them.";
+    + ". The file still holds all data; a newer browser may show them.";
   alarmBox.hidden = false;
   document.body.classList.add("failed");
 }

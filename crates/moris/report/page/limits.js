@@ -3,7 +3,7 @@
 const KINDS = {
   tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target because of its rate, acceleration or angle limit." },
   safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit limited the platform from its position, velocity or acceleration limit." },
-  actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard held a leg back from its stroke, speed or acceleration limit." },
+  actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };
 const LANE = 20;
 
@@ -30,12 +30,12 @@ class TimeLine {
   select(run) {
     this.events = run.events;
     const [first, last] = [run.times[0], run.times[run.times.length - 1]];
-    const shares = Object.entries(KINDS).map(([kind, { long }]) => {
+    const fractions = Object.entries(KINDS).map(([kind, { long }]) => {
       const time = timeLimited(run, run.limited[kind]);
       return time > 0 ? `${long} ${fixed(time, 1)} s (${fixed(100 * time / (last - first), 0)} %)` : null;
     }).filter(Boolean);
     this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
-    this.summary.textContent = shares.length > 0 ? `Of ${fixed(last - first, 1)} s: ${shares.join(", ")}.` : "Nothing was limited.";
+    this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "Nothing was limited.";
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
     this.element.querySelector(".events").hidden = this.events.length === 0;
   }

@@ -2,11 +2,11 @@
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5"];
 
-const ride = {
+const recording = {
   from: Math.min(...report.runs.map((run) => run.times[0])),
   to: Math.max(...report.runs.map((run) => run.times[run.times.length - 1])),
 };
-const now = { time: ride.from, run: report.runs[report.selected], shown: [ride.from, ride.to], playing: false, speed: 1 };
+const now = { time: recording.from, run: report.runs[report.selected], shown: [recording.from, recording.to], playing: false, speed: 1 };
 
 const view = new View(byId("view"), report.rig);
 const gauges = new Gauges(byId("gauges"), report.rig.stroke);
@@ -18,9 +18,9 @@ let charts = [];
 
 /** Goes to a time. */
 function seek(time) {
-  now.time = Math.min(ride.to, Math.max(ride.from, time));
+  now.time = Math.min(recording.to, Math.max(recording.from, time));
   byId("slider").value = now.time;
-  byId("now").textContent = `${fixed(now.time, 2)} s of ${fixed(ride.to, 2)} s`;
+  byId("now").textContent = `${fixed(now.time, 2)} s of ${fixed(recording.to, 2)} s`;
   for (const chart of [timeLine, ...charts]) chart.moveCursor(now.time);
   drawMachine();
 }
@@ -30,15 +30,15 @@ function hover(time) {
   for (const chart of [timeLine, ...charts]) chart.read(time, now.time);
 }
 
-/** Shows other times in the charts, within the ride; null: the whole ride. */
+/** Shows other times in the charts, within the recording; null: all of it. */
 function show(times) {
-  const [whole, shortest] = [ride.to - ride.from, 1e-3 * (ride.to - ride.from)];
+  const [whole, shortest] = [recording.to - recording.from, 1e-3 * (recording.to - recording.from)];
   const span = times ? Math.min(whole, times[1] - times[0]) : whole;
   if (times && span < whole && span > shortest) {
-    const from = Math.min(ride.to - span, Math.max(ride.from, times[0]));
+    const from = Math.min(recording.to - span, Math.max(recording.from, times[0]));
     now.shown = [from, from + span];
   } else if (!times || span >= whole) {
-    now.shown = [ride.from, ride.to];
+    now.shown = [recording.from, recording.to];
   }
   byId("whole").hidden = now.shown[1] - now.shown[0] >= whole;
   drawCharts();
@@ -46,7 +46,7 @@ function show(times) {
 }
 
 function play(on) {
-  if (on && now.time >= ride.to) seek(ride.from);
+  if (on && now.time >= recording.to) seek(recording.from);
   now.playing = on;
   byId("play").textContent = on ? "Pause" : "Play";
   // On a narrow screen the machine then stands above the charts.
@@ -59,7 +59,7 @@ function play(on) {
     const time = now.time + now.speed * Math.max(0, at - before) / 1000;
     before = at;
     seek(time);
-    if (time >= ride.to) play(false);
+    if (time >= recording.to) play(false);
     else requestAnimationFrame(tick);
   };
   requestAnimationFrame(tick);
@@ -133,7 +133,7 @@ function zoom(factor) {
 
 function setUpPlayer() {
   const slider = byId("slider");
-  Object.assign(slider, { min: ride.from, max: ride.to });
+  Object.assign(slider, { min: recording.from, max: recording.to });
   slider.addEventListener("input", () => seek(Number(slider.value)));
   byId("play").addEventListener("click", () => play(!now.playing));
   byId("whole").addEventListener("click", () => show(null));
@@ -150,7 +150,7 @@ function setUpPlayer() {
   }
   addEventListener("keydown", (event) => {
     if (event.target !== document.body) return;
-    const step = (ride.to - ride.from) / 200;
+    const step = (recording.to - recording.from) / 200;
     if (event.key === " ") play(!now.playing);
     else if (event.key === "ArrowLeft") seek(now.time - step);
     else if (event.key === "ArrowRight") seek(now.time + step);
@@ -187,5 +187,5 @@ addEventListener("afterprint", () => {
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 
 // For those who drive the page from a script, such as its tests.
-window.rideReport = { now, seek, show, play, select, view, ride, ranges: () => charts.map((chart) => chart.range()) };
+window.simulationReport = { now, seek, show, play, select, view, recording, ranges: () => charts.map((chart) => chart.range()) };
 byId("alarm").hidden = true;

@@ -80,7 +80,7 @@ impl From<&Parameters> for Rig {
 /// One recording with one set of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Run {
-    /// Short, because it stands in legends: `default`, `tuned`.
+    /// Short name for legends, such as `default` or `tuned`.
     pub name: String,
     /// Findings, in order of importance.
     pub findings: Vec<Finding>,
@@ -106,13 +106,13 @@ pub struct Run {
     /// Rates of that part \[rad/s\].
     #[serde(serialize_with = "curve::many")]
     pub tilt_rate: [Vec<f64>; 2],
-    /// The rider's lean, positive to the right \[rad\]; empty where nobody leans.
+    /// The rider's lean, positive to the right \[rad\]; empty for a rider without lean.
     #[serde(serialize_with = "curve::one")]
     pub lean: Vec<f64>,
     pub limited: Limited,
     pub limits: Limits,
-    /// The table's rows for this run. Rows of several runs with the same group and
-    /// name stand side by side.
+    /// The table's rows for this run. Rows of several runs with the same group and name
+    /// are shown side by side.
     pub measures: Vec<Measure>,
     /// Further charts, below the others; a chart of the same title in another run joins it.
     pub charts: Vec<Chart>,
@@ -138,7 +138,7 @@ pub struct Limited {
     /// A safety unit limited the platform.
     #[serde(serialize_with = "flags")]
     pub safety: Vec<bool>,
-    /// The actuator guard held a leg back.
+    /// True while the actuator guard limits a leg.
     #[serde(serialize_with = "flags")]
     pub actuator: Vec<bool>,
 }
@@ -183,7 +183,7 @@ impl From<&Parameters> for Limits {
 /// One row of the table of measures.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Measure {
-    /// The heading that the row stands under: `Surge`, `Sensed roll rate`, `Legs`.
+    /// The heading above the row: `Surge`, `Sensed roll rate`, `Legs`.
     pub group: String,
     pub name: String,
     pub value: Value,
@@ -233,7 +233,7 @@ pub enum Better {
     Neither,
 }
 
-/// A chart over time of something that the report does not know of itself.
+/// A further chart over time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Chart {
     pub title: String,

@@ -45,7 +45,7 @@ impl Series {
         Series { power: Some(power), deflated: deflated(&bytes) }
     }
 
-    /// A series to look at.
+    /// A series for display.
     fn looked_at(values: &[f64]) -> Self {
         let largest = largest(values);
         if values.iter().all(|value| value.is_finite()) {
@@ -83,7 +83,7 @@ fn deflated(bytes: &[u8]) -> String {
     STANDARD.encode(written.expect("memory takes whatever is written"))
 }
 
-/// Series that are only looked at: six digits.
+/// Series for display only, with six digits.
 pub mod curve {
     use serde::Serializer;
     use serde::ser::{Serialize, SerializeSeq};

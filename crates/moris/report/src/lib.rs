@@ -1,9 +1,10 @@
-//! One self-contained HTML page about a recording on a motion platform: what is felt against what
-//! is desired, the legs against their stroke, what was limited and when, a table of measures; and
-//! beside it the platform itself, moving in 3D.
+//! A self-contained HTML page about a recording on a motion platform.
 //!
-//! Plain data in ([`Report`]), text out ([`html`]). The page needs no network and no other file:
-//! its script and style are those of `crates/moris/report/page/`, its numbers are inside it.
+//! It shows felt and desired signals, the legs' lengths in their stroke, the times at which limits
+//! were active, and a table of measures. Beside them the platform moves in 3D.
+//!
+//! The input is a [`Report`]; [`html`] returns the page's text. The page needs no network and no
+//! other file. It contains its data, and the scripts and styles of `crates/moris/report/page/`.
 
 #![forbid(unsafe_code)]
 

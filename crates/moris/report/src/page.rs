@@ -10,7 +10,7 @@ const TEMPLATE: &str = include_str!("../page/page.html");
 pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const ALARM: &str = include_str!("../page/alarm.js");
 
-/// In the order in which they build upon each other.
+/// The scripts in the order of their dependencies.
 const SCRIPTS: [&str; 16] = [
     include_str!("../page/data.js"),
     include_str!("../page/format.js"),
@@ -48,7 +48,7 @@ struct Page<'a> {
 pub fn html(report: &Report) -> Result<String, ReportError> {
     check(report)?;
     let page = Page { report, events: report.runs.iter().map(|run| events(run, &report.rig)).collect() };
-    // Nothing in the data can end the script element that holds them: a < in JSON stands in a string only.
+    // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(&page).expect("plain data serialise").replace('<', "\\u003c");
     Ok(filled(
         TEMPLATE,
@@ -63,7 +63,7 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
     ))
 }
 
-/// The template with every `{{name}}` replaced; what is put in is not looked at again.
+/// The template with every `{{name}}` replaced. The inserted text is not expanded again.
 fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     let mut parts = template.split("{{");
     let mut page = parts.next().unwrap_or_default().to_owned();

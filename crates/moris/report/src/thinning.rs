@@ -1,9 +1,9 @@
-//! Fewer samples than a recording has, so that a page of any length opens.
+//! Reduction of a recording's samples, so that the page of a long recording opens.
 
 /// Intervals of samples, of each of which two values are kept.
 ///
-/// Of a curve these are the least and the greatest value in the order in which they come: peaks
-/// keep their height, and move by less than an interval.
+/// For a curve these are the least and the greatest value, in their order. Peaks keep their height,
+/// and move by less than an interval.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thinning {
     samples: usize,
@@ -12,7 +12,7 @@ pub struct Thinning {
 }
 
 impl Thinning {
-    /// Keeps at most `most` of so many samples, all of them if they are no more;
+    /// Keeps at most `most` of `samples` samples, or all if there are no more.
     /// `most` is at least 4.
     pub fn new(samples: usize, most: usize) -> Self {
         Thinning { samples, intervals: (samples > most.max(4)).then_some(most.max(4) / 2) }

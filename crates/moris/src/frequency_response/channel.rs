@@ -1,4 +1,4 @@
-//! The six channels: what goes in at the head, and what is felt there.
+//! The six channels of the input at the head and of the felt motion.
 
 /// A translation stands for the specific force along it, a rotation for the angular velocity about
 /// it, in head axes.
@@ -8,7 +8,7 @@ use moris_washout::Output;
 /// Number of channels.
 pub const CHANNELS: usize = Channel::ALL.len();
 
-/// The channels that gravity joins: a tilted head feels it along surge or sway, and surge and
+/// The channels coupled by gravity: a tilted head feels it along surge or sway, and surge and
 /// sway are cued by tilting.
 pub const CROSS: [(Channel, Channel); 4] = [
     (Channel::Pitch, Channel::Surge),
@@ -27,7 +27,7 @@ pub fn unit(channel: Channel) -> &'static str {
     if channel.is_rotation() { "°/s" } else { "m/s²" }
 }
 
-/// One [`unit`] in SI units.
+/// One of [`unit()`] in SI units.
 pub fn unit_in_si(channel: Channel) -> f64 {
     if channel.is_rotation() { 1_f64.to_radians() } else { 1.0 }
 }

@@ -1,9 +1,10 @@
 //! `moris frequency-response`: the frequency response of the whole washout, from the head in the
 //! vehicle to the head on the platform.
 //!
-//! In the manner of the objective motion cueing test of ICAO Doc 9625: sines of twelve frequencies
-//! on one channel at a time, and what is felt of them on every channel. [`excitation`] says what
-//! goes in, [`measure`] steps the washout through it, [`table`] and [`picture`] show what came out.
+//! The test follows the objective motion cueing test of ICAO Doc 9625. Sines of twelve frequencies
+//! are applied to one channel at a time, and the felt motion is measured on all channels. The
+//! module [`excitation`] makes the inputs, and [`measure`] simulates the washout. The results are
+//! shown by [`table`] and [`picture`].
 
 pub mod channel;
 pub mod excitation;
@@ -26,16 +27,16 @@ use channel::Channel;
 use excitation::{Amplitudes, frequencies};
 pub use measure::{Response, response};
 
-/// A small signal is so much of the test's: far from every limit.
+/// Amplitude of the small signals as a fraction of the test's: far from every limit.
 const SMALL: f64 = 1e-3;
 
 /// Measure the frequency response of the whole washout
 ///
-/// After ICAO Doc 9625's objective motion cueing test: the vehicle moves on one channel at a time
-/// (surge, sway, heave, roll, pitch, yaw) in sines of twelve frequencies from 0.1 to 15.8 rad/s.
-/// The felt motion is compared with it on the same channel and on those coupled by gravity. Each
-/// test is made twice: with the amplitudes below, where the tilt's rate limit may be active, and
-/// with a thousandth of them, which shows the linear filters.
+/// The test follows ICAO Doc 9625's objective motion cueing test. The vehicle moves on one channel
+/// at a time: surge, sway, heave, roll, pitch or yaw. It moves in sines of twelve frequencies from
+/// 0.1 to 15.8 rad/s. The felt motion is compared with it on the same channel and on those coupled
+/// by gravity. Each test is made twice. With the amplitudes below, the tilt's rate limit may be
+/// active. With a thousandth of them, the response is that of the linear filters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     #[command(flatten)]
@@ -45,13 +46,13 @@ pub struct Options {
     #[arg(long, value_name = "M/S2", default_value_t = 1.0)]
     force: f64,
 
-    /// Amplitude of the angular velocity [deg/s]; slow turning is bounded by an angle of six times,
-    /// quick turning by an angular acceleration of ten times as much
+    /// Amplitude of the angular velocity [deg/s]. At low frequencies the angle is limited to 6 deg,
+    /// at high ones the angular acceleration to 10 deg/s2, both times this value
     #[arg(long, value_name = "DEG/S", default_value_t = 1.0)]
     rate: f64,
 
     /// Let orientation and gravity follow the vehicle's roll and pitch, as for a vehicle
-    /// that tilts without accelerating; otherwise only the rates are present, as for a
+    /// that tilts without accelerating. By default only the rates are present, as for a
     /// motorcycle in a balanced turn
     #[arg(long)]
     gravity_turns: bool,
@@ -75,7 +76,7 @@ impl Measured {
     /// Measures on all cores. `progress` is called after each of [`Measured::TESTS`].
     ///
     /// # Errors
-    /// The parameters cannot be used: which, and why.
+    /// A parameter cannot be used; the message names it and the reason.
     pub fn of(
         parameters: &Parameters,
         amplitudes: Amplitudes,

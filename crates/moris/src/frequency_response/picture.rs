@@ -26,10 +26,10 @@ const LIMITED: RGBColor = RGBColor(255, 255, 255);
 
 /// The frequencies shown \[rad/s\].
 const FREQUENCIES: std::ops::Range<f64> = 0.08..20.0;
-/// A smaller modulus is not drawn: nobody feels it, and its phase means nothing.
+/// Least modulus drawn. A smaller one is not felt, and its phase has no meaning.
 const LEAST: f64 = 1e-3;
 
-/// Draws what is felt of each channel on the same channel.
+/// Draws the felt motion of each channel on the same channel.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -38,7 +38,7 @@ pub fn direct(file: &Path, measured: &Measured) -> Result<()> {
     draw(file, measured, &pairs, 3)
 }
 
-/// Draws what is felt on the channels that gravity joins.
+/// Draws the felt motion on the channels coupled by gravity.
 ///
 /// # Errors
 /// The file cannot be written.
@@ -66,7 +66,7 @@ fn draw_key(area: &Area) -> Result<()> {
     let mut x = 70;
     for (colour, dot, text, width) in [
         (TEST, Some(TEST), "with the test's amplitude", 300),
-        (TEST, Some(LIMITED), "of these, something limited", 310),
+        (TEST, Some(LIMITED), "with a limit active", 310),
         (SMALL, None, "small signal", 0),
     ] {
         area.draw(&PathElement::new([(x, 26), (x + 40, 26)], colour.stroke_width(3)))?;

@@ -1,4 +1,4 @@
-//! One channel of a recording: what was desired, what was felt, and how well.
+//! One channel of a recording: desired and felt signals, and errors.
 
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::rms_error;
@@ -42,13 +42,13 @@ impl Quantity {
 pub struct Channel {
     /// Quantity.
     pub quantity: Quantity,
-    /// RMS of what is desired, as a deviation from rest: the error of a platform that stands still.
+    /// RMS of the desired signal, as a deviation from rest: the error of a platform at rest.
     pub at_rest: f64,
     /// The least RMS error that any controller could reach; none where it was not computed.
     pub bound: Option<f64>,
-    /// RMS error of what is felt.
+    /// RMS error of the felt signal.
     pub error: f64,
-    /// RMS error of what the vestibular model senses.
+    /// RMS error of the vestibular model's response.
     pub sensed_error: f64,
     /// Fractions of the time with a cue in the vehicle, a false one and a
     /// missing one on the platform.

@@ -1,7 +1,7 @@
-//! `moris measure`: recordings times channels, in one table.
+//! `moris measure`: one table of all channels of several recordings.
 //!
-//! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] compares with what
-//! is asked, [`table`] prints.
+//! [`host`] replays the recordings, [`channel`] measures a channel, [`targets`] checks the targets,
+//! and [`table`] prints the table.
 
 pub mod channel;
 pub mod host;
@@ -27,14 +27,15 @@ use targets::Targets;
 
 /// Measure recordings channel by channel and say which targets are missed
 ///
-/// A line for each recording and channel: the error of a platform at rest, the bound where asked
-/// for, the RMS error, the RMS error as sensed, and the fractions of the time with a cue in the
-/// vehicle, with a false and with a missing one on the platform. Then what was limited on each
-/// recording, and the targets. Recordings fade in from rest over 1 s; --fade-in changes it.
+/// Prints a line for each recording and channel. The columns are the error of a platform at rest,
+/// the bound (with --bound), the RMS error and the RMS error as sensed. Then come the fractions of
+/// the time with a cue in the vehicle, with a false cue and with a missing cue on the platform.
+/// Below the table are the limits that were active on each recording, and the targets. Recordings
+/// fade in from rest over 1 s; --fade-in changes it.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns
-    #[arg(required = true, value_name = "RIDE|FOLDER")]
+    #[arg(required = true, value_name = "RECORDING|FOLDER")]
     recordings: Vec<PathBuf>,
 
     #[command(flatten)]
@@ -49,12 +50,12 @@ pub struct Options {
     #[arg(long, value_enum, default_value_t)]
     inputs: Inputs,
 
-    /// Preview of the recording's force, in s, at most 4; for the predictive strategy
+    /// Preview of the recording's force for the predictive strategy, in s, at most 4
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_seconds)]
     preview: f64,
 
-    /// Compute the bound, the least error that any controller could reach; it
-    /// takes some seconds a recording
+    /// Compute the bound, the least error that any controller could reach. Takes
+    /// some seconds a recording
     #[arg(long)]
     bound: bool,
 
@@ -113,7 +114,7 @@ impl MeasuredRecording {
 /// Runs the command.
 ///
 /// # Errors
-/// A recording, a rig or parameters that cannot be used.
+/// A recording, the rig or the parameters cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;

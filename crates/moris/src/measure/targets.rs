@@ -77,7 +77,7 @@ impl Targets {
         let (mean, count) = geometric_mean(recordings);
         if mean > self.geometric_mean {
             missed.push(format!(
-                "Geometric mean over {count} channels: {mean:.3} m/s2, above {:.3}.",
+                "The geometric mean over {count} channels, {mean:.3} m/s², exceeds {:.3} m/s² (--geometric-mean).",
                 self.geometric_mean
             ));
         }
@@ -88,7 +88,7 @@ impl Targets {
             let [wrong, at_rest] = wrong_cues(recordings, axis);
             if wrong > at_rest + self.cues {
                 missed.push(format!(
-                    "{}: false or missing cues for {:.1} % of the time, {:.1} % on a platform at rest.",
+                    "{}: false or missing cues for {:.1} % of the time exceed the {:.1} % of a platform at rest (--cues).",
                     capitalized(Quantity::Rate(axis).name()),
                     100.0 * wrong,
                     100.0 * at_rest
@@ -104,7 +104,7 @@ impl Targets {
         for channel in &recording.channels {
             if counts(channel) && !excepted && channel.ratio() > self.ratio {
                 missed.push(format!(
-                    "{}, {}: {:.3} m/s2, {:.2} times the {:.3} of a platform at rest, above {:.2}.",
+                    "{}, {}: {:.3} m/s² is {:.2} times the {:.3} m/s² of a platform at rest and exceeds {:.2} times (--ratio).",
                     recording.name,
                     channel.quantity.name(),
                     channel.error,
@@ -115,14 +115,14 @@ impl Targets {
             }
             if channel.quantity == Quantity::Force(2) && channel.error > channel.at_rest + self.heave {
                 missed.push(format!(
-                    "{}, heave: {:.3} m/s2, more than {:.2} above the {:.3} of a platform at rest.",
+                    "{}, heave: {:.3} m/s² exceeds by more than {:.2} m/s² (--heave) the {:.3} m/s² of a platform at rest.",
                     recording.name, channel.error, self.heave, channel.at_rest
                 ));
             }
         }
         if recording.limited > self.limited {
             missed.push(format!(
-                "{}: limits act in {:.1} % of the steps, above {:.1} %.",
+                "{}: limits are active in {:.1} % of the steps, above {:.1} % (--limited).",
                 recording.name,
                 100.0 * recording.limited,
                 100.0 * self.limited

@@ -1,4 +1,4 @@
-//! The columns of a recording: which is which quantity, and in which unit.
+//! The columns of a recording, with their quantities and units.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -84,8 +84,8 @@ impl Title {
         self.file.as_ref().map_or_else(|| title.to_owned(), |file| format!("{file}.{title}"))
     }
 
-    /// True if the name is this title or what stands before its brackets, with its file's name or
-    /// without.
+    /// True if the name is this title or its part before the brackets, with or
+    /// without its file's name.
     fn is_called(&self, name: &str, is_same: fn(&str, &str) -> bool) -> bool {
         let titles = [&self.full, &self.name];
         titles.into_iter().any(|title| is_same(title, name) || is_same(&self.qualified(title), name))
@@ -115,7 +115,7 @@ impl Header {
         self.titles.iter().all(|title| title.full.is_empty())
     }
 
-    /// True where numbers stand in place of names.
+    /// True if the header has numbers in place of names.
     pub fn is_numbers(&self) -> bool {
         self.titles.iter().all(|title| title.full.is_empty() || title.full.parse::<f64>().is_ok())
     }
@@ -130,8 +130,8 @@ impl Header {
         if self.titles[place].file.is_some() { String::new() } else { format!(" (column {})", place + 1) }
     }
 
-    /// Takes a line of units below the names: no field is a number, and one at least is a unit.
-    /// Returns false and leaves the header alone if the line is none.
+    /// Reads a line of units below the names. In it no field is a number, and at least one is a
+    /// unit. Returns false and does not change the header if the line is not a line of units.
     pub fn take_units<'a>(&mut self, fields: impl Iterator<Item = &'a str> + Clone) -> bool {
         let bare = |field: &'a str| field.trim().trim_matches(['[', ']', '(', ')']);
         if fields.clone().any(|field| field.trim().replace(',', ".").parse::<f64>().is_ok())
@@ -147,17 +147,18 @@ impl Header {
         true
     }
 
-    /// True where every column is there that a recording needs.
+    /// True if all required columns exist.
     pub fn has_needed_columns(&self, conventions: &Conventions) -> bool {
         let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| quantity.is_required());
         needed.all(|&(quantity, _)| !matches!(self.terms(conventions.column(quantity)), Ok(None)))
     }
 
-    /// The columns that are used; `skips_time` where each of several files has a time of its own.
+    /// The columns that are used. `skips_time` is set where each of several files has its own time.
     ///
     /// # Errors
-    /// Columns are missing, all of which are named; a name stands twice; a column is given for two
-    /// quantities; a unit is unknown, or contradicts an option.
+    /// - Columns are missing. The message names all of them.
+    /// - A name occurs twice, or a column is given for two quantities.
+    /// - A unit is unknown, or contradicts an option.
     pub fn columns(
         &self,
         file: &Path,
@@ -235,8 +236,8 @@ impl Header {
         parts.into_iter().map(term).collect()
     }
 
-    /// The place of a name: of the whole title, or of what stands before its brackets, in any case.
-    /// `name#2` is the second of two with this name.
+    /// The index of a name: of the whole title, or of its part before the brackets, ignoring case.
+    /// `name#2` is the second column with this name.
     ///
     /// # Errors
     /// Several columns have this name.
@@ -311,7 +312,7 @@ impl Header {
         RecordingError::Whole { file: file.to_owned(), reason }
     }
 
-    /// True where the columns of a logger's format are there.
+    /// True if the columns of a logger's format exist.
     fn is_of(&self, format: Format) -> bool {
         let conventions = format.options().load();
         conventions.is_ok_and(|conventions| {
@@ -396,8 +397,8 @@ impl Header {
         }
     }
 
-    /// Columns of one dimension state their units all or not at all: what the header leaves open
-    /// beside a unit that is not the default is not guessed.
+    /// Checks that the columns of one dimension all have units, or none has. A unit missing beside
+    /// one that is not the default is not guessed.
     fn check_units_are_complete(&self, columns: &[Column]) -> Result<(), String> {
         for dimension in Dimension::ALL {
             let of = |source| {
@@ -437,7 +438,7 @@ fn signed_parts(text: &str) -> Vec<(f64, &str)> {
     parts
 }
 
-/// Text of a file for a message: short, and without anything that a terminal would obey.
+/// Text of a file for a message: shortened, and without control characters.
 pub fn quoted(text: &str) -> String {
     let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
     let mut quoted: String = text.chars().take(LONGEST_QUOTE).map(visible).collect();

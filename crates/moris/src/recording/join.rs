@@ -20,7 +20,7 @@ pub struct Part {
     pub time: Vec<f64>,
     /// Columns in the file's units.
     pub columns: Vec<Vec<f64>>,
-    /// The line of the file from which each sample is.
+    /// The line of the file of each sample.
     pub lines: Vec<u64>,
     /// Warnings, in whole sentences.
     pub warnings: Vec<String>,
@@ -30,7 +30,7 @@ pub struct Part {
 pub struct Joined {
     pub time: Vec<f64>,
     pub lines: Vec<u64>,
-    /// Columns by their places.
+    /// Columns by their indices.
     pub values: BTreeMap<usize, Vec<f64>>,
     pub warnings: Vec<String>,
 }
@@ -53,12 +53,12 @@ impl Part {
         }
     }
 
-    /// Interpolates what is missing between values, and cuts off what is before the first or after
-    /// the last value of a column. Returns warnings of long gaps. `places` are the columns' in the
-    /// file.
+    /// Interpolates missing values, and cuts off samples before the first or after the
+    /// last value of a column. Returns warnings about long gaps. `places` are the
+    /// columns' indices in the file.
     ///
     /// # Errors
-    /// A column has no values, or all have none at the same time.
+    /// A column has no values, or at no time do all columns have values.
     pub fn fill_gaps(&mut self, places: &[usize]) -> Result<Vec<String>, RecordingError> {
         if self.columns.iter().flatten().all(|value| !value.is_nan()) {
             return Ok(Vec::new());
@@ -77,7 +77,7 @@ impl Part {
                 let span = self.time[b] - self.time[a];
                 if span > GAP && b - a > 1 {
                     warnings.push(format!(
-                        "Column {} is empty for {span:.2} s after line {}; a straight line stands there.",
+                        "Column {} is empty for {span:.2} s after line {}; the gap is interpolated linearly.",
                         self.titles[place], self.lines[a]
                     ));
                 }
@@ -98,7 +98,7 @@ impl Part {
         Ok(warnings)
     }
 
-    /// Checks that time goes on.
+    /// Checks that time increases.
     fn check_order(&self) -> Result<(), RecordingError> {
         let Some(wrong) = (1..self.time.len()).find(|&k| self.time[k] <= self.time[k - 1]) else { return Ok(()) };
         let (before, after) = (self.time[wrong - 1], self.time[wrong]);
@@ -111,8 +111,8 @@ impl Part {
         })
     }
 
-    /// A column at other times, by linear interpolation; the times ascend and
-    /// are within the part's.
+    /// A column at other times, by linear interpolation. The times ascend and are
+    /// within the part's range.
     fn at(&self, column: &[f64], times: &[f64]) -> Vec<f64> {
         let mut after = 1;
         let value = |&time: &f64| {
@@ -127,11 +127,11 @@ impl Part {
     }
 }
 
-/// Joins files: the samples of the one with the place `base`, at which the others are
-/// interpolated linearly, over the time that all of them have.
+/// Joins files over the time that they have in common. The samples are those of the file with index
+/// `base`; the others are interpolated linearly.
 ///
 /// # Errors
-/// Time goes back or stands still in a file; the files have no time in common.
+/// Time does not increase in a file, or the files have no time in common.
 pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Result<Joined, RecordingError> {
     for (_, part) in &parts {
         part.check_order()?;
@@ -165,7 +165,7 @@ pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Resu
         let gap = part.time.windows(2).zip(&part.lines).find(|(pair, _)| pair[1] - pair[0] > GAP);
         if let Some((pair, line)) = gap {
             warnings.push(format!(
-                "{} has nothing for {:.2} s after line {line}; a straight line stands there.",
+                "{} has no samples for {:.2} s after line {line}; the gap is interpolated linearly.",
                 part.file.display(),
                 pair[1] - pair[0]
             ));

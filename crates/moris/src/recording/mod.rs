@@ -1,24 +1,29 @@
 //! Recordings: read from CSV, converted to the washout's frames and units, and
 //! checked for plausibility.
 //!
-//! [`Recording::read`] does it all. `source` reads the text, `sheet` its lines, [`header`] finds
-//! the columns and their [`units`], [`table`] puts the numbers together, `join` those of several
-//! files. [`sampling`] makes the steps equal. `convert` turns the axes by the [`mounting`].
-//! [`plausibility`] recognises wrong units and axes. [`conventions`] are the names, units and axes
-//! that options give, or the name of one of the [`formats`].
+//! [`Recording::read`] reads a recording in these steps:
+//!
+//! - `source` reads the text and `sheet` its lines.
+//! - [`header`] finds the columns and their [`units`].
+//! - [`table`] collects the numbers, and `join` those of several files.
+//! - [`sampling`] makes the time steps equal.
+//! - `convert` rotates the axes by the [`mounting`].
+//! - [`plausibility`] detects wrong units and axes.
+//!
+//! [`conventions`] are the names, units and axes given by options, or by one of the [`formats`].
 //!
 //! # Gravity without orientation
 //!
 //! The washout cues the difference between the specific force on the vehicle's rider and that on a
-//! rider at rest on a level platform, (0, 0, g). A recording without orientation is taken as level.
-//! Gravity removal then takes g from z and nothing from x and y, with `head_vertical` and with
-//! `full`. The specific force at the head of a two-wheeler's rider already holds the lean: in a
-//! balanced turn it points along the rider's spine, so there is no lateral force to cue. On a slope
-//! it holds the part of gravity that pushes the rider back, and that part is cued. In a lean z
-//! reads more than g, as the rider feels.
+//! rider at rest on a level platform, (0, 0, g). A recording without orientation is taken as
+//! level. Gravity removal then subtracts g from z and nothing from x and y, with `head_vertical`
+//! and with `full`. The specific force at the head of a two-wheeler's rider already includes the
+//! lean. In a balanced turn it points along the rider's spine, so there is no lateral force to
+//! cue. Its z is then above g, as the rider feels. On a slope it includes the part of gravity
+//! along x, and that part is cued.
 //!
-//! Columns of orientation are used where there are any: gravity is removed as the parameter
-//! `gravityRemoval` states.
+//! Orientation columns are used if the recording has them. Gravity is then removed as the parameter
+//! `gravityRemoval` specifies.
 
 pub mod conventions;
 mod convert;
@@ -67,13 +72,15 @@ pub struct Recording {
 
 impl Recording {
     /// Reads a recording from a file, or from standard input if the file is `-`. Files compressed
-    /// with gzip are unpacked. Files whose names are joined by `+`, and the CSV files of a
-    /// directory, are joined by time.
+    /// with gzip are unpacked. Several files whose names are separated by `+`, or the CSV files of
+    /// a directory, are joined by time.
     ///
     /// # Errors
-    /// The file cannot be read or is no CSV, columns are missing or stand twice, a field is no
-    /// number, the steps of time are unequal, a unit in the header contradicts an option, or the
-    /// units or axes are implausible.
+    /// - The file cannot be read or is not CSV.
+    /// - A column is missing or occurs twice, or a field is not a number.
+    /// - The time steps are unequal.
+    /// - A unit in the header contradicts an option.
+    /// - The units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
         Self::of_table(source::name(file), table::read(file, conventions)?, conventions)
     }
@@ -81,7 +88,7 @@ impl Recording {
     /// A recording of columns in memory, each a name and its values, read as the columns of a file.
     ///
     /// # Errors
-    /// As [`Recording::read`]; columns of different lengths.
+    /// As [`Recording::read`], or columns differ in length.
     pub fn of_columns(
         name: &str,
         columns: &[(String, Vec<f64>)],
@@ -113,8 +120,8 @@ impl Recording {
         source::name(file)
     }
 
-    /// The parameters for its simulation: those given, with the recording's axes of
-    /// the angular velocity.
+    /// The parameters for its simulation: the given ones, with the frame of the
+    /// recording's angular velocity.
     pub fn parameters(&self, parameters: &Parameters) -> Parameters {
         let mut parameters = *parameters;
         parameters.conditioning.angular_velocity_frame = self.angular_velocity_frame;
@@ -131,7 +138,7 @@ impl Recording {
         self.manoeuvre.step()
     }
 
-    /// Its replay with a communication step a sample.
+    /// Its replay with one communication step per sample.
     pub fn replay(&self) -> Replay<'_> {
         Replay::new(&self.manoeuvre)
     }

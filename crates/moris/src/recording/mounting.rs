@@ -84,7 +84,7 @@ pub struct Found {
     pub warning: String,
 }
 
-/// Time over which samples are averaged before anything is looked for \[s\].
+/// Time over which samples are averaged before the search \[s\].
 const BLOCK: f64 = 0.1;
 /// Blocks of a stretch at rest: 1 s.
 const REST: usize = 10;
@@ -92,13 +92,14 @@ const REST: usize = 10;
 const REST_FORCE: f64 = 0.3;
 /// Largest angular velocity at rest \[rad/s\].
 const REST_RATE: f64 = 0.05;
-/// Horizontal specific force that begins an acceleration, and that ends it \[m/s2\].
+/// Horizontal specific force above which an acceleration begins, and below which it ends \[m/s2\].
 const ACCELERATION: [f64; 2] = [0.5, 0.25];
 /// Largest angular velocity about the vertical in an acceleration straight ahead \[rad/s\].
 const STRAIGHT: f64 = 0.1;
 /// Shortest acceleration, in blocks: 0.5 s.
 const SHORTEST: usize = 5;
-/// Change of speed that shows where forward is, as a standard deviation of its rate \[m/s2\].
+/// Least change of speed that determines the forward direction, as a standard deviation
+/// of its rate \[m/s2\].
 const SPEED_CHANGE: f64 = 0.2;
 
 /// Means of [`BLOCK`]s of a recording.
@@ -140,7 +141,7 @@ impl Blocks {
         (!quiet.is_empty()).then(|| Vector3::from_fn(|axis, _| median(quiet.iter().map(|force| force[axis]))))
     }
 
-    /// The horizontal specific force that goes with the change of speed.
+    /// The horizontal specific force correlated with the change of speed.
     fn along_speed(&self, up: &Vector3<f64>) -> Option<Vector3<f64>> {
         let changes: Vec<f64> = self.speeds.windows(3).map(|s| (s[2] - s[0]) / (2.0 * BLOCK)).collect();
         let size = (changes.iter().map(|change| change * change).sum::<f64>() / changes.len().max(1) as f64).sqrt();
@@ -170,11 +171,11 @@ impl Blocks {
     }
 }
 
-/// Finds the mounting: up is where the specific force at rest points, and forward where speed, or
-/// the first acceleration straight ahead, takes the vehicle.
+/// Finds the mounting. Up is the direction of the specific force at rest. Forward follows from the
+/// change of speed, or from the first acceleration straight ahead.
 ///
 /// # Errors
-/// The recording holds no gravity, or no acceleration straight ahead.
+/// The recording contains no gravity, or no acceleration straight ahead.
 pub fn find(motion: &SensorMotion) -> Result<Found, String> {
     let blocks = Blocks::new(motion);
     let rest = blocks.rest();

@@ -1,14 +1,14 @@
-//! Recognition of units and axes that are not those given.
+//! Detection of wrong units and axes.
 //!
-//! Rates in deg/s that are taken for rad/s are 57 times too large, and a quiet car's still look
-//! like a lively rider's. Four tests tell them apart, each by a fact that holds for every vehicle:
+//! Rates in deg/s that are read as rad/s are 57 times too large. Those of a calm car still resemble
+//! a motorcycle's. Four tests distinguish them, each by a fact that holds for every vehicle:
 //!
 //! - no head turns faster than 10 rad/s for a hundredth of the time;
 //! - rates are the derivatives of the angles, where the recording has both;
 //! - roll and pitch are bounded, so the integral of their rates may drift, but does not swing by
 //!   more than half a turn;
-//! - lateral force and yaw rate that go together are those of a turn, a = v omega, whose radius a /
-//!   omega^2 is metres and more.
+//! - correlated lateral force and yaw rate are those of a turn, a = v omega, whose radius a /
+//!   omega^2 is at least a metre.
 
 use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -22,7 +22,7 @@ use super::table::Table;
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
 /// are biased and tilted.
 const GRAVITY_TOLERANCE: f64 = 3.0;
-/// Medians below this hold no gravity \[m/s2\].
+/// Medians below this contain no gravity \[m/s2\].
 const NO_GRAVITY: f64 = 3.0;
 /// Angular velocity that no head exceeds for a hundredth of a recording \[rad/s\].
 const FASTEST: f64 = 10.0;
@@ -35,15 +35,15 @@ const DRIFT: f64 = 10.0;
 /// Swing of roll or pitch, drift removed, that no vehicle exceeds \[rad\]: a
 /// motorcycle goes from -1 to 1.
 const WIDEST_SWING: f64 = 3.5;
-/// Correlation above which two signals go together.
+/// Correlation above which two signals count as correlated.
 const TOGETHER: f64 = 0.7;
-/// Time constant of the smoothing before a turn is looked for \[s\].
+/// Time constant of the smoothing before turns are detected \[s\].
 const SMOOTHING: f64 = 0.5;
 /// Least lateral specific force of a turn, as a standard deviation \[m/s2\].
 const TURN: f64 = 0.3;
 /// Radius below which no vehicle turns \[m\]; in deg/s for rad/s, a radius of 1 km reads as 0.3 m.
 const TIGHTEST: f64 = 1.0;
-/// Mean acceleration above which the sensor is tilted, or the road \[m/s2\].
+/// Mean acceleration above which the sensor or the road is taken as tilted \[m/s2\].
 const BIAS: f64 = 0.3;
 /// Cue at the first sample above which the recording begins with a jolt \[m/s2\].
 const JOLT: f64 = 1.0;
@@ -51,7 +51,7 @@ const JOLT: f64 = 1.0;
 /// Checks a recording in SI units and the washout's axes.
 ///
 /// # Errors
-/// The unit or the axes are implausible: those that fit, and the option that gives them.
+/// The unit or the axes are implausible. The message names those that fit, and the option for them.
 pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), RecordingError> {
     let refused = |reason: String| RecordingError::Whole { file: table.file.clone(), reason };
     force_is_plausible(table, inputs, conventions).map_err(refused)?;
@@ -74,7 +74,7 @@ fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
     }
 }
 
-/// Compares the medians of the accelerations, which manoeuvres hardly move, with gravity.
+/// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
 fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
     let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis]).collect()));
     let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
@@ -104,7 +104,7 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
         let remedy = remedy(table, Quantity::Force(2), other.word);
         format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
     } else if conventions.gravity == Gravity::Removed {
-        "which still holds the gravity that --gravity removed rules out: use --gravity included".to_owned()
+        "which includes gravity although --gravity removed was given: use --gravity included".to_owned()
     } else if (median + gravity).norm() < GRAVITY_TOLERANCE {
         match conventions.axes {
             Axes::ForwardLeftUp => "so z points down: use --axes forward-right-down".to_owned(),
@@ -123,8 +123,8 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
     Err(format!("{shown}, {meaning}"))
 }
 
-/// Rejects rates that are plausible only as deg/s. A unit that is given stands against
-/// all tests but the first.
+/// Rejects rates that are plausible only as deg/s. A given unit overrides all
+/// tests except the first.
 fn rates_are_plausible(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
     let (unit, source) = unit(table, Quantity::Rate(0));
     if unit != RateUnit::RadianPerSecond.unit() {
@@ -189,7 +189,7 @@ fn not_radians(table: &Table, inputs: &[Input], conventions: &Conventions) -> Op
     })
 }
 
-/// Slope of y over x through the origin; none where they do not go together.
+/// Slope of y over x through the origin. None where they are not correlated.
 fn regression(x: &[f64], y: &[f64]) -> Option<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (xx, xy, yy) = (dot(x, x), dot(x, y), dot(y, y));
@@ -251,7 +251,7 @@ fn angles_are_plausible(table: &Table, inputs: &[Input]) -> Result<(), String> {
     })
 }
 
-/// Warnings of a recording that is odd, but possible.
+/// Warnings about a recording that is unusual but possible.
 pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
     let mut warnings = Vec::new();
     for (axis, name) in ["x", "y"].into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! A recording's own future, as the washout's preview.
+//! The future of a recording as the washout's preview.
 
 use moris_interface::Group;
 use moris_washout::interface::PREVIEW_SAMPLES;
@@ -22,7 +22,7 @@ pub const LONGEST_PREVIEW: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64;
 /// The length of a preview as written on the command line \[s\].
 ///
 /// # Errors
-/// It is no number, or longer than the washout takes.
+/// The text is not a number, or the preview is longer than the washout accepts.
 pub fn parse_seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok().filter(|seconds: &f64| (0.0..=LONGEST_PREVIEW).contains(seconds));
     seconds.ok_or_else(|| format!("a time from 0 to {LONGEST_PREVIEW} s is needed, such as 1"))
@@ -34,8 +34,9 @@ const ROUNDING: f64 = 1e-9;
 impl Previewer {
     /// A preview of so many seconds, at most [`LONGEST_PREVIEW`].
     ///
-    /// An element is the mean of the force around its time, weighted by a triangle whose feet are
-    /// the elements beside it: what is faster than the elements does not appear as something slow.
+    /// An element is a weighted mean of the force around its time. The weight is a triangle
+    /// that ends at the neighbouring elements. So motion faster than the elements is not
+    /// aliased to a slow one.
     pub fn new(inputs: &[Input], step: f64, seconds: f64) -> Self {
         let count = ((seconds / PREVIEW_STEP + ROUNDING) as usize).min(PREVIEW_SAMPLES);
         let reach = (PREVIEW_STEP / step).round() as usize;
@@ -63,7 +64,7 @@ impl Previewer {
 /// Mean around each value, weighted by a triangle that ends at `reach` values on either side.
 fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     let reach = reach.max(1);
-    // Twice a running mean over `reach` values is a triangle.
+    // Two running means over `reach` values in succession have a triangular weight.
     let ahead = running_mean(values, reach);
     let mut backwards = ahead;
     backwards.reverse();
@@ -72,7 +73,7 @@ fn averaged(values: &[f64], reach: usize) -> Vec<f64> {
     averaged
 }
 
-/// Mean of each value and those after it, `reach` of them in all; fewer at the end.
+/// Mean of each value and those after it, `reach` values in total; fewer at the end.
 fn running_mean(values: &[f64], reach: usize) -> Vec<f64> {
     let mut means = vec![0.0; values.len()];
     let mut sum = 0.0;

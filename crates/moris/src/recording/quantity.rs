@@ -55,7 +55,7 @@ impl Quantity {
     /// The quantity of a key.
     ///
     /// # Errors
-    /// There is no such key: which there are.
+    /// The key is unknown. The message lists the known ones.
     pub fn of_key(key: &str) -> Result<Self, String> {
         let found = Self::ALL.iter().find(|(_, known)| *known == key);
         let keys = || Self::ALL.map(|(_, key)| key).join(", ");

@@ -1,26 +1,26 @@
-//! Equal steps: the washout's own filters do not need them, but measures and comparisons do.
+//! Resampling at equal steps. Measures and comparisons need them, the washout's filters do not.
 
 use super::RecordingError;
 use super::conventions::{Conventions, Quantity};
 use super::join::GAP;
 use super::table::Table;
 
-/// Largest distance of a sample from its place at equal steps \[fractions of a step\]. Clocks that
-/// are written with few digits need it.
+/// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
+/// times written with few digits.
 const JITTER: f64 = 0.2;
 /// Coarsest step of a usable recording \[s\].
 const COARSEST: f64 = 0.25;
 /// Finest step: below it, time is in another unit \[s\].
 const FINEST: f64 = 1e-5;
-/// More samples than this are a mistake: a day at 100 Hz.
+/// Largest number of samples: about a day at 100 Hz.
 const MOST_SAMPLES: f64 = 1e7;
 
-/// The recording at equal steps, with warnings: unchanged where its steps are equal,
-/// interpolated on demand.
+/// The recording at equal steps, with warnings. It is unchanged if its steps are equal, and
+/// interpolated if an option asks for it.
 ///
 /// # Errors
-/// Time stands still or goes back; the steps are unequal and interpolation is off; the steps are
-/// too coarse or too fine for the unit of time.
+/// Time does not increase, the steps are unequal and interpolation is off, or the steps are too
+/// coarse or too fine for the unit of time.
 pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RecordingError> {
     check_order(&table)?;
     check_unit(&table)?;
@@ -46,7 +46,7 @@ fn check_order(table: &Table) -> Result<(), RecordingError> {
     Ok(())
 }
 
-/// The median step: what is usual, whatever is missing or odd \[s\].
+/// The median step \[s\], which is insensitive to missing samples and outliers.
 fn usual_step(table: &Table) -> f64 {
     let mut steps: Vec<f64> = table.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
@@ -73,7 +73,8 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
         return Ok(());
     };
-    // The sample that is off is rarely the one whose step is odd: name the first odd step.
+    // The sample that is farthest off rarely has the unusual step. So the first
+    // unusual step is named.
     let step_to = |k: usize| table.time[k] - table.time[k - 1];
     let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
     let reason = format!(
@@ -120,7 +121,10 @@ fn resampled(table: &Table, rate: f64) -> Result<(Table, Vec<String>), Recording
 fn gaps(table: &Table) -> Vec<String> {
     let long = table.time.windows(2).zip(&table.lines).filter(|(pair, _)| pair[1] - pair[0] > GAP);
     long.map(|(pair, line)| {
-        format!("Nothing was recorded for {:.2} s after line {line}; a straight line stands there.", pair[1] - pair[0])
+        format!(
+            "Nothing was recorded for {:.2} s after line {line}; the gap is interpolated linearly.",
+            pair[1] - pair[0]
+        )
     })
     .collect()
 }

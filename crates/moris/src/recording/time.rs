@@ -1,5 +1,4 @@
-//! Times as loggers write them beside plain numbers: dates with a time (ISO
-//! 8601), and times of day.
+//! Times that are not plain numbers: dates with a time (ISO 8601), and times of day.
 
 use jiff::Timestamp;
 use jiff::civil::DateTime;
@@ -13,8 +12,8 @@ pub fn is_written_out(field: &str) -> bool {
     date(field.trim()).or_else(|| time_of_day(field.trim())).is_some()
 }
 
-/// Reads the times of a column one after the other. A time of day that begins anew at midnight
-/// goes on with the next day.
+/// Reads the times of a column in order. A time of day that restarts at midnight
+/// continues with the next day.
 #[derive(Default)]
 pub struct Times {
     midnights: f64,

@@ -35,7 +35,7 @@ pub fn main(options: &NewOptions, answers: &mut dyn BufRead, out: &mut dyn Write
     let name = file.display().to_string();
     rig_file::read(&text, &name)?
         .check()
-        .with_context(|| format!("the washout does not take this rig, and {name} is not written"))?;
+        .with_context(|| format!("the washout rejects this rig; {name} is not written"))?;
     let new = OpenOptions::new().write(true).create_new(true).open(file);
     new.and_then(|mut new| new.write_all(text.as_bytes())).with_context(|| format!("cannot write {name}"))?;
     writeln!(out, "\nwrote {name}; moris rig check {name} shows its reach")?;

@@ -1,8 +1,9 @@
 //! Sections through the workspace of the level platform.
 //!
-//! With the platform level, each leg keeps its origin inside a shell: a ball of its longest about
-//! the point where its joints would meet, less a ball of its shortest. A section of a shell is a
-//! ring, and so the drawing is exact: what six discs have in common, less six others.
+//! With the platform level, each leg restricts the platform's origin to a spherical shell. The
+//! shell's centre is the position at which the leg's joints would coincide. Its radii are the leg's
+//! shortest and longest length. A plane section of a shell is a ring. So the drawing is exact: the
+//! intersection of six discs, less six other discs.
 
 use std::fmt::Write;
 
@@ -11,14 +12,13 @@ use moris_washout::nalgebra::Vector3;
 
 use super::svg::Window;
 
-/// Margins to the ends of the stroke for which the section is drawn \[m\], and the colours of
-/// what is between them.
+/// Margins to the ends of the stroke for which the section is drawn \[m\], and their colours.
 pub const MARGINS: [(f64, &str); 3] = [(0.0, "#c6dbef"), (0.05, "#6baed6"), (0.1, "#2171b5")];
 
 /// A plane through neutral.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
-    /// Stands above the drawing.
+    /// Title above the drawing.
     pub title: &'static str,
     /// Coordinates across and upward: 0, 1, 2 for x, y, z.
     pub axes: [usize; 2],
@@ -26,15 +26,15 @@ pub struct Plane {
     pub names: [&'static str; 2],
 }
 
-/// From above, from the right and from behind.
+/// The planes seen from above, from the right and from the front.
 pub const PLANES: [Plane; 3] = [
     Plane { title: "From above, at neutral height", axes: [0, 1], names: ["x: surge", "y: sway"] },
     Plane { title: "From the right, through neutral", axes: [0, 2], names: ["x: surge", "z: heave"] },
     Plane { title: "From the front, through neutral", axes: [1, 2], names: ["y: sway", "z: heave"] },
 ];
 
-/// The section, with coordinates from neutral: as far as `extent` goes, and the safety
-/// units' box dashed in it.
+/// The section within `extent`, in coordinates relative to neutral, with the
+/// safety units' box dashed.
 pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vector3<f64>) -> String {
     let neutral = Vector3::new(0.0, 0.0, rig.neutral_height);
     let flat = |v: Vector3<f64>| plane.axes.map(|axis| v[axis]);
@@ -70,7 +70,7 @@ struct Ring {
     outer: f64,
 }
 
-/// The six rings, or none where a leg does not reach the plane at all.
+/// The six rings, or `None` where a leg does not reach the plane.
 fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option<Vec<Ring>> {
     let across = 3 - plane.axes[0] - plane.axes[1];
     let ring = |leg: usize| {
@@ -83,8 +83,8 @@ fn rings(rig: &Rig, plane: &Plane, neutral: Vector3<f64>, margin: f64) -> Option
     (0..6).map(ring).collect()
 }
 
-/// The interior of all rings, filled: groups within groups, each clipped by one disc, with the
-/// holes masked out. (A clip of a clip would say the same, but not every viewer follows it.)
+/// The common interior of all rings, filled: nested groups, each clipped by one disc, with the
+/// holes masked out. A nested clip path would be equivalent, but not every viewer supports it.
 fn shape(name: &str, rings: &[Ring], window: &Window, colour: &str) -> String {
     let circle = |ring: &Ring, radius: f64| {
         let [x, y] = window.pixel(ring.centre);

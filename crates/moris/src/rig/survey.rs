@@ -54,11 +54,11 @@ pub enum Singularities {
 }
 
 impl Survey {
-    /// Surveys a rig, trying `samples` points for the volume of its workspace.
+    /// Surveys a rig, with `samples` points for the volume of its workspace.
     ///
     /// # Errors
-    /// The rig cannot be surveyed: a value is out of its range, or the legs do not reach neutral.
-    /// A singular rig can be.
+    /// A value of the rig is out of its range, or the legs do not reach neutral. Singular
+    /// rigs are surveyed, too.
     pub fn of(file: &RigFile, samples: u32) -> Result<Self, ParameterError> {
         let parameters = file.parameters();
         let rig = &parameters.rig;
@@ -165,11 +165,11 @@ impl Survey {
             ["x", "y", "z"].iter().enumerate().map(|(i, name)| format!("±{:.3} m in {name}", limits[i])).collect();
         writeln!(f, "safety units: {}", texts.join(", "))?;
         for (i, alone) in self.axes.iter().take(3).enumerate() {
-            if limits[i] > alone.range.smaller() {
+            if limits[i] > alone.range.min_reach() {
                 writeln!(
                     f,
                     "  beyond the {:.3} m that {} reaches: there the legs' own limits stop the platform",
-                    alone.range.smaller(),
+                    alone.range.min_reach(),
                     alone.axis.name()
                 )?;
             }

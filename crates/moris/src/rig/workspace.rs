@@ -1,4 +1,4 @@
-//! Where a platform can go, by trying points.
+//! Volume of a platform's workspace, by the Monte Carlo method.
 
 use std::f64::consts::TAU;
 
@@ -13,29 +13,29 @@ use rayon::prelude::*;
 
 /// The tilt for which the workspace is measured beside the level one \[rad\].
 pub const TILT: f64 = 10.0 * TAU / 360.0;
-/// Directions in which it is tilted.
+/// Number of directions in which the platform is tilted.
 const DIRECTIONS: u32 = 8;
-/// Points are drawn in blocks of this many, each with a stream of its own: the same points
-/// on any number of cores.
+/// Number of points in a block. Each block has its own stream of random numbers, so that the points
+/// are the same on any number of cores.
 const BLOCK: u32 = 10_000;
-/// Begins the streams of points.
+/// Seed of the streams.
 const SEED: u64 = 1;
 
-/// Where the platform's origin can be.
+/// Workspace of the platform's origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Workspace {
     /// With the platform level.
     pub level: Volume,
-    /// Where the platform can also be tilted by [`TILT`] in each of eight directions.
+    /// With the platform also able to tilt by [`TILT`] in each of eight directions.
     pub tilted: Volume,
-    /// Smallest and largest coordinates found with the platform level, and a little around neutral
-    /// at least, in the base frame \[m\].
+    /// Smallest and largest coordinates found with the platform level, in the base frame \[m\].
+    /// They include at least a small box around neutral.
     pub extent: [Vector3<f64>; 2],
-    /// Points that were tried.
+    /// Number of points tested.
     pub samples: u32,
 }
 
-/// A volume found by trying points.
+/// A volume found by testing points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Volume {
     /// \[m3\]
@@ -45,10 +45,11 @@ pub struct Volume {
 }
 
 impl Workspace {
-    /// Tries points evenly distributed over a box that holds the workspace.
+    /// Tests points uniformly distributed over a box that contains the workspace.
     ///
-    /// A point counts if all legs are inside their stroke there, and the Jacobian's determinant has
-    /// the sign that it has at neutral: the platform's mirror image below the base does not.
+    /// A point counts if all legs are inside their stroke there and the Jacobian's determinant
+    /// has the same sign as at neutral. The second condition excludes the platform's mirror
+    /// image below the base.
     pub fn of(rig: &Rig, samples: u32) -> Self {
         let [low, high] = bounds(rig);
         let blocks = samples.div_ceil(BLOCK);
@@ -68,7 +69,7 @@ impl Workspace {
 }
 
 impl Volume {
-    /// Of a box of this size, where so many of the points tried were inside.
+    /// The volume from the number of points inside, for a box of this size.
     fn of(inside: u32, samples: u32, size: f64) -> Self {
         let fraction = f64::from(inside) / f64::from(samples);
         Volume {
@@ -78,8 +79,8 @@ impl Volume {
     }
 }
 
-/// A box that holds every level position: each leg lets the origin go no farther than its longest
-/// from the point where its joints would meet.
+/// A box that contains every position of the level platform. The origin is never farther than a
+/// leg's longest length from the point where that leg's joints would coincide.
 fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
     let reach = Vector3::repeat(rig.max_length);
     let meeting = (0..6).map(|i| rig.base[i] - rig.platform[i]);

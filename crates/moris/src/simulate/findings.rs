@@ -8,8 +8,8 @@ use moris_washout::Output;
 
 /// Less than this of a signal is not worth a sentence: RMS of the desired specific force
 /// without its mean \[m/s2\].
-const WORTH_SAYING: f64 = 0.1;
-/// Less error than this fraction of what is desired, and it is felt as it should be.
+const LEAST_FORCE: f64 = 0.1;
+/// Relative error up to which a force counts as reproduced well.
 const FAITHFUL: f64 = 0.25;
 /// More than this fraction, and not cueing at all would be as good: a platform at rest has 1.
 const USELESS: f64 = 1.0;
@@ -31,8 +31,8 @@ fn fits(outcome: &Outcome) -> Finding {
     let effort = &outcome.measures.effort;
     let simulation = &outcome.simulation;
     let sentences: Vec<String> = [
-        held("The actuators' limits", simulation, |output| output.actuator_limited),
-        held("The safety units", simulation, |output| output.safety_active),
+        limited_time("The actuators' limits", simulation, |output| output.actuator_limited),
+        limited_time("The safety units", simulation, |output| output.safety_active),
     ]
     .into_iter()
     .flatten()
@@ -51,10 +51,10 @@ fn fits(outcome: &Outcome) -> Finding {
 }
 
 /// Active limits with total duration and first time; none without any.
-fn held(what: &str, simulation: &Simulation, holds: impl Fn(&Output) -> bool) -> Option<String> {
+fn limited_time(what: &str, simulation: &Simulation, is_active: impl Fn(&Output) -> bool) -> Option<String> {
     let time = |samples: usize| samples as f64 * simulation.step;
-    let first = simulation.outputs.iter().position(&holds)?;
-    let all = simulation.outputs.iter().filter(|output| holds(output)).count();
+    let first = simulation.outputs.iter().position(&is_active)?;
+    let all = simulation.outputs.iter().filter(|output| is_active(output)).count();
     Some(format!("{what} limited the platform for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
 }
 
@@ -65,7 +65,7 @@ fn tilt(outcome: &Outcome) -> Option<Finding> {
         finding(
             Weight::Note,
             format!(
-                "Tilt coordination lagged behind for {:.0} % of the recording: at {:.1}°/s, {:.1}°/s² or {:.0}° it may go no faster or farther.",
+                "Tilt coordination was limited for {:.0} % of the recording, by {:.1}°/s, {:.1}°/s² or {:.0}°.",
                 100.0 * fraction,
                 limits.rate_limit.to_degrees(),
                 limits.acceleration_limit.to_degrees(),
@@ -80,22 +80,22 @@ fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
     let name = ["Surge", "Sway", "Heave"][axis];
     let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;
     let desired = deviation(outcome.simulation.inputs.iter().map(|input| input.specific_force[axis]));
-    if desired < WORTH_SAYING {
+    if desired < LEAST_FORCE {
         return None;
     }
     let fraction = rms_error / desired;
     let (weight, verdict) = if fraction <= FAITHFUL {
-        (Weight::Good, "is felt as it should be")
+        (Weight::Good, "is reproduced well")
     } else if fraction < USELESS {
-        (Weight::Note, "is felt in part")
+        (Weight::Note, "is reproduced in part")
     } else {
-        (Weight::Warning, "is felt wrongly, and a platform at rest would be nearer to it")
+        (Weight::Warning, "has a larger error than a platform at rest")
     };
     let correlation = correlation.map_or(String::new(), |correlation| format!("correlation {correlation:.2}, "));
     let bound = outcome.bounds[axis].as_ref().map_or_else(String::new, |bound| {
         let least = bound.bound.rms_error;
         if least < FAITHFUL * rms_error {
-            format!(" A controller that knew the recording beforehand might get down to {least:.2} m/s² on this rig.")
+            format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² on this rig.")
         } else {
             format!(" No controller could get below {least:.2} m/s² on this rig.")
         }

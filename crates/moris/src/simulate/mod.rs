@@ -1,9 +1,11 @@
 //! `moris simulate`: simulates a recording on a rig and measures the cues.
 //!
-//! [`simulation`] steps the washout; everything else reads its result: [`output_table`] writes it
-//! down, [`measured`] measures it, [`bounds`] computes the least possible error, [`summary`] and
-//! [`json`] print it, [`findings`] puts it in sentences, [`page`] makes the report, [`index`] lists
-//! the reports of several recordings.
+//! [`simulation`] steps the washout. The other modules process its result:
+//!
+//! - [`output_table`] writes inputs and outputs to a file.
+//! - [`measured`] computes the measures, [`bounds`] the least possible error.
+//! - [`summary`] and [`json`] print the measures, [`findings`] describes them in sentences.
+//! - [`page`] makes the report, [`index`] lists the reports of several recordings.
 
 pub mod bounds;
 pub mod findings;
@@ -39,31 +41,32 @@ const DOES_NOT_FIT: u8 = 3;
 
 /// Simulate recordings on a rig and report how well they are felt
 ///
-/// Prints the measures of each recording and writes two files: NAME.outputs.csv, every input and
-/// output at every sample by the names of the FMU's variables, and NAME.html, a page with all
-/// curves and the moving platform, which needs no network and nothing beside it. Of several
-/// recordings, index.html lists the pages, the worst first. A recording that cannot be used does
-/// not end the others. Recordings are faded in from rest over 1 s unless --fade-in says otherwise.
+/// Prints the measures of each recording and writes two files. NAME.outputs.csv has every input and
+/// output at every sample, by the names of the FMU's variables. NAME.html is a self-contained page
+/// with all curves and the moving platform. With several recordings, index.html lists the pages,
+/// the worst first. If a recording cannot be used, the others are still simulated. Recordings fade
+/// in from rest over 1 s; --fade-in changes it.
 ///
-/// Exit status: 0 if every recording fits the rig; 3 if a safety unit or an actuator's limit was
-/// active on one, with the first parameters; 1 if one could not be simulated.
+/// The exit status is 0 if every recording fits the rig, and 1 if one could not be simulated. It is
+/// 3 if a safety unit or the actuator guard was active on one, with the first parameters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
-    /// Recordings (CSV, also .csv.gz; - is standard input) with columns time, ax, ay, az (specific
-    /// force, m/s2) and wx, wy, wz (rad/s) at the rider's head, x forward, y left, z up. Units in
-    /// the header's brackets are read. Other names, units and axes are given by the options below
+    /// Recordings: CSV, also .csv.gz; - is standard input. The columns are time, the specific force
+    /// ax, ay, az [m/s2] and the angular velocity wx, wy, wz [rad/s]. They apply to the rider's
+    /// head, with x forward, y left, z up. Units in brackets in the header are read. Other names,
+    /// units and axes are given by the options below
     #[arg(required = true, value_name = "RECORDING")]
     recordings: Vec<PathBuf>,
 
     #[command(flatten)]
     setup: SetupOptions,
 
-    /// Other parameters to simulate with, shown beside the first: files or shipped sets
+    /// Parameters to compare with the first ones: files or shipped sets
     #[arg(long, alias = "against", value_name = "FILE|NAME")]
     compare: Vec<String>,
 
-    /// Simulate the predictive strategy once more with a preview of the recording's force, in s, at
-    /// most 4
+    /// Also simulate the predictive strategy with a preview of the recording's
+    /// force, in s, at most 4
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     preview: Option<f64>,
 
@@ -71,7 +74,7 @@ pub struct Options {
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
     report: PathBuf,
 
-    /// Do not compute the bound, the least error that any controller could reach; it takes
+    /// Do not compute the bound, the least error that any controller could reach. The bound takes
     /// some seconds a recording
     #[arg(long)]
     no_bound: bool,
@@ -136,7 +139,7 @@ impl Outcome {
         })
     }
 
-    /// The rows of its measures, and of its bounds beside what is felt.
+    /// The rows of its measures, and of its bounds with the felt error.
     pub fn rows(&self) -> Vec<Row> {
         let on_axis = |axis: usize| {
             let bound = self.bounds[axis].as_ref()?;
@@ -151,7 +154,7 @@ impl Outcome {
     /// # Errors
     /// The recording is too short, or the solver fails.
     pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>> {
-        bounds::bounds(&self.simulation).context("cannot compute the bound; --no-bound does without it")
+        bounds::bounds(&self.simulation).context("cannot compute the bound; --no-bound omits it")
     }
 }
 
@@ -211,8 +214,8 @@ struct Case {
     preview: f64,
 }
 
-/// The parameters, those that they are compared with, and each of the predictive strategy with its
-/// preview.
+/// The parameters, the ones to compare, and again those of the predictive
+/// strategy with the preview.
 fn cases(options: &Options) -> Result<Vec<Case>> {
     let mut cases = vec![Case { setup: options.setup.load()?, preview: 0.0 }];
     for other in &options.compare {

@@ -157,9 +157,7 @@ fn measure(row: Row) -> Measure {
 fn better(name: &str) -> Better {
     match name {
         "correlation" | "smallest stroke margin" => Better::More,
-        "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "bound, of what is desired" => {
-            Better::Neither
-        }
+        "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "relative bound" => Better::Neither,
         _ => Better::Less,
     }
 }

@@ -1,15 +1,15 @@
 //! The objective: sensed error of a recording, and penalties for active limits.
 //!
-//! A recording has six channels, specific force and angular velocity along x, y and z. Each is what
-//! the vestibular model makes of it, counted in perception thresholds, so that metres per second
-//! squared and degrees per second can be added. With e_k the RMS of felt minus desired on channel
-//! k, d_k that of the desired alone and w_k the channel's weight, the recording's error is
+//! A recording has six channels: specific force and angular velocity along x, y and z. Each is the
+//! vestibular model's response in units of the perception threshold, so that forces and rates can
+//! be added. With e_k the RMS of felt minus desired on channel k, d_k the RMS of desired, and w_k
+//! the channel's weight, the recording's error is
 //!
-//! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2).
+//! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2),
 //!
-//! 0 is perfect. A platform at rest scores exactly 1, however wild or gentle the recording: to
-//! scale everything down to nothing earns nothing, and false cues on channels on which nothing is
-//! desired cost what they are felt.
+//! with the denominator at least 1 threshold. 0 is perfect. Above that threshold, a platform at
+//! rest scores exactly 1 on any recording, so that scaling everything down to zero gains nothing.
+//! False cues on channels with no desired motion count as they are sensed.
 
 use std::sync::OnceLock;
 
@@ -38,7 +38,7 @@ pub struct Constraints {
 pub struct Cost {
     /// RMS error of each channel, in thresholds.
     pub channels: Channels<f64>,
-    /// The recording's error: 0 perfect, 1 a platform at rest.
+    /// The recording's error: 0 is perfect, 1 is a platform at rest.
     pub error: f64,
     /// Fraction of the steps in which a safety unit or the actuator guard was active or the
     /// reserve of stroke was touched.
@@ -62,24 +62,25 @@ pub struct Objective {
     desired_rms: Channels<f64>,
     weights: Channels<f64>,
     constraints: Constraints,
-    /// The fixed parameters, the internal step being as long as the recording's.
+    /// The fixed parameters, with the recording's step as internal step, at most [`LONGEST_STEP`].
     fixed: Parameters,
-    /// At rest with these by the orders of splitter and angular channel less 2: a new one would
-    /// have its rig surveyed each time.
+    /// Washouts at rest, indexed by the orders of splitter and angular channel less 2. They are
+    /// kept, because constructing a washout surveys its rig.
     coarse: [[OnceLock<Washout>; 3]; 3],
 }
 
-/// Longest internal step that the search takes \[s\]. The filters are exact for any; the limits act
-/// a little more coarsely, which is why the result is simulated again with the internal step that
-/// it will be used with.
+/// Longest internal step in the search \[s\], unless the parameters have a longer one. The filters
+/// are exact for any step, but the limits act more coarsely. So the result is simulated again with
+/// the internal step that it will be used with.
 const LONGEST_STEP: f64 = 0.02;
 
-/// Fraction of the acceleration limits that the search's long steps may use: within such a step
-/// acceleration varies unseen.
+/// Fraction of the acceleration limits that the search's long steps may use. The rest allows for
+/// the variation of acceleration within a step.
 const RESERVE_OF_ACCELERATION: f64 = 0.85;
 
 impl Objective {
-    /// Prepares to judge parameters on a recording that have the fixed ones of these, orders aside.
+    /// The objective on a recording, for parameters that share the fixed ones of these except
+    /// orders.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -123,12 +124,12 @@ impl Objective {
         &self.desired_rms
     }
 
-    /// The norm in which channels are added.
+    /// The weighted Euclidean norm of the channels.
     fn weighted(&self, channels: &Channels<f64>) -> f64 {
         channels.iter().zip(&self.weights).map(|(value, weight)| weight * value * value).sum::<f64>().sqrt()
     }
 
-    /// Cost of the recording with these parameters, in the long steps of a search.
+    /// Cost of the recording with these parameters, in the search's long steps.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -192,7 +193,7 @@ impl<'a> CostAccumulator<'a> {
     fn cost(self) -> Cost {
         let Objective { recording, desired_rms, .. } = self.objective;
         let channels = std::array::from_fn(|k| sensed_rms(k, &self.errors[k], recording.step()));
-        // A recording on which less than a threshold is to be felt is not blown up.
+        // If the desired motion is below a threshold, its error is not magnified.
         let whole = self.objective.weighted(desired_rms).max(1.0);
         Cost {
             channels,
@@ -221,7 +222,7 @@ fn channels(force: Vector3<f64>, rate: Vector3<f64>) -> Channels<f64> {
     [force.x, force.y, force.z, rate.x, rate.y, rate.z]
 }
 
-/// RMS of what is sensed of channel `k`, which is given as a deviation from rest, in thresholds.
+/// RMS of the sensed signal of channel `k`, in thresholds. `signal` is the deviation from rest.
 fn sensed_rms(k: usize, signal: &[f64], step: f64) -> f64 {
     let (organ, threshold) = if k < 3 { (&OTOLITHS, FORCE_THRESHOLDS[k]) } else { (&CANALS, RATE_THRESHOLDS[k - 3]) };
     let sensed = sensed(organ, signal, 0.0, step);

@@ -1,8 +1,10 @@
 //! `moris tune`: finds better parameters for a set of recordings.
 //!
-//! [`space`] says what may change, [`cost`] what is made small, [`search`](mod@search) does it,
-//! [`tuner`] recordings the result with the steps that it will be used with, and tries on
-//! recordings that it was not tuned on. [`summary`] says what came of it.
+//! - [`space`] defines the search variables, [`cost`] the objective.
+//! - [`search`](mod@search) minimises the objective in long internal steps.
+//! - [`tuner`] simulates the result with the internal steps that it will be used with.
+//! - [`tested`] tests the result on recordings that it was not tuned on.
+//! - [`summary`] summarises the result.
 
 pub mod cost;
 pub mod folds;
@@ -38,8 +40,8 @@ use tuner::Tuner;
 /// Runs the command.
 ///
 /// # Errors
-/// A recording, a rig or parameters that cannot be used, no parameters found that keep the limits,
-/// or a file that cannot be written.
+/// A recording, the rig or the parameters cannot be used, no parameters keep the limits, or a
+/// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let before = options.setup.load()?;
     let tuned_on = objectives(options, &options.recordings, &before)?;
@@ -100,7 +102,7 @@ fn listen() -> Result<Arc<AtomicBool>> {
     Ok(interrupted)
 }
 
-/// Writes the parameter file: whatever makes, laid over the rig alone, the tuned parameters.
+/// Writes the parameter file: the values that differ from the rig's with default parameters.
 fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> Result<()> {
     let heading = format!(
         "{first_line}\nTuned by moris on {} for {}, from {}, seed {}",

@@ -10,31 +10,30 @@ use crate::setup_options::SetupOptions;
 
 /// Search for parameters with a smaller sensed error on a rig
 ///
-/// Searches for break frequencies, dampings and scales with a small sensed error on all recordings,
-/// such that no safety unit and no actuator limit is ever active. The error of a recording: the
-/// vestibular model's response to felt minus desired, RMS over time in perception thresholds, added
-/// in quadrature over specific force and angular velocity along x, y, z, and divided by the same of
-/// the desired motion. 0 is perfect; a platform at rest scores 1.
+/// Searches for break frequencies, dampings and scales with a small sensed error on all recordings.
+/// No safety unit and no actuator limit may be active at any time. The error of a recording is the
+/// vestibular model's response to felt minus desired. It is the RMS over time in perception
+/// thresholds, added in quadrature over specific force and angular velocity along x, y, z. It is
+/// divided by the same quantity of the desired motion. 0 is perfect; a platform at rest scores 1.
 ///
-/// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the
-/// parameters given. Ctrl-C ends it and keeps the best so far. The same seed gives the same result,
-/// however many cores there are.
+/// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the given
+/// parameters. Ctrl-C ends it and keeps the best result so far. The same seed gives the same result
+/// on any number of cores.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV) to tune on; see `moris simulate --help` for their columns
-    #[arg(required = true, value_name = "RIDE")]
+    #[arg(required = true, value_name = "RECORDING")]
     pub recordings: Vec<PathBuf>,
 
     #[command(flatten)]
     pub setup: SetupOptions,
 
-    /// Recordings that are only tested with the result; --folds, of the others, is independent of
-    /// it
-    #[arg(long, value_name = "RIDE", num_args = 1..)]
+    /// Recordings on which the result is only tested. --folds applies to the other recordings
+    #[arg(long, value_name = "RECORDING", num_args = 1..)]
     pub hold_out: Vec<PathBuf>,
 
-    /// Number of groups of recordings to leave out in turn, in place of one at a time; 0 leaves
-    /// none out, and the result goes all the way to the best parameters for the recordings tuned on
+    /// Number of groups of recordings to leave out in turn, in place of one recording at a time.
+    /// With 0 none is left out, and the result is the best parameters for the recordings tuned on
     #[arg(long, value_name = "NUMBER")]
     pub folds: Option<usize>,
 

@@ -1,5 +1,5 @@
-//! The search: CMA-ES over the space of parameters, on all cores, the same for the same seed
-//! whatever their number.
+//! The search: CMA-ES over the space of parameters, on all cores. The same seed gives the same
+//! result on any number of cores.
 
 use std::sync::Mutex;
 
@@ -15,13 +15,13 @@ use super::space::Space;
 /// Length and start of a search.
 #[derive(Clone, Copy, Debug)]
 pub struct Budget {
-    /// Parameter sets to try.
+    /// Number of parameter sets to evaluate.
     pub evaluations: usize,
-    /// Where the random numbers begin.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
-/// Computes the cost of each recording with these parameters, in the long steps of a search.
+/// Computes the cost of each recording with these parameters, in the search's long steps.
 pub type Evaluate<'a> = dyn Fn(&[&Objective], &Parameters) -> Result<Vec<Cost>> + Sync + 'a;
 
 /// Evaluates on all cores of this machine.
@@ -34,18 +34,18 @@ pub fn evaluate_here(objectives: &[&Objective], parameters: &Parameters) -> Resu
 
 /// Initial step size, in logarithms: most frequencies within a factor of 1.5 either way.
 const FIRST_STEP: f64 = 0.4;
-/// The search ends when a generation's costs differ by less.
+/// The search ends when a generation's costs differ by less than this.
 const TOLERANCE: f64 = 1e-5;
-/// Cost of limits active throughout; all errors are about 1. It goes with the root of the time: a
-/// thousandth of it costs 0.06.
+/// Penalty for limits that are active all the time; errors are about 1. The penalty is proportional
+/// to the square root of the fraction of the time: a thousandth costs 0.06.
 const PENALTY_OF_LIMITS: f64 = 2.0;
-/// And that of limits active at all.
+/// Additional penalty if limits are active at any time.
 const PENALTY_OF_ANY: f64 = 0.05;
-/// Cost of being outside the space's box by a factor of e in one parameter.
+/// Penalty for a point outside the space's box by a factor of e in one parameter.
 const PENALTY_OF_OUTSIDE: f64 = 0.1;
-/// Cost of being away from the start by a factor of e in every parameter: of two sets that serve
-/// the same, the one that is more like the start is taken, and what no recording has anything to
-/// say about stays where it is.
+/// Penalty for a distance from the start by a factor of e in every parameter. Of two equally
+/// good sets, the one nearer to the start is chosen. A parameter without effect on the
+/// recordings keeps its value.
 const PENALTY_OF_DISTANCE: f64 = 2e-3;
 /// Number of best sets that are kept.
 const KEPT: usize = 10;
@@ -66,16 +66,16 @@ pub struct Found {
 pub struct Searched {
     /// Sets that kept all constraints on every recording, the best first; the first ten.
     pub best: Vec<Found>,
-    /// The set of the least cost, constraints kept or not.
+    /// The set of the least cost, even if it violates constraints.
     pub nearest: Parameters,
 }
 
 /// Searches for parameters with the smallest objective over these recordings that
 /// keep all constraints.
 ///
-/// `evaluate` computes the costs, here or on other machines. `progress` is called after each
-/// generation how many sets have been tried and what the least error is so far, and says whether
-/// to go on.
+/// `evaluate` computes the costs, on this machine or on others. `progress` is called after
+/// each generation with the number of evaluated sets and the least error so far. It returns
+/// false to end the search.
 ///
 /// # Errors
 /// Parameters of the space cannot be used.
@@ -88,8 +88,8 @@ pub fn search(
 ) -> Result<Searched> {
     ensure!(
         space.dimension() > 0,
-        "the groups to tune have no number to search: the classical strategy has none of its own, and orders go with others; \
-         add one, such as --tune splitter,order"
+        "the groups given with --tune have no continuous parameter: the classical strategy has none of its own, and orders \
+         are searched only beside others; add a group, such as --tune splitter,order"
     );
     let recordings = &Recordings::new(objectives, evaluate, space)?;
     let Beginning { space, best, point: start, .. } = &beginning(recordings, space, || progress(0, None));
@@ -99,8 +99,8 @@ pub fn search(
         .max_function_evals(budget.evaluations)
         .tol_fun(TOLERANCE)
         .build(cost)
-        .map_err(|error| anyhow!("the search cannot begin: {error:?}"))?;
-    // The best set is that of the least cost, whose error may be a little above an earlier one's.
+        .map_err(|error| anyhow!("CMA-ES rejects the start of the search: {error:?}"))?;
+    // The best set has the least cost, but its error may be slightly above an earlier set's.
     let mut least: Option<f64> = None;
     loop {
         let ended = search.next_parallel().is_some();
@@ -120,15 +120,15 @@ pub fn search(
     Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
 }
 
-/// Factors tried on each channel before the search, relative to the start: the cost has
-/// several valleys, most of all along the break frequencies, and the search ends in the
-/// one that it begins in.
+/// Factors tried on each channel before the search, relative to the start. The cost has
+/// several local minima, mainly along the break frequencies, and the search ends in the one
+/// nearest to its start.
 const FREQUENCIES: [f64; 5] = [1.0, 0.5, 0.25, 0.125, 2.0];
 const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 
-/// Where a search begins.
+/// Start of a search.
 struct Beginning {
-    /// With the orders with which it goes on.
+    /// The space with the orders of this start.
     space: Space,
     point: Vec<f64>,
     cost: f64,
@@ -136,8 +136,8 @@ struct Beginning {
     best: Mutex<Best>,
 }
 
-/// The best beginning: first with the start's orders, then with others in their place where they
-/// are tuned, while `go_on` is true.
+/// The best start: first with the initial orders, then, if orders are tuned, with others,
+/// while `go_on` is true.
 fn beginning(recordings: &Recordings, space: &Space, mut go_on: impl FnMut() -> bool) -> Beginning {
     let mut first = scan(recordings, space);
     for order in 0..2 {
@@ -173,14 +173,13 @@ fn scan(recordings: &Recordings, space: &Space) -> Beginning {
     Beginning { space: space.clone(), point: best.as_slice().to_vec(), cost: least, best: found }
 }
 
-/// Factor between successive trials, and their number: down to a hundredth.
-const SMALLER: f64 = 0.8;
+/// Factor between successive trials, and their number: down to about a hundredth.
+const SCALE_STEP: f64 = 0.8;
 const TRIES: i32 = 21;
 
-/// The start itself, or, where that lets limits act, with all scales made
-/// smaller until it does not.
+/// The start. If limits are active there, all scales are reduced until none is.
 fn start_within_limits(recordings: &Recordings, space: &Space) -> Vec<f64> {
-    let tries = (0..TRIES).map(|k| space.scaled_start(SMALLER.powi(k)));
+    let tries = (0..TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
     let keeps = |point: &nalgebra::DVector<f64>| {
         recordings.objective(&space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
     };
@@ -194,11 +193,10 @@ fn at(space: &Space, point: &[f64]) -> Parameters {
     space.parameters(&inside)
 }
 
-/// Error that may be given up to have one parameter back where it was.
+/// Largest increase of the error for which one parameter is reset to its initial value.
 const WORTH_TIDYING: f64 = 2e-4;
 
-/// The set with every parameter put back to where the search started that hardly
-/// matters to these recordings.
+/// The set with every parameter reset to its initial value that hardly affects these recordings.
 fn tidied(recordings: &Recordings, space: &Space, found: &Found) -> Found {
     let mut tidied = found.clone();
     for k in 0..found.point.len() {
@@ -218,7 +216,7 @@ const WEIGHT_OF_THE_WORST: f64 = 0.5;
 /// Penalty on a recording's error above that with the parameters that the search starts from.
 const PENALTY_OF_WORSENING: f64 = 4.0;
 
-/// The recordings, with their errors at the start of the search.
+/// The recordings and their errors at the start of the search.
 struct Recordings<'a> {
     objectives: &'a [&'a Objective],
     evaluate: &'a Evaluate<'a>,
@@ -232,12 +230,12 @@ impl<'a> Recordings<'a> {
         Ok(Recordings { objectives, evaluate, starts })
     }
 
-    /// The objective and the mean fraction of the time in violation; none where the
+    /// The objective and the mean fraction of the time in violation. `None` where the
     /// parameters cannot be used.
     ///
-    /// The objective is the mean error over the recordings, with the worst recording's error and
-    /// every penalised worsening beside it: what serves one recording at another's expense hardly
-    /// serves a recording that is not known.
+    /// The objective is the mean error over the recordings, plus the weighted worst error, plus a
+    /// penalty on each recording that gets worse. A set that improves one recording at another's
+    /// expense is unlikely to improve an unknown recording.
     fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
         let costs = (self.evaluate)(self.objectives, parameters).ok()?;
         let count = costs.len() as f64;
@@ -254,7 +252,7 @@ impl<'a> Recordings<'a> {
 fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
     let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
     let parameters = space.parameters(&inside);
-    // The box holds nothing that cannot be used; should it, it is worse than anything.
+    // All parameters in the box can be used. If some cannot, their cost is the largest.
     let Some((error, violated)) = recordings.objective(&parameters) else { return f64::MAX };
     let distance = inside.norm_squared() / inside.len() as f64;
     let cost = error + PENALTY_OF_DISTANCE * distance;
@@ -267,8 +265,7 @@ fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &
     }
 }
 
-/// The best sets so far, the best first. Which they are does not depend on the
-/// order in which they came.
+/// The best sets so far, the best first. They do not depend on the order of evaluation.
 #[derive(Default)]
 struct Best(Vec<Found>);
 

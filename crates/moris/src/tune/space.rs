@@ -14,7 +14,7 @@ pub enum Group {
     Angular,
     /// The scales of specific force and angular velocity, six in all
     Scale,
-    /// The low-passes on the input and on its rates, for recordings that are full of vibration
+    /// The low-passes on the input and on its rates, for recordings with strong vibration
     Cutoff,
     /// Tilt's limits of rate (to 3 deg/s), acceleration and angle
     Tilt,
@@ -43,16 +43,16 @@ pub fn with_orders(parameters: &Parameters, orders: Orders) -> Parameters {
 const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
 const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
 const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
-/// More than the vehicle does is of no use.
+/// A scale above 1 would exceed the vehicle's motion.
 const SCALES: Range = Range { min: 0.01, max: 1.0 };
 
 /// Weights of a strategy's cost, and rates at which gains follow its gradient.
 const WEIGHTS: Range = Range { min: 1e-5, max: 1e3 };
-/// Gains of the adaptive strategy: a part of the force as travel, and a tilt rate for it.
+/// Gains of the adaptive strategy: a fraction of the force as travel, and a tilt rate for it.
 const GAINS: Range = Range { min: 1e-3, max: 2.0 };
 const SPLIT_TIMES: Range = Range { min: 0.01, max: 2.0 };
 
-/// Tilt that riders hardly perceive, and not so slow that it is none.
+/// Tilt that riders hardly perceive, but not too slow to be of use.
 const TILT_RATES: Range = Range { min: 0.02, max: 0.053 };
 const TILT_ACCELERATIONS: Range = Range { min: 0.05, max: 0.5 };
 const TILT_ANGLES: Range = Range { min: 0.1, max: 0.38 };
@@ -63,8 +63,8 @@ struct Range {
     max: f64,
 }
 
-/// Where the search begins for a parameter that is 0, which has no logarithm: a scale at next to
-/// nothing, a low-pass that is off at its highest frequency.
+/// Initial value for a parameter that is 0, which has no logarithm. A scale starts at its least
+/// value, a low-pass that is off at its highest frequency.
 fn instead_of_none(range: Range) -> f64 {
     if range == CUTOFFS { range.max } else { range.min }
 }
@@ -82,8 +82,8 @@ pub struct Space {
 }
 
 impl Space {
-    /// The space about these parameters. Where they are outside the usual ranges, the
-    /// ranges reach to them.
+    /// The space about these parameters. If a parameter is outside its usual range, the
+    /// range is extended to it.
     pub fn new(start: &Parameters, groups: &[Group]) -> Self {
         let mut start = *start;
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
@@ -154,8 +154,8 @@ impl Space {
         (2..=4).filter(|order| *order != own[k]).map(with).collect()
     }
 
-    /// This fraction of the way from the start to parameters that were found in this space, by
-    /// logarithms. What was found to be 0 is 0, and orders are those found.
+    /// The parameters at this fraction of the distance from the start to parameters found in this
+    /// space, in logarithms. A parameter found to be 0 is 0, and the orders are those found.
     pub fn towards(&self, found: &Parameters, fraction: f64) -> Parameters {
         let mut values = Vec::new();
         visit(&mut found.clone(), &self.groups, &mut |value, _, _| values.push(*value));
@@ -179,9 +179,10 @@ impl Space {
     }
 }
 
-/// Visits every parameter that is tuned, always in the same order, with its range and its channel:
-/// 0 to 2 for what acts on the specific force along x, y and z, 3 to 5 for what acts on roll, pitch
-/// and yaw, none for what acts on all.
+/// Visits every tuned parameter, always in the same order, with its range and its channel.
+///
+/// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch and
+/// yaw. `None` stands for a parameter that acts on all.
 fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range, Option<usize>)) {
     let Parameters { splitter, angular, conditioning, tilt, .. } = parameters;
     let mut vector = |values: &mut Vector3<f64>, range, first: usize| {

@@ -12,39 +12,40 @@ use super::tuner::WORST_RATIO;
 pub struct RecordingResult {
     /// The recording's name.
     pub name: String,
-    /// RMS of each channel as it is desired, in thresholds.
+    /// RMS of each desired channel, in thresholds.
     pub desired: Channels<f64>,
-    /// With the parameters that the search started from.
+    /// Cost with the parameters that the search started from.
     pub before: Cost,
-    /// With the tuned parameters; none for a recording that was not tuned on.
+    /// Cost with the tuned parameters; none for a recording that was not tuned on.
     pub tuned: Option<Cost>,
-    /// With parameters that were tuned without this recording.
+    /// Cost with parameters that were tuned without this recording.
     pub unseen: Option<Cost>,
-    /// No parameters that keep the limits were found without this recording.
-    pub nothing_found_without: bool,
+    /// True if no parameters that keep the limits were found without this recording.
+    pub infeasible_without: bool,
 }
 
 impl RecordingResult {
-    /// A recording with its cost before, and nothing else yet.
+    /// A recording with only its cost before.
     pub fn new(objective: &Objective, before: Cost) -> Self {
         let (name, desired) = (objective.name().to_owned(), *objective.desired_rms());
-        RecordingResult { name, desired, before, tuned: None, unseen: None, nothing_found_without: false }
+        RecordingResult { name, desired, before, tuned: None, unseen: None, infeasible_without: false }
     }
 }
 
 /// The channels' names.
 const CHANNELS: [&str; 6] = ["force x", "force y", "force z", "rate x", "rate y", "rate z"];
 
-/// Rides that were not tuned on and are worse than before: by more than 5 % each, or in the mean.
+/// Recordings that were not tuned on and whose error is more than 5 % above the error before.
 pub fn worsened(results: &[RecordingResult]) -> Vec<&RecordingResult> {
     let unseen =
         |result: &&RecordingResult| result.unseen.is_some_and(|after| after.error > WORST_RATIO * result.before.error);
     results.iter().filter(unseen).collect()
 }
 
-/// True where the tuned parameters are worse on recordings that they were not tuned on:
-/// in the mean, or on one of them by more than 5 %; or by more than 5 % on a recording
-/// that they were tuned on.
+/// True if the tuned parameters are worse than before in one of these ways:
+///
+/// - in the mean over the recordings that they were not tuned on;
+/// - by more than 5 % on any recording.
 pub fn is_worse(results: &[RecordingResult]) -> bool {
     let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
     let tuned =
@@ -54,7 +55,7 @@ pub fn is_worse(results: &[RecordingResult]) -> bool {
         || results.iter().any(tuned)
 }
 
-/// The most important result, in a sentence. `fraction` is that of [`super::tested::Tested`].
+/// The most important result in a sentence. `fraction` is that of [`super::tested::Tested`].
 pub fn first_line(results: &[RecordingResult], fraction: f64) -> String {
     if fraction == 0.0 {
         return "UNCHANGED: no fraction of the way to the best parameters for these recordings is better on recordings left out. \
@@ -106,7 +107,7 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction
     text
 }
 
-/// In a few sentences: is it better, and is it better on recordings that it was not tuned on?
+/// The mean errors before and after in a few sentences, on recordings tuned on and on others.
 fn verdict(results: &[RecordingResult], before_name: &str) -> String {
     let tuned = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.tuned?))));
     let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
@@ -123,7 +124,7 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
             0 => text.push('.'),
             count => write!(
                 text,
-                "; {before_name} let the platform's limits act, or the reserve be touched, on {count} of {}, tuned on none.",
+                "; limits were active or the reserve was used on {count} of {} with {before_name}, on none when tuned.",
                 tuned.recordings
             )
             .expect("a string takes whatever is written"),
@@ -131,7 +132,7 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
     }
     text.push_str(&without_result(results));
     let Some(unseen) = unseen else {
-        text.push_str(if results.iter().any(|result| result.nothing_found_without) {
+        text.push_str(if results.iter().any(|result| result.infeasible_without) {
             " Nothing is known of other recordings."
         } else {
             " No recording was held out: nothing is known of other recordings."
@@ -142,7 +143,7 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
     write!(
         text,
         "\n\nOn recordings that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {recordings}. \
-         The platform's limits act, or the reserve of stroke is touched, for {:.2} % of their time, with {before_name} for {:.2} %.",
+         Limits are active, or the reserve of stroke is used, for {:.2} % of their time, with {before_name} for {:.2} %.",
         100.0 * unseen.violated_after,
         100.0 * unseen.violated_before
     )
@@ -161,7 +162,7 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
 /// Without which recordings nothing was found; empty where there are none.
 fn without_result(results: &[RecordingResult]) -> String {
     let recordings: Vec<&str> =
-        results.iter().filter(|result| result.nothing_found_without).map(|result| result.name.as_str()).collect();
+        results.iter().filter(|result| result.infeasible_without).map(|result| result.name.as_str()).collect();
     if recordings.is_empty() {
         return String::new();
     }
@@ -211,7 +212,7 @@ impl Comparison {
 
 fn errors(results: &[RecordingResult]) -> String {
     let cell = |cost: &Option<Cost>| cost.map_or_else(|| "–".to_owned(), |cost| with_limits(&cost));
-    let unseen = |result: &RecordingResult| match result.nothing_found_without {
+    let unseen = |result: &RecordingResult| match result.infeasible_without {
         true => "none found".to_owned(),
         false => cell(&result.unseen),
     };
@@ -283,14 +284,7 @@ mod tests {
 
     fn result(before: Cost, unseen: Option<Cost>) -> RecordingResult {
         let tuned = Some(cost(0.5, 0.0));
-        RecordingResult {
-            name: "ride".to_owned(),
-            desired: [1.0; 6],
-            before,
-            tuned,
-            unseen,
-            nothing_found_without: false,
-        }
+        RecordingResult { name: "ride".to_owned(), desired: [1.0; 6], before, tuned, unseen, infeasible_without: false }
     }
 
     #[test]
@@ -337,15 +331,14 @@ mod tests {
     fn what_was_not_held_out_is_not_claimed() {
         let text = verdict(&[result(cost(0.8, 0.02), None)], "default");
         assert!(text.contains("No recording was held out: nothing is known of other recordings."), "{text}");
-        assert!(text.contains("default let the platform's limits act, or the reserve be touched, on 1 of 1"), "{text}");
+        assert!(text.contains("limits were active or the reserve was used on 1 of 1 with default"), "{text}");
         assert!(!text.contains(BEATS));
     }
 
     #[test]
     fn a_ride_without_which_nothing_was_found_is_named_and_does_not_count() {
         let found = result(cost(0.8, 0.0), Some(cost(0.6, 0.0)));
-        let not =
-            RecordingResult { name: "wild".to_owned(), nothing_found_without: true, ..result(cost(0.9, 0.0), None) };
+        let not = RecordingResult { name: "wild".to_owned(), infeasible_without: true, ..result(cost(0.9, 0.0), None) };
         let text = verdict(&[found.clone(), not.clone()], "default");
         assert!(text.contains("Tuned without wild, no parameters were found"), "{text}");
         assert!(text.contains("better on 1 of 1"), "{text}");

@@ -1,44 +1,44 @@
-//! Tuning with a test on recordings that are left out, which also decides how far the result goes
-//! from the initial parameters.
+//! Tuning with a test on recordings that are left out. The test also determines how far the result
+//! goes from the initial parameters.
 
 use anyhow::Result;
 use moris_setup::Setup;
 
 use super::cost::{Cost, Objective};
 use super::summary::RecordingResult;
-use super::tuner::{NoFeasibleParameters, Tuner, WORST_RATIO, full_cost, full_costs, smaller, worst_ratio};
+use super::tuner::{NoFeasibleParameters, Tuner, WORST_RATIO, full_cost, full_costs, with_scales_times, worst_ratio};
 
-/// Fractions of the way from the initial parameters to the best ones for the recordings
-/// tuned on, by logarithms.
+/// Fractions of the distance from the initial parameters to the best ones for the recordings
+/// tuned on, in logarithms.
 const FRACTIONS: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 1.0];
 
-/// Fraction of a recording's time in which limits may be active with initial parameters that stay.
+/// Largest fraction of a recording's time in which limits may be active if the result is
+/// the initial parameters.
 const TOLERATED: f64 = 0.01;
 
 /// Result of a tuning.
 pub struct Tested {
     /// The tuned parameters.
     pub setup: Setup,
-    /// Every recording before and after, those that were not tuned on among them.
+    /// Every recording before and after, including those that were not tuned on.
     pub results: Vec<RecordingResult>,
-    /// Fraction of the way that they go; 0: they are the initial ones.
+    /// Fraction of the distance to the best parameters; 0: the initial parameters.
     pub fraction: f64,
 }
 
-/// Costs of a recording that was left out, at each of the [`FRACTIONS`]; none where the limits are
-/// not kept on the others.
+/// Costs of a recording that was left out, at each of the [`FRACTIONS`]. `None` where the limits
+/// are not kept on the other recordings.
 type Trials = [Option<Cost>; FRACTIONS.len()];
 
-/// Factor on the scales at a time, and largest number of times, where limits are active part of the
-/// way.
-const SMALLER: f64 = 0.93;
+/// Factor by which the scales are reduced at a time, and largest number of times, where limits are
+/// active at a fraction of the distance.
+const SCALE_STEP: f64 = 0.93;
 const TRIES: i32 = 8;
 
-/// Tunes on all recordings and, for each fold of them, on the others. The fraction of the
-/// way that is best for recordings left out is that of the result. Without folds the
-/// result goes all the way.
+/// Tunes on all recordings and, for each fold, on the recordings outside it. The result has the
+/// fraction that is best for the recordings left out. Without folds the fraction is 1.
 ///
-/// Rides in `held_out` decide nothing.
+/// Recordings in `held_out` have no influence on the result.
 ///
 /// # Errors
 /// No parameters keep the limits on all recordings ([`NoFeasibleParameters`]), or
@@ -62,9 +62,9 @@ pub fn tune_tested(
         let unseen = left_out[k].trials.and_then(|costs| index.map_or(Some(before[k]), |index| costs[index]));
         results.push(RecordingResult {
             tuned: Some(after[k]),
-            // Rides that are held out are the better test.
+            // Recordings that are held out are the better test.
             unseen: unseen.filter(|_| held_out.is_empty()),
-            nothing_found_without: left_out[k].nothing_found,
+            infeasible_without: left_out[k].infeasible,
             ..RecordingResult::new(objective, before[k])
         });
     }
@@ -78,12 +78,12 @@ pub fn tune_tested(
 /// Result of tuning without a recording.
 #[derive(Clone, Copy, Default)]
 struct LeftOut {
-    /// None where it was not left out, or nothing was found without it.
+    /// None if the recording was not left out, or no parameters were found without it.
     trials: Option<Trials>,
-    nothing_found: bool,
+    infeasible: bool,
 }
 
-/// Tunes without each of the folds. A search that was broken off says nothing.
+/// Tunes without each of the folds. The result of an interrupted search is not used.
 fn leave_out_in_turn(tuner: &Tuner, objectives: &[&Objective], folds: &[Vec<usize>]) -> Result<Vec<LeftOut>> {
     let mut left_out = vec![LeftOut::default(); objectives.len()];
     for fold in folds {
@@ -93,9 +93,9 @@ fn leave_out_in_turn(tuner: &Tuner, objectives: &[&Objective], folds: &[Vec<usiz
         match leave_out(tuner, objectives, fold) {
             _ if tuner.was_interrupted() => break,
             Ok(of_fold) => fold.iter().zip(of_fold).for_each(|(&k, costs)| left_out[k].trials = Some(costs)),
-            // All recordings together are worth no less for it.
+            // The result for all recordings remains valid.
             Err(error) if error.is::<NoFeasibleParameters>() => {
-                fold.iter().for_each(|&k| left_out[k].nothing_found = true);
+                fold.iter().for_each(|&k| left_out[k].infeasible = true);
             }
             Err(error) => return Err(error),
         }
@@ -103,8 +103,8 @@ fn leave_out_in_turn(tuner: &Tuner, objectives: &[&Objective], folds: &[Vec<usiz
     Ok(left_out)
 }
 
-/// As much of the way to the best parameters as serves the recordings that were left out, and makes
-/// no recording much worse; and how much that is.
+/// The parameters at the fraction that is best for the recordings left out and makes no recording
+/// much worse, and the fraction.
 fn as_far_as_serves(
     tuner: &Tuner,
     objectives: &[&Objective],
@@ -124,7 +124,7 @@ fn as_far_as_serves(
     Ok((best, 1.0))
 }
 
-/// Costs of the recordings of a fold, at each fraction of the way to the best
+/// Costs of the recordings of a fold, at each fraction of the distance to the best
 /// parameters for the others.
 fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result<Vec<Trials>> {
     let others: Vec<&Objective> =
@@ -141,15 +141,15 @@ fn leave_out(tuner: &Tuner, objectives: &[&Objective], fold: &[usize]) -> Result
     Ok(trials)
 }
 
-/// The parameters at this fraction of the way to the best ones, with scales as much smaller as it
-/// takes to keep the limits on these recordings. None if they are not kept.
+/// The parameters at this fraction of the distance to the best ones. Their scales are reduced until
+/// the limits are kept on these recordings. `None` if the limits are not kept.
 fn within_limits(tuner: &Tuner, objectives: &[&Objective], best: &Setup, fraction: f64) -> Result<Option<Setup>> {
     if fraction == 1.0 {
         return Ok(Some(best.clone()));
     }
     let towards = tuner.space.towards(&best.parameters, fraction);
     for k in 0..=TRIES {
-        let setup = Setup { parameters: smaller(&towards, SMALLER.powi(k)), ..best.clone() };
+        let setup = Setup { parameters: with_scales_times(&towards, SCALE_STEP.powi(k)), ..best.clone() };
         if full_costs(objectives, &setup)?.iter().all(Cost::is_feasible) {
             return Ok(Some(setup));
         }
@@ -160,10 +160,10 @@ fn within_limits(tuner: &Tuner, objectives: &[&Objective], best: &Setup, fractio
     Ok(None)
 }
 
-/// Indices of the fractions that serve recordings that were left out, the best first: their mean
-/// error is smaller than with the initial parameters, and no recording is worse by more than 5
-/// %. Those with which limits are active for no longer come first. The last one where no
-/// recording was left out.
+/// Indices of the fractions that improve the recordings left out, the best first. Their mean error
+/// is smaller than with the initial parameters, and no recording is worse by more than 5 %.
+/// Fractions with which limits are active no longer than before come first. If no recording was
+/// left out, the result is the last index.
 fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
     if pairs.is_empty() {
         return vec![FRACTIONS.len() - 1];
@@ -200,10 +200,10 @@ mod tests {
         let before = cost(1.0, 0.0);
         let one = (before, trials([0.95, 0.9, 0.85, 0.8, 0.86, 0.91]));
         assert_eq!(serving(&[one]), [3, 2, 4, 1, 5, 0]);
-        // Another recording is worse by more than 5 % from half of the way on.
+        // Another recording is worse by more than 5 % from fraction 0.5 on.
         let other = (before, trials([1.0, 1.01, 1.02, 1.06, 1.08, 1.1]));
         assert_eq!(serving(&[one, other]), [2, 1, 0]);
-        // In the mean nothing is better.
+        // In the mean no fraction is better.
         let worse = (before, trials([1.05, 1.11, 1.2, 1.3, 1.4, 1.5]));
         assert!(serving(&[one, worse]).is_empty());
     }

@@ -1,4 +1,4 @@
-//! One tuning: search, and see whether what was found holds in the steps that it will be used with.
+//! One tuning: a search, and a check of its result in the internal steps that it will be used with.
 
 use std::error::Error;
 use std::fmt;
@@ -16,7 +16,8 @@ use super::search::{Budget, Evaluate, Searched, search};
 use super::space::Space;
 use crate::simulate::Simulation;
 
-/// No parameters were found that keep the constraints; the text says where, and what to do.
+/// No parameters were found that keep the constraints. The text names the
+/// recordings and the remedy.
 #[derive(Debug)]
 pub struct NoFeasibleParameters(String);
 
@@ -28,7 +29,7 @@ impl fmt::Display for NoFeasibleParameters {
 
 impl Error for NoFeasibleParameters {}
 
-/// Tunes on recordings, as often as asked.
+/// Tunes on sets of recordings.
 pub struct Tuner<'a> {
     /// The rig, and the parameters before.
     pub setup: &'a Setup,
@@ -41,7 +42,7 @@ pub struct Tuner<'a> {
     /// Receives the progress of each search: its name, the parameter sets tried, and the least
     /// error so far. Ends the search by returning false.
     pub observe: &'a (dyn Fn(&str, usize, Option<f64>) -> bool + Sync),
-    /// Set when the user breaks it off.
+    /// Set when the user interrupts the search.
     pub interrupted: Arc<AtomicBool>,
     /// Counts parameter sets.
     pub bar: ProgressBar,
@@ -57,7 +58,7 @@ impl Tuner<'_> {
     /// steps that they will be used with.
     ///
     /// # Errors
-    /// None were found ([`NoFeasibleParameters`]), or parameters cannot be used.
+    /// No parameters keep the constraints ([`NoFeasibleParameters`]), or parameters cannot be used.
     pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
         let searched = search(objectives, self.evaluate, &self.space, self.budget, |tried, least| {
@@ -89,33 +90,34 @@ impl Tuner<'_> {
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         let text = format!(
-            "no parameters were found with which every recording stays clear of the safety units and the actuators' limits{}; leave out the recording \
-             that asks for too much, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, where it vibrates, \
+            "no parameters were found with which every recording stays clear of the safety units and the actuators' limits{}; omit the most \
+             demanding recording, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, for vibration, \
              --tune splitter,angular,scale,cutoff",
-            self.held_up(objectives, &nearest)?
+            self.violating_recordings(objectives, &nearest)?
         );
         Err(NoFeasibleParameters(text).into())
     }
 
-    /// Candidates to verify in the final step size, one after the other: the best of the
-    /// search, sets on the way back to the initial one, that itself, and the best with its
-    /// scales made smaller and smaller.
+    /// Candidates to verify in the final step size, in this order:
+    ///
+    /// - the best sets of the search;
+    /// - sets between the best and the initial one, and the initial one;
+    /// - the best set with its scales reduced step by step.
     fn candidates(&self, searched: &Searched) -> impl Iterator<Item = Parameters> {
         let best = searched.best.first().map_or(searched.nearest, |found| found.parameters);
         let tries = if self.space.has_scales() { TRIES } else { 0 };
-        let smaller = (1..=tries).map(move |k| smaller(&best, SMALLER.powi(k)));
+        let scaled = (1..=tries).map(move |k| with_scales_times(&best, SCALE_STEP.powi(k)));
         let nearer = searched
             .best
             .first()
             .into_iter()
-            .flat_map(|found| PARTS_OF_THE_WAY.map(|fraction| self.space.towards(&found.parameters, fraction)));
+            .flat_map(|found| BACKTRACK_FRACTIONS.map(|fraction| self.space.towards(&found.parameters, fraction)));
         let found = searched.best.iter().map(|found| found.parameters);
-        found.chain(nearer).chain([self.setup.parameters]).collect::<Vec<_>>().into_iter().chain(smaller)
+        found.chain(nearer).chain([self.setup.parameters]).collect::<Vec<_>>().into_iter().chain(scaled)
     }
 
-    /// Which recordings do not stay clear of the limits, and for how long, as
-    /// the end of a sentence.
-    fn held_up(&self, objectives: &[&Objective], setup: &Setup) -> Result<String> {
+    /// The recordings on which limits are active, and for how long, as the end of a sentence.
+    fn violating_recordings(&self, objectives: &[&Objective], setup: &Setup) -> Result<String> {
         let mut limited = Vec::new();
         for objective in objectives {
             let fraction = full_cost(objective, setup)?.violated;
@@ -126,28 +128,27 @@ impl Tuner<'_> {
         Ok(if limited.is_empty() {
             String::new()
         } else {
-            format!(" (what came nearest did not: {})", limited.join(", "))
+            format!(" (the closest set still violates them: {})", limited.join(", "))
         })
     }
 }
 
 /// The parameters with all scales times a factor.
-pub fn smaller(parameters: &Parameters, factor: f64) -> Parameters {
+pub fn with_scales_times(parameters: &Parameters, factor: f64) -> Parameters {
     let mut parameters = *parameters;
     parameters.conditioning.force_scale *= factor;
     parameters.conditioning.rate_scale *= factor;
     parameters
 }
 
-/// Where, between the start and the best set found, others are tried that make no
-/// recording much worse.
-const PARTS_OF_THE_WAY: [f64; 3] = [0.75, 0.5, 0.25];
+/// Fractions of the distance from the start to the best set at which other sets are tried.
+const BACKTRACK_FRACTIONS: [f64; 3] = [0.75, 0.5, 0.25];
 
-/// Factor on the scales at a time, and largest number of times: down to a fifth.
-const SMALLER: f64 = 0.95;
+/// Factor by which the scales are reduced at a time, and largest number of times: down to a fifth.
+const SCALE_STEP: f64 = 0.95;
 const TRIES: i32 = 32;
 
-/// Factor by which a recording's error may grow, at most, without a word.
+/// Largest ratio of a recording's error to the error before at which it does not count as worse.
 pub const WORST_RATIO: f64 = 1.05;
 
 /// Costs of recordings, each as by [`full_cost`].
@@ -158,7 +159,7 @@ pub fn full_costs(objectives: &[&Objective], setup: &Setup) -> Result<Vec<Cost>>
     objectives.par_iter().map(|objective| full_cost(objective, setup)).collect()
 }
 
-/// The largest ratio of a recording's error to that before.
+/// The largest ratio of a recording's error to the error before.
 pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
     before.iter().zip(after).map(|(before, after)| after.error / before.error).fold(0.0, f64::max)
 }

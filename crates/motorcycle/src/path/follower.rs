@@ -41,7 +41,7 @@ impl Follower {
     /// The rider on the path that the parameters choose; `None` without one.
     ///
     /// # Errors
-    /// A row of the path that cannot be used, or a rider who cannot keep to any path.
+    /// A row of the path cannot be used, or the rider's parameters permit no path following.
     pub fn new(
         parameters: &Parameters,
         lateral: &Lateral,

@@ -1,16 +1,17 @@
 //! The motion of the next seconds, for the preview.
 //!
-//! A second ride with the same equations, rider and path is stepped ahead of the motorcycle. It
-//! records the specific force at the head by time and distance. The preview is what it felt from
-//! the motorcycle's present distance on. Until it is far enough ahead it takes some steps for one
-//! of the motorcycle. It takes wind and torso command to stay as they are. When the motorcycle's
-//! speed or deviation differ from what it had there, it begins again at the motorcycle.
+//! A second simulation with the same equations, rider and path is stepped ahead of the motorcycle.
+//! It records the specific force at the head by time and distance. The preview is the recorded
+//! force from the motorcycle's present distance on. Until the simulation is far enough ahead, it
+//! takes several steps for each step of the motorcycle. It assumes constant wind and torso
+//! command. It restarts at the motorcycle when the motorcycle's speed or deviation differs too
+//! much from the recorded one.
 
 use moris_washout::interface::PREVIEW_SAMPLES;
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
-use crate::motorcycle::Ride;
+use crate::motorcycle::RunState;
 use crate::state::State;
 
 /// Time between two elements of the preview \[s\].
@@ -18,12 +19,12 @@ pub const PREVIEW_STEP: f64 = 0.2;
 /// Time between two records \[s\].
 const RECORD: f64 = 0.02;
 const RECORDS: usize = 256;
-/// Time by which the second ride is ahead \[s\]: the preview, and a record.
+/// Time by which the second simulation is ahead \[s\]: the preview and a record.
 const LEAD: f64 = PREVIEW_STEP * PREVIEW_SAMPLES as f64 + RECORD;
-/// Time that the second ride may cover in a second of the motorcycle's \[s\].
+/// Largest time simulated ahead per second of the motorcycle \[s\].
 const PACE: f64 = 5.0;
 
-/// A record of the second ride.
+/// A record of the second simulation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Distance along the path \[m\].
@@ -48,19 +49,19 @@ impl Record {
     }
 }
 
-/// The second ride and its records.
+/// The second simulation and its records.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Forerun {
-    ride: Ride,
+    run: RunState,
     /// The last records, each at its number modulo [`RECORDS`].
     records: SVector<Record, RECORDS>,
     /// Number of the last record.
     last: usize,
     /// Internal steps since the last record.
     steps: u32,
-    /// Time in the records at which the second ride was where the motorcycle is now \[s\].
+    /// Time in the records that corresponds to the motorcycle's present position \[s\].
     now: f64,
-    /// Time that the second ride may still cover \[s\].
+    /// Time that may still be simulated ahead \[s\].
     allowance: f64,
 }
 
@@ -68,9 +69,9 @@ pub struct Forerun {
 pub type Preview = (i32, [f64; PREVIEW_SAMPLES], [f64; PREVIEW_SAMPLES]);
 
 impl Forerun {
-    /// A second ride that begins where the motorcycle is.
-    pub fn new(ride: Ride, here: Record) -> Self {
-        Forerun { ride, records: SVector::repeat(here), last: 0, steps: 0, now: 0.0, allowance: 0.0 }
+    /// A second simulation that begins at the motorcycle's state.
+    pub fn new(run: RunState, here: Record) -> Self {
+        Forerun { run, records: SVector::repeat(here), last: 0, steps: 0, now: 0.0, allowance: 0.0 }
     }
 
     /// Follows a step of the motorcycle of `step` seconds, in internal steps of at most `longest`
@@ -80,26 +81,26 @@ impl Forerun {
         step: f64,
         longest: f64,
         here: &State,
-        advanced: impl Fn(&Ride, f64) -> Ride,
-        record: impl Fn(&Ride) -> Record,
+        advanced: impl Fn(&RunState, f64) -> RunState,
+        record: impl Fn(&RunState) -> Record,
     ) {
         self.find(step, here);
         let per_record = libm::ceil(RECORD / longest - 1e-6).max(1.0);
         let size = RECORD / per_record;
         self.allowance = (self.allowance + PACE * step).min(PACE * step + RECORD);
         while self.last as f64 * RECORD < self.now + LEAD && self.allowance >= size {
-            self.ride = advanced(&self.ride, size);
+            self.run = advanced(&self.run, size);
             self.allowance -= size;
             self.steps += 1;
             if f64::from(self.steps) >= per_record {
                 self.steps = 0;
                 self.last += 1;
-                self.records[self.last % RECORDS] = record(&self.ride);
+                self.records[self.last % RECORDS] = record(&self.run);
             }
         }
     }
 
-    /// Finds when the second ride was where the motorcycle is now.
+    /// Finds the time in the records that corresponds to the motorcycle's present position.
     fn find(&mut self, step: f64, here: &State) {
         self.now = (self.now + step).min(self.last as f64 * RECORD);
         if here.speed < SLOW {
@@ -122,7 +123,7 @@ impl Forerun {
         }
     }
 
-    /// True if the motorcycle's motion is another than the second ride's was at this distance.
+    /// True if the motorcycle's speed or deviation differs too much from the recorded one.
     pub fn is_wrong(&self, here: &State) -> bool {
         let then = self.at(self.now);
         self.now > LEAST_TIME
@@ -130,8 +131,8 @@ impl Forerun {
                 || (then.deviation - here.place.deviation).abs() > LARGEST_DEVIATION_ERROR)
     }
 
-    /// The preview from now on, for the force in surge and sway that the head feels now \[m/s2\]:
-    /// the present difference from the second ride's fades.
+    /// The preview from now on. `felt` is the present specific force in surge and sway at the head
+    /// \[m/s2\]. Its difference from the recorded one decays over the preview.
     pub fn preview(&self, felt: [f64; 2]) -> Preview {
         let then = self.at(self.now);
         let [surge, sway] = [felt[0] - then.surge, felt[1] - then.sway];
@@ -153,7 +154,7 @@ impl Forerun {
         &self.records[number % RECORDS]
     }
 
-    /// The second ride at a time since its beginning, between two records.
+    /// The second simulation at a time since its beginning, interpolated between two records.
     fn at(&self, time: f64) -> Record {
         let along = time / RECORD;
         let number = (along as usize).min(self.last);
@@ -162,12 +163,12 @@ impl Forerun {
     }
 }
 
-/// Time constant with which a difference between the rides is expected to fade \[s\].
+/// Time constant with which a difference between the two is assumed to decay \[s\].
 const FADING: f64 = 1.0;
-/// Speed below which time alone tells where the second ride was \[m/s\].
+/// Speed below which records are found by time, not by distance \[m/s\].
 const SLOW: f64 = 1.0;
-/// Least time from one beginning of the second ride to the next \[s\].
+/// Least time between two restarts \[s\].
 const LEAST_TIME: f64 = 2.0;
-/// Errors of speed \[m/s\] and deviation \[m\] that the preview may have.
+/// Largest errors of speed \[m/s\] and deviation \[m\] without a restart.
 const LARGEST_SPEED_ERROR: f64 = 0.5;
 const LARGEST_DEVIATION_ERROR: f64 = 0.3;

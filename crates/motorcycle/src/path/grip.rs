@@ -1,9 +1,9 @@
-//! Limits of the tyres' lateral forces, and the end of a ride that exceeds them.
+//! Limits of the tyres' lateral forces, and the conditions for a fall.
 //!
-//! Along the road and across it, a tyre's forces stay together within the friction ellipse,
-//! (X / μ N)^2 + (F / r μ N)^2 <= 1, with r the ratio of the frictions: H. B. Pacejka, "Tire
-//! and Vehicle Dynamics", and J. Y. Wong, "Theory of Ground Vehicles". The lateral force has
-//! priority; [`crate::longitudinal`] takes what it leaves.
+//! A tyre's forces X along the road and F across it stay within the friction ellipse (X / μ N)^2 +
+//! (F / r μ N)^2 <= 1. The ratio of the frictions is r. Sources: H. B. Pacejka, "Tire and Vehicle
+//! Dynamics", and J. Y. Wong, "Theory of Ground Vehicles". The lateral force has priority.
+//! [`crate::longitudinal`] uses the remaining friction.
 //!
 //! The load of [`crate::suspension`] is along the motorcycle's plane, which leans by φ:
 //! L = N cos φ + F sin φ, F positive to the side of the lean. The ellipse's end on either side then
@@ -29,7 +29,7 @@ impl Friction {
         let cos = 1.0 / libm::sqrt(1.0 + lean * lean);
         let sin = lean * cos;
         // Leaning more than friction holds, a force to the other side has no limit but the load.
-        let end = |inward: f64| friction * load / (cos + friction * inward).max(LEAST_SHARE);
+        let end = |inward: f64| friction * load / (cos + friction * inward).max(LEAST_FRACTION);
         (-end(-sin), end(sin))
     }
 
@@ -41,7 +41,7 @@ impl Friction {
 }
 
 /// Least denominator of the ellipse's end.
-const LEAST_SHARE: f64 = 0.1;
+const LEAST_FRACTION: f64 = 0.1;
 
 /// The lateral forces within their limits, and whether any was beyond.
 pub fn limited(forces: Wheels, limits: (Limits, Limits)) -> (Wheels, bool) {

@@ -1,9 +1,9 @@
 //! Lean control with preview of the path: a linear-quadratic regulator.
 //!
 //! The rider of [`crate::rider`] holds a reference lean by torque on the bars. On a path the
-//! reference's second derivative is the control u. The plant is the motorcycle with that rider,
-//! its torso, and its place beside the path. With ρ the steady lean in the path's curvature and
-//! X the state of the steady turn with lean 1, the deviation z = x - X ρ obeys
+//! reference's second derivative is the control u. The plant is the motorcycle with that rider and
+//! the torso, and its position relative to the path. With ρ the steady lean in the path's curvature
+//! and X the state of the steady turn with lean 1, the deviation z = x - X ρ obeys
 //!
 //! z' = A z + b u - X ρ',
 //!
@@ -23,9 +23,11 @@ use crate::riccati::cost_to_go;
 use crate::rider::{GainSet, Rider};
 use crate::speeds::Speeds;
 
-/// Coordinates of the plant: the lateral state, the accumulated error of the lean, the reference
-/// lean (its tangent) and its rate, the torso's lean and its rate, deviation from the path to the
-/// right, heading relative to it, and the deviation's integral.
+/// Number of coordinates of the plant.
+///
+/// They are the lateral state, the accumulated error of the lean, the reference lean (its tangent)
+/// and its rate, and the torso's lean and its rate. The last three are the deviation from the path
+/// to the right, the heading relative to it, and the deviation's integral.
 const SIZE: usize = lateral::SIZE + 8;
 const ERROR: usize = lateral::SIZE;
 const REFERENCE: usize = ERROR + 1;
@@ -50,9 +52,9 @@ const SPEEDS: usize = 24;
 /// Gains at one speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PreviewGains {
-    /// Of the plant's state.
+    /// Gain of the plant's state.
     pub gain: Plant,
-    /// Of the changes of ρ over the preview's intervals.
+    /// Gains of the changes of ρ over the preview's intervals.
     pub preview: SVector<f64, SAMPLES>,
     /// The steady turn with lean 1.
     pub turn: Plant,
@@ -72,13 +74,13 @@ impl PreviewGains {
         }
     }
 
-    /// The control's part that the path ahead causes, for ρ now and at the ends of the intervals.
+    /// The control's feedforward part, from ρ now and at the ends of the intervals.
     pub fn feedforward(&self, steady_leans: &[f64; SAMPLES + 1]) -> f64 {
         (0..SAMPLES).map(|k| self.preview[k] * (steady_leans[k + 1] - steady_leans[k])).sum()
     }
 
-    /// The control's part that the deviation of the plant from the steady turn with lean
-    /// `steady_lean` causes.
+    /// The control's feedback part, from the deviation of the plant from the steady turn
+    /// with lean `steady_lean`.
     pub fn feedback(&self, state: &Plant, steady_lean: f64) -> f64 {
         -self.gain.dot(&(state - self.turn * steady_lean))
     }
@@ -186,8 +188,8 @@ fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> Plant
 
 /// The steady turn with lean 1, and its yaw rate.
 ///
-/// All but deviation and integral, which are zero, and the given lean solve the plant's equations
-/// with the derivative zero; the path takes the yaw rate.
+/// Deviation and integral are zero, and the lean is given. The other coordinates solve the plant's
+/// equations with zero derivatives, except the heading's: the path turns with the yaw rate.
 fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
     let unknown: [usize; 12] = std::array::from_fn(|k| if k < place::LEAN { k } else { k + 1 });
     let equations: [usize; 12] = [
@@ -243,14 +245,14 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     finite.then(|| PreviewGains { gain, preview, turn, lean_per_acceleration: 1.0 / (speed * yaw_rate) })
 }
 
-/// Deviations that cost the same, as does a control of 1 / sqrt([`EASE`]).
+/// Deviations of equal cost. A control of 1 / sqrt([`EASE`]) has the same cost.
 pub const WEIGHTS: [(usize, f64); 4] = [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL, 0.3)];
 pub const EASE: f64 = 16.0;
 /// See [`cost_to_go`] \[1/s\].
 const CAYLEY_SHIFT: f64 = 20.0;
 
-/// exp(A t), and the mean of exp(A τ) from 0 to t: by Taylor's series over a small part of the
-/// time, doubled.
+/// exp(A t), and the mean of exp(A τ) from 0 to t, by Taylor's series over a small part of the time
+/// and repeated doubling.
 fn flow(a: &PlantMatrix, time: f64) -> (PlantMatrix, PlantMatrix) {
     const DOUBLINGS: i32 = 12;
     const TERMS: u32 = 10;

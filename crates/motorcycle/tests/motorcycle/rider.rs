@@ -1,4 +1,4 @@
-//! The rider: gains against closed forms, stability over all speeds, how the lean is followed.
+//! The rider: gains compared with closed forms, stability at all speeds, and tracking of the lean.
 
 use moris_motorcycle::lateral::place;
 use moris_motorcycle::riccati::lqr_gain;
@@ -31,8 +31,10 @@ fn what_cannot_be_controlled_has_no_gain() {
     assert!(lqr_gain(&a, &Vector2::new(0.0, 1.0), &Matrix2::identity(), 1.0, 2.0).is_none());
 }
 
-/// Kalman's identity: the gain k minimises the cost of x' Q x + u^2 / e for x' = A x + b u exactly
-/// if, with g = (i w - A)^-1 b, |1 + k g|^2 = 1 + e g* Q g at every frequency w.
+/// Kalman's identity for x' = A x + b u with the cost x' Q x + u^2 / e.
+///
+/// Let g = (i w - A)^-1 b. The gain k minimises the cost exactly if |1 + k g|^2 = 1 + e g* Q g
+/// at every frequency w.
 #[test]
 fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
     let parameters = Parameters::default();
@@ -72,7 +74,8 @@ fn at_every_speed_motorcycle_and_rider_are_stable() {
         let speed = 0.1 * f64::from(k);
         let poles = vehicle.rider().closed_loop(vehicle.lateral(), speed).complex_eigenvalues();
         let slowest = poles.iter().map(|pole| pole.re).fold(f64::MIN, f64::max);
-        // Where the feet come off, the accumulated error is forgotten slowly; else everything is over within seconds.
+        // Near the speed at which foot support ends, the accumulated error decays slowly. At other
+        // speeds all modes decay within seconds.
         let limit = if speed < 2.5 { -0.1 } else { -0.5 };
         assert!(slowest < limit, "{slowest} 1/s at {speed} m/s");
         for pole in poles.iter() {
@@ -125,9 +128,10 @@ fn a_gust_from_the_side_is_held() {
         wind.throttle = cruise(&vehicle, 25.0);
         vehicle.step(&wind, 0.001);
     }
-    // It has been blown away to the left, and turned there while it leant into the wind.
+    // The wind has displaced it to the left, where it turned while it leant into the wind.
     assert!(vehicle.output().position.y > 1.0, "{}", vehicle.output().position.y);
-    // The error's integral brings the lean back to what is commanded, wind or not; then the path is bent by the wind.
+    // The error's integral restores the commanded lean in any wind. The path is
+    // then curved by the wind.
     assert!(vehicle.output().orientation.roll.abs() < 1e-3);
 }
 

@@ -1,4 +1,4 @@
-//! Steps: that they converge, agree with each other, allocate nothing, and go on from saved bytes.
+//! Steps: convergence, agreement of step sizes, no allocation, and continuation from saved bytes.
 
 use moris_motorcycle::{Input, MOST_INTERNAL_STEPS, Model, Motorcycle, Parameters};
 

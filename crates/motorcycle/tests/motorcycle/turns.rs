@@ -1,4 +1,4 @@
-//! Steady turns: the balance of moments and forces, from the masses and not from the equations.
+//! Steady turns, compared with the balance of moments and forces of the masses.
 
 use moris_motorcycle::{Input, Model, Motorcycle};
 
@@ -31,7 +31,7 @@ fn the_lean_is_that_of_speed_and_radius() {
         for lean in [-0.7_f64, -0.2, 0.1, 0.5] {
             let output = turning(speed, lean).output();
             let rate = output.angular_velocity.z;
-            // For a point mass, lean = atan(v^2 / (g R)). The wheels' spin asks for some more lean.
+            // For a point mass, lean = atan(v^2 / (g R)). The wheels' spin requires some more lean.
             let radius = output.speed / rate.abs();
             let ideal = (output.speed * output.speed / (GRAVITY * radius)).atan();
             let ratio = output.orientation.roll.abs().tan() / ideal.tan();

@@ -4,7 +4,7 @@ Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z, so that p
 are in SI units. Variables have the names that they have in the FMU.
 """
 
-from ._errors import BoundError, ClusterError, MorisError, NoParametersFound, ParameterError, RecordingError
+from ._errors import BoundError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
 from ._fmu import BuildError, build_fmu
 from ._measures import Measure, Measures
 from ._moris import Output, Washout
@@ -28,7 +28,7 @@ __all__ = [
     "Measure",
     "Measures",
     "MorisError",
-    "NoParametersFound",
+    "NoFeasibleParameters",
     "Output",
     "Outputs",
     "ParameterError",

@@ -26,7 +26,7 @@ __all__ = [
     "Measure",
     "Measures",
     "MorisError",
-    "NoParametersFound",
+    "NoFeasibleParameters",
     "Output",
     "Outputs",
     "ParameterError",
@@ -66,7 +66,7 @@ class ParameterError(MorisError):
 
 class RecordingError(MorisError): ...
 class BoundError(MorisError): ...
-class NoParametersFound(MorisError): ...
+class NoFeasibleParameters(MorisError): ...
 class BuildError(RuntimeError): ...
 
 class ClusterError(RuntimeError):

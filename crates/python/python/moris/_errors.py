@@ -29,7 +29,7 @@ class BoundError(MorisError):
     """No bound can be computed of a recording."""
 
 
-class NoParametersFound(MorisError):
+class NoFeasibleParameters(MorisError):
     """A search found no parameters with which every recording keeps the limits."""
 
 

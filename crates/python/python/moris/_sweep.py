@@ -130,15 +130,15 @@ def sweep(
         raise TypeError("parameter_sets is a single set; give several, such as a list with it")
     if chunk is not None and chunk < 1:
         raise ValueError(f"chunk is {chunk}, but must be 1 at least")
-    rides = recordings_of(recordings, options)
-    if not rides:
+    recordings = recordings_of(recordings, options)
+    if not recordings:
         raise ValueError("recordings is empty; give one at least")
     total = len(parameter_sets) if hasattr(parameter_sets, "__len__") else None
-    chunk = chunk or _chunk(rides)
-    context = _Context([ride._native for ride in rides], rig, base, strategy, preview)
+    chunk = chunk or _chunk(recordings)
+    context = _Context([recording._native for recording in recordings], rig, base, strategy, preview)
     cancelled = cancel.is_set if cancel is not None else lambda: False
     bar = Progress(progress, total, "sweep", "set")
-    made = Sweep(initial if reduce else [], 0, False, [ride.name for ride in rides])
+    made = Sweep(initial if reduce else [], 0, False, [recording.name for recording in recordings])
     run = _here(context, _chunks(parameter_sets, chunk, client), cancelled)
     if client is not None:
         run = _on_cluster(client, context, _chunks(parameter_sets, chunk, client), cancelled)
@@ -187,9 +187,9 @@ def _make(*arguments):
     return _Context(*arguments)
 
 
-def _chunk(rides):
+def _chunk(recordings):
     """As many sets as take some tenths of a second on a core."""
-    samples = sum(ride.duration / ride.step for ride in rides)
+    samples = sum(recording.duration / recording.step for recording in recordings)
     return max(1, min(256, round(1e5 / samples)))
 
 

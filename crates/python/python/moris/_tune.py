@@ -79,14 +79,14 @@ def tune(
     client: a dask.distributed.Client, whose workers then evaluate. The result is the same to the bit.
 
     docs/tuning-by-search.md has the objective.
-    Returns Tuned. Raises NoParametersFound where none keep the limits.
+    Returns Tuned. Raises NoFeasibleParameters where none keep the limits.
     """
     tuned_on = recordings_of(recordings, options)
     held_out = recordings_of(hold_out, options)
-    rides = tuned_on + held_out
+    recordings = tuned_on + held_out
     if not tuned_on:
         raise ValueError("recordings is empty; give one at least")
-    names = [ride.name for ride in rides]
+    names = [recording.name for recording in recordings]
     double = next((name for name in names if names.count(name) > 1), None)
     if double is not None:
         raise ValueError(f"two recordings are called {double}; give each a name of its own: moris.Recording(..., name=...)")
@@ -95,7 +95,7 @@ def tune(
             raise ValueError(f"{name} is {value}, but must be {least} at least")
     folds = len(tuned_on) if folds is None else folds
     arguments = (
-        [ride._native for ride in rides], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,
+        [recording._native for recording in recordings], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,
     )  # fmt: skip
     tuning = _moris.Tuning(*arguments)
     cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)

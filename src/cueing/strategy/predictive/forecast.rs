@@ -1,16 +1,16 @@
 //! The forecast of one axis's reference over the horizon, learned while it is followed.
 //!
 //! Four experts forecast the reference's mean over each block, and its slow and fast part at the
-//! horizon's end. Each is linear in the reference and low-passes of it. Three are fixed; the fourth
+//! horizon's end. Each is linear in the reference and low-passes of it. Three are fixed. The fourth
 //! is the least-squares fit to what followed in the past (direct multi-step: one regression for
-//! each target), which forgets and falls back on a prior. The forecast is a mixture of the four
-//! with weights by the size of their latest errors.
+//! each target), which forgets and falls back on a prior. The forecast is a mixture of the four,
+//! weighted by their latest errors.
 //!
 //! Only the past enters: an error is used once the time that was forecast is over.
 //!
-//! Where the reference is [previewed](super::preview), the preview takes the mixture's place, with
-//! the mixture as of the preview's end behind it. The two are weighted by their latest errors as
-//! the experts are, so that a wrong preview loses its weight.
+//! Where the reference is [previewed](super::preview), the preview replaces the mixture. After the
+//! preview's end, the mixture as of that time follows. Preview and mixture are weighted by their
+//! latest errors, as the experts are, so that a wrong preview loses its weight.
 
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
@@ -32,7 +32,7 @@ const QUICK: usize = 0;
 const TREND: [usize; 2] = [5, 6];
 /// Number of features of the fit: the reference and its first five low-passes.
 const FEATURES: usize = 6;
-/// What is forecast: the means over the blocks, and the slow and the fast part
+/// Number of targets of a forecast: the means over the blocks, and the slow and the fast part
 /// at the horizon's end.
 const TARGETS: usize = BLOCKS + 2;
 const EXPERTS: usize = 4;
@@ -44,9 +44,9 @@ const MEMORY: usize = FORECAST_SAMPLES + 1;
 const HOLD_DECAY: f64 = 0.02;
 /// Decay of the slow and the fast part for the expert that lets them fade \[1/s\].
 pub(super) const FADE_DECAY: [f64; 2] = [0.1, 3.0];
-/// Time over which a trend goes on \[s\].
+/// Time constant with which a trend fades \[s\].
 const TREND_TIME: f64 = 1.5;
-/// The prior of the fit counts as much as so much time \[s\].
+/// The prior of the fit has the weight of samples over this time \[s\].
 const PRIOR_TIME: f64 = 1.0;
 /// Ridge of the prior \[(m/s2)^2\].
 const RIDGE: f64 = 3e-3;
@@ -55,18 +55,18 @@ const RIDGE: f64 = 3e-3;
 const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
 /// The least squared error that an expert is taken to have \[(m/s2)^2\].
 const LEAST_ERROR: f64 = 1e-4;
-/// The squared error that a forecast without preview is taken to have beside what shows
-/// \[(m/s2)^2\]: while nothing happens, neither errs, and what comes is known to the preview alone.
+/// Squared error added to that of a forecast without preview \[(m/s2)^2\]. While nothing happens,
+/// neither the forecast nor the preview errs, but only the preview contains what comes.
 const DOUBT: f64 = 0.005;
-/// The squared error that a preview is taken to have before any is known \[(m/s2)^2\].
+/// Squared error of a preview before any is known \[(m/s2)^2\].
 const UNPROVED: f64 = 0.002;
 /// Time constants with which the squared errors beside a preview follow larger
 /// and smaller ones \[s\].
 const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
-/// A preview counts as much as the forecast without it where its squared errors are smaller by
-/// this, [`DOUBT`] included in the forecast's.
+/// A preview has the same weight as the forecast without it where its squared errors are smaller by
+/// this factor. [`DOUBT`] is included in the forecast's errors.
 const CAUTION: f64 = 1.6;
-/// The first block that is as long as the elements of a preview usually are apart.
+/// The first block that is as long as the usual time between the elements of a preview.
 const RESOLVED: usize = 3;
 /// Samples from one fit to the next.
 const FIT_EVERY: u32 = 5;
@@ -124,7 +124,7 @@ pub struct Forecaster {
     preview_errors: [SVector<f64, BLOCKS>; 2],
 }
 
-/// Data stored of an instant.
+/// Stored data of an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Sample {
     value: f64,
@@ -240,8 +240,8 @@ fn exponential(decay: f64, slow: bool) -> Targets {
     })
 }
 
-/// Contribution of a slope of 1 by the middle of each block and by its end, half
-/// of it to either part.
+/// Contribution of a slope of 1 by the middle of each block, and by the horizon's end. There, half
+/// of it goes to either part.
 fn trend() -> Targets {
     let grown = |time: f64| TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME));
     let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
@@ -275,7 +275,7 @@ fn prior_covariance() -> Covariance {
 }
 
 impl Forecaster {
-    /// Nothing has happened yet.
+    /// Before the first step, with a reference of zero.
     pub fn new(tables: &Tables) -> Self {
         Forecaster {
             value: 0.0,
@@ -297,7 +297,7 @@ impl Forecaster {
         }
     }
 
-    /// Lets `step` seconds pass in which the reference is `value` \[m/s2\].
+    /// Advances by `step` seconds in which the reference is `value` \[m/s2\].
     pub fn advance(&mut self, value: f64, step: f64) {
         if step != self.step {
             self.step = step;
@@ -310,12 +310,12 @@ impl Forecaster {
         self.integral += value * step;
     }
 
-    /// Gives the course that the cue will take; one without values takes it away.
+    /// Sets the course that the cue will take. A course without values removes it.
     pub fn preview(&mut self, course: &Course) {
         self.course = *course;
     }
 
-    /// Puts off a preview that has just been given by `lag` seconds.
+    /// Delays a preview that has just been given by `lag` seconds.
     pub fn put_off_preview(&mut self, lag: f64) {
         self.course.put_off(lag);
     }
@@ -339,7 +339,8 @@ impl Forecaster {
         }
     }
 
-    /// The reference by the preview, and from the preview's end on by the forecast as of then.
+    /// The reference by the preview, followed from the preview's end by the
+    /// forecast as of that time.
     fn previewed(&self, tables: &Tables, kind: ForecastKind) -> Option<Previewed> {
         let past = (TIME_CONSTANTS[QUICK], self.low_passes[QUICK]);
         let ahead = Ahead::new(&self.course, past, self.beside)?;
@@ -354,10 +355,10 @@ impl Forecaster {
 
     /// The weight of the preview in each block of a horizon, from 0 to 1.
     ///
-    /// It goes by the ratio of its error to that of the forecast without it and [`DOUBT`]. What is
-    /// expected of near blocks is compared first, and a preview that is worse there is not better
-    /// later: the ratio in a block is the largest up to there. The first blocks are left out, which
-    /// are shorter than what a preview resolves.
+    /// It follows from the ratio of the preview's error to that of the forecast without it,
+    /// [`DOUBT`] included. The ratio in a block is the largest of the blocks up to it, since a
+    /// preview that is worse for near blocks is not better for later ones. For later blocks, the
+    /// first [`RESOLVED`] blocks are left out: they are shorter than what a preview resolves.
     fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
         let [learned, previewed] = &self.preview_errors;
         let ratios = previewed.component_div(&learned.add_scalar(DOUBT));
@@ -371,7 +372,7 @@ impl Forecaster {
         })
     }
 
-    /// The forecast for a reference that stays what it is until the vehicle stops, and
+    /// The forecast for a reference that keeps its value until the vehicle stops, and
     /// is zero from then on.
     pub fn until_stop(&self, time: f64, horizon: Horizon) -> Forecast {
         let (ends, durations) = (horizon.ends(), horizon.durations());
@@ -381,7 +382,8 @@ impl Forecaster {
         Forecast { means: SVector::from_fn(|k, _| self.value * before(k)), end }
     }
 
-    /// Learns from what has come, and forecasts anew. To be called once every [`SAMPLE`].
+    /// Updates the errors and the fit with the latest samples, and forecasts anew. To be called
+    /// once every [`SAMPLE`].
     pub fn sample(&mut self, tables: &Tables, kind: ForecastKind, memory: &Memory) {
         self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
         let mut now =
@@ -396,7 +398,7 @@ impl Forecaster {
         self.remember(&now);
     }
 
-    /// What the experts expect after an instant; `fitted` is the fit's forecast.
+    /// The experts' forecast from an instant on; `fitted` is the fit's forecast.
     fn expected(&self, then: &Sample, fitted: &Targets, tables: &Tables, kind: ForecastKind) -> Forecast {
         let [hold, trend, fade] = then.fixed_forecasts(tables);
         let targets = match kind {
@@ -413,18 +415,19 @@ impl Forecaster {
         }
     }
 
-    /// The sample that is so many samples old.
+    /// The sample that is `count` samples old.
     fn ago(&self, count: usize) -> Sample {
         let index = (self.latest as usize + MEMORY - count) % MEMORY;
         self.samples.get(index).copied().unwrap_or_default()
     }
 
-    /// The reference's mean over a block that ended so many samples ago.
+    /// The reference's mean over a block that ended `ended` samples ago.
     fn mean(&self, block: usize, ended: usize) -> f64 {
         (self.ago(ended).integral - self.ago(ended + SAMPLES[block]).integral) / Horizon::Near.durations()[block]
     }
 
-    /// Takes down the errors of what was forecast for the times that have just become known.
+    /// Updates the mean squared errors with those of the forecasts for times that
+    /// have just become known.
     fn compare(&mut self, tables: &Tables, memory: &Memory) {
         let keep = libm::exp(-SAMPLE / memory.selection);
         let [keep_rising, keep_falling] = PREVIEW_MEMORY.map(|time| libm::exp(-SAMPLE / time));
@@ -454,7 +457,8 @@ impl Forecaster {
         }
     }
 
-    /// Adds what followed the oldest sample to the fit's sums, and fits anew every few samples.
+    /// Adds the oldest sample, and what followed it, to the fit's sums. Fits
+    /// anew every few samples.
     fn learn(&mut self, tables: &Tables, memory: &Memory) {
         let x = self.ago(FORECAST_SAMPLES).features();
         let now = self.ago(0);
@@ -499,7 +503,7 @@ mod tests {
 
     const MEMORY: Memory = Memory { fit: 60.0, selection: 3.0 };
 
-    /// The forecaster after so many seconds of a reference, sampled every 20 ms.
+    /// The forecaster after `time` seconds of a reference, sampled every 20 ms.
     fn followed(reference: impl Fn(f64) -> f64, time: f64, kind: ForecastKind) -> Forecaster {
         let tables = Tables::default();
         let mut forecaster = Forecaster::new(&tables);

@@ -19,7 +19,7 @@ pub enum Horizon {
     /// As far as the reference is forecast.
     #[default]
     Near,
-    /// Twice as far, for the stop that a braking vehicle approaches.
+    /// Twice as far, for a long preview or a foreseen stop of the vehicle.
     Far,
 }
 

@@ -7,7 +7,7 @@ use super::program::Nodes;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
 
-/// The machine, and what else moves the platform.
+/// The rig, and the motion of the platform that is not planned.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
     pub geometry: &'a Geometry,
@@ -35,14 +35,17 @@ pub struct LegRow {
     pub by_tilt: [f64; 2],
 }
 
-/// Heave is expected to stay for so long, and to fade with a time constant after that \[s\].
+/// Heave is expected to stay for the first time, and to fade with the second as time constant
+/// \[s\].
 const HEAVE_STAYS: f64 = 0.1;
 const HEAVE_FADES: f64 = 0.4;
 
 impl Surroundings<'_> {
-    /// Roll, pitch and yaw beside the tilt after so much time, if the vehicle goes on turning as it
-    /// does: the free response of a second-order high-pass with damping 1, which also stands for
-    /// the angular channel's other filters.
+    /// Roll, pitch and yaw beside the tilt after `time` seconds, if the vehicle goes
+    /// on turning as it does.
+    ///
+    /// They are the free response of a second-order high-pass with damping 1. It stands for the
+    /// angular channel's other filters too.
     fn angles_after(&self, time: f64) -> Vector3<f64> {
         Vector3::from_fn(|k, _| {
             let (angle, frequency) = (self.angles[k], self.frequencies[k]);

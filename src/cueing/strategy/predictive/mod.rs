@@ -1,13 +1,13 @@
 //! The predictive strategy: a plan of surge, sway and tilt over the next seconds, made
 //! anew 50 times a second.
 //!
-//! A plan is the solution of a quadratic [`program`] over blocks of a [`horizon`]: the least
-//! dropped force for the reference that is [`forecast`], within the limits of travel, tilt and the
-//! actuators' lengths ([`legs`]). The [`dual_active_set`] method solves it a few iterations at a
-//! time, so that no internal step takes long.
+//! A plan is the solution of a quadratic [`program`] over the blocks of a [`horizon`]. It has the
+//! least dropped force for the reference that is [`forecast`]. Travel, tilt and the actuators'
+//! lengths ([`legs`]) stay within their limits. The [`dual_active_set`] method solves it a few
+//! iterations at a time, so that no internal step takes long.
 //!
-//! A plan says how much force to drop and how the tilt accelerates. The rest follows from what
-//! comes in, at once: see [`coordinated`](super::coordinated).
+//! A plan sets the dropped force and the tilt's acceleration. The rest follows from the input
+//! without delay: see [`coordinated`](super::coordinated).
 
 pub mod dual_active_set;
 pub mod forecast;
@@ -32,14 +32,14 @@ use crate::interface::{ForecastKind, PredictiveParameters};
 /// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
 const ITERATIONS_PER_STEP: f64 = 8.0;
 const PACE: f64 = 0.001;
-/// A preview longer than this is worth the far horizon \[s\].
+/// Length of a preview above which the far horizon is used \[s\].
 const LONG_PREVIEW: f64 = 2.0;
-/// A plan that takes more iterations is given up.
+/// A plan that takes more iterations is abandoned.
 const MAX_ITERATIONS: u32 = 120;
-/// Largest surcharge on a dropped force of surge and of sway that turns the felt force around,
-/// beside the weight of 1. Sway has few opposite cues, which a surcharge does not make fewer.
+/// Largest surcharges on dropped forces, of surge and of sway, that reverse the felt force. They
+/// add to the weight of 1. Sway has few opposite cues, and a surcharge does not reduce them.
 const OPPOSITE_SURCHARGE: [f64; 2] = [0.5, 0.0];
-/// The felt force in the opposite direction from which on the surcharge is due in full \[m/s2\].
+/// Felt force in the opposite direction from which on the surcharge is largest \[m/s2\].
 const OPPOSITE_FORCE: f64 = 0.15;
 /// Differences of time below this are rounding \[s\].
 const INSTANT: f64 = 1e-9;
@@ -136,7 +136,7 @@ impl Predictive {
         })
     }
 
-    /// Takes other parameters. The plan stays; the next one is made with them. False, and nothing
+    /// Changes the parameters. The plan stays; the next one is made with them. False, and nothing
     /// changes, if they cannot be used.
     pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) -> bool {
         if (models, tuning) == (&self.models, &self.tuning) {
@@ -184,22 +184,22 @@ impl Predictive {
         decisions
     }
 
-    /// Gives the courses that the cue will take in surge and sway.
+    /// Sets the courses that the cue will take in surge and sway.
     pub fn preview(&mut self, courses: &[Course; 2]) {
         for (forecaster, course) in self.forecasters.iter_mut().zip(courses) {
             forecaster.preview(course);
         }
     }
 
-    /// Puts off courses that have just been given by `lag` seconds.
+    /// Delays courses that have just been given by `lag` seconds.
     pub fn put_off_preview(&mut self, lag: f64) {
         for forecaster in &mut self.forecasters {
             forecaster.put_off_preview(lag);
         }
     }
 
-    /// Lets `step` seconds pass in which the references of surge and sway are these, of which the
-    /// angular channel is the part `beside`.
+    /// Advances by `step` seconds with these references of surge and sway; `beside` is the angular
+    /// channel's part of them.
     pub fn observe(&mut self, references: [f64; 2], beside: [f64; 2], step: f64) {
         for (forecaster, beside) in self.forecasters.iter_mut().zip(beside) {
             forecaster.set_beside(beside);
@@ -241,7 +241,7 @@ impl Predictive {
         let mut surcharges = [SVector::zeros(); 2];
         for (k, axis) in program.axes.iter().enumerate() {
             let forecaster = &self.forecasters[k];
-            // A stop takes the reference of surge away; a preview knows of it.
+            // A stop ends the reference of surge; a preview already contains the stop.
             let forecast = if k == 0 && time_to_stop.is_finite() && preview == 0.0 {
                 forecaster.until_stop(time_to_stop, horizon)
             } else {
@@ -287,7 +287,7 @@ impl Predictive {
         }
     }
 
-    /// Goes on with the plan that is being made, and takes it over when it is done.
+    /// Continues to solve for the next plan, and adopts it once it is solved.
     fn proceed(&mut self, step: f64) {
         if self.solver.status() != Status::Running {
             return;
@@ -295,7 +295,7 @@ impl Predictive {
         let pace = (ITERATIONS_PER_STEP * step / PACE).clamp(ITERATIONS_PER_STEP, f64::from(MAX_ITERATIONS));
         match self.solver.advance(&self.rows, pace as u32) {
             Status::Running if self.solver.iterations() < MAX_ITERATIONS => {}
-            Status::Solved => self.take_over(),
+            Status::Solved => self.commit(),
             Status::Running | Status::Failed => {
                 self.plan.kept = true;
                 self.plan.iterations = self.solver.iterations();
@@ -304,7 +304,7 @@ impl Predictive {
         }
     }
 
-    fn take_over(&mut self) {
+    fn commit(&mut self) {
         let program = self.programs.over(self.horizon);
         for (k, axis) in program.axes.iter().enumerate() {
             let controls = self.solver.solution().fixed_rows::<AXIS_CONTROLS>(k * AXIS_CONTROLS).into_owned();
@@ -318,8 +318,8 @@ impl Predictive {
     }
 }
 
-/// How far the plan before would have the rider feel the opposite of what is expected, block by
-/// block: 0 to 1. An opposite cue is worse than a missing one of the same error.
+/// Degree, from 0 to 1, to which the plan before makes the rider feel the opposite of what is
+/// expected, in each block. An opposite cue is worse than a missing one of the same error.
 fn opposition(forecast: &Forecast, controls: &AxisControls) -> SVector<f64, BLOCKS> {
     SVector::from_fn(|block, _| {
         let expected = forecast.means[block];
@@ -364,7 +364,7 @@ mod tests {
         }
     }
 
-    /// Lets so many steps of 1 ms pass at this reference; the last step's decisions.
+    /// Advances by `steps` steps of 1 ms at this reference. Returns the last step's decisions.
     fn passed(predictive: &mut Predictive, steps: usize, reference: f64) -> Option<[Decision; 2]> {
         let geometry = Geometry::from(&Rig::default());
         let mut decisions = None;
@@ -454,7 +454,7 @@ mod tests {
             }
             predictive.observe(references, [0.0; 2], STEP);
         }
-        // The ride is long and asks for more than the platform has.
+        // The ride is long and demands more than the platform can do.
         assert!(begun > 1000 && limited > 1000, "{begun} programs, {limited}");
     }
 

@@ -1,4 +1,4 @@
-//! A previewed reference: as it comes, in place of a forecast.
+//! A previewed reference, which replaces a forecast.
 
 use moris_interface::Group;
 use nalgebra::SVector;
@@ -47,13 +47,13 @@ impl Course {
         courses
     }
 
-    /// Lets `step` seconds pass.
+    /// Advances by `step` seconds.
     pub fn advance(&mut self, step: f64) {
         self.age += step;
         self.begun = true;
     }
 
-    /// Puts off a course that has just been given by the time for which its reference lags \[s\].
+    /// Delays a course that has just been given by the time for which its reference lags \[s\].
     pub fn put_off(&mut self, lag: f64) {
         if !self.begun {
             self.age = -lag;

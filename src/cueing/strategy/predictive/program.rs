@@ -47,8 +47,8 @@ pub type AxisControls = SVector<f64, AXIS_CONTROLS>;
 const POSITION_FRACTION: f64 = 0.435 / 0.45;
 const VELOCITY_FRACTION: f64 = 0.95;
 const RATE_FRACTION: f64 = 0.999;
-/// The plan must be able to stop inside its limits from the end: position plus so much time
-/// at the velocity \[s\].
+/// The plan must be able to stop inside its limits from the end. The position plus the velocity
+/// times this time must be inside them \[s\].
 const STOPPING_TIME: f64 = 0.3;
 /// Gravity along the tilt relative to the sine's tangent.
 pub const CHORD: f64 = 0.985;

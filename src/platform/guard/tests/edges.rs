@@ -1,9 +1,9 @@
-//! The certificate at the edge of each limit: it says what the conditions of its proof say,
+//! The certificate at the edge of each limit, against the conditions of its proof, which are
 //! written out once more here.
 //!
-//! Each case is a random step of a random size. One limit after the other is tightened from
-//! far away until the conditions refuse the step; on both sides of that edge the certificate must
-//! agree with them, in its answer and in the durations of the stop.
+//! Each case is a random step of a random size. One limit after the other is tightened from far
+//! away until the conditions refuse the step. On both sides of that edge the certificate must agree
+//! with them, in its answer and in the durations of the stop.
 
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -19,7 +19,7 @@ use crate::platform::{Geometry, PlatformCoordinates, inverse_kinematics};
 
 /// Longest step of all machines here \[s\].
 const LONGEST_STEP: f64 = 0.004;
-/// What a limit may be exceeded by where positions are compared with each other, relative.
+/// Relative excess of a limit that is allowed where positions are compared with each other.
 const ROUNDING: f64 = 1e-9;
 /// Number of limits: shortest and longest leg, its velocity and acceleration, and three each of the
 /// safety limits of position, velocity and acceleration.
@@ -32,7 +32,7 @@ struct Limits([f64; LIMITS]);
 impl Limits {
     /// Beyond what any step here needs.
     const LOOSE: Limits = Limits([0.7, 3.0, 40.0, 400.0, 3.0, 3.0, 3.0, 40.0, 40.0, 40.0, 400.0, 400.0, 400.0]);
-    /// What no step here keeps.
+    /// Limits that no step here keeps.
     const TIGHT: [f64; LIMITS] = [2.9, 0.71, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9, 1e-9];
 
     /// With one of them `fraction` of the way from loose to tight, by factors.
@@ -272,7 +272,8 @@ impl Conditions {
         let plan = StopPlan::new(&self.case.next, durations);
         let stops = durations.breakpoints();
         let speed = self.case.next.linear.velocity.norm() + self.radius * sum(&self.case.next.angles.velocity);
-        // So many cells that a twentieth of the acceleration limit bounds what is between points; 12 at most.
+        // Enough cells for a bound of a twentieth of the acceleration limit
+        // between points; 12 at most.
         let cells =
             (1.5 * speed * speed / (0.05 * self.shortest * self.rig.acceleration_limit)).ceil().clamp(1.0, 12.0);
         let mut begin = 0.0;

@@ -11,7 +11,7 @@ use crate::motion::Motion;
 use crate::platform::guard::ActuatorGuard;
 use crate::platform::{PlatformCoordinates, PlatformMotion};
 
-/// What a limit may be exceeded by, as a factor.
+/// Factor by which rounding may exceed a limit.
 const ROUNDING: f64 = 1.0 + 1e-9;
 
 /// Six oscillations, in surge, sway, heave, roll, pitch and yaw.

@@ -1,17 +1,18 @@
-//! The whole exchange of a 1 kHz loop through the C functions of the built FMU, beside the same
-//! exchange with an FMU that does nothing, and that beside the loop without any functions: set 9
-//! inputs, step 1 ms, get 6 lengths and 6 felt values. The C functions' own part is the exchange
-//! with an FMU that does nothing less the loop alone.
+//! Benchmark of one exchange of a 1 kHz loop with the built FMU, through the C functions.
+//!
+//! An exchange sets 9 inputs, steps 1 ms, and gets 6 lengths and 6 felt values. The same exchange
+//! is timed with an FMU that does nothing, and with empty functions. The difference of these two is
+//! the cost of the C functions.
 //!
 //! ```sh
 //! cargo build-fmu && cargo build --release -p moris-fmi --example do_nothing
 //! cargo bench -p moris-washout-fmi2
 //! ```
 
-// The model's own file, for its GUID and its names.
+// The model's source file, for its GUID and its names.
 #[path = "../../../../fmi/examples/do_nothing/model.rs"]
 mod do_nothing;
-// The tests' random numbers, of which no choice among several is needed here.
+// The tests' random numbers; not all of its functions are used here.
 #[allow(dead_code)]
 #[path = "../../../../../tests/washout/common/random.rs"]
 mod random;

@@ -1,4 +1,4 @@
-//! Exchanges with the washout, each timed by itself: how rarely is one how slow?
+//! Distribution of the duration of single exchanges with the washout.
 
 use std::time::Instant;
 
@@ -7,15 +7,14 @@ use criterion::Criterion;
 use crate::random::Random;
 use crate::running::{Inputs, Running};
 
-/// Ten million steps of a smooth ride.
+/// Ten million steps of a smooth motion.
 pub fn smooth_ride(_: &mut Criterion) {
     let mut running = Running::washout(&crate::washout_fmu(), &[]);
     let nanoseconds = (0..10_000_000).map(|_| timed(|| running.ride())).collect();
     println!("10 million exchanges, one clock reading each: {}", distribution(nanoseconds));
 }
 
-/// A million steps of a ride in jumps, on actuators so slow that the guard has to hold
-/// them back all the time.
+/// A million steps of random jumps, on actuators so slow that the guard is always active.
 pub fn limited_ride(_: &mut Criterion) {
     const STEPS: usize = 1_000_000;
     let slow = [("actuator.velocityLimit", 0.3), ("actuator.accelerationLimit", 5.0)];
@@ -34,8 +33,8 @@ pub fn limited_ride(_: &mut Criterion) {
     println!("1 million exchanges, actuators limited in {percent:.1} % of them: {}", distribution(nanoseconds));
 }
 
-/// Inputs that have nothing to do with those before: specific forces within 12 m/s2 of those at
-/// rest, angular velocities within 1 rad/s, upright.
+/// Inputs independent of the previous ones: specific forces within 12 m/s2 of those at rest,
+/// angular velocities within 1 rad/s, upright.
 fn jump(random: &mut Random) -> Inputs {
     let [fx, fy, fz] = [0.0, 0.0, 9.80665].map(|at_rest| at_rest + random.between(-12.0, 12.0));
     let [wx, wy, wz] = [(); 3].map(|()| random.between(-1.0, 1.0));

@@ -1,4 +1,4 @@
-//! The washout's library, instances of it, and a ride.
+//! The washout's library, instances of it, and a simulation.
 
 use std::path::{Path, PathBuf};
 
@@ -51,7 +51,8 @@ pub fn bytes(instance: &mut Instance) -> Vec<u8> {
     bytes
 }
 
-/// Rides from step number `from` for `count` steps of 1 ms; all values at the end, to the bit.
+/// Simulates `count` steps of 1 ms from step number `from`. Returns the bits of
+/// all values at the end.
 pub fn ride(instance: &mut Instance, from: u32, count: u32) -> Vec<u64> {
     let references = real_inputs();
     for step in from..from + count {

@@ -1,11 +1,11 @@
-//! Serialized states that somebody made up: refused with a reason, and harmless where they are not.
+//! Forged serialized states. They are refused with a reason, or do no harm.
 
 use moris_fmu_host::{Instance, Status};
 use moris_fmu_tests::hostile::Choices;
 
 use crate::fixture::*;
 
-/// Where the parts of a serialized state begin: mark, format, GUID, length, checksum and the rest.
+/// Offsets of the parts of a serialized state after its mark: format, GUID, length, checksum, body.
 const FORMAT: usize = 8;
 const GUID: usize = 12;
 const LENGTH: usize = 50;
@@ -55,7 +55,7 @@ fn a_state_of_another_kind_is_refused_with_the_reason() {
         bytes
     };
     refuse(&[], "truncated");
-    refuse(&changed(0, 1), "no state of an instance");
+    refuse(&changed(0, 1), "not the state of an instance");
     refuse(&changed(FORMAT, 1), "another version");
     refuse(&changed(GUID + 5, 1), "another model");
     refuse(&changed(LENGTH, 1), "length");
@@ -68,16 +68,16 @@ fn a_state_of_another_kind_is_refused_with_the_reason() {
         let mut bytes = good[..length].to_vec();
         refuse(&bytes, "length");
         seal(&mut bytes);
-        refuse(&bytes, "make no sense");
+        refuse(&bytes, "inconsistent");
     }
     let mut longer = [&good[..], &[0]].concat();
     seal(&mut longer);
-    refuse(&longer, "make no sense");
+    refuse(&longer, "inconsistent");
     assert!(bytes(&mut instance) == before);
 }
 
-/// Bytes with a right checksum and anything in them: whatever they make of the instance, it answers
-/// every call, and lives on after a reset.
+/// States of arbitrary bytes with a correct checksum. The instance still returns from every call,
+/// and works again after a reset.
 #[test]
 fn a_forged_state_does_no_harm() {
     let (mut instance, good) = instance_in_motion();
@@ -94,7 +94,7 @@ fn a_forged_state_does_no_harm() {
         let Ok(state) = instance.deserialize(&bytes) else { continue };
         taken += 1;
         assert_eq!(instance.set_state(&state), Status::Ok);
-        // What these return depends on what was forged; that they return is the point.
+        // The results of these calls depend on the forged bytes. The test is that they return.
         let time = instance.get("time").unwrap_or(0.0);
         instance.do_step(time, 1e-6);
         instance.set("tilt.rateLimit", 0.1).ok();

@@ -1,4 +1,4 @@
-//! Communication points over long rides.
+//! Communication points over long simulations.
 
 use moris_fmu_host::{Instance, Status};
 
@@ -12,8 +12,8 @@ fn ready(start: f64, stop: Option<f64>) -> Instance {
     instance
 }
 
-/// A hundred seconds of 1 ms steps up to the stop time, with the host's time as a
-/// product and as a sum.
+/// A hundred seconds of 1 ms steps up to the stop time. One host computes the time as a
+/// product, one as a sum.
 #[test]
 fn time_does_not_drift_and_the_stop_time_is_the_end() {
     let h = 1e-3;
@@ -40,8 +40,8 @@ fn time_does_not_drift_and_the_stop_time_is_the_end() {
     }
 }
 
-/// Where time is that of a calendar, its last digits are worth more than a step's millionth, but a
-/// step still is a step.
+/// At a calendar's time in seconds, the time's rounding exceeds a millionth of the step. A repeated
+/// step is still detected.
 #[test]
 fn a_step_made_twice_is_refused_however_late_it_is() {
     let h = 1e-3;

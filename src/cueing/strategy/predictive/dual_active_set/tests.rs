@@ -1,5 +1,5 @@
-//! Against the interior-point solver clarabel, on random programs: plain, degenerate, infeasible.
-//! `compare` also serves the programs of a ride.
+//! Comparison with the interior-point solver clarabel on random programs: plain, degenerate,
+//! infeasible. `compare` also serves the programs of a ride.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -95,12 +95,13 @@ fn solved<const N: usize, const M: usize>(program: &Program<N, M>, at_once: u32)
     solver
 }
 
-/// Distance of the solver's point from the solution, by the conditions of Karush, Kuhn and Tucker;
-/// infinite if they do not prove one.
+/// Bound on the distance of the solver's point from the solution, by the conditions of Karush, Kuhn
+/// and Tucker. Infinite if they do not prove one.
 ///
-/// The gradient at the point must be a sum of the inward normals of rows that are at their bounds,
-/// with multipliers that are not negative: those of the solver are tried. In the variables J^-1 u,
-/// in which the Hessian is the identity, the solution is no farther than what is left over.
+/// The gradient at the point must be a sum of the inward normals of rows that are at their
+/// bounds, with multipliers that are not negative. The solver's multipliers are tried. In the
+/// variables J^-1 u, in which the Hessian is the identity, the solution is no farther than the
+/// norm of the remainder.
 fn proven_distance<const N: usize, const M: usize>(program: &Program<N, M>, solver: &DualActiveSet<N, M>) -> f64 {
     const ROUNDING: f64 = 1e-8;
     let Rows { normals, lower, upper } = &program.rows;

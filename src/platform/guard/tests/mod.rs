@@ -98,7 +98,7 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
     assert!(closest.iter().all(|ratio| ratio.get() > 0.4), "{closest:?}");
 }
 
-/// A machine whose limits are of the size of what the states tried ask for.
+/// A machine whose limits are of the size of what the tested states need.
 fn machines() -> impl Strategy<Value = (Machine, SafetyParameters)> {
     (-0.7..1.6_f64, -1.0..0.5_f64, -4.0..-1.3_f64, -0.5..1.3_f64).prop_map(|(a, v, step, safety)| {
         let [acceleration_limit, velocity_limit, step] = [a, v, step].map(|exponent| 10.0_f64.powf(exponent));
@@ -155,7 +155,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
             const POINTS: usize = 100;
             for k in 0..=POINTS {
                 let fraction = k as f64 / POINTS as f64;
-                // A start outside the stroke is no state that the guard can have: only its end is certified.
+                // The guard cannot have a start outside the stroke: only its end is certified.
                 let on_transition = coordinates_after(&start, fraction * step);
                 let legs = leg_motion(&machine.geometry, &motion(&on_transition));
                 for i in 0..6 {
@@ -238,7 +238,7 @@ fn an_interval_is_refused_if_a_limit_is_exceeded_anywhere_in_it() {
             Ok(())
         })
         .unwrap();
-    // In many cases the ends alone do not tell.
+    // In many cases the ends alone do not show it.
     assert!(inside.iter().all(|count| count.get() > 100), "{inside:?}");
 }
 
@@ -276,8 +276,8 @@ fn legs_pursue_their_demands_a_little_inside_the_certified_stroke() {
     assert_eq!(pursued.acceleration, certified.acceleration);
 }
 
-/// The platform goes over to a demand that is no farther from it than a hundredth of what an
-/// acceleration at its limit does in a step: that of each leg, and that of each axis.
+/// The platform joins a demand that is at most 0.01 a h² away, with the limit of acceleration a and
+/// the step h. This holds for each leg and for each axis.
 #[test]
 fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
     let (rig, step) = (Rig::default(), 0.002);

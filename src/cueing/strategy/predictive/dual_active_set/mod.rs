@@ -163,7 +163,7 @@ impl<const N: usize, const M: usize> DualActiveSet<N, M> {
         self.iterations += 1;
         let row = pending.row as usize;
         let (Some(normal), true) = (rows.normals.get(row), row < M && self.active <= N) else {
-            // No solve leads here, but a state that somebody made up may.
+            // No solve leads here, but a deserialized state may.
             self.status = Status::Failed;
             return;
         };

@@ -108,8 +108,9 @@ impl SafetyUnits {
         })
     }
 
-    /// True if the motion on this axis can go over to the demanded one: their positions differ
-    /// from what the velocities account for by next to nothing.
+    /// True if the motion on this axis can join the demanded one. Their positions must differ from
+    /// what the velocities account for by at most [`REJOIN_DISTANCE`] a h², with the limit of
+    /// acceleration a and the step h.
     fn has_caught_up(&self, k: usize, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> bool {
         let near = REJOIN_DISTANCE * limits.acceleration_limit[k] * step * step;
         let expected = self.motion.position[k] + 0.5 * (self.motion.velocity[k] + demand.velocity[k]) * step;
@@ -120,7 +121,7 @@ impl SafetyUnits {
     /// is reached within them.
     ///
     /// The gap between the positions' difference and the mean velocity times the step h counts as
-    /// an acceleration of 2 gap/h², for who sees positions only.
+    /// an acceleration of 2 gap/h².
     fn keep_limits(&self, demand: &Motion<Vector3<f64>>, limits: &SafetyParameters, step: f64) -> [bool; 3] {
         let (farthest, fastest) = (lanes(&limits.position_limit), lanes(&limits.velocity_limit));
         let most = lanes(&limits.acceleration_limit);
