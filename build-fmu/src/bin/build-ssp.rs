@@ -12,7 +12,7 @@ use moris_build_fmu::{Platform, workspace};
 ///
 /// MotorcycleSimulator.ssp is a motorcycle with its rider, the washout filter and the platform.
 /// MotorcycleLap.ssp is the same on a lap: the motorcycle follows it by itself, and the washout
-/// knows what comes.
+/// receives a preview of it.
 ///
 /// Without options the FMUs are for this machine, and the package is written to target/fmu.
 #[derive(Parser)]

@@ -1,6 +1,8 @@
 //! The bound against closed forms, against motions that keep the limits, and
 //! against its own refinement.
 
+use std::f64::consts::TAU;
+
 use moris_measures::bound::{AxisLimits, Bound, BoundError, TiltLimits, Trajectory, bound};
 
 const STEP: f64 = 0.01;
@@ -193,6 +195,32 @@ fn no_motion_within_the_limits_does_better() {
         assert!(rms_error <= error, "{rms_error} is more than {error}");
         let own = bound(&felt, STEP, &SURGE, 0.05).unwrap();
         assert!(own.rms_error < 2e-3, "a motion within the limits is felt as itself, not {} off", own.rms_error);
+    }
+}
+
+/// Oscillation at the intervals' frequency, about a fixed position. Its velocity at the intervals'
+/// ends is always the largest, so that the trapezoidal rule has it drift out of the travel.
+#[test]
+fn a_motion_that_oscillates_within_each_interval_does_not_do_better() {
+    let limits = AxisLimits { acceleration: 4.0, ..HEAVE };
+    for steps in [4.0, 8.0, 20.0] {
+        let interval = steps * STEP;
+        let phase = |t: f64| TAU * t / interval;
+        // At rest up to the quarter period that brings the speed to its largest value.
+        let felt = sampled(20.0, |t| if t < 0.75 * interval { 0.0 } else { -limits.acceleration * phase(t).sin() });
+        let found = bound(&felt, STEP, &limits, interval).unwrap();
+        assert!(found.rms_error < 1e-3, "{} m/s2 off a motion within the limits, {interval} s", found.rms_error);
+
+        let tilt = SURGE.tilt.unwrap();
+        let (arm, largest) = (tilt.head_height / tilt.gravity, tilt.gravity * tilt.acceleration);
+        let amplitude = largest * (interval / TAU).powi(2);
+        // The tilt moves by the amplitude up to the first interval's end, and oscillates from there.
+        let felt = sampled(20.0, |t| match t < 0.75 * interval {
+            true => 0.0,
+            false => arm * largest * phase(t).sin() + amplitude * (phase(t).sin() + 1.0),
+        });
+        let found = bound(&felt, STEP, &SURGE, interval).unwrap();
+        assert!(found.rms_error < 5e-3, "{} m/s2 off a tilt within the limits, {interval} s", found.rms_error);
     }
 }
 

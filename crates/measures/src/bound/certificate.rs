@@ -40,7 +40,7 @@ fn column_dot(program: &QuadraticProgram, column: usize, z: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::quadratic_program::{Kind, QuadraticProgram};
+    use super::super::quadratic_program::{Kind, Projection, QuadraticProgram};
     use super::super::{AxisLimits, solve};
     use super::dual_value;
 
@@ -48,8 +48,9 @@ mod tests {
 
     /// Program for the means of a force that demands more travel than the limits permit.
     fn program() -> QuadraticProgram {
-        let means: Vec<f64> = (0..100).map(|k| 2.0 * (0.05 * f64::from(k)).sin()).collect();
-        QuadraticProgram::new(&means, 0.05, &HEAVE, Kind::Relaxed)
+        let force = |k| 2.0 * (0.05 * f64::from(k)).sin();
+        let projections: Vec<_> = (0..100).map(|k| Projection::of_line(&[force(k), force(k + 1)])).collect();
+        QuadraticProgram::new(&projections, 0.05, &HEAVE, Kind::Relaxed)
     }
 
     fn objective(program: &QuadraticProgram, x: &[f64]) -> f64 {

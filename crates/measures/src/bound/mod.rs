@@ -10,9 +10,9 @@
 //!
 //! The best motion is found by a convex quadratic program over intervals of time.
 //!
-//! - [`Bound::rms_error`] is a lower bound. Its program constrains only means over intervals
-//!   and their ends, so that accelerations may vary within an interval. The bound does not rely
-//!   on the solver's accuracy: it is the value of a dual solution, computed here from the
+//! - [`Bound::rms_error`] is a lower bound. Its program constrains only means and slopes over
+//!   intervals and their ends, so that accelerations may vary within an interval. The bound does
+//!   not rely on the solver's accuracy: it is the value of a dual solution, computed here from the
 //!   solver's multipliers.
 //! - [`Bound::attained`] is the RMS error of a motion that keeps all limits. The true optimum
 //!   lies between the two.
@@ -23,7 +23,7 @@ mod trajectory;
 
 use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
 
-use quadratic_program::{Kind, QuadraticProgram};
+use quadratic_program::{Kind, Projection, QuadraticProgram};
 pub use trajectory::Trajectory;
 
 /// The limits of one axis of the platform.
@@ -128,14 +128,14 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
     if desired.len() <= steps {
         return Err(BoundError::TooShort { samples: desired.len(), needed: steps + 1 });
     }
-    let means: Vec<f64> = desired.windows(steps + 1).step_by(steps).map(mean_of_line).collect();
+    let projections: Vec<Projection> = desired.windows(steps + 1).step_by(steps).map(Projection::of_line).collect();
     let interval = steps as f64 * step;
     let duration = (desired.len() - 1) as f64 * step;
 
-    let relaxed = QuadraticProgram::new(&means, interval, limits, Kind::Relaxed);
+    let relaxed = QuadraticProgram::new(&projections, interval, limits, Kind::Relaxed);
     let multipliers = solve(&relaxed)?.z;
     let least = certificate::dual_value(&relaxed, &multipliers);
-    let restricted = QuadraticProgram::new(&means, interval, limits, Kind::Restricted);
+    let restricted = QuadraticProgram::new(&projections, interval, limits, Kind::Restricted);
     let trajectory = restricted.trajectory(&solve(&restricted)?.x);
     Ok(Bound {
         rms_error: (2.0 * least * interval / duration).max(0.0).sqrt(),
@@ -164,12 +164,6 @@ fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
     limit("tilt acceleration", acceleration, acceleration > 0.0, "above 0")?;
     limit("head height", head_height, true, "a finite number")?;
     limit("gravity", gravity, gravity > 0.0, "above 0")
-}
-
-/// The mean of a signal that is linear between its samples.
-fn mean_of_line(samples: &[f64]) -> f64 {
-    let pairs = samples.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
-    pairs.sum::<f64>() / (samples.len() - 1) as f64
 }
 
 /// A solution and its multipliers.

@@ -3,22 +3,34 @@
 //!
 //! Time is divided into intervals of length T. The variables at each end of an interval are the
 //! position p, the velocity v, the tilt q and its rate q'. The tilt is expressed as the force that
-//! it adds, q = g sin(tilt) (`tilt_force`). The variables of each interval are the mean error e and
-//! the mean tilt m. The mean of p'' over an interval is the change of v over T for any motion, so
+//! it adds, q = g sin(tilt) (`tilt_force`).
 //!
-//! e_k = (v_k+1 - v_k)/T - (h/g)(q'_k+1 - q'_k)/T + m_k - f_k,
+//! A signal's mean and slope over an interval are its projections on the orthogonal functions 1 and
+//! w = sqrt(12) (t/T - 1/2), each with a mean square of 1. The variables of an interval are the
+//! mean e and the slope d of the error, and the mean m and the slope n of the tilt. The mean square
+//! of the error over an interval is at least e² + d². Of p'', both follow from the ends, for any
+//! motion:
 //!
-//! with f_k the mean of the desired force. The integral of the squared error over an
-//! interval is at least T e_k^2.
+//! - mean: (v_k+1 - v_k)/T;
+//! - slope: sqrt(12)/T² (T (v_k + v_k+1)/2 - (p_k+1 - p_k)), by parts.
 //!
-//! The relaxed program bounds three differences over an interval:
+//! The same holds for q''. With f and s the mean and the slope of the desired force,
 //!
-//! - p_k+1 - p_k from T (v_k + v_k+1)/2, by T^3/12 times the limit of |p''|;
-//! - q_k+1 - q_k from T (q'_k + q'_k+1)/2, by T^3/12 times the limit of |q''|;
-//! - m_k from (q_k + q_k+1)/2, by T^2/12 times the limit of |q''|.
+//! e = mean(p'') - (h/g) mean(q'') + m - f, d = slope(p'') - (h/g) slope(q'') + n - s.
 //!
-//! In the restricted program, accelerations are constant over an interval. The first two
-//! differences are then zero, and the third is known. Positions and tilts are parabolas within an
+//! The relaxed program bounds four values over an interval, each the integral of an acceleration
+//! times a known function. The bound is the acceleration's limit times the integral of the
+//! function's magnitude:
+//!
+//! - p_k+1 - p_k less T (v_k + v_k+1)/2, by T²/4 times the limit of |p''|;
+//! - q_k+1 - q_k less T (q'_k + q'_k+1)/2, by T²/4 times the limit of |q''|;
+//! - m less (q_k + q_k+1)/2, by T²/12 times the limit of |q''|;
+//! - n less (q_k+1 - q_k)/sqrt(12), by sqrt(12) T²/192 times the limit of |q''|.
+//!
+//! Both programs limit p_k+1 - p_k and q_k+1 - q_k to T times the limits of |p'| and |q'|.
+//!
+//! In the restricted program, accelerations are constant over an interval. The first two values and
+//! the last are then zero, and the third is known. Positions and tilts are parabolas within an
 //! interval. A parabola lies between the least and the greatest of its two ends and the point
 //! where the tangents at its ends meet, p_k + v_k T/2. So the restricted program keeps this point
 //! within the limits, too.
@@ -60,7 +72,7 @@ pub struct QuadraticProgram {
 /// Number of variables at an end of an interval.
 const AT: usize = 4;
 /// Number of variables at an end of an interval and of the interval that follows.
-const STRIDE: usize = 6;
+const STRIDE: usize = 8;
 
 /// Indices of the variables.
 fn position(k: usize) -> usize {
@@ -78,8 +90,38 @@ fn tilt_rate(k: usize) -> usize {
 fn error(k: usize) -> usize {
     STRIDE * k + AT
 }
-fn mean_tilt(k: usize) -> usize {
+fn error_slope(k: usize) -> usize {
     STRIDE * k + AT + 1
+}
+fn mean_tilt(k: usize) -> usize {
+    STRIDE * k + AT + 2
+}
+fn tilt_slope(k: usize) -> usize {
+    STRIDE * k + AT + 3
+}
+
+/// Mean and slope of a signal over an interval: its projections on 1 and
+/// sqrt(12) (t/T - 1/2).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projection {
+    pub mean: f64,
+    pub slope: f64,
+}
+
+impl Projection {
+    /// Those of a signal that is linear between samples with equal distances. Simpson's rule is
+    /// exact for it.
+    pub fn of_line(samples: &[f64]) -> Self {
+        let steps = (samples.len() - 1) as f64;
+        let (mut mean, mut slope) = (0.0, 0.0);
+        for (k, pair) in samples.windows(2).enumerate() {
+            let weight = |places: f64| (k as f64 + places) / steps - 0.5;
+            let middle = 0.5 * (pair[0] + pair[1]);
+            mean += middle / steps;
+            slope += (weight(0.0) * pair[0] + 4.0 * weight(0.5) * middle + weight(1.0) * pair[1]) / (6.0 * steps);
+        }
+        Projection { mean, slope: slope * 12_f64.sqrt() }
+    }
 }
 
 /// The limits in the program's terms: tilt_force = g sin(tilt) and its derivatives.
@@ -107,45 +149,57 @@ impl TiltBounds {
 }
 
 impl QuadraticProgram {
-    /// The program for these means of the desired force over each interval.
-    pub fn new(means: &[f64], interval: f64, limits: &AxisLimits, kind: Kind) -> Self {
-        let intervals = means.len();
+    /// The program for these projections of the desired force over each interval.
+    pub fn new(desired: &[Projection], interval: f64, limits: &AxisLimits, kind: Kind) -> Self {
+        let intervals = desired.len();
         let bounds = TiltBounds::of(&limits.tilt);
         let mut rows = Rows::default();
         for variable in [position(0), velocity(0), tilt(0), tilt_rate(0)] {
             rows.equal(&[(variable, 1.0)], 0.0);
         }
-        let t = interval;
-        for (k, &mean) in means.iter().enumerate() {
+        let (t, root) = (interval, 12_f64.sqrt());
+        for (k, projection) in desired.iter().enumerate() {
             let (v0, v1, r0, r1) = (velocity(k), velocity(k + 1), tilt_rate(k), tilt_rate(k + 1));
-            let (arm, m) = (bounds.arm, mean_tilt(k));
-            rows.equal(&[(error(k), t), (v1, -1.0), (v0, 1.0), (r1, arm), (r0, -arm), (m, -t)], -t * mean);
+            let (p0, p1, q0, q1) = (position(k), position(k + 1), tilt(k), tilt(k + 1));
+            let (arm, m, n) = (bounds.arm, mean_tilt(k), tilt_slope(k));
+            let mean = [(error(k), t), (v1, -1.0), (v0, 1.0), (r1, arm), (r0, -arm), (m, -t)];
+            rows.equal(&mean, -t * projection.mean);
+            let (ends, drift) = (0.5 * root, root / t);
+            let motion = [(v0, -ends), (v1, -ends), (p1, drift), (p0, -drift)];
+            let turning = [(r0, arm * ends), (r1, arm * ends), (q1, -arm * drift), (q0, arm * drift)];
+            let slope = [&[(error_slope(k), t), (n, -t)][..], &motion, &turning].concat();
+            rows.equal(&slope, -t * projection.slope);
 
             rows.within(&[(v1, 1.0), (v0, -1.0)], t * limits.acceleration);
             rows.within(&[(v1, 1.0)], limits.velocity);
-            rows.between(&[(position(k + 1), 1.0)], limits.min, limits.max);
-            let way = [(position(k + 1), 1.0), (position(k), -1.0), (v0, -0.5 * t), (v1, -0.5 * t)];
-            let turn = [(position(k), 1.0), (v0, 0.5 * t)];
-            let tilting = [(tilt(k + 1), 1.0), (tilt(k), -1.0), (r0, -0.5 * t), (r1, -0.5 * t)];
-            let sag = [(m, 1.0), (tilt(k), -0.5), (tilt(k + 1), -0.5)];
+            rows.within(&[(p1, 1.0), (p0, -1.0)], t * limits.velocity);
+            rows.between(&[(p1, 1.0)], limits.min, limits.max);
+            let way = [(p1, 1.0), (p0, -1.0), (v0, -0.5 * t), (v1, -0.5 * t)];
+            let turn = [(p0, 1.0), (v0, 0.5 * t)];
+            let tilting = [(q1, 1.0), (q0, -1.0), (r0, -0.5 * t), (r1, -0.5 * t)];
+            let sag = [(m, 1.0), (q0, -0.5), (q1, -0.5)];
+            let skew = [(n, 1.0), (q1, -1.0 / root), (q0, 1.0 / root)];
             let tilts = limits.tilt.is_some();
             if tilts {
                 rows.within(&[(r1, 1.0), (r0, -1.0)], t * bounds.tilt_acceleration);
                 rows.within(&[(r1, 1.0)], bounds.tilt_rate);
-                rows.within(&[(tilt(k + 1), 1.0)], bounds.tilt);
+                rows.within(&[(q1, 1.0), (q0, -1.0)], t * bounds.tilt_rate);
+                rows.within(&[(q1, 1.0)], bounds.tilt);
             }
             match kind {
                 Kind::Relaxed if tilts => {
-                    rows.within(&way, t.powi(3) / 12.0 * limits.acceleration);
-                    rows.within(&tilting, t.powi(3) / 12.0 * bounds.tilt_acceleration);
+                    rows.within(&way, t.powi(2) / 4.0 * limits.acceleration);
+                    rows.within(&tilting, t.powi(2) / 4.0 * bounds.tilt_acceleration);
                     rows.within(&sag, t.powi(2) / 12.0 * bounds.tilt_acceleration);
+                    rows.within(&skew, root * t.powi(2) / 192.0 * bounds.tilt_acceleration);
                 }
-                Kind::Relaxed => rows.within(&way, t.powi(3) / 12.0 * limits.acceleration),
+                Kind::Relaxed => rows.within(&way, t.powi(2) / 4.0 * limits.acceleration),
                 Kind::Restricted if tilts => {
                     rows.between(&turn, limits.min, limits.max);
-                    rows.within(&[(tilt(k), 1.0), (r0, 0.5 * t)], bounds.tilt);
+                    rows.within(&[(q0, 1.0), (r0, 0.5 * t)], bounds.tilt);
                     rows.equal(&way, 0.0);
                     rows.equal(&tilting, 0.0);
+                    rows.equal(&skew, 0.0);
                     let [mean, before, after] = sag;
                     rows.equal(&[mean, before, after, (r1, t / 12.0), (r0, -t / 12.0)], 0.0);
                 }
@@ -155,17 +209,21 @@ impl QuadraticProgram {
                 }
             }
             if !tilts {
-                for variable in [tilt(k + 1), tilt_rate(k + 1), m] {
+                for variable in [q1, r1, m, n] {
                     rows.equal(&[(variable, 1.0)], 0.0);
                 }
             }
         }
         let variables = STRIDE * intervals + AT;
         let farthest = limits.max.max(-limits.min);
-        let largest = [farthest, limits.velocity, bounds.tilt, bounds.tilt_rate, f64::INFINITY, bounds.tilt];
+        let errors = [f64::INFINITY; 2];
+        // The slope of what is at most q in magnitude is at most sqrt(12)/4 q.
+        let tilts = [bounds.tilt; 2];
+        let ends = [farthest, limits.velocity, bounds.tilt, bounds.tilt_rate];
+        let largest = [&ends[..], &errors, &tilts].concat();
         let (matrix, right, cones) = rows.assemble(variables);
         QuadraticProgram {
-            quadratic: ones_at((0..intervals).map(error), variables),
+            quadratic: ones_at((0..intervals).flat_map(|k| [error(k), error_slope(k)]), variables),
             linear: vec![0.0; variables],
             matrix,
             right,
