@@ -185,3 +185,95 @@ impl StopPreaction {
         Motion { position, velocity, acceleration }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GRAVITY: f64 = 9.81;
+    const STEP: f64 = 0.01;
+    const DECELERATION: f64 = 3.0;
+
+    /// A vehicle that has braked for long, with this time left to its stop.
+    fn braking(time_left: f64, safety: &SafetyParameters) -> StopPreaction {
+        let mut preaction = StopPreaction::new(STEP);
+        for _ in 0..1000 {
+            step(&mut preaction, 1e3, safety);
+        }
+        step(&mut preaction, time_left, safety);
+        preaction
+    }
+
+    /// A step of braking with this time left.
+    fn step(preaction: &mut StopPreaction, time_left: f64, safety: &SafetyParameters) {
+        let felt = [-DECELERATION, -DECELERATION, DECELERATION * time_left];
+        preaction.advance(felt, GRAVITY, &TiltParameters::default(), safety, STEP);
+    }
+
+    fn safety(position: f64, velocity: f64, acceleration: f64) -> SafetyParameters {
+        let mut safety = SafetyParameters::default();
+        (safety.position_limit.x, safety.velocity_limit.x, safety.acceleration_limit.x) =
+            (position, velocity, acceleration);
+        safety
+    }
+
+    #[test]
+    fn the_time_to_the_stop_is_the_speed_by_the_smoothed_deceleration() {
+        let mut preaction = StopPreaction::new(STEP);
+        for k in 1..200 {
+            let speed = 30.0 - DECELERATION * STEP * f64::from(k);
+            let felt = [-DECELERATION, -DECELERATION, speed];
+            preaction.advance(felt, GRAVITY, &TiltParameters::default(), &SafetyParameters::default(), STEP);
+            let smoothed = DECELERATION * (1.0 - (-STEP * f64::from(k) / 0.2).exp());
+            let expected = if smoothed > 0.5 { speed / smoothed } else { f64::INFINITY };
+            let found = preaction.time_left();
+            assert!(found == expected || (found - expected).abs() < 1e-9 * expected, "{found} s, not {expected} s");
+        }
+    }
+
+    #[test]
+    fn after_a_stop_the_tilt_continues_at_its_rate_limit() {
+        let tilt = TiltParameters::default();
+        let mut preaction = braking(0.01, &SafetyParameters::default());
+        let before = preaction.tilted_force(-DECELERATION);
+        assert!(before > -0.5 * DECELERATION, "{before}");
+        for k in 1..10 {
+            // The vehicle feels a force after its stop, too.
+            preaction.advance([0.5, 0.0, 0.0], GRAVITY, &tilt, &SafetyParameters::default(), STEP);
+            let expected = before + f64::from(k) * STEP * GRAVITY * tilt.rate_limit;
+            assert!((preaction.tilted_force(0.5) - expected).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn the_launch_uses_what_the_scarcest_limit_leaves() {
+        // By the room behind the platform, by the speed, and by the acceleration.
+        for (limits, expected) in [
+            (safety(0.2, 10.0, 10.0), 3.0 * 0.9 * (0.9 * 0.2) / (1.5 * 1.5)),
+            (safety(0.5, 0.3, 10.0), 2.0 * 0.8 * 0.3 / 1.5),
+            (safety(0.5, 10.0, 0.1), 0.1),
+        ] {
+            let preaction = braking(1.49, &limits);
+            let Phase::Launching { acceleration } = preaction.phase else { panic!("{:?}", preaction.phase) };
+            // The platform was moved forward a little in one step.
+            assert!((acceleration - expected).abs() < 1e-4, "{acceleration} m/s2, not {expected} m/s2");
+        }
+    }
+
+    #[test]
+    fn a_launch_without_speed_is_cancelled_and_one_with_speed_recovers() {
+        let limits = SafetyParameters::default();
+        let mut preaction = braking(1.49, &limits);
+        step(&mut preaction, 100.0, &limits);
+        assert_eq!(preaction.phase, Phase::Waiting);
+
+        let mut preaction = braking(1.49, &limits);
+        for k in 0..100 {
+            step(&mut preaction, 1.49 - STEP * f64::from(k), &limits);
+        }
+        let speed = -preaction.surge().velocity;
+        assert!(speed > 0.01, "{speed}");
+        step(&mut preaction, 100.0, &limits);
+        assert_eq!(preaction.phase, Phase::Recovering { from: speed });
+    }
+}
