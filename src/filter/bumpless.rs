@@ -31,3 +31,22 @@ impl FadingOffset {
         (start, self.value)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_offset_decays_with_its_time_constant_and_ends() {
+        let mut offset = FadingOffset::default();
+        offset.add(Vector3::new(1.0, -2.0, 0.0));
+        for k in 0..100 {
+            let (start, end) = offset.advance(0.02);
+            let expected = |steps: i32| Vector3::new(1.0, -2.0, 0.0) * (-0.04 * f64::from(steps)).exp();
+            assert!((start - expected(k)).amax() < 1e-12 && (end - expected(k + 1)).amax() < 1e-12);
+        }
+        // 1e-15 is reached after 35 time constants.
+        offset.advance(17.0);
+        assert_eq!(offset.advance(0.02), (Vector3::zeros(), Vector3::zeros()));
+    }
+}

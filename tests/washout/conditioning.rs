@@ -133,6 +133,18 @@ proptest! {
 }
 
 #[test]
+fn a_rate_filter_switched_on_begins_at_the_present_rates() {
+    let off = ConditioningParameters { rate_cutoff: 0.0, ..parameters(&[]).conditioning };
+    let on = ConditioningParameters { rate_cutoff: 5.0, ..off };
+    let cue = Cue { force: Vector3::zeros(), rates: Vector3::new(0.1, -0.2, 0.3) };
+    let mut filter = InputFilter::default();
+    assert_eq!(filter.advance(cue, cue, &off, 0.01).1, cue);
+    let (before, after) = filter.advance(cue, cue, &on, 0.01);
+    assert_eq!(before.rates, cue.rates);
+    assert!((after.rates - cue.rates).amax() < 1e-15);
+}
+
+#[test]
 fn what_the_rate_filter_forgets_is_rest_in_the_end() {
     let mut filter = InputFilter::default();
     let parameters = ConditioningParameters { rate_cutoff: 20.0, ..parameters(&[]).conditioning };
