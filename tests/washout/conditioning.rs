@@ -1,7 +1,7 @@
 //! Conditioning of the vehicle's motion ahead of the filters.
 
 use moris_washout::Input;
-use moris_washout::cueing::conditioning::{Cue, InputFilter, cue, soft_limit};
+use moris_washout::cueing::conditioning::{Cue, InputFilter, cue, cue_force, forward_acceleration, soft_limit};
 use moris_washout::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, RollPitchYaw};
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -163,6 +163,29 @@ fn at_rest_in_any_orientation_nothing_is_left_with_full_removal() {
         let parameters = unlimited(GravityRemoval::Full, AngularVelocityFrame::World);
         assert!(cue(&oriented(angles, reading, [0.0; 3]), &parameters, G, 0.0).force.amax() < 1e-14);
     }
+}
+
+#[test]
+fn a_previewed_force_is_conditioned_as_the_present_one() {
+    for removal in [GravityRemoval::HeadVertical, GravityRemoval::Full, GravityRemoval::None] {
+        let parameters = ConditioningParameters { gravity_removal: removal, ..parameters(&[]).conditioning };
+        let input = oriented([0.3, -0.2, 1.0], [2.0, -1.0, 9.0], [0.0; 3]);
+        let present = cue(&input, &parameters, G, 0.4).force;
+        assert_eq!(cue_force(input.specific_force, &input, &parameters, G, 0.4), present);
+        let upright = cue_force(input.specific_force, &input, &parameters, G, 0.0);
+        assert!((removal == GravityRemoval::None) == (upright == present));
+    }
+}
+
+#[test]
+fn a_pitched_vehicle_at_rest_has_no_forward_acceleration() {
+    let input = oriented([0.3, -0.2, 1.0], to_platform([0.3, -0.2, 1.0], [0.0, 0.0, G]), [0.0; 3]);
+    for removal in [GravityRemoval::HeadVertical, GravityRemoval::Full] {
+        let found = forward_acceleration(&input, &unlimited(removal, AngularVelocityFrame::World), G);
+        assert!(found.abs() < 1e-14, "{found}");
+    }
+    let given = forward_acceleration(&input, &unlimited(GravityRemoval::None, AngularVelocityFrame::World), G);
+    assert_eq!(given, input.specific_force.x);
 }
 
 #[test]
