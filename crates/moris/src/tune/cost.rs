@@ -8,8 +8,8 @@
 //! sqrt(sum w_k e_k^2) / sqrt(sum w_k d_k^2),
 //!
 //! with the denominator at least 1 threshold. 0 is perfect. Above that threshold, a platform at
-//! rest scores exactly 1 on any recording, so that scaling everything down to zero gains nothing.
-//! False cues on channels with no desired motion count as they are sensed.
+//! rest scores 1 on any recording, so that scaling everything down to zero
+//! gains nothing. False cues on channels with no desired motion count as they are sensed.
 
 use std::sync::OnceLock;
 

@@ -10,11 +10,12 @@ use crate::setup_options::SetupOptions;
 
 /// Search for parameters with a smaller sensed error on a rig
 ///
-/// Searches for break frequencies, dampings and scales with a small sensed error on all recordings.
-/// No safety unit and no actuator limit may be active at any time. The error of a recording is the
-/// vestibular model's response to felt minus desired. It is the RMS over time in perception
-/// thresholds, added in quadrature over specific force and angular velocity along x, y, z. It is
-/// divided by the same quantity of the desired motion. 0 is perfect; a platform at rest scores 1.
+/// Searches for break frequencies, dampings and scales with a small sensed error on all
+/// recordings. No safety unit and no actuator limit may be active at any time. The error of a
+/// recording is the vestibular model's response to felt minus desired. It is the RMS over time in
+/// perception thresholds, added in quadrature over specific force and angular velocity along x, y,
+/// z. It is divided by the same quantity of the desired motion. 0 is perfect; a platform at rest
+/// scores 1 on noticeable motion.
 ///
 /// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the given
 /// parameters. Ctrl-C ends it and keeps the best result so far. The same seed gives the same result
