@@ -14,8 +14,8 @@ pub struct Built {
     pub size: usize,
 }
 
-/// Builds a model's FMU into the directory `output`, which is created if missing, and reports
-/// progress line by line.
+/// Builds a model's FMU with these start values into the directory `output`, which is created if
+/// missing, and reports progress line by line.
 ///
 /// Without platforms the FMU is for this machine.
 ///
@@ -24,27 +24,13 @@ pub struct Built {
 /// cannot be written.
 pub fn build(
     model: &FmuModel,
-    fmi: FmiVersion,
-    platforms: &[Platform],
-    output: &Path,
-    report: impl FnMut(&str),
-) -> Result<Built, Error> {
-    build_with(model, &Start::own(model), fmi, platforms, output, report)
-}
-
-/// Builds a model's FMU that starts with these values; otherwise as [`build`].
-///
-/// # Errors
-/// As [`build`].
-pub fn build_with(
-    model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,
     platforms: &[Platform],
     output: &Path,
     report: impl FnMut(&str),
 ) -> Result<Built, Error> {
-    let archive = fmu_with(model, start, fmi, platforms, report)?;
+    let archive = fmu(model, start, fmi, platforms, report)?;
     let file = output.join(fmi.fmu_file(model.name));
     write_whole(&file, &archive)?;
     Ok(Built { file, size: archive.len() })
@@ -60,21 +46,7 @@ pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], platforms: &[Plat
 }
 
 /// Builds a model's FMU and returns its bytes; otherwise as [`build`].
-///
-/// # Errors
-/// As [`build`].
-pub fn fmu(
-    model: &FmuModel,
-    fmi: FmiVersion,
-    platforms: &[Platform],
-    report: impl FnMut(&str),
-) -> Result<Vec<u8>, Error> {
-    fmu_with(model, &Start::own(model), fmi, platforms, report)
-}
-
-/// Builds a model's FMU that starts with these values, and returns its bytes; otherwise as
-/// [`build`].
-pub(crate) fn fmu_with(
+pub(crate) fn fmu(
     model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,

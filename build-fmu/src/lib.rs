@@ -32,7 +32,7 @@ pub mod workspace;
 
 pub use error::Error;
 pub use fmi_version::FmiVersion;
-pub use fmu::{Built, build, build_with, compile_together, fmu};
+pub use fmu::{Built, build, compile_together};
 pub use model::{FmuModel, MODELS};
 pub use platform::Platform;
 pub use start_values::Start;

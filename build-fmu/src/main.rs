@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use moris_build_fmu::model::{MOTORCYCLE, WASHOUT, path_values};
-use moris_build_fmu::{Error, FmiVersion, FmuModel, MODELS, Platform, Start, build_with, compile_together, workspace};
+use moris_build_fmu::{Error, FmiVersion, FmuModel, MODELS, Platform, Start, build, compile_together, workspace};
 use moris_setup::{NamedValues, load_rig, load_set};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and
@@ -83,7 +83,7 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
             println!("{}: {} embedded start values", model.name, start.count());
         }
         let report = |line: &str| println!("{line}");
-        let built = build_with(model, start, fmi, &arguments.platform, &output, report)?;
+        let built = build(model, start, fmi, &arguments.platform, &output, report)?;
         println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
     }
     Ok(())

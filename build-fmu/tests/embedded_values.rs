@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use moris_build_fmu::model::WASHOUT;
-use moris_build_fmu::{FmiVersion, Start, build_with};
+use moris_build_fmu::{FmiVersion, Start, build};
 use moris_fmu_host::Fmu;
 use moris_interface::guid;
 use moris_setup::{load_rig, load_set, overlaid};
@@ -16,8 +16,7 @@ fn the_fmu_starts_with_the_values_and_runs_as_the_crate_does_with_them() {
     values.extend(load_set("small-motions", WASHOUT.functions.identity.rows).unwrap());
     let start = Start::with(&WASHOUT, &values).unwrap();
     let directory = tempfile::tempdir().unwrap();
-    let built =
-        build_with(&WASHOUT, &start, FmiVersion::Fmi2, &[], directory.path(), |line| println!("{line}")).unwrap();
+    let built = build(&WASHOUT, &start, FmiVersion::Fmi2, &[], directory.path(), |line| println!("{line}")).unwrap();
 
     // Its description's GUID is another than the model's, and opening it shows that the library has it, too.
     let fmu = Fmu::open(&built.file).unwrap();

@@ -15,7 +15,7 @@ use std::path::Path;
 
 use crate::archive::{self, Contents};
 use crate::contents::LICENCES;
-use crate::fmu::{fmu_with, write_whole};
+use crate::fmu::{fmu, write_whole};
 use crate::{Built, Error, FmiVersion, Platform, compile_together};
 pub use start_values::read as start_values;
 use system::Place;
@@ -56,8 +56,8 @@ pub fn build(
     let libraries: Vec<_> = own.map(|(component, _)| (component.model, FmiVersion::Fmi2)).collect();
     compile_together(&libraries, platforms)?;
     for (component, start) in system.components.iter().zip(&starts) {
-        let fmu = fmu_with(component.model, start, FmiVersion::Fmi2, platforms, &mut report)?;
-        contents.insert(fmu_path(component), fmu);
+        let bytes = fmu(component.model, start, FmiVersion::Fmi2, platforms, &mut report)?;
+        contents.insert(fmu_path(component), bytes);
     }
     let package = archive::pack(&contents)?;
     let file = output.join(format!("{}{}.ssp", system.name, if form == Form::Flat { ".flat" } else { "" }));

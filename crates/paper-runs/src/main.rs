@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Parser;
-use moris_build_fmu::{FmiVersion, model, workspace};
+use moris_build_fmu::{FmiVersion, Start, model, workspace};
 use moris_fmu_host::Fmu;
 use moris_paper_runs::figures::{write_figures, write_readme_picture, write_strategies};
 use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre, TOWN};
@@ -67,9 +67,9 @@ fn main() -> Result<()> {
 
 /// Builds the FMU for this machine, as `cargo build-fmu` does, with progress on standard error.
 fn build_fmu() -> Result<PathBuf> {
-    let built = moris_build_fmu::build(&model::WASHOUT, FmiVersion::Fmi2, &[], &workspace::default_output(), |line| {
-        eprintln!("{line}");
-    })?;
+    let (model, output) = (&model::WASHOUT, workspace::default_output());
+    let report = |line: &str| eprintln!("{line}");
+    let built = moris_build_fmu::build(model, &Start::own(model), FmiVersion::Fmi2, &[], &output, report)?;
     eprintln!("{}\n", built.file.display());
     Ok(built.file)
 }
