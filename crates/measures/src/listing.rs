@@ -17,8 +17,6 @@ pub struct Row {
     pub value: Option<f64>,
     /// `m/s²`, `°/s`, `ms`, `%`, ... or empty.
     pub unit: &'static str,
-    /// Decimals that say something.
-    pub decimals: usize,
     /// Definition, in a sentence.
     pub definition: &'static str,
     /// Where it is from.
@@ -79,12 +77,11 @@ const SENSED_RATE: Signal =
 impl Signal {
     fn rows(&self, axis: &str, fidelity: &Option<Fidelity>) -> Vec<Row> {
         let Some(fidelity) = fidelity else { return Vec::new() };
-        let row = |name, value, unit, decimals, definition| Row {
+        let row = |name, value, unit, definition| Row {
             subject: format!("{} {axis}", self.subject),
             name,
             value,
             unit,
-            decimals,
             definition,
             source: self.source,
         };
@@ -93,28 +90,24 @@ impl Signal {
                 "RMS error",
                 Some(self.factor * fidelity.rms_error),
                 self.unit,
-                3,
                 "Root mean square over the run of felt minus desired.",
             ),
             row(
                 "peak error",
                 Some(self.factor * fidelity.peak_error),
                 self.unit,
-                3,
                 "Largest absolute value of felt minus desired.",
             ),
             row(
                 "correlation",
                 fidelity.correlation,
                 "",
-                3,
                 "Pearson's correlation of felt and desired, which no scale changes; undefined where one of them is constant.",
             ),
             row(
                 "delay",
                 fidelity.delay.map(|delay| 1000.0 * delay),
                 "ms",
-                0,
                 "How much later felt comes: the shift, within 2 s, at which the two correlate best; undefined where they \
                  correlate by less than 0.9 there.",
             ),
@@ -128,7 +121,6 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
         name,
         value: Some(100.0 * fraction),
         unit: "%",
-        decimals: 1,
         definition,
         source: THRESHOLDS,
     };
@@ -157,12 +149,11 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
 /// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the
 /// RMS error that was felt.
 pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4] {
-    let row = |name, value, unit, decimals, definition| Row {
+    let row = |name, value, unit, definition| Row {
         subject: format!("specific force {axis}"),
         name,
         value,
         unit,
-        decimals,
         definition,
         source: BOUND,
     };
@@ -172,7 +163,6 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
             "bound",
             Some(bound.rms_error),
             "m/s²",
-            3,
             "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
              same limits of tilt, tilt rate, travel, speed and acceleration.",
         ),
@@ -180,27 +170,24 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
             "gap to the bound",
             Some((felt - bound.rms_error).max(0.0)),
             "m/s²",
-            3,
             "RMS error beyond the bound: the most that a better controller could gain.",
         ),
         row(
             "relative error",
             percentage(felt),
             "%",
-            1,
             "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.",
         ),
-        row("relative bound", percentage(bound.rms_error), "%", 1, "The bound as the same fraction."),
+        row("relative bound", percentage(bound.rms_error), "%", "The bound as the same fraction."),
     ]
 }
 
 fn effort_rows(effort: &Effort) -> [Row; 7] {
-    let row = |name, value, unit, decimals, definition| Row {
+    let row = |name, value, unit, definition| Row {
         subject: "platform".to_string(),
         name,
         value: Some(value),
         unit,
-        decimals,
         definition,
         source: COMMON,
     };
@@ -209,49 +196,42 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
             "stroke used",
             100.0 * effort.stroke_used,
             "%",
-            1,
             "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.",
         ),
         row(
             "smallest stroke margin",
             effort.smallest_margin,
             "m",
-            3,
             "Smallest distance of any actuator from either end of its stroke.",
         ),
         row(
             "largest tilt rate",
             effort.largest_tilt_rate.to_degrees(),
             "°/s",
-            2,
             "Largest rate of tilt coordination in roll or pitch.",
         ),
         row(
             "tilt limited",
             100.0 * effort.tilt_limited,
             "%",
-            1,
             "Fraction of the steps in which tilt coordination lagged behind its target because of a limit.",
         ),
         row(
             "safety units active",
             100.0 * effort.safety_active,
             "%",
-            1,
             "Fraction of the steps in which a safety unit limited the platform.",
         ),
         row(
             "actuators limited",
             100.0 * effort.actuator_limited,
             "%",
-            1,
             "Fraction of the steps in which the actuator guard limited an actuator.",
         ),
         row(
             "final distance from neutral",
             effort.final_distance,
             "m",
-            3,
             "Distance of the platform from neutral at the end.",
         ),
     ]
