@@ -6,7 +6,7 @@ use std::path::Path;
 use moris_interface::{Group, Row};
 use moris_washout::{Parameters, check};
 
-use crate::named_values::{changed, overlaid};
+use crate::named_values::overlaid;
 use crate::names::nearest;
 use crate::rig_file::RigFile;
 use crate::{Error, NamedValues, SETS, parameter_file, rig_file};
@@ -43,11 +43,6 @@ impl Setup {
             parameters_name: if sets.is_empty() { "default".to_owned() } else { names_of(sets) },
             parameters,
         })
-    }
-
-    /// The values that differ from the default parameters.
-    pub fn values(&self) -> NamedValues {
-        changed(&self.parameters)
     }
 }
 
