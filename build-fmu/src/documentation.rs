@@ -1,7 +1,5 @@
 //! The documentation inside an FMU: one page that needs nothing else and no network.
 
-use std::fmt::Write;
-
 use crate::model::Wording;
 use crate::{FmiVersion, FmuModel, Start};
 
@@ -32,9 +30,8 @@ pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
     };
     let (mut contents, mut body) = (String::new(), String::new());
     for (anchor, heading, html) in sections() {
-        write!(contents, "<li><a href=\"#{anchor}\">{heading}</a></li>").expect("a string takes whatever is written");
-        write!(body, "<section id=\"{anchor}\">\n<h2>{heading}</h2>\n{html}</section>\n")
-            .expect("a string takes whatever is written");
+        contents += &format!("<li><a href=\"#{anchor}\">{heading}</a></li>");
+        body += &format!("<section id=\"{anchor}\">\n<h2>{heading}</h2>\n{html}</section>\n");
     }
     let page = PAGE
         .replace("{{style}}", STYLE)

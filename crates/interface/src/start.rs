@@ -1,7 +1,5 @@
 //! Start values of a model, with overrides.
 
-use std::fmt::Write;
-
 use crate::{Model, SlotModel};
 
 /// The start value of every slot of a model, with these laid over the model's own, each a
@@ -26,12 +24,8 @@ pub fn start_values<M: Model>(overrides: &[(usize, f64)]) -> Vec<f64> {
 /// Slots and values as a text, the values by their bits: `17=3fd6666666666666,42=3ff0000000000000`.
 /// Bits, because what decimals are read as depends on how the processor has been set to round.
 pub fn write_start_values(values: &[(usize, f64)]) -> String {
-    let mut text = String::new();
-    for (slot, value) in values {
-        let comma = if text.is_empty() { "" } else { "," };
-        write!(text, "{comma}{slot}={:016x}", value.to_bits()).expect("a string takes whatever is written");
-    }
-    text
+    let pairs = values.iter().map(|(slot, value)| format!("{slot}={:016x}", value.to_bits()));
+    pairs.collect::<Vec<_>>().join(",")
 }
 
 /// The slots and values that a text of [`write_start_values`] holds. What is not of

@@ -10,8 +10,6 @@
 //! All values are in the units of the FMU's variables, which are SI. Every parameter of the model
 //! may be given, including the rig's. Other parameters keep their values.
 
-use std::fmt::Write;
-
 use moris_interface::{Causality, Kind, Row};
 use toml::{Table, Value};
 
@@ -124,7 +122,7 @@ fn what_it_takes(kind: Kind) -> String {
 pub fn write(heading: &str, values: &[(String, f64)], rows: &[Row]) -> String {
     let mut text = String::new();
     for line in heading.lines() {
-        writeln!(text, "{}", format!("# {line}").trim_end()).expect("a string takes whatever is written");
+        text += &format!("{}\n", format!("# {line}").trim_end());
     }
     for row in rows {
         let mut described = false;
@@ -132,10 +130,10 @@ pub fn write(heading: &str, values: &[(String, f64)], rows: &[Row]) -> String {
             let name = row.variable_name(element);
             let Some((_, value)) = values.iter().rev().find(|(other, _)| *other == name) else { continue };
             if !described {
-                writeln!(text, "\n# {}", description(row)).expect("a string takes whatever is written");
+                text += &format!("\n# {}\n", description(row));
                 described = true;
             }
-            writeln!(text, "\"{name}\" = {}", written(row, *value)).expect("a string takes whatever is written");
+            text += &format!("\"{name}\" = {}\n", written(row, *value));
         }
     }
     text

@@ -1,7 +1,5 @@
 //! The documentation's tables of variables, in the notation of a version of FMI.
 
-use std::fmt::Write;
-
 use moris_interface::{Causality, Identity, Kind, Row, Variability};
 
 /// Presentation of a row of the interface in a version of FMI.
@@ -140,8 +138,7 @@ fn meaning_html(row: &Row) -> String {
         html.push_str("<dl>");
         for (item, value) in enumeration.items.iter().zip(1..) {
             let (name, text) = (escape(item.name), escape(item.text.trim()));
-            write!(html, "<dt>{value}: <code>{name}</code></dt><dd>{text}</dd>")
-                .expect("a string takes whatever is written");
+            html += &format!("<dt>{value}: <code>{name}</code></dt><dd>{text}</dd>");
         }
         html.push_str("</dl>");
     }

@@ -1,7 +1,5 @@
 //! A page that lists the pages of several recordings.
 
-use std::fmt::Write;
-
 use crate::page::{STYLE, escaped};
 
 /// A recording in the list.
@@ -26,14 +24,12 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
         let cells: String =
             row.cells.iter().map(|cell| format!("<td class=\"number\">{}</td>", escaped(cell))).collect();
         let (class, mark) = if row.is_good { ("good", "\u{2713}") } else { ("warning", "!") };
-        writeln!(
-            body,
+        body += &format!(
             "<tr class=\"group {class}\"><th scope=\"row\"><span class=\"finding-mark\" style=\"display: inline-block\">{mark}</span> \
-             <a href=\"{}\">{}</a></th>{cells}</tr>",
+             <a href=\"{}\">{}</a></th>{cells}</tr>\n",
             encoded(&row.file),
             escaped(&row.name)
-        )
-        .expect("a string takes it");
+        );
     }
     let (title, subtitle) = (escaped(title), escaped(subtitle));
     format!(

@@ -1,6 +1,5 @@
 //! The responses as tables: all of them in a file, the most telling on the terminal.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result};
@@ -103,17 +102,13 @@ pub fn phase(response: &Response, output: Channel) -> f64 {
 /// and what limited them.
 pub fn text(measured: &Measured) -> String {
     let direct: Vec<_> = Channel::ALL.iter().map(|&channel| (channel, channel)).collect();
-    let mut text = String::new();
-    let _ = writeln!(text, "\ndirect channels: modulus, phase [deg]\n{}", pairs(measured, &direct));
-    let _ = writeln!(
-        text,
-        "cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}",
+    let warnings: String = warnings(&measured.test).into_iter().map(|warning| warning + "\n").collect();
+    format!(
+        "\ndirect channels: modulus, phase [deg]\n{}\n\
+         cross channels: modulus [m/s² per °/s, °/s per m/s²], phase [deg]\n{}\n{warnings}",
+        pairs(measured, &direct),
         pairs(measured, &CROSS)
-    );
-    for warning in warnings(&measured.test) {
-        let _ = writeln!(text, "{warning}");
-    }
-    text
+    )
 }
 
 /// A row for each frequency, a column for each pair of input and output.

@@ -1,7 +1,5 @@
 //! The tables that `moris measure` prints.
 
-use std::fmt::Write;
-
 use moris_setup::Setup;
 
 use super::MeasuredRecording;
@@ -16,19 +14,9 @@ const NONE: &str = "–";
 /// Everything: the channels, the limits, the summary and the targets missed.
 pub fn text(setup: &Setup, host: &Host, recordings: &[MeasuredRecording], missed: &[String]) -> String {
     let mut text = format!("{}, parameters {}, {}\n\n", setup.rig_name, setup.parameters_name, host_text(host));
-    let mut add = |part: &dyn std::fmt::Display| write!(text, "{part}").expect("a string takes whatever is written");
-    add(&channel_table(recordings));
-    add(&"\n");
-    add(&limit_table(recordings));
-    add(&"\n");
-    add(&summary(recordings));
-    match missed {
-        [] => add(&"All targets are met.\n"),
-        missed => {
-            add(&"Targets missed:\n");
-            missed.iter().for_each(|sentence| add(&format!("  {sentence}\n")));
-        }
-    }
+    text += &format!("{}\n{}\n{}", channel_table(recordings), limit_table(recordings), summary(recordings));
+    text += if missed.is_empty() { "All targets are met.\n" } else { "Targets missed:\n" };
+    text.extend(missed.iter().map(|sentence| format!("  {sentence}\n")));
     text
 }
 
@@ -119,12 +107,10 @@ fn summary(recordings: &[MeasuredRecording]) -> String {
     let mut text = format!("Geometric mean of the RMS errors of surge and sway, {count} channels: {mean:.3} m/s²\n");
     for axis in 0..3 {
         let [wrong, at_rest] = wrong_cues(recordings, axis).map(|fraction| 100.0 * fraction);
-        writeln!(
-            text,
-            "{}: false or missing cues for {wrong:.1} % of the time, {at_rest:.1} % on a platform at rest",
+        text += &format!(
+            "{}: false or missing cues for {wrong:.1} % of the time, {at_rest:.1} % on a platform at rest\n",
             ["Roll rate", "Pitch rate", "Yaw rate"][axis]
-        )
-        .expect("a string takes whatever is written");
+        );
     }
     text
 }

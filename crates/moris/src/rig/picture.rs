@@ -1,7 +1,5 @@
 //! The picture of a rig: itself, and three sections through its workspace.
 
-use std::fmt::Write;
-
 use super::section::{MARGINS, PLANES, section};
 use super::survey::{Singularities, Survey};
 use super::svg::{PANEL, escaped};
@@ -25,15 +23,15 @@ pub fn svg(survey: &Survey) -> String {
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
         escaped(&survey.name)
     );
-    write!(text, r#"<text x="24" y="56">{}</text>"#, escaped(&verdict(survey))).expect("a string takes it");
+    text += &format!(r#"<text x="24" y="56">{}</text>"#, escaped(&verdict(survey)));
     let drawn = PLANES.iter().map(|plane| {
         (plane.title, section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit))
     });
     let panels = [("The rig at neutral", view(parameters))].into_iter().chain(drawn);
     for (index, (title, body)) in panels.enumerate() {
         let (x, y) = ((index % 2) as f64 * PANEL[0], HEADER + (index / 2) as f64 * PANEL[1]);
-        write!(text, r#"<g transform="translate({x} {y})"><text x="64" y="30" class="panel">{title}</text>{body}</g>"#)
-            .expect("a string takes it");
+        text +=
+            &format!(r#"<g transform="translate({x} {y})"><text x="64" y="30" class="panel">{title}</text>{body}</g>"#);
     }
     text + &legend(height - FOOTER) + "</svg>\n"
 }
@@ -61,15 +59,12 @@ fn legend(top: f64) -> String {
         } else {
             format!("{:.0} mm of stroke left", 1000.0 * margin)
         };
-        write!(
-            text,
+        text += &format!(
             r#"<rect x="{x}" y="8" width="18" height="14" fill="{colour}"/><text x="{}" y="20">{label}</text>"#,
             x + 26.0
-        )
-        .expect("a string takes it");
+        );
         x += 60.0 + 7.0 * label.len() as f64;
     }
-    write!(text, r#"<path d="M{x} 15h24" class="safety"/><text x="{}" y="20">safety units</text></g>"#, x + 32.0)
-        .expect("a string takes it");
+    text += &format!(r#"<path d="M{x} 15h24" class="safety"/><text x="{}" y="20">safety units</text></g>"#, x + 32.0);
     text
 }

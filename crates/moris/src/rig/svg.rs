@@ -1,7 +1,5 @@
 //! Drawing primitives for the pictures of a rig.
 
-use std::fmt::Write;
-
 /// Room for a panel on the page \[px\].
 pub const PANEL: [f64; 2] = [520.0, 470.0];
 
@@ -51,31 +49,26 @@ impl Window {
         let bottom = MARGINS[1] + height;
         for x in ticks(self.low[0], self.high[0]) {
             let [px, _] = self.pixel([x, 0.0]);
-            write!(text, r#"<path d="M{px:.1} {bottom}v5" class="frame"/>"#).expect("a string takes it");
-            write!(text, r#"<text x="{px:.1}" y="{:.1}" text-anchor="middle">{}</text>"#, bottom + 20.0, number(x))
-                .expect("a string takes it");
+            text += &format!(r#"<path d="M{px:.1} {bottom}v5" class="frame"/>"#);
+            text += &format!(r#"<text x="{px:.1}" y="{:.1}" text-anchor="middle">{}</text>"#, bottom + 20.0, number(x));
         }
         for y in ticks(self.low[1], self.high[1]) {
             let [_, py] = self.pixel([0.0, y]);
-            write!(text, r#"<path d="M{} {py:.1}h-5" class="frame"/>"#, MARGINS[0]).expect("a string takes it");
-            write!(
-                text,
+            text += &format!(r#"<path d="M{} {py:.1}h-5" class="frame"/>"#, MARGINS[0]);
+            text += &format!(
                 r#"<text x="{:.1}" y="{:.1}" text-anchor="end">{}</text>"#,
                 MARGINS[0] - 8.0,
                 py + 4.0,
                 number(y)
-            )
-            .expect("a string takes it");
+            );
         }
         let (middle_x, middle_y) = (MARGINS[0] + 0.5 * width, MARGINS[1] + 0.5 * height);
-        write!(text, r#"<text x="{middle_x}" y="{:.1}" text-anchor="middle">{} [m]</text>"#, bottom + 40.0, names[0])
-            .expect("a string takes it");
-        write!(
-            text,
+        text +=
+            &format!(r#"<text x="{middle_x}" y="{:.1}" text-anchor="middle">{} [m]</text>"#, bottom + 40.0, names[0]);
+        text += &format!(
             r#"<text transform="translate(16 {middle_y}) rotate(-90)" text-anchor="middle">{} [m]</text>"#,
             names[1]
-        )
-        .expect("a string takes it");
+        );
         text
     }
 }

@@ -1,7 +1,5 @@
 //! The rig at neutral, seen from the front right and above.
 
-use std::fmt::Write;
-
 use moris_washout::interface::Parameters;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::LocationFrame;
@@ -47,8 +45,7 @@ pub fn view(parameters: &Parameters) -> String {
     for (arrow, name) in arrows.iter().zip(["x", "y", "z"]) {
         let [x, y] = at(&(arrow * 1.12));
         text += &line(&Vector3::zeros(), arrow, "arrow");
-        write!(text, r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{name}</text>"#, y + 4.0)
-            .expect("a string takes it");
+        text += &format!(r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{name}</text>"#, y + 4.0);
     }
     for (from, to) in rig.base.iter().zip(&platform) {
         text += &line(from, to, "leg");
@@ -56,18 +53,15 @@ pub fn view(parameters: &Parameters) -> String {
     text += &polygon(&platform, "platform");
     for (leg, (from, to)) in rig.base.iter().zip(&platform).enumerate() {
         let [x, y] = at(&(from + 0.35 * (to - from)));
-        write!(
-            text,
+        text += &format!(
             r#"<circle cx="{x:.1}" cy="{y:.1}" r="9" class="number"/><text x="{x:.1}" y="{:.1}" text-anchor="middle">{}</text>"#,
             y + 4.0,
             leg + 1
-        )
-        .expect("a string takes it");
+        );
     }
     let [x, y] = at(&head);
     text += &line(&seat, &head, "torso");
-    write!(text, r#"<circle cx="{x:.1}" cy="{y:.1}" r="{:.1}" class="head"/>"#, HEAD_RADIUS * window.scale())
-        .expect("a string takes it");
+    text += &format!(r#"<circle cx="{x:.1}" cy="{y:.1}" r="{:.1}" class="head"/>"#, HEAD_RADIUS * window.scale());
     text
 }
 

@@ -1,7 +1,5 @@
 //! Summary of a simulation on the terminal.
 
-use std::fmt::Write;
-
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 
@@ -17,16 +15,15 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
     let mut text =
         format!("{}: {:.1} s at {:.0} Hz\n", recording.name, recording.manoeuvre.duration(), 1.0 / recording.step());
     for warning in &recording.warnings {
-        writeln!(text, "  {warning}").expect("a string takes whatever is written");
+        text += &format!("  {warning}\n");
     }
     for outcome in outcomes {
         let setup = &outcome.setup;
-        write!(text, "\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name)
-            .expect("a string takes whatever is written");
+        text += &format!("\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name);
         for finding in findings::of(outcome) {
-            writeln!(text, "  {}", finding.text).expect("a string takes whatever is written");
+            text += &format!("  {}\n", finding.text);
         }
-        write!(text, "\n{}", table(outcome)).expect("a string takes whatever is written");
+        text += &format!("\n{}", table(outcome));
     }
     text
 }

@@ -1,7 +1,5 @@
 //! Summary of a tuning, as Markdown.
 
-use std::fmt::Write;
-
 use moris_setup::{Setup, all};
 
 use super::cost::{Channels, Cost, Objective};
@@ -83,28 +81,20 @@ pub fn first_line(results: &[RecordingResult], fraction: f64) -> String {
 /// The whole summary.
 pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction: f64, interrupted: bool) -> String {
     let mut text = first_line(results, fraction);
-    write!(text, "\n\n# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name)
-        .expect("a string takes whatever is written");
+    text += &format!("\n\n# Tuning from {} on {}\n\n", before.parameters_name, before.rig_name);
     if interrupted {
         text.push_str("The search was interrupted; this is the best result so far.\n\n");
     }
     if 0.0 < fraction && fraction < 1.0 {
-        write!(
-            text,
+        text += &format!(
             "The result goes {:.0} % of the way to the best parameters for these recordings: that is best for recordings left out. \
              With --folds 0 it goes all the way.\n\n",
             100.0 * fraction
-        )
-        .expect("a string takes whatever is written");
+        );
     }
-    text.push_str(&verdict(results, &before.parameters_name));
-    text.push_str("\n\n");
-    text.push_str(&errors(results));
-    text.push('\n');
-    text.push_str(&channels(results));
-    text.push('\n');
-    text.push_str(&parameters(before, tuned));
-    text
+    let verdict = verdict(results, &before.parameters_name);
+    let (errors, channels, parameters) = (errors(results), channels(results), parameters(before, tuned));
+    text + &format!("{verdict}\n\n{errors}\n{channels}\n{parameters}")
 }
 
 /// The mean errors before and after in a few sentences, on recordings tuned on and on others.
@@ -113,21 +103,19 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
     let unseen = Comparison::of(results.iter().filter_map(|result| Some((result.before, result.unseen?))));
     let mut text = String::new();
     if let Some(tuned) = tuned {
-        write!(
-            text,
+        text += &format!(
             "On the recordings that it was tuned on, the mean error goes from {:.3} to {:.3}",
             tuned.before, tuned.after
-        )
-        .expect("a string takes whatever is written");
+        );
         match tuned.limited_before {
             _ if tuned.before == tuned.after => text.push('.'),
             0 => text.push('.'),
-            count => write!(
-                text,
-                "; limits were active or the reserve was used on {count} of {} with {before_name}, on none when tuned.",
-                tuned.recordings
-            )
-            .expect("a string takes whatever is written"),
+            count => {
+                text += &format!(
+                    "; limits were active or the reserve was used on {count} of {} with {before_name}, on none when tuned.",
+                    tuned.recordings
+                )
+            }
         }
     }
     text.push_str(&without_result(results));
@@ -140,14 +128,12 @@ fn verdict(results: &[RecordingResult], before_name: &str) -> String {
         return text;
     };
     let Comparison { recordings, before, after, better, .. } = unseen;
-    write!(
-        text,
+    text += &format!(
         "\n\nOn recordings that it was not tuned on, the mean error goes from {before:.3} to {after:.3}; it is better on {better} of {recordings}. \
          Limits are active, or the reserve of stroke is used, for {:.2} % of their time, with {before_name} for {:.2} %.",
         100.0 * unseen.violated_after,
         100.0 * unseen.violated_before
-    )
-    .expect("a string takes whatever is written");
+    );
     if unseen.before == unseen.after {
         return text;
     }
@@ -263,7 +249,7 @@ fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [String; 
     let mut text = String::new();
     for (index, row) in all.iter().enumerate() {
         for (cell, &width) in row.iter().zip(&widths) {
-            write!(text, "| {cell:<width$} ").expect("a string takes whatever is written");
+            text += &format!("| {cell:<width$} ");
         }
         text.push_str("|\n");
         if index == 0 {
