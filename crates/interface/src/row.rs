@@ -1,9 +1,12 @@
 //! A row of the interface: one field of a struct, one or several scalar variables.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Field, ParameterError, Unit};
 
 /// Who sets a variable (FMI 2.0, 2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Causality {
     Independent,
     Input,
@@ -12,7 +15,8 @@ pub enum Causality {
 }
 
 /// When a variable may change (FMI 2.0, 2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
 pub enum Variability {
     Continuous,
     Discrete,

@@ -80,8 +80,8 @@ fn scalar_variable(identity: &Identity, slot: usize, start: f64) -> ScalarVariab
         name: identity.variable_name(slot),
         value_reference: slot as u32,
         description: row.text().to_owned(),
-        causality: row.causality.into(),
-        variability: row.variability.into(),
+        causality: row.causality,
+        variability: row.variability,
         initial: (row.causality == Causality::Output).then_some(Initial::Calculated),
         values: values(row.kind, row.range, has_start.then_some(start)),
     }

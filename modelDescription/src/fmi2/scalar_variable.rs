@@ -1,8 +1,9 @@
 //! One variable.
 
+use moris_interface::{Causality, Variability};
 use serde::{Deserialize, Serialize};
 
-use crate::common::attributes::{Causality, Initial, Variability};
+use crate::common::attributes::Initial;
 
 /// `ScalarVariable`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,8 +1,9 @@
 //! One variable, a scalar or an array.
 
+use moris_interface::{Causality, Variability};
 use serde::{Deserialize, Serialize};
 
-use crate::common::attributes::{Causality, Initial, Variability};
+use crate::common::attributes::Initial;
 
 /// A variable; the element's name is its type.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
