@@ -78,6 +78,31 @@ impl Wording {
     }
 }
 
+/// A section of a model's documentation; its text is in the file named as the anchor.
+macro_rules! section {
+    ($model:literal, $anchor:literal, $heading:literal) => {
+        $crate::documentation::Section {
+            anchor: $anchor,
+            heading: $heading,
+            html: include_str!(concat!("../../documentation/", $model, "/", $anchor, ".html")),
+        }
+    };
+}
+use section;
+
+/// The example of a model's documentation, from its three files.
+macro_rules! example {
+    ($model:literal) => {
+        $crate::model::Wording {
+            place: "example",
+            fmi2: include_str!(concat!("../../documentation/", $model, "/example.fmi2.html")),
+            fmi3: include_str!(concat!("../../documentation/", $model, "/example.fmi3.html")),
+            fmi3_arrays: include_str!(concat!("../../documentation/", $model, "/example.fmi3.arrays.html")),
+        }
+    };
+}
+use example;
+
 /// Functions derived from a model. `start` has the start value of each slot.
 pub struct ModelFns {
     /// Who it is and what its variables are.

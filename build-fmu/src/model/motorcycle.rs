@@ -8,8 +8,7 @@ use moris_motorcycle::path::table::from_csv;
 
 use moris_setup::{NamedValues, changed};
 
-use super::{FmuModel, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
-use crate::documentation::Section;
+use super::{FmuModel, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, example, section, terminal};
 use crate::{Error, icon};
 
 /// The motorcycle's FMU.
@@ -21,20 +20,8 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
     functions: ModelFns::from::<Motorcycle>(),
     derived_start_values: |_| NamedValues::new(),
     consistency: |_| Ok(()),
-    sections: &[
-        Section { anchor: "what", heading: "Overview", html: include_str!("../../documentation/Motorcycle/what.html") },
-        Section {
-            anchor: "connect",
-            heading: "Connections",
-            html: include_str!("../../documentation/Motorcycle/connect.html"),
-        },
-    ],
-    wording: &[Wording {
-        place: "example",
-        fmi2: include_str!("../../documentation/Motorcycle/example.fmi2.html"),
-        fmi3: include_str!("../../documentation/Motorcycle/example.fmi3.html"),
-        fmi3_arrays: include_str!("../../documentation/Motorcycle/example.fmi3.arrays.html"),
-    }],
+    sections: &[section!("Motorcycle", "what", "Overview"), section!("Motorcycle", "connect", "Connections")],
+    wording: &[example!("Motorcycle")],
     terminals: &[terminal("vehicle", VEHICLE, VEHICLE_MEMBERS), terminal("rider", RIDER, &[("rider.lean", "lean")])],
     icon: icon::motorcycle,
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),

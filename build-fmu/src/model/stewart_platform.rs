@@ -5,8 +5,7 @@ use moris_stewart_platform::StewartPlatform;
 use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
-use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, terminal};
-use crate::documentation::Section;
+use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, example, section, terminal};
 use crate::icon;
 
 /// The platform's FMU.
@@ -19,26 +18,10 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
     derived_start_values: commands_at_neutral,
     consistency: |_| Ok(()),
     sections: &[
-        Section {
-            anchor: "what",
-            heading: "Overview",
-            html: include_str!("../../documentation/StewartPlatform/what.html"),
-        },
-        Section {
-            anchor: "connect",
-            heading: "Connections",
-            html: include_str!("../../documentation/StewartPlatform/connect.html"),
-        },
-        Section {
-            anchor: "inside",
-            heading: "Equations and blocks",
-            html: include_str!("../../documentation/StewartPlatform/inside.html"),
-        },
-        Section {
-            anchor: "limits",
-            heading: "Limits",
-            html: include_str!("../../documentation/StewartPlatform/limits.html"),
-        },
+        section!("StewartPlatform", "what", "Overview"),
+        section!("StewartPlatform", "connect", "Connections"),
+        section!("StewartPlatform", "inside", "Equations and blocks"),
+        section!("StewartPlatform", "limits", "Limits"),
     ],
     wording: &[
         Wording::names(
@@ -55,12 +38,7 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
             "slopes",
             " Where the host gives the lengths' derivatives (<code>fmi2SetRealInputDerivatives</code>), those count instead.",
         ),
-        Wording {
-            place: "example",
-            fmi2: include_str!("../../documentation/StewartPlatform/example.fmi2.html"),
-            fmi3: include_str!("../../documentation/StewartPlatform/example.fmi3.html"),
-            fmi3_arrays: include_str!("../../documentation/StewartPlatform/example.fmi3.arrays.html"),
-        },
+        example!("StewartPlatform"),
     ],
     terminals: &[
         terminal("actuators", ACTUATORS, &[("command.length", "length"), ("command.velocity", "velocity")]),

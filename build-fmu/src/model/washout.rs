@@ -4,8 +4,9 @@ use moris_interface::SlotModel;
 use moris_setup::{NamedValues, check_consistency};
 use moris_washout::Washout;
 
-use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, terminal};
-use crate::documentation::Section;
+use super::{
+    ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, example, section, terminal,
+};
 use crate::icon;
 
 /// The washout's FMU.
@@ -18,31 +19,11 @@ pub const WASHOUT: FmuModel = FmuModel {
     derived_start_values: |_| NamedValues::new(),
     consistency: |start| check_consistency(&Washout::parameters_in(start)),
     sections: &[
-        Section {
-            anchor: "what",
-            heading: "Overview",
-            html: include_str!("../../documentation/MorisWashout/what.html"),
-        },
-        Section {
-            anchor: "connect",
-            heading: "Connections",
-            html: include_str!("../../documentation/MorisWashout/connect.html"),
-        },
-        Section {
-            anchor: "blocks",
-            heading: "Equations and blocks",
-            html: include_str!("../../documentation/MorisWashout/blocks.html"),
-        },
-        Section {
-            anchor: "limits",
-            heading: "Limits",
-            html: include_str!("../../documentation/MorisWashout/limits.html"),
-        },
-        Section {
-            anchor: "errata",
-            heading: "Errata and choices",
-            html: include_str!("../../documentation/MorisWashout/errata.html"),
-        },
+        section!("MorisWashout", "what", "Overview"),
+        section!("MorisWashout", "connect", "Connections"),
+        section!("MorisWashout", "blocks", "Equations and blocks"),
+        section!("MorisWashout", "limits", "Limits"),
+        section!("MorisWashout", "errata", "Errata and choices"),
     ],
     wording: &[
         Wording::names(
@@ -54,12 +35,7 @@ pub const WASHOUT: FmuModel = FmuModel {
             "slopes",
             ", or followed linearly where the host gives their derivatives (<code>fmi2SetRealInputDerivatives</code>)",
         ),
-        Wording {
-            place: "example",
-            fmi2: include_str!("../../documentation/MorisWashout/example.fmi2.html"),
-            fmi3: include_str!("../../documentation/MorisWashout/example.fmi3.html"),
-            fmi3_arrays: include_str!("../../documentation/MorisWashout/example.fmi3.arrays.html"),
-        },
+        example!("MorisWashout"),
     ],
     terminals: &[
         terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
