@@ -52,16 +52,13 @@ macro_rules! units {
         choices! { $(#[$attribute])* $name { $( $(#[doc = $text])+ $word $item, )+ } }
 
         impl $name {
+            /// All units, in the order of the items, with their other spellings.
+            const SPELLED: &[(Unit, &[&str])] =
+                &[$( (Unit { word: $word, in_si: $in_si }, &[$($spelling),*]), )+];
+
             /// The unit with its factor to SI.
             pub fn unit(self) -> Unit {
-                match self { $( $name::$item => Unit { word: $word, in_si: $in_si }, )+ }
-            }
-
-            fn spelled(plain: &str) -> Option<Unit> {
-                match plain {
-                    $( $word $( | $spelling )* => Some($name::$item.unit()), )+
-                    _ => None,
-                }
+                Self::SPELLED[self as usize].0
             }
         }
     };
@@ -129,68 +126,54 @@ units! {
     }
 }
 
+/// Texts and units of a dimension.
+struct Entry {
+    option: &'static str,
+    name: &'static str,
+    /// The units, the SI unit first, each with its other spellings.
+    units: &'static [(Unit, &'static [&'static str])],
+}
+
 impl Dimension {
     pub const ALL: [Dimension; 5] =
         [Dimension::Time, Dimension::Force, Dimension::Rate, Dimension::Angle, Dimension::Speed];
 
+    fn entry(self) -> Entry {
+        match self {
+            Dimension::Time => Entry { option: "--time-unit", name: "time", units: TimeUnit::SPELLED },
+            Dimension::Force => Entry { option: "--force-unit", name: "specific force", units: ForceUnit::SPELLED },
+            Dimension::Rate => Entry { option: "--rate-unit", name: "angular velocity", units: RateUnit::SPELLED },
+            Dimension::Angle => Entry { option: "--angle-unit", name: "angle", units: AngleUnit::SPELLED },
+            Dimension::Speed => Entry { option: "--speed-unit", name: "speed", units: SpeedUnit::SPELLED },
+        }
+    }
+
     /// The option that gives its unit.
     pub fn option(self) -> &'static str {
-        match self {
-            Dimension::Time => "--time-unit",
-            Dimension::Force => "--force-unit",
-            Dimension::Rate => "--rate-unit",
-            Dimension::Angle => "--angle-unit",
-            Dimension::Speed => "--speed-unit",
-        }
+        self.entry().option
     }
 
     /// Its name in messages.
     pub fn name(self) -> &'static str {
-        match self {
-            Dimension::Time => "time",
-            Dimension::Force => "specific force",
-            Dimension::Rate => "angular velocity",
-            Dimension::Angle => "angle",
-            Dimension::Speed => "speed",
-        }
+        self.entry().name
     }
 
     /// Words of its units, for messages.
     pub fn words(self) -> Vec<&'static str> {
-        fn words<T: ValueEnum>(word: fn(T) -> &'static str) -> Vec<&'static str> {
-            T::value_variants().iter().map(|unit| word(unit.clone())).collect()
-        }
-        match self {
-            Dimension::Time => words(TimeUnit::word),
-            Dimension::Force => words(ForceUnit::word),
-            Dimension::Rate => words(RateUnit::word),
-            Dimension::Angle => words(AngleUnit::word),
-            Dimension::Speed => words(SpeedUnit::word),
-        }
+        self.entry().units.iter().map(|(unit, _)| unit.word).collect()
     }
 
-    /// The unit of a recording that gives none.
+    /// The unit of a recording that gives none: the SI unit, which is the first.
     pub fn default_unit(self) -> Unit {
-        match self {
-            Dimension::Time => TimeUnit::Second.unit(),
-            Dimension::Force => ForceUnit::MetrePerSecondSquared.unit(),
-            Dimension::Rate => RateUnit::RadianPerSecond.unit(),
-            Dimension::Angle => AngleUnit::Radian.unit(),
-            Dimension::Speed => SpeedUnit::MetrePerSecond.unit(),
-        }
+        self.entry().units[0].0
     }
 
     /// The unit with this spelling in a header, whatever its case and signs; none if it is no
     /// unit of this dimension.
     pub fn spelled(self, text: &str) -> Option<Unit> {
         let plain = plain(text);
-        match self {
-            Dimension::Time => TimeUnit::spelled(&plain),
-            Dimension::Force => ForceUnit::spelled(&plain),
-            Dimension::Rate => RateUnit::spelled(&plain),
-            Dimension::Angle => AngleUnit::spelled(&plain),
-            Dimension::Speed => SpeedUnit::spelled(&plain),
-        }
+        let is_spelled = |(unit, others): &&(Unit, &[&str])| unit.word == plain || others.contains(&plain.as_str());
+        self.entry().units.iter().find(is_spelled).map(|(unit, _)| *unit)
     }
 }
 
