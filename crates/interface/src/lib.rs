@@ -29,7 +29,7 @@ pub use guid::{guid, guid_of};
 pub use model::{Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, Time, refuse};
 pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable};
 pub use slot_model::SlotModel;
-pub use slots::{Reader, Slot, Writer, slot_count, slot_table};
+pub use slots::{Reader, Slot, Writer, slot_count, slot_table, slots_of};
 pub use start::{read_start_values, start_values, write_start_values};
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
 

@@ -1,7 +1,7 @@
 //! The flat array of a model's values: which slot belongs to which row, and reading and
 //! writing structs in it.
 
-use crate::{Field, Row};
+use crate::{Field, Group, Row};
 
 /// Where a slot comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +36,13 @@ pub const fn slot_table<const N: usize>(rows: &[Row]) -> [Slot; N] {
         }
         r += 1;
     }
+    slots
+}
+
+/// The values of a group's variables, in the order of its rows.
+pub fn slots_of<G: Group>(group: &G) -> Vec<f64> {
+    let mut slots = vec![0.0; slot_count(G::ROWS)];
+    group.write(&mut Writer::new(&mut slots));
     slots
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use moris_interface::{Group, Writer, slot_count};
+use moris_interface::{Group, slot_count, slots_of};
 use moris_washout::Output;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -21,14 +21,12 @@ pub static VARIABLES: LazyLock<Variables> = LazyLock::new(|| Variables::of(Outpu
 /// name without its index or component: `output["actuator.length"]`, `output["platform.position"]`.
 #[pyclass(frozen, mapping, module = "moris", name = "Output")]
 pub struct PyOutput {
-    slots: [f64; COUNT],
+    slots: Vec<f64>,
 }
 
 impl From<&Output> for PyOutput {
     fn from(output: &Output) -> Self {
-        let mut slots = [0.0; COUNT];
-        output.write(&mut Writer::new(&mut slots));
-        PyOutput { slots }
+        PyOutput { slots: slots_of(output) }
     }
 }
 

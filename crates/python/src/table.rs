@@ -1,12 +1,12 @@
 //! The table of variables.
 
-use moris_interface::{Causality, Group, Kind, Row};
+use moris_interface::{Causality, Group, Kind, Row, slots_of};
 use moris_washout::interface::Inputs;
 use moris_washout::{Output, Parameters};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
-use crate::variables::{Variables, slots};
+use crate::variables::Variables;
 
 /// A variable as Python gets it: name, causality, kind, unit, least and greatest value, start
 /// value, items, description, name of the vector that it is an element of.
@@ -37,7 +37,7 @@ pub fn variable_rows(py: Python) -> PyResult<Vec<Variable>> {
 
 fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>> {
     let variables = Variables::of(G::ROWS);
-    let values = slots(start);
+    let values = slots_of(start);
     let mut rows = Vec::new();
     for row in G::ROWS {
         for _ in 0..row.slots() {

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use moris_interface::{Group, Kind, Row, Writer, slot_count};
+use moris_interface::{Kind, Row};
 use moris_setup::nearest;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyKeyError;
@@ -80,11 +80,4 @@ impl Variables {
             }
         }
     }
-}
-
-/// The slots of a group.
-pub fn slots<G: Group>(group: &G) -> Vec<f64> {
-    let mut slots = vec![0.0; slot_count(G::ROWS)];
-    group.write(&mut Writer::new(&mut slots));
-    slots
 }

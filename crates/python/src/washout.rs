@@ -1,6 +1,6 @@
 //! The class `Washout`.
 
-use moris_interface::{Group, Writer, guid};
+use moris_interface::{Group, Writer, guid, slots_of};
 use moris_setup::all;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::nalgebra::Vector3;
@@ -13,7 +13,7 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use crate::arrays::{Arrays, samples};
 use crate::output::{COUNT, PyOutput, VARIABLES};
 use crate::preview::{self, Previews};
-use crate::variables::{Variables, slots};
+use crate::variables::Variables;
 use crate::{error, setup};
 
 /// The washout filter on its platform: from the motion of a vehicle's rider to the
@@ -207,7 +207,7 @@ impl PyWashout {
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        VARIABLES.value(py, name, &slots(&self.washout.output()))
+        VARIABLES.value(py, name, &slots_of(&self.washout.output()))
     }
 
     /// A washout in the same state.
@@ -284,7 +284,7 @@ fn vector(object: Option<&Bound<PyAny>>, name: &str, default: [f64; 3]) -> PyRes
 pub fn parameter_dict<'py, G: Group>(py: Python<'py>, parameters: &G) -> PyResult<Bound<'py, PyDict>> {
     let variables = Variables::of(G::ROWS);
     let dict = PyDict::new(py);
-    for (slot, value) in slots(parameters).into_iter().enumerate() {
+    for (slot, value) in slots_of(parameters).into_iter().enumerate() {
         dict.set_item(&variables.names[slot], variables.scalar(py, slot, value)?)?;
     }
     Ok(dict)

@@ -1,6 +1,6 @@
 //! Values by the names of variables, as read from files.
 
-use moris_interface::{Group, Identity, Reader, Row, Writer, slot_count};
+use moris_interface::{Group, Identity, Reader, Row, slots_of};
 
 /// Names of variables with their values, encoded as in slots: enumerations counted from 1, booleans
 /// as 0 and 1. A later value of the same name overrides an earlier one.
@@ -8,8 +8,7 @@ pub type NamedValues = Vec<(String, f64)>;
 
 /// A group of variables overridden by these values. Names that are not the group's are ignored.
 pub fn overlaid<G: Group>(group: &G, values: &[(String, f64)]) -> G {
-    let mut slots = vec![0.0; slot_count(G::ROWS)];
-    group.write(&mut Writer::new(&mut slots));
+    let mut slots = slots_of(group);
     for (slot, name) in variable_names(G::ROWS).enumerate() {
         if let Some((_, value)) = values.iter().rev().find(|(other, _)| *other == name) {
             slots[slot] = *value;
@@ -20,9 +19,7 @@ pub fn overlaid<G: Group>(group: &G, values: &[(String, f64)]) -> G {
 
 /// The values of all of a group's variables.
 pub fn all<G: Group>(group: &G) -> NamedValues {
-    let mut slots = vec![0.0; slot_count(G::ROWS)];
-    group.write(&mut Writer::new(&mut slots));
-    variable_names(G::ROWS).zip(slots).collect()
+    variable_names(G::ROWS).zip(slots_of(group)).collect()
 }
 
 /// The values of a group's variables that differ from the default.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use moris_interface::{Group, Writer, slot_count};
+use moris_interface::{Group, slots_of};
 use moris_washout::{Input, Output};
 
 use super::Simulation;
@@ -23,19 +23,12 @@ pub fn write(file: &Path, simulation: &Simulation) -> Result<()> {
         let mut table = csv::Writer::from_path(file)?;
         table.write_record(std::iter::once("time".to_owned()).chain(names))?;
         for ((time, input), output) in simulation.times().iter().zip(&simulation.inputs).zip(&simulation.outputs) {
-            let values = std::iter::once(*time).chain(values(input)).chain(values(output));
+            let values = std::iter::once(*time).chain(slots_of(input)).chain(slots_of(output));
             table.write_record(values.map(written))?;
         }
         Ok(table.flush()?)
     };
     save().with_context(|| format!("cannot write {}", file.display()))
-}
-
-/// The values of a group's variables in the order of its rows.
-fn values<G: Group>(group: &G) -> Vec<f64> {
-    let mut slots = vec![0.0; slot_count(G::ROWS)];
-    group.write(&mut Writer::new(&mut slots));
-    slots
 }
 
 fn written(value: f64) -> String {
