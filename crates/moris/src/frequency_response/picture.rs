@@ -10,6 +10,7 @@ use super::Measured;
 use super::channel::{CROSS, Channel, name, ratio_unit};
 use super::measure::Response;
 use super::table::{modulus, phase};
+use crate::capitalised;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -180,9 +181,4 @@ fn ring(point: (f64, f64)) -> Circle<(f64, f64), i32> {
 fn number(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

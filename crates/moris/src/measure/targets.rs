@@ -2,6 +2,7 @@
 
 use super::MeasuredRecording;
 use super::channel::{Channel, Quantity};
+use crate::capitalised;
 
 /// A force on which less than this is desired does not count; an error below it
 /// counts as this \[m/s2\].
@@ -89,7 +90,7 @@ impl Targets {
             if wrong > at_rest + self.cues {
                 missed.push(format!(
                     "{}: false or missing cues for {:.1} % of the time exceed the {:.1} % of a platform at rest (--cues).",
-                    capitalized(Quantity::Rate(axis).name()),
+                    capitalised(Quantity::Rate(axis).name()),
                     100.0 * wrong,
                     100.0 * at_rest
                 ));
@@ -130,9 +131,4 @@ impl Targets {
         }
         missed
     }
-}
-
-fn capitalized(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -8,6 +8,7 @@ use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::{Outcome, Simulation, findings};
+use crate::capitalised;
 use crate::recording::Recording;
 
 /// Largest page \[bytes\].
@@ -160,9 +161,4 @@ fn better(name: &str) -> Better {
         "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "relative bound" => Better::Neither,
         _ => Better::Less,
     }
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
