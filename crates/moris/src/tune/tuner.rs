@@ -1,7 +1,5 @@
 //! One tuning: a search, and a check of its result in the internal steps that it will be used with.
 
-use std::error::Error;
-use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -18,16 +16,9 @@ use crate::simulate::Simulation;
 
 /// No parameters were found that keep the constraints. The text names the
 /// recordings and the remedy.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
 pub struct NoFeasibleParameters(String);
-
-impl fmt::Display for NoFeasibleParameters {
-    fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.write_str(&self.0)
-    }
-}
-
-impl Error for NoFeasibleParameters {}
 
 /// Tunes on sets of recordings.
 pub struct Tuner<'a> {
