@@ -148,3 +148,10 @@ impl Recording {
         (0..self.inputs().len()).map(|k| k as f64 * self.step())
     }
 }
+
+/// The median of at least one value; the upper one of two in the middle.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}

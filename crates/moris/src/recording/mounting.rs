@@ -6,6 +6,8 @@ use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::median;
+
 /// The sensor's orientation in the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Written")]
@@ -216,10 +218,4 @@ pub fn find(motion: &SensorMotion) -> Result<Found, String> {
 /// The part of a vector that is perpendicular to `up`.
 fn horizontal(vector: &Vector3<f64>, up: &Vector3<f64>) -> Vector3<f64> {
     vector - up * vector.dot(up)
-}
-
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -14,10 +14,10 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use super::RecordingError;
 use super::conventions::{AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, Unit};
 use super::header::UnitSource;
 use super::table::Table;
+use super::{RecordingError, median};
 
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
 /// are biased and tilted.
@@ -76,7 +76,7 @@ fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
 
 /// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
 fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
-    let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis]).collect()));
+    let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis])));
     let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     if (median - gravity).norm() < GRAVITY_TOLERANCE {
         return Ok(());
@@ -282,9 +282,4 @@ pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
         ));
     }
     warnings
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -1,9 +1,9 @@
 //! Resampling at equal steps. Measures and comparisons need them, the washout's filters do not.
 
-use super::RecordingError;
 use super::conventions::{Conventions, Quantity};
 use super::join::GAP;
 use super::table::Table;
+use super::{RecordingError, median};
 
 /// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
 /// times written with few digits.
@@ -48,9 +48,7 @@ fn check_order(table: &Table) -> Result<(), RecordingError> {
 
 /// The median step \[s\], which is insensitive to missing samples and outliers.
 fn usual_step(table: &Table) -> f64 {
-    let mut steps: Vec<f64> = table.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    steps[steps.len() / 2]
+    median(table.time.windows(2).map(|pair| pair[1] - pair[0]))
 }
 
 fn check_unit(table: &Table) -> Result<(), RecordingError> {
