@@ -3,7 +3,7 @@
 
 use anyhow::{Context, Result};
 use moris_batch::Replay;
-use moris_washout::{Parameters, Washout};
+use moris_washout::Parameters;
 
 use crate::recording::Recording;
 use crate::recording::preview::Previewer;
@@ -45,11 +45,6 @@ impl Host {
             format!("--step is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other")
         })?;
         let previewer = (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview));
-        let preview = |washout: &mut Washout, time: f64| {
-            if let Some(previewer) = &previewer {
-                washout.preview(&previewer.at(time));
-            }
-        };
-        Ok(Simulation::prepared(&replay, parameters, preview, || ())?)
+        Ok(Simulation::previewed(&replay, parameters, previewer, || ())?)
     }
 }

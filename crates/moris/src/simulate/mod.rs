@@ -26,7 +26,6 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use moris_measures::{Axes, Measures, Row, bound_rows};
 use moris_setup::Setup;
-use moris_washout::Washout;
 use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
@@ -116,12 +115,7 @@ impl Outcome {
     pub fn previewed(recording: &Recording, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
         let parameters = recording.parameters(&setup.parameters);
         let previewer = (seconds > 0.0).then(|| Previewer::new(recording.inputs(), recording.step(), seconds));
-        let prepare = |washout: &mut Washout, time: f64| {
-            if let Some(previewer) = &previewer {
-                washout.preview(&previewer.at(time));
-            }
-        };
-        Outcome::measured(Simulation::prepared(&recording.replay(), &parameters, prepare, progress)?, setup)
+        Outcome::measured(Simulation::previewed(&recording.replay(), &parameters, previewer, progress)?, setup)
     }
 
     /// Measures a simulation with this setup's rig.

@@ -9,6 +9,7 @@ use moris_washout::platform::Pose;
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
 use crate::recording::Recording;
+use crate::recording::preview::Previewer;
 
 /// Every input and output of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,25 +36,29 @@ impl Simulation {
     /// # Errors
     /// The parameters cannot be used: which, and why.
     pub fn of(replay: &Replay, parameters: &Parameters, progress: impl FnMut()) -> Result<Self, ParameterError> {
-        Simulation::prepared(replay, parameters, |_, _| (), progress)
+        Simulation::previewed(replay, parameters, None, progress)
     }
 
-    /// As [`Simulation::of`]; `prepare` is called before each step with the time at its start
-    /// \[s\].
+    /// As [`Simulation::of`], with a preview before each step.
     ///
     /// # Errors
     /// The parameters cannot be used: which, and why.
-    pub fn prepared(
+    pub fn previewed(
         replay: &Replay,
         parameters: &Parameters,
-        prepare: impl FnMut(&mut Washout, f64),
+        previewer: Option<Previewer>,
         mut progress: impl FnMut(),
     ) -> Result<Self, ParameterError> {
         let inputs: Vec<Input> = replay.inputs().copied().collect();
         let mut washout = Washout::new(parameters)?.starting_with(&inputs[0]);
         let mut outputs = vec![washout.output()];
         progress();
-        replay.run_prepared(&mut washout, prepare, |_, output| {
+        let preview = |washout: &mut Washout, time: f64| {
+            if let Some(previewer) = &previewer {
+                washout.preview(&previewer.at(time));
+            }
+        };
+        replay.run_prepared(&mut washout, preview, |_, output| {
             outputs.push(*output);
             progress();
         });
