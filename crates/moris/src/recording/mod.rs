@@ -38,7 +38,7 @@ pub mod preview;
 pub mod quantity;
 pub mod sampling;
 mod sheet;
-mod source;
+pub(crate) mod source;
 pub mod table;
 mod time;
 pub mod units;
@@ -113,11 +113,6 @@ impl Recording {
             has_orientation: table.has_orientation(),
             warnings,
         })
-    }
-
-    /// The name of the recording in a file: the file's without directory, `.csv` and `.gz`.
-    pub fn name_of(file: &Path) -> String {
-        source::name(file)
     }
 
     /// The parameters for its simulation: the given ones, with the frame of the

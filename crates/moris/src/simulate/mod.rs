@@ -30,7 +30,7 @@ use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
 use crate::recording::preview::{Previewer, parse_seconds};
-use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording};
+use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source};
 use crate::setup_options::SetupOptions;
 pub use bounds::AxisBound;
 pub use simulation::Simulation;
@@ -245,7 +245,7 @@ struct Simulated {
 
 /// Simulates a recording with each of the setups, and writes its files.
 fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conventions) -> Result<Simulated> {
-    let mut progress = Progress::new(&Recording::name_of(file), "reading")?;
+    let mut progress = Progress::new(&source::name(file), "reading")?;
     let recording = Recording::read(file, conventions)?;
     let outcomes =
         outcomes(&recording, cases, !options.no_bound, &mut progress).with_context(|| recording.name.clone())?;
@@ -305,7 +305,7 @@ fn table_name(recording: &str, index: usize, setup: &Setup) -> String {
 fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
     let mut tables = BTreeMap::new();
     for recording in recordings {
-        let stem = Recording::name_of(recording);
+        let stem = source::name(recording);
         for (index, case) in cases.iter().enumerate() {
             let name = table_name(&stem, index, &case.setup);
             if recordings.iter().any(|recording| recording.file_name().is_some_and(|file| file == name.as_str())) {
