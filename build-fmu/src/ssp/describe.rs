@@ -191,24 +191,15 @@ pub fn unit_name(unit: &moris_interface::Unit) -> Option<String> {
 
 /// All connections: from the system's inputs, between components, to the system's outputs.
 fn wires(inputs: &[Port], connections: &[Connection], outputs: &[Port]) -> Vec<schema::Connection> {
-    let inputs = inputs.iter().map(|port| schema::Connection {
-        start_element: None,
-        start_connector: port.name.to_owned(),
-        end_element: Some(port.component.to_owned()),
-        end_connector: port.variable.to_owned(),
-    });
-    let outputs = outputs.iter().map(|port| schema::Connection {
-        start_element: Some(port.component.to_owned()),
-        start_connector: port.variable.to_owned(),
-        end_element: None,
-        end_connector: port.name.to_owned(),
-    });
-    let inside = connections.iter().map(|Connection { from, to }| schema::Connection {
-        start_element: Some(from.0.to_owned()),
-        start_connector: from.1.clone(),
-        end_element: Some(to.0.to_owned()),
-        end_connector: to.1.clone(),
-    });
+    let wire = |from: (Option<&str>, &str), to: (Option<&str>, &str)| schema::Connection {
+        start_element: from.0.map(str::to_owned),
+        start_connector: from.1.to_owned(),
+        end_element: to.0.map(str::to_owned),
+        end_connector: to.1.to_owned(),
+    };
+    let inputs = inputs.iter().map(|port| wire((None, port.name), (Some(port.component), port.variable)));
+    let outputs = outputs.iter().map(|port| wire((Some(port.component), port.variable), (None, port.name)));
+    let inside = connections.iter().map(|Connection { from, to }| wire((Some(from.0), &from.1), (Some(to.0), &to.1)));
     inputs.chain(inside).chain(outputs).collect()
 }
 
