@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use moris::recording::Recording;
 use moris::simulate::Simulation;
-use moris::tune::cost::{Constraints, Objective};
+use moris::tune::cost::Objective;
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
 use moris_batch::Manoeuvre;
@@ -18,7 +18,7 @@ use moris_washout::{Input, Parameters};
 
 const STEP: f64 = 0.01;
 const EQUAL: [f64; 6] = [1.0; 6];
-const NO_RESERVE: Constraints = Constraints { stroke_reserve: 0.0 };
+const NO_RESERVE: f64 = 0.0;
 const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
 
 fn recording(name: &str, duration: f64, input: impl Fn(f64, &mut Input)) -> Recording {
@@ -46,8 +46,8 @@ fn weaving() -> Recording {
     })
 }
 
-fn objective(recording: Recording, constraints: Constraints) -> Objective {
-    Objective::new(recording, &Parameters::default(), &EQUAL, constraints).unwrap()
+fn objective(recording: Recording, stroke_reserve: f64) -> Objective {
+    Objective::new(recording, &Parameters::default(), &EQUAL, stroke_reserve).unwrap()
 }
 
 fn simulation(objective: &Objective, parameters: &Parameters) -> Simulation {
@@ -103,7 +103,7 @@ fn the_search_s_short_way_comes_to_what_a_recording_comes_to() {
 #[test]
 fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
     let wild = recording("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
-    let tight = objective(wild.clone(), Constraints { stroke_reserve: 0.29 });
+    let tight = objective(wild.clone(), 0.29);
     let loose = objective(wild, NO_RESERVE);
     let simulation = simulation(&loose, &Parameters::default());
     let acted = simulation.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::Duration;
 
-use moris::tune::cost::{Constraints, Cost, Objective};
+use moris::tune::cost::{Cost, Objective};
 use moris::tune::folds;
 use moris::tune::search::{Budget, Evaluate, evaluate_here};
 use moris::tune::space::{Group, Space};
@@ -74,9 +74,8 @@ impl PyTuning {
             )));
         }
         let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
-        let constraints = Constraints { stroke_reserve };
         let objective = |recording: &PyRef<PyRecording>| {
-            let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, constraints);
+            let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, stroke_reserve);
             objective.map_err(|error| error::refused(py, &error, &all(&before.parameters)))
         };
         let objectives = recordings.iter().map(objective).collect::<PyResult<_>>()?;

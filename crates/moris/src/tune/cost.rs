@@ -26,13 +26,6 @@ use crate::simulate::Simulation;
 /// Six channels: specific force x, y, z, angular velocity x, y, z.
 pub type Channels<T> = [T; 6];
 
-/// Constraints on the platform.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Constraints {
-    /// Every actuator stays this far from either end of its stroke \[m\].
-    pub stroke_reserve: f64,
-}
-
 /// Cost of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
@@ -61,7 +54,8 @@ pub struct Objective {
     /// RMS of each channel as it is desired, in thresholds.
     desired_rms: Channels<f64>,
     weights: Channels<f64>,
-    constraints: Constraints,
+    /// Every actuator stays this far from either end of its stroke \[m\].
+    stroke_reserve: f64,
     /// The fixed parameters, with the recording's step as internal step, at most [`LONGEST_STEP`].
     fixed: Parameters,
     /// Washouts at rest, indexed by the orders of splitter and angular channel less 2. They are
@@ -80,7 +74,7 @@ const RESERVE_OF_ACCELERATION: f64 = 0.85;
 
 impl Objective {
     /// The objective on a recording, for parameters that share the fixed ones of these except
-    /// orders.
+    /// orders. Every actuator must stay `stroke_reserve` \[m\] from either end of its stroke.
     ///
     /// # Errors
     /// The parameters cannot be used.
@@ -88,7 +82,7 @@ impl Objective {
         recording: Recording,
         parameters: &Parameters,
         weights: &Channels<f64>,
-        constraints: Constraints,
+        stroke_reserve: f64,
     ) -> Result<Self, ParameterError> {
         let mut parameters = recording.parameters(parameters);
         let desired = desired(&recording, &parameters);
@@ -101,7 +95,7 @@ impl Objective {
             desired,
             desired_rms,
             weights: *weights,
-            constraints,
+            stroke_reserve,
             fixed: parameters,
             coarse: Default::default(),
         };
@@ -186,7 +180,7 @@ impl<'a> CostAccumulator<'a> {
         for (k, felt) in channels(force, output.felt_angular_velocity).into_iter().enumerate() {
             self.errors[k].push(felt - self.objective.desired[k][sample]);
         }
-        let touched = output.stroke_margin < self.objective.constraints.stroke_reserve;
+        let touched = output.stroke_margin < self.objective.stroke_reserve;
         self.violated += usize::from(output.safety_active || output.actuator_limited || touched);
     }
 

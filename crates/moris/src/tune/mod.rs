@@ -82,7 +82,7 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let objective = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
-        Ok(Objective::new(recording, &setup.parameters, &options.weights, options.constraints())?)
+        Ok(Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?)
     };
     files.par_iter().map(objective).collect()
 }

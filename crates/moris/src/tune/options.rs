@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::cost::{Channels, Constraints};
+use super::cost::Channels;
 use super::search::Budget;
 use super::space::Group;
 use crate::recording::ConventionOptions;
@@ -74,11 +74,6 @@ impl Options {
     /// Length of the search.
     pub fn budget(&self) -> Budget {
         Budget { evaluations: self.evaluations, seed: self.seed }
-    }
-
-    /// Constraints on the platform.
-    pub fn constraints(&self) -> Constraints {
-        Constraints { stroke_reserve: self.stroke_reserve }
     }
 }
 
