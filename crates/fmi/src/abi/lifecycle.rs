@@ -48,9 +48,3 @@ pub unsafe fn reset<M: Model, H: Host>(component: *mut c_void, function: &Functi
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }
 }
-
-/// A function that is there for the sake of the header, and allowed in no state.
-pub unsafe fn unsupported<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
-    // SAFETY: the host's component.
-    unsafe { call(component, function, |_: &mut Component<M, H>| Ok(())) }
-}

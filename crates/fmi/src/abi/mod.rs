@@ -15,6 +15,7 @@ mod function;
 pub mod lifecycle;
 pub mod older_glibc;
 pub mod pointers;
+pub mod unsupported;
 
 pub(crate) use arithmetic::with_default as with_default_arithmetic;
 pub use component::{Component, Host, call};

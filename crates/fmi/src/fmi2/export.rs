@@ -21,11 +21,9 @@ macro_rules! export_fmi2 {
             // SAFETY of all calls below: each function hands on what the host passes, for which the standard vouches.
             use std::ffi::{c_int, c_void};
 
-            use $crate::abi::{fmu_state, lifecycle as common};
+            use $crate::abi::{fmu_state, lifecycle as common, unsupported};
             use $crate::fmi2::types::*;
-            use $crate::fmi2::{
-                Logger, calling_sequence as function, lifecycle, status, steps, unsupported, variables,
-            };
+            use $crate::fmi2::{Logger, calling_sequence as function, lifecycle, steps, variables};
 
             #[allow(unused_imports)] // the model's path may be relative to the macro's place
             use super::*;
@@ -165,7 +163,7 @@ macro_rules! export_fmi2 {
                 count: usize,
                 _values: *mut fmi2String,
             ) -> fmi2Status {
-                unsafe { variables::strings::<$model>(component, &function::GET_STRING, count) }
+                unsafe { unsupported::none_of_this_type::<$model, Logger>(component, &function::GET_STRING, count) }
             }
 
             #[unsafe(no_mangle)]
@@ -209,7 +207,7 @@ macro_rules! export_fmi2 {
                 count: usize,
                 _values: *const fmi2String,
             ) -> fmi2Status {
-                unsafe { variables::strings::<$model>(component, &function::SET_STRING, count) }
+                unsafe { unsupported::none_of_this_type::<$model, Logger>(component, &function::SET_STRING, count) }
             }
 
             #[unsafe(no_mangle)]
@@ -292,7 +290,13 @@ macro_rules! export_fmi2 {
                 _known_changes: *const fmi2Real,
                 _unknown_changes: *mut fmi2Real,
             ) -> fmi2Status {
-                unsafe { unsupported::get_directional_derivative::<$model>(component) }
+                unsafe {
+                    unsupported::not_provided::<$model, Logger>(
+                        component,
+                        &function::GET_DIRECTIONAL_DERIVATIVE,
+                        "providesDirectionalDerivative",
+                    )
+                }
             }
 
             // Co-simulation.
@@ -333,7 +337,7 @@ macro_rules! export_fmi2 {
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2CancelStep(component: fmi2Component) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::CANCEL_STEP) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::CANCEL_STEP) }
             }
 
             #[unsafe(no_mangle)]
@@ -342,7 +346,7 @@ macro_rules! export_fmi2 {
                 kind: c_int,
                 _value: *mut fmi2Status,
             ) -> fmi2Status {
-                unsafe { status::nothing_pending::<$model>(component, &function::GET_STATUS, kind) }
+                unsafe { steps::nothing_pending::<$model>(component, &function::GET_STATUS, kind) }
             }
 
             #[unsafe(no_mangle)]
@@ -351,7 +355,7 @@ macro_rules! export_fmi2 {
                 kind: c_int,
                 value: *mut fmi2Real,
             ) -> fmi2Status {
-                unsafe { status::get_real_status::<$model>(component, kind, value) }
+                unsafe { steps::get_real_status::<$model>(component, kind, value) }
             }
 
             #[unsafe(no_mangle)]
@@ -360,7 +364,7 @@ macro_rules! export_fmi2 {
                 kind: c_int,
                 _value: *mut fmi2Integer,
             ) -> fmi2Status {
-                unsafe { status::nothing_pending::<$model>(component, &function::GET_INTEGER_STATUS, kind) }
+                unsafe { steps::nothing_pending::<$model>(component, &function::GET_INTEGER_STATUS, kind) }
             }
 
             #[unsafe(no_mangle)]
@@ -369,7 +373,7 @@ macro_rules! export_fmi2 {
                 kind: c_int,
                 value: *mut fmi2Boolean,
             ) -> fmi2Status {
-                unsafe { status::get_boolean_status::<$model>(component, kind, value) }
+                unsafe { steps::get_boolean_status::<$model>(component, kind, value) }
             }
 
             #[unsafe(no_mangle)]
@@ -378,14 +382,14 @@ macro_rules! export_fmi2 {
                 kind: c_int,
                 _value: *mut fmi2String,
             ) -> fmi2Status {
-                unsafe { status::nothing_pending::<$model>(component, &function::GET_STRING_STATUS, kind) }
+                unsafe { steps::nothing_pending::<$model>(component, &function::GET_STRING_STATUS, kind) }
             }
 
             // Model exchange.
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2EnterEventMode(component: fmi2Component) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::ENTER_EVENT_MODE) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::ENTER_EVENT_MODE) }
             }
 
             #[unsafe(no_mangle)]
@@ -393,12 +397,14 @@ macro_rules! export_fmi2 {
                 component: fmi2Component,
                 _event_info: *mut c_void,
             ) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::NEW_DISCRETE_STATES) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::NEW_DISCRETE_STATES) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(component: fmi2Component) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::ENTER_CONTINUOUS_TIME_MODE) }
+                unsafe {
+                    unsupported::never_allowed::<$model, Logger>(component, &function::ENTER_CONTINUOUS_TIME_MODE)
+                }
             }
 
             #[unsafe(no_mangle)]
@@ -408,12 +414,12 @@ macro_rules! export_fmi2 {
                 _enter_event_mode: *mut fmi2Boolean,
                 _terminate: *mut fmi2Boolean,
             ) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::COMPLETED_INTEGRATOR_STEP) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::COMPLETED_INTEGRATOR_STEP) }
             }
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2SetTime(component: fmi2Component, _time: fmi2Real) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::SET_TIME) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::SET_TIME) }
             }
 
             #[unsafe(no_mangle)]
@@ -422,7 +428,7 @@ macro_rules! export_fmi2 {
                 _states: *const fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::SET_CONTINUOUS_STATES) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::SET_CONTINUOUS_STATES) }
             }
 
             #[unsafe(no_mangle)]
@@ -431,7 +437,7 @@ macro_rules! export_fmi2 {
                 _derivatives: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::GET_DERIVATIVES) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::GET_DERIVATIVES) }
             }
 
             #[unsafe(no_mangle)]
@@ -440,7 +446,7 @@ macro_rules! export_fmi2 {
                 _indicators: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::GET_EVENT_INDICATORS) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::GET_EVENT_INDICATORS) }
             }
 
             #[unsafe(no_mangle)]
@@ -449,7 +455,7 @@ macro_rules! export_fmi2 {
                 _states: *mut fmi2Real,
                 _count: usize,
             ) -> fmi2Status {
-                unsafe { common::unsupported::<$model, Logger>(component, &function::GET_CONTINUOUS_STATES) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(component, &function::GET_CONTINUOUS_STATES) }
             }
 
             #[unsafe(no_mangle)]
@@ -459,7 +465,10 @@ macro_rules! export_fmi2 {
                 _count: usize,
             ) -> fmi2Status {
                 unsafe {
-                    common::unsupported::<$model, Logger>(component, &function::GET_NOMINALS_OF_CONTINUOUS_STATES)
+                    unsupported::never_allowed::<$model, Logger>(
+                        component,
+                        &function::GET_NOMINALS_OF_CONTINUOUS_STATES,
+                    )
                 }
             }
         }

@@ -10,10 +10,8 @@ pub mod calling_sequence;
 mod export;
 pub mod lifecycle;
 mod logger;
-pub mod status;
 pub mod steps;
 pub mod types;
-pub mod unsupported;
 pub mod variables;
 
 pub use logger::Logger;

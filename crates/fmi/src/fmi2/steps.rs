@@ -1,10 +1,15 @@
-//! Communication steps.
+//! Communication steps and their status. A step is complete when fmi2DoStep returns, so most of the
+//! functions that return its status report an error.
+
+use std::ffi::c_int;
 
 use moris_interface::Model;
 
 use super::types::*;
 use super::{Component, calling_sequence as function};
-use crate::abi::call;
+use crate::CallError;
+use crate::abi::pointers::answer;
+use crate::abi::{Function, call};
 
 /// `fmi2DoStep`
 #[inline]
@@ -12,4 +17,46 @@ pub unsafe fn do_step<M: Model>(component: fmi2Component, time: fmi2Real, step: 
     let body = |component: &mut Component<M>| component.instance.step(time, step);
     // SAFETY: the host's component.
     unsafe { call(component, &function::DO_STEP, body) }
+}
+
+/// `fmi2GetRealStatus`: only the time of the last successful step is known.
+pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, value: *mut fmi2Real) -> fmi2Status {
+    let body = |component: &mut Component<M>| {
+        if kind != LAST_SUCCESSFUL_TIME {
+            return Err(not_known(kind));
+        }
+        // SAFETY: the host's memory for the answer.
+        unsafe { answer(value, component.instance.time()) }?;
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::GET_REAL_STATUS, body) }
+}
+
+/// `fmi2GetBooleanStatus`: no simulation terminates by itself.
+pub unsafe fn get_boolean_status<M: Model>(
+    component: fmi2Component,
+    kind: c_int,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    let body = |_: &mut Component<M>| {
+        if kind != TERMINATED {
+            return Err(not_known(kind));
+        }
+        // SAFETY: the host's memory for the answer.
+        unsafe { answer(value, fmi2Boolean(0)) }?;
+        Ok(())
+    };
+    // SAFETY: the host's component.
+    unsafe { call(component, &function::GET_BOOLEAN_STATUS, body) }
+}
+
+/// `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus`: no step is pending.
+pub unsafe fn nothing_pending<M: Model>(component: fmi2Component, function: &Function, kind: c_int) -> fmi2Status {
+    // SAFETY: the host's component.
+    unsafe { call(component, function, |_: &mut Component<M>| Err(not_known(kind))) }
+}
+
+fn not_known(kind: c_int) -> CallError {
+    CallError::discard(format!("status kind {kind} is not supported: a step is complete when fmi2DoStep returns"))
 }

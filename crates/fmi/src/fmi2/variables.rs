@@ -6,7 +6,7 @@ use super::types::*;
 use super::{Component, calling_sequence as function};
 use crate::abi::pointers::{buffer, slice};
 use crate::abi::{Function, call};
-use crate::{CallError, Scalar, Scalars};
+use crate::{Scalar, Scalars};
 
 /// `fmi2GetReal`, `fmi2GetInteger`, `fmi2GetBoolean`
 #[inline]
@@ -39,16 +39,6 @@ pub unsafe fn set<M: Model, S: Scalar>(
         // SAFETY: the host's arrays have `count` elements.
         let (references, values) = unsafe { (slice(references, count)?, slice(values, count)?) };
         component.instance.set(Scalars(references), values)
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
-}
-
-/// `fmi2GetString`, `fmi2SetString`: right for no variables, for there are none of this type.
-pub unsafe fn strings<M: Model>(component: fmi2Component, function: &Function, count: usize) -> fmi2Status {
-    let body = |_: &mut Component<M>| match count {
-        0 => Ok(()),
-        _ => Err(CallError::error("the model has no variables of type String")),
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }

@@ -16,9 +16,9 @@ macro_rules! export_fmi3 {
             $crate::own_functions_of_newer_glibc!();
 
             // SAFETY of all calls below: each function hands on what the host passes, for which the standard vouches.
-            use $crate::abi::{fmu_state, lifecycle as common};
+            use $crate::abi::{fmu_state, lifecycle as common, unsupported};
             use $crate::fmi3::types::*;
-            use $crate::fmi3::{Logger, calling_sequence as function, lifecycle, steps, unsupported, variables};
+            use $crate::fmi3::{Logger, calling_sequence as function, lifecycle, steps, variables};
 
             #[allow(unused_imports)] // the model's path may be relative to the macro's place
             use super::*;
@@ -355,7 +355,7 @@ macro_rules! export_fmi3_none_of_this_type {
                 $( _: $values, )+
                 _: usize,
             ) -> fmi3Status {
-                unsafe { variables::none_of_this_type::<$model>(instance, &function::$constant, count) }
+                unsafe { unsupported::none_of_this_type::<$model, Logger>(instance, &function::$constant, count) }
             }
         )+
     };
@@ -370,7 +370,7 @@ macro_rules! export_fmi3_not_provided {
         $(
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn $name(instance: fmi3Instance $(, _: $argument)*) -> fmi3Status {
-                unsafe { unsupported::not_provided::<$model>(instance, &function::$constant, $capability) }
+                unsafe { unsupported::not_provided::<$model, Logger>(instance, &function::$constant, $capability) }
             }
         )+
     };
@@ -384,7 +384,7 @@ macro_rules! export_fmi3_unsupported {
         $(
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn $name(instance: fmi3Instance $(, _: $argument)*) -> fmi3Status {
-                unsafe { common::unsupported::<$model, Logger>(instance, &function::$constant) }
+                unsafe { unsupported::never_allowed::<$model, Logger>(instance, &function::$constant) }
             }
         )+
     };

@@ -18,7 +18,6 @@ mod log_categories;
 mod logger;
 pub mod steps;
 pub mod types;
-pub mod unsupported;
 pub mod variables;
 
 pub use layout::Layout;

@@ -61,16 +61,6 @@ pub unsafe fn set<M: Model, S: Scalar>(
     unsafe { call(instance, function, body) }
 }
 
-/// The get and set functions of a type that no variable has: right for no variables.
-pub unsafe fn none_of_this_type<M: Model>(instance: fmi3Instance, function: &Function, count: usize) -> fmi3Status {
-    let body = |_: &mut Component<M>| match count {
-        0 => Ok(()),
-        _ => Err(CallError::error("the model has no variables of this type")),
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, function, body) }
-}
-
 /// `fmi3GetOutputDerivatives`
 pub unsafe fn get_output_derivatives<M: Model>(
     instance: fmi3Instance,
