@@ -10,6 +10,7 @@
 
 mod arithmetic;
 mod component;
+mod export;
 pub mod fmu_state;
 mod function;
 pub mod lifecycle;

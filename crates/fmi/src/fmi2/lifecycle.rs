@@ -7,9 +7,9 @@ use std::ptr::null_mut;
 use moris_interface::Model;
 
 use super::types::*;
-use super::{Component, Logger, calling_sequence as function};
+use super::{Component, Logger};
 use crate::abi::pointers::{slice, string};
-use crate::abi::{Host, call, with_default_arithmetic};
+use crate::abi::{Function, Host, call, with_default_arithmetic};
 use crate::{CallError, Instance, LogCategory, Severity, SharedTables, panics};
 
 /// `fmi2Instantiate`; the resources' location and visibility make no difference.
@@ -63,6 +63,7 @@ fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expe
 /// `fmi2SetDebugLogging`: events are logged if it is on for all categories or for theirs.
 pub unsafe fn set_debug_logging<M: Model>(
     component: fmi2Component,
+    function: &Function,
     logging_on: fmi2Boolean,
     count: usize,
     categories: *const fmi2String,
@@ -82,12 +83,13 @@ pub unsafe fn set_debug_logging<M: Model>(
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::SET_DEBUG_LOGGING, body) }
+    unsafe { call(component, function, body) }
 }
 
 /// `fmi2SetupExperiment`
 pub unsafe fn setup_experiment<M: Model>(
     component: fmi2Component,
+    function: &Function,
     tolerance_defined: fmi2Boolean,
     tolerance: fmi2Real,
     start_time: fmi2Real,
@@ -98,11 +100,11 @@ pub unsafe fn setup_experiment<M: Model>(
     let tolerance = (tolerance_defined.0 != 0).then_some(tolerance);
     let body = |component: &mut Component<M>| component.instance.define_experiment(start_time, stop, tolerance);
     // SAFETY: the host's component.
-    unsafe { call(component, &function::SETUP_EXPERIMENT, body) }
+    unsafe { call(component, function, body) }
 }
 
 /// `fmi2EnterInitializationMode`
-pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component) -> fmi2Status {
+pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component, function: &Function) -> fmi2Status {
     let body = |component: &mut Component<M>| {
         component
             .instance
@@ -110,5 +112,5 @@ pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component) -> f
             .map_err(|error| CallError::error(format!("{}: call fmi2SetupExperiment before", error.text)))
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::ENTER_INITIALIZATION_MODE, body) }
+    unsafe { call(component, function, body) }
 }

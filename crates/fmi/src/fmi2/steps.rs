@@ -5,22 +5,33 @@ use std::ffi::c_int;
 
 use moris_interface::Model;
 
+use super::Component;
 use super::types::*;
-use super::{Component, calling_sequence as function};
 use crate::CallError;
 use crate::abi::pointers::answer;
 use crate::abi::{Function, call};
 
 /// `fmi2DoStep`
 #[inline]
-pub unsafe fn do_step<M: Model>(component: fmi2Component, time: fmi2Real, step: fmi2Real) -> fmi2Status {
+pub unsafe fn do_step<M: Model>(
+    component: fmi2Component,
+    function: &Function,
+    time: fmi2Real,
+    step: fmi2Real,
+    _no_going_back: fmi2Boolean,
+) -> fmi2Status {
     let body = |component: &mut Component<M>| component.instance.step(time, step);
     // SAFETY: the host's component.
-    unsafe { call(component, &function::DO_STEP, body) }
+    unsafe { call(component, function, body) }
 }
 
 /// `fmi2GetRealStatus`: only the time of the last successful step is known.
-pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, value: *mut fmi2Real) -> fmi2Status {
+pub unsafe fn get_real_status<M: Model>(
+    component: fmi2Component,
+    function: &Function,
+    kind: c_int,
+    value: *mut fmi2Real,
+) -> fmi2Status {
     let body = |component: &mut Component<M>| {
         if kind != LAST_SUCCESSFUL_TIME {
             return Err(not_known(kind));
@@ -30,12 +41,13 @@ pub unsafe fn get_real_status<M: Model>(component: fmi2Component, kind: c_int, v
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::GET_REAL_STATUS, body) }
+    unsafe { call(component, function, body) }
 }
 
 /// `fmi2GetBooleanStatus`: no simulation terminates by itself.
 pub unsafe fn get_boolean_status<M: Model>(
     component: fmi2Component,
+    function: &Function,
     kind: c_int,
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
@@ -48,11 +60,16 @@ pub unsafe fn get_boolean_status<M: Model>(
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::GET_BOOLEAN_STATUS, body) }
+    unsafe { call(component, function, body) }
 }
 
 /// `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus`: no step is pending.
-pub unsafe fn nothing_pending<M: Model>(component: fmi2Component, function: &Function, kind: c_int) -> fmi2Status {
+pub unsafe fn nothing_pending<M: Model, V>(
+    component: fmi2Component,
+    function: &Function,
+    kind: c_int,
+    _value: *mut V,
+) -> fmi2Status {
     // SAFETY: the host's component.
     unsafe { call(component, function, |_: &mut Component<M>| Err(not_known(kind))) }
 }

@@ -24,8 +24,9 @@ pub type fmi2Integer = c_int;
 /// A string ended by a zero.
 #[allow(non_camel_case_types)]
 pub type fmi2String = *const c_char;
+/// C's `char`, as a byte of a serialized state.
 #[allow(non_camel_case_types)]
-pub type fmi2Byte = c_char;
+pub type fmi2Byte = u8;
 
 /// Everything but 0 is true.
 #[allow(non_camel_case_types)]

@@ -2,8 +2,8 @@
 
 use moris_interface::Model;
 
+use super::Component;
 use super::types::*;
-use super::{Component, calling_sequence as function};
 use crate::abi::pointers::{buffer, slice};
 use crate::abi::{Function, call};
 use crate::{Scalar, Scalars};
@@ -47,6 +47,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
 /// `fmi2SetRealInputDerivatives`
 pub unsafe fn set_real_input_derivatives<M: Model>(
     component: fmi2Component,
+    function: &Function,
     references: *const fmi2ValueReference,
     count: usize,
     orders: *const fmi2Integer,
@@ -59,12 +60,13 @@ pub unsafe fn set_real_input_derivatives<M: Model>(
         component.instance.set_input_derivatives(references, orders, values)
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::SET_REAL_INPUT_DERIVATIVES, body) }
+    unsafe { call(component, function, body) }
 }
 
 /// `fmi2GetRealOutputDerivatives`
 pub unsafe fn get_real_output_derivatives<M: Model>(
     component: fmi2Component,
+    function: &Function,
     references: *const fmi2ValueReference,
     count: usize,
     orders: *const fmi2Integer,
@@ -78,5 +80,5 @@ pub unsafe fn get_real_output_derivatives<M: Model>(
         component.instance.get_output_derivatives(requests, values)
     };
     // SAFETY: the host's component.
-    unsafe { call(component, &function::GET_REAL_OUTPUT_DERIVATIVES, body) }
+    unsafe { call(component, function, body) }
 }

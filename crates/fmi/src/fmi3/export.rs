@@ -33,16 +33,6 @@ macro_rules! export_fmi3 {
             }
 
             #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3SetDebugLogging(
-                instance: fmi3Instance,
-                logging_on: fmi3Boolean,
-                count: usize,
-                categories: *const fmi3String,
-            ) -> fmi3Status {
-                unsafe { lifecycle::set_debug_logging::<$model>(instance, logging_on, count, categories) }
-            }
-
-            #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
                 instance_name: fmi3String,
                 instantiation_token: fmi3String,
@@ -104,39 +94,6 @@ macro_rules! export_fmi3 {
             }
 
             #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3EnterInitializationMode(
-                instance: fmi3Instance,
-                tolerance_defined: fmi3Boolean,
-                tolerance: f64,
-                start_time: f64,
-                stop_time_defined: fmi3Boolean,
-                stop_time: f64,
-            ) -> fmi3Status {
-                let tolerance = tolerance_defined.is_true().then_some(tolerance);
-                let stop_time = stop_time_defined.is_true().then_some(stop_time);
-                unsafe {
-                    lifecycle::enter_initialization_mode::<$model>(instance, tolerance, start_time, stop_time)
-                }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: fmi3Instance) -> fmi3Status {
-                unsafe {
-                    common::exit_initialization_mode::<$model, Logger>(instance, &function::EXIT_INITIALIZATION_MODE)
-                }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3Terminate(instance: fmi3Instance) -> fmi3Status {
-                unsafe { common::terminate::<$model, Logger>(instance, &function::TERMINATE) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3Reset(instance: fmi3Instance) -> fmi3Status {
-                unsafe { common::reset::<$model, Logger>(instance, &function::RESET) }
-            }
-
-            #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi3DoStep(
                 instance: fmi3Instance,
                 time: f64,
@@ -156,118 +113,100 @@ macro_rules! export_fmi3 {
                 unsafe { steps::do_step::<$model>(instance, time, step, &outcome) }
             }
 
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3GetOutputDerivatives(
-                instance: fmi3Instance,
-                references: *const fmi3ValueReference,
-                count: usize,
-                orders: *const i32,
-                values: *mut f64,
-                value_count: usize,
-            ) -> fmi3Status {
-                unsafe {
-                    variables::get_output_derivatives::<$model>(
-                        instance,
-                        references,
-                        count,
-                        orders,
-                        values,
-                        value_count,
-                    )
-                }
+            $crate::export_functions! {
+                fmi3SetDebugLogging SET_DEBUG_LOGGING
+                    (logging_on: fmi3Boolean, count: usize, categories: *const fmi3String)
+                    => lifecycle::set_debug_logging::<$model>;
+                fmi3EnterInitializationMode ENTER_INITIALIZATION_MODE
+                    (tolerance_defined: fmi3Boolean, tolerance: f64, start_time: f64,
+                     stop_time_defined: fmi3Boolean, stop_time: f64)
+                    => lifecycle::enter_initialization_mode::<$model>;
+                fmi3ExitInitializationMode EXIT_INITIALIZATION_MODE ()
+                    => common::exit_initialization_mode::<$model, Logger>;
+                fmi3Terminate TERMINATE () => common::terminate::<$model, Logger>;
+                fmi3Reset RESET () => common::reset::<$model, Logger>;
+                fmi3GetFloat64 GET_FLOAT64
+                    (references: *const fmi3ValueReference, count: usize, values: *mut fmi3Float64, value_count: usize)
+                    => variables::get::<$model, fmi3Float64>;
+                fmi3GetInt32 GET_INT32
+                    (references: *const fmi3ValueReference, count: usize, values: *mut fmi3Int32, value_count: usize)
+                    => variables::get::<$model, fmi3Int32>;
+                fmi3GetInt64 GET_INT64
+                    (references: *const fmi3ValueReference, count: usize, values: *mut fmi3Int64, value_count: usize)
+                    => variables::get::<$model, fmi3Int64>;
+                fmi3GetBoolean GET_BOOLEAN
+                    (references: *const fmi3ValueReference, count: usize, values: *mut fmi3Boolean, value_count: usize)
+                    => variables::get::<$model, fmi3Boolean>;
+                fmi3SetFloat64 SET_FLOAT64
+                    (references: *const fmi3ValueReference, count: usize,
+                     values: *const fmi3Float64, value_count: usize)
+                    => variables::set::<$model, fmi3Float64>;
+                fmi3SetInt32 SET_INT32
+                    (references: *const fmi3ValueReference, count: usize, values: *const fmi3Int32, value_count: usize)
+                    => variables::set::<$model, fmi3Int32>;
+                fmi3SetInt64 SET_INT64
+                    (references: *const fmi3ValueReference, count: usize, values: *const fmi3Int64, value_count: usize)
+                    => variables::set::<$model, fmi3Int64>;
+                fmi3SetBoolean SET_BOOLEAN
+                    (references: *const fmi3ValueReference, count: usize,
+                     values: *const fmi3Boolean, value_count: usize)
+                    => variables::set::<$model, fmi3Boolean>;
+                fmi3GetOutputDerivatives GET_OUTPUT_DERIVATIVES
+                    (references: *const fmi3ValueReference, count: usize,
+                     orders: *const i32, values: *mut f64, value_count: usize)
+                    => variables::get_output_derivatives::<$model>;
+                fmi3GetFMUState GET_FMU_STATE (state: *mut fmi3FMUState) => fmu_state::get::<$model, Logger>;
+                fmi3SetFMUState SET_FMU_STATE (state: fmi3FMUState) => fmu_state::set::<$model, Logger>;
+                fmi3FreeFMUState FREE_FMU_STATE (state: *mut fmi3FMUState) => fmu_state::free::<$model, Logger>;
+                fmi3SerializedFMUStateSize SERIALIZED_FMU_STATE_SIZE (state: fmi3FMUState, size: *mut usize)
+                    => fmu_state::serialized_size::<$model, Logger>;
+                fmi3SerializeFMUState SERIALIZE_FMU_STATE (state: fmi3FMUState, bytes: *mut fmi3Byte, size: usize)
+                    => fmu_state::serialize::<$model, Logger>;
+                fmi3DeserializeFMUState DESERIALIZE_FMU_STATE
+                    (bytes: *const fmi3Byte, size: usize, state: *mut fmi3FMUState)
+                    => fmu_state::deserialize::<$model, Logger>;
             }
 
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3GetFMUState(instance: fmi3Instance, state: *mut fmi3FMUState) -> fmi3Status {
-                unsafe { fmu_state::get::<$model, Logger>(instance, &function::GET_FMU_STATE, state) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3SetFMUState(instance: fmi3Instance, state: fmi3FMUState) -> fmi3Status {
-                unsafe { fmu_state::set::<$model, Logger>(instance, &function::SET_FMU_STATE, state) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3FreeFMUState(instance: fmi3Instance, state: *mut fmi3FMUState) -> fmi3Status {
-                unsafe { fmu_state::free::<$model, Logger>(instance, &function::FREE_FMU_STATE, state) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
-                instance: fmi3Instance,
-                state: fmi3FMUState,
-                size: *mut usize,
-            ) -> fmi3Status {
-                let function = &function::SERIALIZED_FMU_STATE_SIZE;
-                unsafe { fmu_state::serialized_size::<$model, Logger>(instance, function, state, size) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3SerializeFMUState(
-                instance: fmi3Instance,
-                state: fmi3FMUState,
-                bytes: *mut fmi3Byte,
-                size: usize,
-            ) -> fmi3Status {
-                let function = &function::SERIALIZE_FMU_STATE;
-                unsafe { fmu_state::serialize::<$model, Logger>(instance, function, state, bytes, size) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn fmi3DeserializeFMUState(
-                instance: fmi3Instance,
-                bytes: *const fmi3Byte,
-                size: usize,
-                state: *mut fmi3FMUState,
-            ) -> fmi3Status {
-                let function = &function::DESERIALIZE_FMU_STATE;
-                unsafe { fmu_state::deserialize::<$model, Logger>(instance, function, bytes, size, state) }
-            }
-
-            $crate::export_fmi3_variables! {
+            $crate::export_none_of_this_type! {
                 $model;
-                fmi3GetFloat64 GET_FLOAT64 fmi3SetFloat64 SET_FLOAT64 fmi3Float64;
-                fmi3GetInt32 GET_INT32 fmi3SetInt32 SET_INT32 fmi3Int32;
-                fmi3GetInt64 GET_INT64 fmi3SetInt64 SET_INT64 fmi3Int64;
-                fmi3GetBoolean GET_BOOLEAN fmi3SetBoolean SET_BOOLEAN fmi3Boolean;
+                fmi3GetFloat32 GET_FLOAT32 (*mut f32, usize);
+                fmi3GetInt8 GET_INT8 (*mut i8, usize);
+                fmi3GetUInt8 GET_UINT8 (*mut u8, usize);
+                fmi3GetInt16 GET_INT16 (*mut i16, usize);
+                fmi3GetUInt16 GET_UINT16 (*mut u16, usize);
+                fmi3GetUInt32 GET_UINT32 (*mut u32, usize);
+                fmi3GetUInt64 GET_UINT64 (*mut u64, usize);
+                fmi3GetString GET_STRING (*mut fmi3String, usize);
+                fmi3GetBinary GET_BINARY (*mut usize, *mut fmi3Binary, usize);
+                fmi3SetFloat32 SET_FLOAT32 (*const f32, usize);
+                fmi3SetInt8 SET_INT8 (*const i8, usize);
+                fmi3SetUInt8 SET_UINT8 (*const u8, usize);
+                fmi3SetInt16 SET_INT16 (*const i16, usize);
+                fmi3SetUInt16 SET_UINT16 (*const u16, usize);
+                fmi3SetUInt32 SET_UINT32 (*const u32, usize);
+                fmi3SetUInt64 SET_UINT64 (*const u64, usize);
+                fmi3SetString SET_STRING (*const fmi3String, usize);
+                fmi3SetBinary SET_BINARY (*const usize, *const fmi3Binary, usize);
             }
 
-            $crate::export_fmi3_none_of_this_type! {
-                $model;
-                fmi3GetFloat32 GET_FLOAT32 (*mut f32);
-                fmi3GetInt8 GET_INT8 (*mut i8);
-                fmi3GetUInt8 GET_UINT8 (*mut u8);
-                fmi3GetInt16 GET_INT16 (*mut i16);
-                fmi3GetUInt16 GET_UINT16 (*mut u16);
-                fmi3GetUInt32 GET_UINT32 (*mut u32);
-                fmi3GetUInt64 GET_UINT64 (*mut u64);
-                fmi3GetString GET_STRING (*mut fmi3String);
-                fmi3GetBinary GET_BINARY (*mut usize, *mut fmi3Binary);
-                fmi3SetFloat32 SET_FLOAT32 (*const f32);
-                fmi3SetInt8 SET_INT8 (*const i8);
-                fmi3SetUInt8 SET_UINT8 (*const u8);
-                fmi3SetInt16 SET_INT16 (*const i16);
-                fmi3SetUInt16 SET_UINT16 (*const u16);
-                fmi3SetUInt32 SET_UINT32 (*const u32);
-                fmi3SetUInt64 SET_UINT64 (*const u64);
-                fmi3SetString SET_STRING (*const fmi3String);
-                fmi3SetBinary SET_BINARY (*const usize, *const fmi3Binary);
+            $crate::export_unsupported! {
+                unsupported::not_provided::<$model, Logger>;
+                fmi3GetNumberOfVariableDependencies GET_NUMBER_OF_VARIABLE_DEPENDENCIES
+                    (fmi3ValueReference, *mut usize)
+                    "providesPerElementDependencies";
+                fmi3GetVariableDependencies GET_VARIABLE_DEPENDENCIES
+                    (fmi3ValueReference, *mut usize, *mut fmi3ValueReference, *mut usize, *mut i32, usize)
+                    "providesPerElementDependencies";
+                fmi3GetDirectionalDerivative GET_DIRECTIONAL_DERIVATIVE
+                    (*const fmi3ValueReference, usize, *const fmi3ValueReference, usize, *const f64, usize, *mut f64, usize)
+                    "providesDirectionalDerivatives";
+                fmi3GetAdjointDerivative GET_ADJOINT_DERIVATIVE
+                    (*const fmi3ValueReference, usize, *const fmi3ValueReference, usize, *const f64, usize, *mut f64, usize)
+                    "providesAdjointDerivatives";
             }
 
-            $crate::export_fmi3_not_provided! {
-                $model;
-                fmi3GetNumberOfVariableDependencies GET_NUMBER_OF_VARIABLE_DEPENDENCIES "providesPerElementDependencies"
-                    (fmi3ValueReference, *mut usize);
-                fmi3GetVariableDependencies GET_VARIABLE_DEPENDENCIES "providesPerElementDependencies"
-                    (fmi3ValueReference, *mut usize, *mut fmi3ValueReference, *mut usize, *mut i32, usize);
-                fmi3GetDirectionalDerivative GET_DIRECTIONAL_DERIVATIVE "providesDirectionalDerivatives"
-                    (*const fmi3ValueReference, usize, *const fmi3ValueReference, usize, *const f64, usize, *mut f64, usize);
-                fmi3GetAdjointDerivative GET_ADJOINT_DERIVATIVE "providesAdjointDerivatives"
-                    (*const fmi3ValueReference, usize, *const fmi3ValueReference, usize, *const f64, usize, *mut f64, usize);
-            }
-
-            $crate::export_fmi3_unsupported! {
-                $model;
+            $crate::export_unsupported! {
+                unsupported::never_allowed::<$model, Logger>;
                 // Configuration mode and event mode.
                 fmi3EnterConfigurationMode ENTER_CONFIGURATION_MODE ();
                 fmi3ExitConfigurationMode EXIT_CONFIGURATION_MODE ();
@@ -305,87 +244,5 @@ macro_rules! export_fmi3 {
                 fmi3ActivateModelPartition ACTIVATE_MODEL_PARTITION (fmi3ValueReference, f64);
             }
         }
-    };
-}
-
-/// The get and set functions of the types that variables have: a type a line.
-#[doc(hidden)] // for `export_fmi3!`
-#[macro_export]
-macro_rules! export_fmi3_variables {
-    ($model:ty; $($get:ident $get_constant:ident $set:ident $set_constant:ident $type:ty;)+) => {
-        $(
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $get(
-                instance: fmi3Instance,
-                references: *const fmi3ValueReference,
-                count: usize,
-                values: *mut $type,
-                value_count: usize,
-            ) -> fmi3Status {
-                let function = &function::$get_constant;
-                unsafe { variables::get::<$model, $type>(instance, function, references, count, values, value_count) }
-            }
-
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $set(
-                instance: fmi3Instance,
-                references: *const fmi3ValueReference,
-                count: usize,
-                values: *const $type,
-                value_count: usize,
-            ) -> fmi3Status {
-                let function = &function::$set_constant;
-                unsafe { variables::set::<$model, $type>(instance, function, references, count, values, value_count) }
-            }
-        )+
-    };
-}
-
-/// The get and set functions of the other types, with the types of their arguments between counts.
-#[doc(hidden)] // for `export_fmi3!`
-#[macro_export]
-macro_rules! export_fmi3_none_of_this_type {
-    ($model:ty; $($name:ident $constant:ident ($($values:ty),+);)+) => {
-        $(
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $name(
-                instance: fmi3Instance,
-                _: *const fmi3ValueReference,
-                count: usize,
-                $( _: $values, )+
-                _: usize,
-            ) -> fmi3Status {
-                unsafe { unsupported::none_of_this_type::<$model, Logger>(instance, &function::$constant, count) }
-            }
-        )+
-    };
-}
-
-/// Functions that the FMU does not offer: the attribute that says so, and the types of the
-/// arguments after the instance.
-#[doc(hidden)] // for `export_fmi3!`
-#[macro_export]
-macro_rules! export_fmi3_not_provided {
-    ($model:ty; $($name:ident $constant:ident $capability:literal ($($argument:ty),*);)+) => {
-        $(
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $name(instance: fmi3Instance $(, _: $argument)*) -> fmi3Status {
-                unsafe { unsupported::not_provided::<$model, Logger>(instance, &function::$constant, $capability) }
-            }
-        )+
-    };
-}
-
-/// Functions that are never allowed, with the types of the arguments after the instance.
-#[doc(hidden)] // for `export_fmi3!`
-#[macro_export]
-macro_rules! export_fmi3_unsupported {
-    ($model:ty; $($name:ident $constant:ident ($($argument:ty),*);)+) => {
-        $(
-            #[unsafe(no_mangle)]
-            pub unsafe extern "C" fn $name(instance: fmi3Instance $(, _: $argument)*) -> fmi3Status {
-                unsafe { unsupported::never_allowed::<$model, Logger>(instance, &function::$constant) }
-            }
-        )+
     };
 }

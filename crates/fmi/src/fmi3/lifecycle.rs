@@ -7,9 +7,9 @@ use std::ptr::null_mut;
 use moris_interface::Model;
 
 use super::types::*;
-use super::{Component, LOG_CATEGORIES, Layout, Logger, calling_sequence as function};
+use super::{Component, LOG_CATEGORIES, Layout, Logger};
 use crate::abi::pointers::{slice, string};
-use crate::abi::{Host, call, with_default_arithmetic};
+use crate::abi::{Function, Host, call, with_default_arithmetic};
 use crate::{CallError, Guid, Instance, Severity, SharedTables, panics};
 
 /// Options of instantiation.
@@ -93,6 +93,7 @@ pub fn refuse_to_instantiate(function: &str, logger: &Logger) -> fmi3Instance {
 /// switched off by name only.
 pub unsafe fn set_debug_logging<M: Model>(
     instance: fmi3Instance,
+    function: &Function,
     logging_on: fmi3Boolean,
     count: usize,
     categories: *const fmi3String,
@@ -117,20 +118,25 @@ pub unsafe fn set_debug_logging<M: Model>(
         Ok(())
     };
     // SAFETY: the host's component.
-    unsafe { call(instance, &function::SET_DEBUG_LOGGING, body) }
+    unsafe { call(instance, function, body) }
 }
 
 /// `fmi3EnterInitializationMode`
 pub unsafe fn enter_initialization_mode<M: Model>(
     instance: fmi3Instance,
-    tolerance: Option<f64>,
+    function: &Function,
+    tolerance_defined: fmi3Boolean,
+    tolerance: f64,
     start_time: f64,
-    stop_time: Option<f64>,
+    stop_time_defined: fmi3Boolean,
+    stop_time: f64,
 ) -> fmi3Status {
+    let tolerance = tolerance_defined.is_true().then_some(tolerance);
+    let stop_time = stop_time_defined.is_true().then_some(stop_time);
     let body = |component: &mut Component<M>| {
         component.instance.define_experiment(start_time, stop_time, tolerance)?;
         component.instance.enter_initialization()
     };
     // SAFETY: the host's component.
-    unsafe { call(instance, &function::ENTER_INITIALIZATION_MODE, body) }
+    unsafe { call(instance, function, body) }
 }

@@ -6,7 +6,7 @@ use moris_interface::Model;
 
 use super::arrays::Arrays;
 use super::types::*;
-use super::{Component, Layout, calling_sequence as function};
+use super::{Component, Layout};
 use crate::abi::pointers::{buffer, slice};
 use crate::abi::{Function, call};
 use crate::{CallError, Scalar, Scalars, VariableInfo};
@@ -64,6 +64,7 @@ pub unsafe fn set<M: Model, S: Scalar>(
 /// `fmi3GetOutputDerivatives`
 pub unsafe fn get_output_derivatives<M: Model>(
     instance: fmi3Instance,
+    function: &Function,
     references: *const fmi3ValueReference,
     count: usize,
     orders: *const i32,
@@ -83,7 +84,7 @@ pub unsafe fn get_output_derivatives<M: Model>(
         component.instance.get_output_derivatives(requests, values)
     };
     // SAFETY: the host's component.
-    unsafe { call(instance, &function::GET_OUTPUT_DERIVATIVES, body) }
+    unsafe { call(instance, function, body) }
 }
 
 /// Checks that the host has as many values as the variables; with arrays, that the
