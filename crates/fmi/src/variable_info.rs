@@ -25,6 +25,32 @@ pub trait Scalar: Copy {
     fn from_slot(slot: f64) -> Self;
 }
 
+/// Declares a version's type of values: the types of variables that it holds, and how a slot holds such
+/// a value. The version's function `type_name` has to be in scope.
+macro_rules! scalar {
+    ($type:ident, $($value_type:ident)|+, |$value:ident| $to_slot:expr, |$slot:ident| $from_slot:expr) => {
+        impl Scalar for $type {
+            #[inline]
+            fn is(value_type: ValueType) -> bool {
+                matches!(value_type, $(ValueType::$value_type)|+)
+            }
+            fn type_name(value_type: ValueType) -> &'static str {
+                type_name(value_type)
+            }
+            #[inline]
+            fn to_slot(self) -> f64 {
+                let $value = self;
+                $to_slot
+            }
+            #[inline]
+            fn from_slot($slot: f64) -> Self {
+                $from_slot
+            }
+        }
+    };
+}
+pub(crate) use scalar;
+
 /// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {

@@ -3,6 +3,7 @@
 
 use std::ffi::{c_char, c_int, c_void};
 
+use crate::variable_info::scalar;
 use crate::{Scalar, ValueType};
 
 /// An instance, as the host holds it.
@@ -44,60 +45,9 @@ fn type_name(value_type: ValueType) -> &'static str {
     }
 }
 
-impl Scalar for fmi2Real {
-    #[inline]
-    fn is(value_type: ValueType) -> bool {
-        value_type == ValueType::Real
-    }
-    fn type_name(value_type: ValueType) -> &'static str {
-        type_name(value_type)
-    }
-    #[inline]
-    fn to_slot(self) -> f64 {
-        self
-    }
-    #[inline]
-    fn from_slot(slot: f64) -> Self {
-        slot
-    }
-}
-
-/// An enumeration goes by Integer.
-impl Scalar for fmi2Integer {
-    #[inline]
-    fn is(value_type: ValueType) -> bool {
-        matches!(value_type, ValueType::Integer | ValueType::Enumeration)
-    }
-    fn type_name(value_type: ValueType) -> &'static str {
-        type_name(value_type)
-    }
-    #[inline]
-    fn to_slot(self) -> f64 {
-        f64::from(self)
-    }
-    #[inline]
-    fn from_slot(slot: f64) -> Self {
-        slot as fmi2Integer
-    }
-}
-
-impl Scalar for fmi2Boolean {
-    #[inline]
-    fn is(value_type: ValueType) -> bool {
-        value_type == ValueType::Boolean
-    }
-    fn type_name(value_type: ValueType) -> &'static str {
-        type_name(value_type)
-    }
-    #[inline]
-    fn to_slot(self) -> f64 {
-        f64::from(u8::from(self.0 != 0))
-    }
-    #[inline]
-    fn from_slot(slot: f64) -> Self {
-        fmi2Boolean(c_int::from(slot != 0.0))
-    }
-}
+scalar!(fmi2Real, Real, |value| value, |slot| slot);
+scalar!(fmi2Integer, Integer | Enumeration, |value| f64::from(value), |slot| slot as fmi2Integer);
+scalar!(fmi2Boolean, Boolean, |value| f64::from(u8::from(value.0 != 0)), |slot| fmi2Boolean(c_int::from(slot != 0.0)));
 
 /// Status of a call.
 #[allow(non_camel_case_types)]

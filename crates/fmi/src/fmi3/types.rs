@@ -6,6 +6,7 @@
 
 use std::ffi::{c_char, c_void};
 
+use crate::variable_info::scalar;
 use crate::{Scalar, ValueType};
 
 /// An instance, as the host holds it.
@@ -85,35 +86,11 @@ pub type fmi3LogMessageCallback = unsafe extern "C" fn(
 #[allow(non_camel_case_types)]
 pub type fmi3UnusedCallback = Option<unsafe extern "C" fn()>;
 
-/// Declares by which type variables of a kind go, and how a slot holds such a value.
-macro_rules! scalar {
-    ($type:ident, $value_type:ident, |$value:ident| $to_slot:expr, |$slot:ident| $from_slot:expr) => {
-        impl Scalar for $type {
-            #[inline]
-            fn is(value_type: ValueType) -> bool {
-                value_type == ValueType::$value_type
-            }
-            fn type_name(value_type: ValueType) -> &'static str {
-                type_name(value_type)
-            }
-            #[inline]
-            fn to_slot(self) -> f64 {
-                let $value = self;
-                $to_slot
-            }
-            #[inline]
-            fn from_slot($slot: f64) -> Self {
-                $type($from_slot)
-            }
-        }
-    };
-}
-
-scalar!(fmi3Float64, Real, |value| value.0, |slot| slot);
-scalar!(fmi3Int32, Integer, |value| f64::from(value.0), |slot| slot as i32);
+scalar!(fmi3Float64, Real, |value| value.0, |slot| fmi3Float64(slot));
+scalar!(fmi3Int32, Integer, |value| f64::from(value.0), |slot| fmi3Int32(slot as i32));
 // Whole numbers beyond 2^53 are rounded, but no enumeration has so many items.
-scalar!(fmi3Int64, Enumeration, |value| value.0 as f64, |slot| slot as i64);
-scalar!(fmi3Boolean, Boolean, |value| f64::from(u8::from(value.is_true())), |slot| u8::from(slot != 0.0));
+scalar!(fmi3Int64, Enumeration, |value| value.0 as f64, |slot| fmi3Int64(slot as i64));
+scalar!(fmi3Boolean, Boolean, |value| f64::from(u8::from(value.is_true())), |slot| fmi3Boolean(u8::from(slot != 0.0)));
 
 /// A type of FMI 3.0.
 fn type_name(value_type: ValueType) -> &'static str {
