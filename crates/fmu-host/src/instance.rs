@@ -8,6 +8,22 @@ use crate::fmu::Loaded;
 use crate::messages::{Messages, log};
 use crate::{Fmu, HostError, Message, Status, VariableKind};
 
+/// Declares the functions that set or get variables: a function's name, that of its C function, the
+/// type of the values, and the function that gives their address.
+macro_rules! access {
+    ($($function:ident $name:literal ($values:ty) $address:ident;)+) => {
+        $(
+            #[doc = concat!("`", $name, "`; as many values as references.")]
+            pub fn $function(&mut self, references: &[u32], values: $values) -> Status {
+                assert_eq!(references.len(), values.len());
+                let (pointer, count) = (references.as_ptr(), references.len());
+                // SAFETY: the FMU's instance, and arrays of the length given.
+                unsafe { (self.api().$function)(self.component, pointer, count, values.$address()) }.into()
+            }
+        )+
+    };
+}
+
 /// An instance of an FMU, freed when it is dropped.
 pub struct Instance {
     pub(crate) component: Component,
@@ -114,51 +130,13 @@ impl Instance {
         }
     }
 
-    /// `fmi2SetReal`; as many values as references.
-    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Status {
-        assert_eq!(references.len(), values.len());
-        // SAFETY: the FMU's instance, and arrays of the length given; here as below.
-        unsafe { (self.api().set_real)(self.component, references.as_ptr(), references.len(), values.as_ptr()) }.into()
-    }
-
-    /// `fmi2GetReal`; as many values as references.
-    pub fn get_real(&mut self, references: &[u32], values: &mut [f64]) -> Status {
-        assert_eq!(references.len(), values.len());
-        let (pointer, count) = (references.as_ptr(), references.len());
-        // SAFETY: see `set_real`.
-        unsafe { (self.api().get_real)(self.component, pointer, count, values.as_mut_ptr()) }.into()
-    }
-
-    /// `fmi2SetInteger`; as many values as references.
-    pub fn set_integer(&mut self, references: &[u32], values: &[c_int]) -> Status {
-        assert_eq!(references.len(), values.len());
-        let (pointer, count) = (references.as_ptr(), references.len());
-        // SAFETY: see `set_real`.
-        unsafe { (self.api().set_integer)(self.component, pointer, count, values.as_ptr()) }.into()
-    }
-
-    /// `fmi2GetInteger`; as many values as references.
-    pub fn get_integer(&mut self, references: &[u32], values: &mut [c_int]) -> Status {
-        assert_eq!(references.len(), values.len());
-        let (pointer, count) = (references.as_ptr(), references.len());
-        // SAFETY: see `set_real`.
-        unsafe { (self.api().get_integer)(self.component, pointer, count, values.as_mut_ptr()) }.into()
-    }
-
-    /// `fmi2SetBoolean`; as many values as references.
-    pub fn set_boolean(&mut self, references: &[u32], values: &[c_int]) -> Status {
-        assert_eq!(references.len(), values.len());
-        let (pointer, count) = (references.as_ptr(), references.len());
-        // SAFETY: see `set_real`.
-        unsafe { (self.api().set_boolean)(self.component, pointer, count, values.as_ptr()) }.into()
-    }
-
-    /// `fmi2GetBoolean`; as many values as references.
-    pub fn get_boolean(&mut self, references: &[u32], values: &mut [c_int]) -> Status {
-        assert_eq!(references.len(), values.len());
-        let (pointer, count) = (references.as_ptr(), references.len());
-        // SAFETY: see `set_real`.
-        unsafe { (self.api().get_boolean)(self.component, pointer, count, values.as_mut_ptr()) }.into()
+    access! {
+        set_real "fmi2SetReal" (&[f64]) as_ptr;
+        get_real "fmi2GetReal" (&mut [f64]) as_mut_ptr;
+        set_integer "fmi2SetInteger" (&[c_int]) as_ptr;
+        get_integer "fmi2GetInteger" (&mut [c_int]) as_mut_ptr;
+        set_boolean "fmi2SetBoolean" (&[c_int]) as_ptr;
+        get_boolean "fmi2GetBoolean" (&mut [c_int]) as_mut_ptr;
     }
 
     /// `fmi2SetRealInputDerivatives`, of first order; as many values as references.
@@ -167,7 +145,7 @@ impl Instance {
         let orders = vec![1; references.len()];
         let (pointer, count) = (references.as_ptr(), references.len());
         let function = self.api().set_real_input_derivatives;
-        // SAFETY: see `set_real`.
+        // SAFETY: the FMU's instance, and arrays of the length given.
         unsafe { function(self.component, pointer, count, orders.as_ptr(), values.as_ptr()) }.into()
     }
 
@@ -177,7 +155,7 @@ impl Instance {
         let orders = vec![1; references.len()];
         let (pointer, count) = (references.as_ptr(), references.len());
         let function = self.api().get_real_output_derivatives;
-        // SAFETY: see `set_real`.
+        // SAFETY: the FMU's instance, and arrays of the length given.
         unsafe { function(self.component, pointer, count, orders.as_ptr(), values.as_mut_ptr()) }.into()
     }
 
