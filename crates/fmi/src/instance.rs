@@ -11,6 +11,7 @@ use crate::{InstanceState, Mode, Tables};
 /// `step` and `serialisation`.
 pub struct Instance<M> {
     pub(crate) tables: Tables,
+    /// Everything that distinguishes the instance from a fresh one.
     pub(crate) state: InstanceState<M>,
     /// Room for the outputs' time derivatives.
     pub(crate) output_derivatives: Box<[f64]>,
@@ -51,27 +52,11 @@ impl<M: Model> Instance<M> {
         self.state = InstanceState::fresh(self.tables.start);
     }
 
-    /// Ends the run.
-    pub fn terminate(&mut self) {
-        self.state.mode = Mode::Terminated;
-    }
-
     /// Marks the instance as unusable until it is reset or a state restored: the model
     /// broke off in the middle.
     pub fn fail(&mut self) {
         self.state.mode = Mode::Error;
         self.state.dirty = false;
-    }
-
-    /// Everything that distinguishes the instance from a fresh one.
-    pub fn state(&self) -> &InstanceState<M> {
-        &self.state
-    }
-
-    /// Makes the instance as it was when `state` was taken from it or from another
-    /// instance of the model.
-    pub fn restore(&mut self, state: &InstanceState<M>) {
-        self.state.clone_from(state);
     }
 
     /// Moves to the time `time` \[s\], which the independent variable shows.

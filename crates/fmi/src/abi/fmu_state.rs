@@ -63,10 +63,10 @@ pub unsafe fn get<M: Model, H: Host>(component: *mut c_void, function: &Function
         let pointer = unsafe { out_param(pointer) }?;
         let owner = Owner::of(component);
         if pointer.is_null() {
-            *pointer = into_pointer(owner, component.instance.state().clone());
+            *pointer = into_pointer(owner, component.instance.state.clone());
         } else {
             // SAFETY: the host's state, which is nobody else's during the call.
-            unsafe { &mut *state::<M>(*pointer, owner)? }.instance.clone_from(component.instance.state());
+            unsafe { &mut *state::<M>(*pointer, owner)? }.instance.clone_from(&component.instance.state);
         }
         Ok(())
     };
@@ -79,7 +79,7 @@ pub unsafe fn set<M: Model, H: Host>(component: *mut c_void, function: &Function
     let body = |component: &mut Component<M, H>| {
         // SAFETY: the host's state, which nobody changes during the call.
         let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
-        component.instance.restore(&state.instance);
+        component.instance.state.clone_from(&state.instance);
         Ok(())
     };
     // SAFETY: the host's component.

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use moris_interface::Model;
 
 use super::{Component, Function, Host, call};
-use crate::panics;
+use crate::{Mode, panics};
 
 /// `fmi2FreeInstance`, `fmi3FreeInstance`; what is no instance is ignored.
 pub unsafe fn free_instance<M: Model, H: Host>(component: *mut c_void) {
@@ -30,7 +30,7 @@ pub unsafe fn exit_initialization_mode<M: Model, H: Host>(component: *mut c_void
 /// `fmi2Terminate`, `fmi3Terminate`
 pub unsafe fn terminate<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
     let body = |component: &mut Component<M, H>| {
-        component.instance.terminate();
+        component.instance.state.mode = Mode::Terminated;
         component.logger.event("terminated");
         Ok(())
     };
