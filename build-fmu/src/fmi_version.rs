@@ -4,9 +4,8 @@ use std::fmt;
 
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
+use moris_fmi::{fmi2, fmi3};
 use moris_model_description::fmi3::Layout;
-
-use crate::functions::{FMI2_FUNCTIONS, FMI3_FUNCTIONS};
 
 /// A version of FMI and, where it has array variables, whether vectors are such.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,9 +38,10 @@ impl FmiVersion {
         self.choose(None, Some(FmiVersion::Fmi3(Layout::Arrays)))
     }
 
-    /// The names that a shared library exports.
+    /// The names that a shared library exports: all functions of the version's header, for importers
+    /// look for all of them.
     pub fn functions(self) -> &'static [&'static str] {
-        self.choose(FMI2_FUNCTIONS, FMI3_FUNCTIONS)
+        self.choose(fmi2::calling_sequence::NAMES, fmi3::calling_sequence::NAMES)
     }
 
     /// The name of a model's FMU. FMUs of all kinds can lie beside each other.

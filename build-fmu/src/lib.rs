@@ -17,7 +17,6 @@ pub mod documentation;
 mod error;
 pub mod fmi_version;
 mod fmu;
-pub mod functions;
 pub mod icon;
 pub mod library;
 mod macos_stub;

@@ -1,13 +1,15 @@
 //! States in which each function is allowed: the table of FMI 2.0, 4.2.4.
 //!
-//! The table omits the states that an instance is never in, see [`Mode`](crate::Mode). It also
-//! omits the functions that are always allowed. The functions that set variables are allowed
+//! The table omits the states that an instance is never in, see [`Mode`](crate::Mode). The
+//! functions that are always allowed have a name only. The functions that set variables are allowed
 //! wherever any variable can be set. Each variable is then checked by itself.
 
 use crate::Mode::{Error as E, Initialization as N, Instantiated as I, StepComplete as C, Terminated as T};
 use crate::abi::calling_sequence;
 
 calling_sequence! {
+    fmi2GetTypesPlatform fmi2GetVersion fmi2Instantiate fmi2FreeInstance;
+
     SET_DEBUG_LOGGING                 fmi2SetDebugLogging              [I N C T E];
     SETUP_EXPERIMENT                  fmi2SetupExperiment              [I];
     ENTER_INITIALIZATION_MODE         fmi2EnterInitializationMode      [I];

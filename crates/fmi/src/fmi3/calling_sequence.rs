@@ -1,14 +1,17 @@
 //! States in which each function is allowed: FMI 3.0, 2.3 (common states) and 4.2 (co-simulation).
 //!
-//! The functions that are always allowed are omitted. The models have no structural parameters, so
-//! there is no configuration mode. Event mode, clocks, model exchange and scheduled execution are
-//! not provided; their functions are allowed in no state. `E` is the state after a panic of the
-//! model. The standard has no such state and counts it as terminated.
+//! The functions that are always allowed have a name only. The models have no structural
+//! parameters, so there is no configuration mode. Event mode, clocks, model exchange and scheduled
+//! execution are not provided; their functions are allowed in no state. `E` is the state after a
+//! panic of the model. The standard has no such state and counts it as terminated.
 
 use crate::Mode::{Error as E, Initialization as N, Instantiated as I, StepComplete as C, Terminated as T};
 use crate::abi::calling_sequence;
 
 calling_sequence! {
+    fmi3GetVersion fmi3InstantiateCoSimulation fmi3InstantiateModelExchange fmi3InstantiateScheduledExecution
+    fmi3FreeInstance;
+
     SET_DEBUG_LOGGING                 fmi3SetDebugLogging              [I N C T E];
     ENTER_INITIALIZATION_MODE         fmi3EnterInitializationMode      [I];
     EXIT_INITIALIZATION_MODE          fmi3ExitInitializationMode       [N];
