@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use crate::cueing::compensation::{centripetal, tangential};
 use crate::platform::LocationFrame;
 use crate::platform::PlatformMotion;
 
@@ -21,11 +20,7 @@ pub struct Felt {
 #[inline(always)]
 pub fn felt(platform: &PlatformMotion, head: &LocationFrame, gravity: f64) -> Felt {
     let rotation = platform.orientation.rotation;
-    let arm = rotation * head.point;
-    let acceleration = platform.acceleration
-        + tangential(platform.angular_acceleration, arm)
-        + centripetal(platform.angular_velocity, arm);
-    let specific_force = acceleration + Vector3::new(0.0, 0.0, gravity);
+    let specific_force = platform.acceleration_at(rotation * head.point) + Vector3::new(0.0, 0.0, gravity);
     Felt {
         specific_force: head.to_location_axes(rotation.tr_mul(&specific_force)),
         angular_velocity: head.to_location_axes(rotation.tr_mul(&platform.angular_velocity)),

@@ -133,6 +133,13 @@ impl PlatformMotion {
         self.orientation.rotation + (cross + second) * self.orientation.rotation
     }
 
+    /// Acceleration of the platform's point at the end of an arm from its origin \[m/s2\].
+    #[inline(always)]
+    pub fn acceleration_at(&self, arm: Vector3<f64>) -> Vector3<f64> {
+        let omega = self.angular_velocity;
+        self.acceleration + self.angular_acceleration.cross(&arm) + omega.cross(&omega.cross(&arm))
+    }
+
     /// The pose alone.
     pub fn pose(&self) -> Pose {
         Pose { position: self.position, orientation: self.orientation }
