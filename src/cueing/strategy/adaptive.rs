@@ -24,26 +24,8 @@ use crate::interface::AdaptiveParameters;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Adaptive {
     models: [AxisModel; 2],
-    tuning: Tuning,
+    parameters: AdaptiveParameters,
     axes: [Adaptation; 2],
-}
-
-/// The tunable parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tuning {
-    /// Break frequency \[rad/s\] and damping ratio of the travel's high-pass.
-    pub omega: f64,
-    pub zeta: f64,
-    /// Rates at which P1 and P2 follow the gradient.
-    pub adaptation: [f64; 2],
-    /// P1, and P2 \[(rad/s)/(m/s2)\], to which the gains are pulled.
-    pub nominal: [f64; 2],
-    /// Weight of travel \[1/s4\], its velocity \[1/s2\] and the tilt rate \[(m/s)^2\].
-    pub position_weight: f64,
-    pub velocity_weight: f64,
-    pub tilt_rate_weight: f64,
-    /// Weight of either gain's distance from its nominal value.
-    pub pull: [f64; 2],
 }
 
 /// The gains of one axis, and the sensitivities to them.
@@ -70,31 +52,17 @@ const NEAR_END: f64 = 0.1;
 /// ... by up to this many times their value, at its end.
 const DEARER: f64 = 10.0;
 
-impl From<&AdaptiveParameters> for Tuning {
-    fn from(parameters: &AdaptiveParameters) -> Self {
-        Tuning {
-            omega: parameters.omega,
-            zeta: parameters.zeta,
-            adaptation: [parameters.gain1, parameters.gain2],
-            nominal: [parameters.nominal1, parameters.nominal2],
-            position_weight: parameters.weight_position,
-            velocity_weight: parameters.weight_velocity,
-            tilt_rate_weight: parameters.weight_tilt_rate,
-            pull: [parameters.pull1, parameters.pull2],
-        }
-    }
-}
-
 impl Adaptive {
     /// At rest, with the nominal gains.
-    pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Self {
-        let axis = Adaptation { gains: tuning.nominal, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: 0.0 };
-        Adaptive { models: *models, tuning: *tuning, axes: [axis; 2] }
+    pub fn new(models: &[AxisModel; 2], parameters: &AdaptiveParameters) -> Self {
+        let gains = [parameters.nominal1, parameters.nominal2];
+        let axis = Adaptation { gains, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: 0.0 };
+        Adaptive { models: *models, parameters: *parameters, axes: [axis; 2] }
     }
 
     /// Changes the parameters. The gains continue from where they are.
-    pub fn retune(&mut self, models: &[AxisModel; 2], tuning: &Tuning) {
-        (self.models, self.tuning) = (*models, *tuning);
+    pub fn retune(&mut self, models: &[AxisModel; 2], parameters: &AdaptiveParameters) {
+        (self.models, self.parameters) = (*models, *parameters);
     }
 
     /// Decision for a step of `step` seconds. It begins in these states and has these references at
@@ -108,8 +76,9 @@ impl Adaptive {
     ) -> [Decision; 2] {
         let near_end = (1.0 - stroke_margin / NEAR_END).max(0.0);
         let dearer = 1.0 + DEARER * near_end * near_end;
-        [0, 1]
-            .map(|k: usize| self.axes[k].decide(&self.models[k], &self.tuning, &states[k], references[k], dearer, step))
+        [0, 1].map(|k: usize| {
+            self.axes[k].decide(&self.models[k], &self.parameters, &states[k], references[k], dearer, step)
+        })
     }
 }
 
@@ -117,7 +86,7 @@ impl Adaptation {
     fn decide(
         &mut self,
         model: &AxisModel,
-        tuning: &Tuning,
+        parameters: &AdaptiveParameters,
         state: &AxisState,
         reference: f64,
         dearer: f64,
@@ -130,7 +99,8 @@ impl Adaptation {
         let rate = (tilt_gain * left).clamp(-model.rate_limit, model.rate_limit);
         let demanded = (rate - tilt_rate) / step;
         let alpha = demanded.clamp(-model.acceleration_limit, model.acceleration_limit);
-        let (damping, stiffness) = (2.0 * tuning.zeta * tuning.omega, tuning.omega * tuning.omega);
+        let AdaptiveParameters { omega, zeta, nominal1, nominal2, .. } = *parameters;
+        let (damping, stiffness) = (2.0 * zeta * omega, omega * omega);
         let inertial = left + model.head_height * alpha;
         let dropped = (travel_gain - 1.0) * inertial - damping * velocity - stiffness * position;
 
@@ -142,21 +112,21 @@ impl Adaptation {
         let tilt_acceleration = forced(self.to_tilt_gain, -travel_gain * gravity * self.tilt);
 
         let (weight_x, weight_v) =
-            (dearer * tuning.position_weight * position, dearer * tuning.velocity_weight * velocity);
+            (dearer * parameters.weight_position * position, dearer * parameters.weight_velocity * velocity);
         let gradients = [
             dropped * travel_acceleration
                 + weight_x * self.to_travel_gain[0]
                 + weight_v * self.to_travel_gain[1]
-                + tuning.pull[0] * (travel_gain - tuning.nominal[0]),
+                + parameters.pull1 * (travel_gain - nominal1),
             dropped * (tilt_acceleration + gravity * self.tilt)
                 + weight_x * self.to_tilt_gain[0]
                 + weight_v * self.to_tilt_gain[1]
-                + tuning.tilt_rate_weight * tilt_rate * tilt_change
-                + tuning.pull[1] * (tilt_gain - tuning.nominal[1]),
+                + parameters.weight_tilt_rate * tilt_rate * tilt_change
+                + parameters.pull2 * (tilt_gain - nominal2),
         ];
-        for (k, gradient) in gradients.iter().enumerate() {
-            self.gains[k] = (self.gains[k] - step * tuning.adaptation[k] * gradient)
-                .clamp(LEAST_GAIN * tuning.nominal[k].min(1.0), 1.0);
+        let laws = [(parameters.gain1, nominal1), (parameters.gain2, nominal2)];
+        for ((gain, gradient), (rate, nominal)) in self.gains.iter_mut().zip(gradients).zip(laws) {
+            *gain = (*gain - step * rate * gradient).clamp(LEAST_GAIN * nominal.min(1.0), 1.0);
         }
         self.to_travel_gain = integrated(self.to_travel_gain, travel_acceleration, step);
         self.to_tilt_gain = integrated(self.to_tilt_gain, tilt_acceleration, step);

@@ -88,7 +88,7 @@ impl Coordinated {
     pub fn new(parameters: &Parameters) -> Option<Self> {
         let models = models(parameters);
         let law = match parameters.structure.strategy {
-            StrategyKind::Adaptive => Law::Adaptive(Adaptive::new(&models, &(&parameters.adaptive).into())),
+            StrategyKind::Adaptive => Law::Adaptive(Adaptive::new(&models, &parameters.adaptive)),
             StrategyKind::Predictive => {
                 Law::Predictive(Box::new(Predictive::new(&models, &(&parameters.predictive).into())?))
             }
@@ -111,7 +111,7 @@ impl Coordinated {
         let models = models(parameters);
         match &mut self.law {
             Law::Adaptive(adaptive) => {
-                adaptive.retune(&models, &(&parameters.adaptive).into());
+                adaptive.retune(&models, &parameters.adaptive);
                 true
             }
             Law::Optimal(optimal) => optimal.retune(&models, &(&parameters.optimal).into()),
