@@ -218,21 +218,11 @@ impl Default for Tables {
 /// slow one or the fast one.
 fn exponential(decay: f64, slow: bool) -> Targets {
     let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
+    let end = libm::exp(-decay * FORECAST);
+    let (slow_end, fast_end) = if slow { (end, 0.0) } else { (0.0, end) };
     Targets::from_fn(|k, _| match k {
-        BLOCKS => {
-            if slow {
-                libm::exp(-decay * FORECAST)
-            } else {
-                0.0
-            }
-        }
-        k if k > BLOCKS => {
-            if slow {
-                0.0
-            } else {
-                libm::exp(-decay * FORECAST)
-            }
-        }
+        BLOCKS => slow_end,
+        k if k > BLOCKS => fast_end,
         _ => {
             let start = ends[k] - durations[k];
             (libm::exp(-decay * start) - libm::exp(-decay * ends[k])) / (decay * durations[k])
