@@ -11,25 +11,13 @@ use moris_washout::platform::{
 };
 use moris_washout::{Input, Output, Parameters, Rig, Washout};
 
-/// A smooth ride on all axes that comes back to its start after 8192 steps of 1 ms.
-fn ride() -> Vec<Input> {
-    (0..8192)
-        .map(|k| {
-            let phase = std::f64::consts::TAU * f64::from(k) / 8192.0;
-            let mut input = Input::default();
-            input.specific_force.x = 0.5 * phase.sin();
-            input.specific_force.y = 0.3 * (2.0 * phase).sin();
-            input.specific_force.z += 0.2 * (3.0 * phase).sin();
-            input.angular_velocity.x = 0.02 * (2.0 * phase).sin();
-            input.orientation.roll = 0.1 * (2.0 * phase).sin();
-            input.orientation.pitch = 0.02 * phase.sin();
-            input
-        })
-        .collect()
-}
+#[path = "common/ride.rs"]
+mod ride;
+
+use ride::smooth;
 
 fn step(c: &mut Criterion) {
-    let ride = ride();
+    let ride = smooth();
     let rest = [Input::default()];
     let mut bench = |name: &str, inputs: &[Input], warm_up: &[Input]| {
         let mut washout = Washout::new(&Parameters::default()).expect("the default parameters can be used");
@@ -56,7 +44,7 @@ fn kinematics(c: &mut Criterion) {
     let rig = Rig::default();
     let geometry = Geometry::from(&rig);
     let mut washout = Washout::new(&Parameters::default()).expect("the default parameters can be used");
-    for input in &ride()[..3000] {
+    for input in &smooth()[..3000] {
         washout.step(input, 0.001);
     }
     let motion: PlatformMotion = *washout.motion();
@@ -64,7 +52,7 @@ fn kinematics(c: &mut Criterion) {
         b.iter(|| inverse_kinematics(black_box(&geometry), black_box(&motion)));
     });
     let lengths = leg_lengths(&geometry, &motion.pose());
-    for input in &ride()[3000..3010] {
+    for input in &smooth()[3000..3010] {
         washout.step(input, 0.001);
     }
     let nearby = washout.motion().pose();

@@ -10,7 +10,6 @@
 //!     cargo run --release --example steps 1000000 jumps
 //!     cargo run --release --example steps 1000000 paper
 
-use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
@@ -18,8 +17,11 @@ use moris_washout::{Input, ParameterError, Parameters, Washout, presets};
 #[path = "../tests/washout/common/random.rs"]
 #[allow(dead_code)] // The tests use the rest of it.
 mod random;
+#[path = "../benches/common/ride.rs"]
+mod ride;
 
 use random::Random;
+use ride::smooth;
 
 fn main() -> Result<(), ParameterError> {
     let count: usize = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
@@ -43,23 +45,6 @@ fn main() -> Result<(), ParameterError> {
     }
     println!("{count} steps, {limited} limited, legs {:.6?} m", washout.output().length);
     Ok(())
-}
-
-/// A smooth ride that comes back to its start.
-fn smooth() -> Vec<Input> {
-    (0..8192)
-        .map(|k| {
-            let phase = TAU * f64::from(k) / 8192.0;
-            let mut input = Input::default();
-            input.specific_force.x = 0.5 * phase.sin();
-            input.specific_force.y = 0.3 * (2.0 * phase).sin();
-            input.specific_force.z += 0.2 * (3.0 * phase).sin();
-            input.angular_velocity.x = 0.02 * (2.0 * phase).sin();
-            input.orientation.roll = 0.1 * (2.0 * phase).sin();
-            input.orientation.pitch = 0.02 * phase.sin();
-            input
-        })
-        .collect()
 }
 
 /// Steps for which an input is held before it jumps.
