@@ -435,13 +435,9 @@ impl Washout {
             tilt_pitch: tilt_pitch.velocity,
             tilt_roll_rate: tilt_roll.acceleration,
             tilt_pitch_rate: tilt_pitch.acceleration,
-            tilt_limited: false,
-            safety_active: false,
-            actuator_limited: false,
             stroke_margin: self.guard.stroke_margin_rate(),
-            plan_kept: false,
             plan_age: f64::from(self.strategy.plan().is_some()),
-            plan_iterations: 0,
+            ..Output::default()
         }
     }
 }

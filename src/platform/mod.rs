@@ -102,14 +102,7 @@ impl PlatformMotion {
     /// which have its angles.
     pub(crate) fn turning(motion: &PlatformMotion, coordinates: &PlatformCoordinates) -> Self {
         let turning = RotationalMotion::with_orientation(motion.orientation, &coordinates.angles);
-        PlatformMotion {
-            position: motion.position,
-            orientation: motion.orientation,
-            velocity: coordinates.linear.velocity,
-            angular_velocity: turning.velocity,
-            acceleration: coordinates.linear.acceleration,
-            angular_acceleration: turning.acceleration,
-        }
+        PlatformMotion { position: motion.position, ..PlatformMotion::new(&coordinates.linear, &turning, 0.0) }
     }
 
     /// At rest in this pose.

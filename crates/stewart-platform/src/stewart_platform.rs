@@ -195,11 +195,8 @@ impl Model for StewartPlatform {
             total_power: (now.total_power - before.total_power) * per_second,
             felt_specific_force: (now.felt_specific_force - before.felt_specific_force) * per_second,
             felt_angular_velocity: (now.felt_angular_velocity - before.felt_angular_velocity) * per_second,
-            command_refused: false,
-            drive_limited: false,
-            force_limited: false,
-            at_stop: false,
             stroke_margin: self.stroke_margin(&self.now.legs).1,
+            ..Output::default()
         }
     }
 }
