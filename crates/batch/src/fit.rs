@@ -5,25 +5,18 @@ use nalgebra::Vector3;
 
 use crate::Observer;
 
-/// Errors of the felt specific force, stroke used and time limited.
+/// Errors of the felt specific force, and stroke used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fit {
     steps: usize,
     squared_error: Vector3<f64>,
     peak_error: Vector3<f64>,
     smallest_margin: f64,
-    limited: usize,
 }
 
 impl Default for Fit {
     fn default() -> Self {
-        Fit {
-            steps: 0,
-            squared_error: Vector3::zeros(),
-            peak_error: Vector3::zeros(),
-            smallest_margin: f64::INFINITY,
-            limited: 0,
-        }
+        Fit { steps: 0, squared_error: Vector3::zeros(), peak_error: Vector3::zeros(), smallest_margin: f64::INFINITY }
     }
 }
 
@@ -34,7 +27,6 @@ impl Observer for Fit {
         self.squared_error += error.component_mul(&error);
         self.peak_error = self.peak_error.sup(&error.abs());
         self.smallest_margin = self.smallest_margin.min(output.stroke_margin);
-        self.limited += usize::from(output.safety_active || output.actuator_limited);
     }
 }
 
@@ -53,10 +45,5 @@ impl Fit {
     /// The least stroke that was left to any actuator \[m\]; infinite before the first step.
     pub fn smallest_margin(&self) -> f64 {
         self.smallest_margin
-    }
-
-    /// Fraction of the steps in which a safety unit or the actuator guard was active.
-    pub fn fraction_limited(&self) -> f64 {
-        self.limited as f64 / self.steps.max(1) as f64
     }
 }
