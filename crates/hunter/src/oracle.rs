@@ -47,6 +47,7 @@
 //! its limit may stay there, but never moves away from it: a platform at rest need not move. After
 //! several changes in quick succession, the largest limits count until the last change has settled.
 
+use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 /// Tolerance of a position beyond its limit \[m\].
@@ -109,7 +110,7 @@ pub struct Safety {
 }
 
 /// A quantity that has a limit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quantity {
     /// A value that is not a number.
@@ -144,24 +145,8 @@ pub enum Quantity {
     SecondDifference,
 }
 
-/// All quantities, in the order of their numbers.
-pub const QUANTITIES: [Quantity; 15] = [
-    Quantity::NotFinite,
-    Quantity::LegLength,
-    Quantity::LegVelocity,
-    Quantity::LegMeanVelocity,
-    Quantity::LegAcceleration,
-    Quantity::LegPositionAgainstVelocity,
-    Quantity::LegSecondDifference,
-    Quantity::Position,
-    Quantity::PositionMovesAway,
-    Quantity::Velocity,
-    Quantity::MeanVelocity,
-    Quantity::Acceleration,
-    Quantity::VelocityDifference,
-    Quantity::PositionAgainstVelocity,
-    Quantity::SecondDifference,
-];
+/// Number of quantities.
+const QUANTITIES: usize = Quantity::SecondDifference as usize + 1;
 
 /// A limit that was broken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -187,7 +172,7 @@ impl std::fmt::Display for Breach {
 
 /// Largest ratio so far of each quantity to its limit. For positions, the largest excess in
 /// units of the tolerance.
-pub type Worst = [f64; QUANTITIES.len()];
+pub type Worst = [f64; QUANTITIES];
 
 /// One axis with the limits that it must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -291,7 +276,7 @@ impl Oracle {
         if self.settling {
             self.tighten(step);
         }
-        let mut ratios = [0.0; QUANTITIES.len()];
+        let mut ratios = [0.0; QUANTITIES];
         let mut finite = now.sum.is_finite();
         self.measure(now, step, |quantity, _, value, limit| {
             let ratio = value / limit;

@@ -6,11 +6,12 @@ use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use clap::ValueEnum;
 use serde::Serialize;
 
 use crate::episode::Episode;
 use crate::machine::Machines;
-use crate::oracle::{Breach, QUANTITIES, Worst};
+use crate::oracle::{Breach, Quantity, Worst};
 use crate::random::Random;
 use crate::run::{Outcome, Runner};
 use crate::scenario::Scenarios;
@@ -245,6 +246,7 @@ impl Shared<'_> {
         let worst = *lock(&self.worst);
         let refused = self.refused.load(Ordering::Relaxed);
         let machines = self.next_machine.load(Ordering::Relaxed).min(self.plan.machines);
+        let names = Quantity::value_variants().iter().map(|quantity| format!("{quantity:?}"));
         Summary {
             seed: self.plan.seed,
             first_machine: self.plan.first_machine,
@@ -253,7 +255,7 @@ impl Shared<'_> {
             episodes: self.episodes.load(Ordering::Relaxed),
             steps: self.steps.load(Ordering::Relaxed),
             seconds: started.elapsed().as_secs_f64(),
-            worst: QUANTITIES.iter().map(|quantity| (format!("{quantity:?}"), worst[*quantity as usize])).collect(),
+            worst: names.zip(worst).collect(),
             found: lock(&self.found).clone(),
         }
     }
