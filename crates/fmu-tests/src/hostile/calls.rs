@@ -39,7 +39,7 @@ pub fn instantiate(world: &mut World) {
 pub fn free_instance(world: &mut World, who: usize) {
     let function = if world.choices.once_in(4) {
         // SAFETY: null is ignored.
-        unsafe { world.functions.free_instance(null_mut()) }
+        unsafe { world.functions.free_instance(null_mut()).0 }
     } else {
         world.players.swap_remove(who).free(world.functions)
     };

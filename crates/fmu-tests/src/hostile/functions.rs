@@ -36,17 +36,20 @@ pub struct Variables {
 /// A function's name and the status with which it ended.
 pub(super) type Answer = (&'static str, c_int);
 
-/// Calls a function that has the same arguments in both versions.
-macro_rules! call {
-    ($functions:ident, $name2:expr, $name3:expr, $field:ident($($argument:expr),*)) => {
-        // SAFETY: the caller vouches for instance and pointers.
-        unsafe {
-            match &$functions.version {
-                Fmi2(api) => ($name2, (api.$field)($($argument),*)),
-                Fmi3(api, _) => ($name3, (api.$field)($($argument),*)),
+/// Defines methods that call a function with the same arguments in both versions, by its field and
+/// its two names. The result is the name called, and what the function returned.
+macro_rules! forward {
+    ($($field:ident($($argument:ident: $type:ty),*) -> $answer:ty, $name2:literal, $name3:literal;)+) => { $(
+        pub(super) unsafe fn $field(&self, $($argument: $type),*) -> (&'static str, $answer) {
+            // SAFETY: the caller vouches for instance and pointers.
+            unsafe {
+                match &self.version {
+                    Fmi2(api) => ($name2, (api.$field)($($argument),*)),
+                    Fmi3(api, _) => ($name3, (api.$field)($($argument),*)),
+                }
             }
         }
-    };
+    )+ };
 }
 
 /// Host's arguments for variables of a type: references, and room for or source of their values.
@@ -119,51 +122,20 @@ impl Functions {
         }
     }
 
-    pub(super) unsafe fn free_instance(&self, c: Component) -> &'static str {
-        call!(self, "fmi2FreeInstance", "fmi3FreeInstance", free_instance(c)).0
-    }
-
-    pub(super) unsafe fn exit_initialization_mode(&self, c: Component) -> Answer {
-        call!(self, "fmi2ExitInitializationMode", "fmi3ExitInitializationMode", exit_initialization_mode(c))
-    }
-
-    pub(super) unsafe fn terminate(&self, c: Component) -> Answer {
-        call!(self, "fmi2Terminate", "fmi3Terminate", terminate(c))
-    }
-
-    pub(super) unsafe fn reset(&self, c: Component) -> Answer {
-        call!(self, "fmi2Reset", "fmi3Reset", reset(c))
-    }
-
-    pub(super) unsafe fn get_fmu_state(&self, c: Component, state: *mut FmuState) -> Answer {
-        call!(self, "fmi2GetFMUstate", "fmi3GetFMUState", get_fmu_state(c, state))
-    }
-
-    pub(super) unsafe fn set_fmu_state(&self, c: Component, state: FmuState) -> Answer {
-        call!(self, "fmi2SetFMUstate", "fmi3SetFMUState", set_fmu_state(c, state))
-    }
-
-    pub(super) unsafe fn free_fmu_state(&self, c: Component, state: *mut FmuState) -> Answer {
-        call!(self, "fmi2FreeFMUstate", "fmi3FreeFMUState", free_fmu_state(c, state))
-    }
-
-    pub(super) unsafe fn serialized_fmu_state_size(&self, c: Component, state: FmuState, size: *mut usize) -> Answer {
-        let names = ("fmi2SerializedFMUstateSize", "fmi3SerializedFMUStateSize");
-        call!(self, names.0, names.1, serialized_fmu_state_size(c, state, size))
-    }
-
-    pub(super) unsafe fn serialize_fmu_state(&self, c: Component, state: FmuState, to: *mut u8, size: usize) -> Answer {
-        call!(self, "fmi2SerializeFMUstate", "fmi3SerializeFMUState", serialize_fmu_state(c, state, to, size))
-    }
-
-    pub(super) unsafe fn deserialize_fmu_state(
-        &self,
-        c: Component,
-        from: *const u8,
-        size: usize,
-        state: *mut FmuState,
-    ) -> Answer {
-        call!(self, "fmi2DeSerializeFMUstate", "fmi3DeserializeFMUState", deserialize_fmu_state(c, from, size, state))
+    forward! {
+        free_instance(c: Component) -> (), "fmi2FreeInstance", "fmi3FreeInstance";
+        exit_initialization_mode(c: Component) -> c_int, "fmi2ExitInitializationMode", "fmi3ExitInitializationMode";
+        terminate(c: Component) -> c_int, "fmi2Terminate", "fmi3Terminate";
+        reset(c: Component) -> c_int, "fmi2Reset", "fmi3Reset";
+        get_fmu_state(c: Component, state: *mut FmuState) -> c_int, "fmi2GetFMUstate", "fmi3GetFMUState";
+        set_fmu_state(c: Component, state: FmuState) -> c_int, "fmi2SetFMUstate", "fmi3SetFMUState";
+        free_fmu_state(c: Component, state: *mut FmuState) -> c_int, "fmi2FreeFMUstate", "fmi3FreeFMUState";
+        serialized_fmu_state_size(c: Component, state: FmuState, size: *mut usize) -> c_int,
+            "fmi2SerializedFMUstateSize", "fmi3SerializedFMUStateSize";
+        serialize_fmu_state(c: Component, state: FmuState, to: *mut u8, size: usize) -> c_int,
+            "fmi2SerializeFMUstate", "fmi3SerializeFMUState";
+        deserialize_fmu_state(c: Component, from: *const u8, size: usize, state: *mut FmuState) -> c_int,
+            "fmi2DeSerializeFMUstate", "fmi3DeserializeFMUState";
     }
 
     pub(super) unsafe fn set_debug_logging(

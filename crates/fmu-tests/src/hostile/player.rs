@@ -222,7 +222,7 @@ impl Player {
     /// Frees the instance; returns the function's name.
     pub fn free(self, functions: &Functions) -> &'static str {
         // SAFETY: the instance is alive, and nobody uses it from here on.
-        let function = unsafe { functions.free_instance(self.component) };
+        let (function, ()) = unsafe { functions.free_instance(self.component) };
         let messages = self.log.map(|log| log.messages);
         assert!(messages.is_none_or(|messages| messages.is_empty()));
         function
