@@ -12,6 +12,7 @@ use moris_washout::Washout;
 use super::expected::{DISCARD, ERROR, Expected, IDENTITY, OK, is_set_by_host, slot};
 use super::functions::{Access, Answer, Functions, Variables, Version};
 use super::logger::{Log, log2, log3};
+use super::states::bytes_of;
 
 /// An instance, what it said, and what it has to be.
 pub struct Player {
@@ -207,13 +208,10 @@ impl Player {
     /// Everything about the instance, as bytes.
     pub fn bytes(&mut self, functions: &Functions) -> Vec<u8> {
         let mut state: FmuState = null_mut();
-        let mut size = 0;
-        // SAFETY: the instance is alive, and the pointers lead to what the functions want.
+        // SAFETY: the instance is alive, and the pointer leads to a state.
         unsafe {
             assert_eq!(functions.get_fmu_state(self.component, &mut state).1, OK);
-            assert_eq!(functions.serialized_fmu_state_size(self.component, state, &mut size).1, OK);
-            let mut bytes = vec![0; size];
-            assert_eq!(functions.serialize_fmu_state(self.component, state, bytes.as_mut_ptr(), size).1, OK);
+            let bytes = bytes_of(self, functions, state);
             assert_eq!(functions.free_fmu_state(self.component, &mut state).1, OK);
             bytes
         }

@@ -80,7 +80,7 @@ pub fn free(world: &mut World, who: usize) -> i32 {
 }
 
 /// A state's bytes, by any instance.
-fn bytes_of(player: &Player, functions: &Functions, state: FmuState) -> Vec<u8> {
+pub fn bytes_of(player: &Player, functions: &Functions, state: FmuState) -> Vec<u8> {
     let mut size = 0;
     // SAFETY: the instance and the state are alive, and there is room for `size` bytes.
     unsafe {
