@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, Run, Value, Weight, html};
+use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, Run, Weight, html};
 use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 
@@ -88,7 +88,7 @@ fn hostile() -> Report {
     run.measures.push(Measure {
         group: HOSTILE.into(),
         name: HOSTILE.into(),
-        value: Value::Text(HOSTILE.into()),
+        value: Some(1.0),
         unit: HOSTILE.into(),
         definition: HOSTILE.into(),
         source: HOSTILE.into(),
@@ -208,7 +208,7 @@ fn measures(run: &Run) -> Vec<Measure> {
             .map(|(name, value, definition)| Measure {
                 group: axis.into(),
                 name: name.into(),
-                value: value.into(),
+                value: Some(value),
                 unit: "m/s²".into(),
                 better: Better::Less,
                 definition: definition.into(),

@@ -1,12 +1,10 @@
 // The table of measures: the runs one below the other, and each measure's definition and source below it all.
 
-function cellText(value) {
-  return typeof value === "number" ? significant(value, 3) : value ?? "\u2013";
-}
+const cellText = (value) => (value == null ? "\u2013" : significant(value, 3));
 
 /** The index of the best of some runs' values of a measure; -1 where none is better than another. */
 function best(values, better) {
-  const numbers = values.map((value) => (typeof value === "number" ? value : NaN));
+  const numbers = values.map((value) => value ?? NaN);
   if (better === "neither" || numbers.length < 2 || numbers.some(Number.isNaN)) return -1;
   const winner = better === "less" ? Math.min(...numbers) : Math.max(...numbers);
   return new Set(numbers.map((number) => significant(number, 3))).size > 1 ? numbers.indexOf(winner) : -1;

@@ -186,7 +186,9 @@ pub struct Measure {
     /// The heading above the row: `Surge`, `Sensed roll rate`, `Legs`.
     pub group: String,
     pub name: String,
-    pub value: Value,
+    /// Shown with three significant digits, down to a millionth; none, and one that is not finite,
+    /// as a dash.
+    pub value: Option<f64>,
     /// As printed, for instance `m/s²`; empty for pure numbers.
     pub unit: String,
     /// Which of two values is the better.
@@ -195,31 +197,6 @@ pub struct Measure {
     pub definition: String,
     /// Where the definition comes from.
     pub source: String,
-}
-
-/// A cell of the table.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-#[serde(untagged)]
-pub enum Value {
-    /// Shown with three significant digits, down to a millionth; one that is not finite
-    /// is shown as undefined.
-    Number(f64),
-    Text(String),
-    /// Shown as a dash.
-    #[default]
-    Undefined,
-}
-
-impl From<f64> for Value {
-    fn from(number: f64) -> Self {
-        Value::Number(number)
-    }
-}
-
-impl From<Option<f64>> for Value {
-    fn from(number: Option<f64>) -> Self {
-        number.map_or(Value::Undefined, Value::Number)
-    }
 }
 
 /// Which of two values of a measure is the better.

@@ -17,7 +17,7 @@ mod page;
 mod thinning;
 
 pub use check::{ReportError, check};
-pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Value, Weight};
+pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::html;

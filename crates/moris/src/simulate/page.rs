@@ -146,7 +146,7 @@ fn measure(row: Row) -> Measure {
     Measure {
         group: capitalised(&row.subject),
         name: row.name.to_owned(),
-        value: row.value.into(),
+        value: row.value,
         unit: row.unit.to_owned(),
         better: better(row.name),
         definition: row.definition.to_owned(),
