@@ -100,12 +100,7 @@ function drawTimeAxis(context, shown, width, height, from = MARGIN.top) {
   context.textBaseline = "top";
   for (const time of values) {
     const x = Math.round(xOf(time, shown, width)) + 0.5;
-    context.strokeStyle = colour("--rule");
-    context.lineWidth = 1;
-    context.beginPath();
-    context.moveTo(x, from);
-    context.lineTo(x, height - MARGIN.bottom);
-    context.stroke();
+    drawSegment(context, [x, from], [x, height - MARGIN.bottom], colour("--rule"), 1);
     context.fillStyle = colour("--muted");
     const unit = time === values[values.length - 1] ? " s" : "";
     context.fillText(fixed(time, digits) + unit, Math.min(x, width - 18), height - MARGIN.bottom + 6);
@@ -194,8 +189,6 @@ class Chart {
     const [low, high] = this.range();
     const bottom = height - MARGIN.bottom;
     const yOf = (value) => bottom - (value - low) / (high - low) * (bottom - MARGIN.top);
-    context.clearRect(0, 0, width, height);
-    context.font = "11px system-ui, sans-serif";
     drawTimeAxis(context, shown, width, height);
     this.drawValueAxis(context, width, yOf, ticks(low, high, Math.max(2, (bottom - MARGIN.top) / 24)));
     context.save();
@@ -216,12 +209,7 @@ class Chart {
     for (const value of values) {
       const y = Math.round(yOf(value)) + 0.5;
       const zero = Math.abs(value) < 1e-12;
-      context.strokeStyle = colour(zero ? "--axis" : "--rule");
-      context.lineWidth = 1;
-      context.beginPath();
-      context.moveTo(MARGIN.left, y);
-      context.lineTo(width - MARGIN.right, y);
-      context.stroke();
+      drawSegment(context, [MARGIN.left, y], [width - MARGIN.right, y], colour(zero ? "--axis" : "--rule"), 1);
       context.fillStyle = colour("--muted");
       context.fillText(fixed(value, digits), MARGIN.left - 8, y);
     }

@@ -10,7 +10,7 @@ function element(tag, attributes = {}, children = []) {
 
 const byId = (id) => document.getElementById(id);
 
-/** Makes a canvas as fine as the screen; returns its context and its size in CSS pixels. */
+/** Clears a canvas and makes it as fine as the screen; returns its context and its size in CSS pixels. */
 function fitted(canvas) {
   const { width, height } = canvas.getBoundingClientRect();
   const ratio = window.devicePixelRatio || 1;
@@ -18,5 +18,16 @@ function fitted(canvas) {
   canvas.height = Math.max(1, Math.round(height * ratio));
   const context = canvas.getContext("2d");
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.font = "11px system-ui, sans-serif";
   return { context, width, height };
+}
+
+/** Draws a straight line. */
+function drawSegment(context, from, to, paint, width) {
+  context.strokeStyle = paint;
+  context.lineWidth = width;
+  context.beginPath();
+  context.moveTo(...from);
+  context.lineTo(...to);
+  context.stroke();
 }

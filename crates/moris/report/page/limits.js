@@ -63,8 +63,6 @@ class TimeLine {
   draw() {
     const { context, width, height } = fitted(this.plot.canvas);
     const shown = this.shown();
-    context.clearRect(0, 0, width, height);
-    context.font = "11px system-ui, sans-serif";
     drawTimeAxis(context, shown, width, height);
     Object.entries(KINDS).forEach(([kind, { label, colour: paint }], lane) => {
       const y = MARGIN.top + lane * LANE;

@@ -22,7 +22,6 @@ class View {
     this.camera.aim(width, height);
     this.parts = [];
     const state = stateAt(run, time);
-    context.clearRect(0, 0, width, height);
     context.lineCap = "round";
     context.lineJoin = "round";
     this.drawFloor();
@@ -193,13 +192,8 @@ class View {
     const [ux, uy] = [(b.x - a.x) / long, (b.y - a.y) / long];
     const tip = Math.min(long, 6 + wide);
     const { context } = this;
-    context.strokeStyle = paint;
+    drawSegment(context, [a.x, a.y], [b.x - tip * ux, b.y - tip * uy], paint, wide);
     context.fillStyle = paint;
-    context.lineWidth = wide;
-    context.beginPath();
-    context.moveTo(a.x, a.y);
-    context.lineTo(b.x - tip * ux, b.y - tip * uy);
-    context.stroke();
     context.beginPath();
     context.moveTo(b.x, b.y);
     context.lineTo(b.x - tip * ux - 0.6 * tip * uy, b.y - tip * uy + 0.6 * tip * ux);
@@ -211,18 +205,12 @@ class View {
   drawCompass(height) {
     const { context, camera } = this;
     const [x, y, long] = [34, height - 34, 22];
-    context.font = "11px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "middle";
-    context.lineWidth = 1.5;
+    context.fillStyle = colour("--muted");
     for (const [axis, name] of [[[1, 0, 0], "x"], [[0, 1, 0], "y"], [[0, 0, 1], "z"]]) {
       const [dx, dy] = [dot(axis, camera.right), -dot(axis, camera.up)];
-      context.strokeStyle = colour("--muted");
-      context.fillStyle = colour("--muted");
-      context.beginPath();
-      context.moveTo(x, y);
-      context.lineTo(x + long * dx, y + long * dy);
-      context.stroke();
+      drawSegment(context, [x, y], [x + long * dx, y + long * dy], colour("--muted"), 1.5);
       if (Math.hypot(dx, dy) > 0.25) context.fillText(name, x + (long + 8) * dx, y + (long + 8) * dy);
     }
   }
