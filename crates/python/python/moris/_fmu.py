@@ -5,6 +5,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+from ._simulation import parameters as all_parameters
 from ._simulation import write_parameters
 
 
@@ -30,8 +31,6 @@ def build_fmu(rig=None, parameters=None, strategy=None, *, output=".", fmi=2, pl
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "parameters.toml"
         # The rig's values are among them: every value that is not the default's.
-        from ._simulation import parameters as all_parameters
-
         write_parameters(file, all_parameters(rig, sets or None))
         command = [cargo, "build-fmu", "--model", "MorisWashout", "--fmi", str(fmi), "--output", str(output)]
         command += ["--parameters", str(file)]

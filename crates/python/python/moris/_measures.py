@@ -3,6 +3,9 @@
 from html import escape
 from typing import NamedTuple, Optional
 
+from ._optional import pandas
+from ._variables import near_misses
+
 
 class Measure(NamedTuple):
     """One measure of cue quality."""
@@ -29,8 +32,6 @@ class Measures(dict):
         super().__init__((f"{row.subject} {row.name}", row.value) for row in self.rows)
 
     def __missing__(self, name):
-        from ._variables import near_misses
-
         raise KeyError(f"there is no measure {name}; {near_misses(name, self)}")
 
     def __reduce__(self):
@@ -38,8 +39,6 @@ class Measures(dict):
 
     def to_pandas(self):
         """The measures as a pandas.DataFrame, a row each."""
-        from ._optional import pandas
-
         return pandas().DataFrame(self.rows, columns=Measure._fields)
 
     def _repr_html_(self):

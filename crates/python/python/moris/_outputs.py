@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ._optional import pandas
 from ._variables import VARIABLES, near_misses
 
 
@@ -50,8 +51,6 @@ class Outputs(Mapping):
 
     def to_pandas(self):
         """The samples as a pandas.DataFrame: a column for each single variable, the index is time [s]."""
-        from ._optional import pandas
-
         frame = pandas().DataFrame({name: self[name] for name in self.names})
         frame.index = pandas().Index(np.asarray(self.time), name="time")
         return frame

@@ -10,12 +10,9 @@ RATES = ("roll rate", "pitch rate", "yaw rate")
 
 
 def _figure(figure, size):
-    if figure is not None:
-        return figure
-    need("matplotlib", "a plot")
-    from matplotlib import pyplot
-
-    return pyplot.figure(figsize=size, layout="constrained")
+    if figure is None:
+        figure = need("matplotlib.pyplot", "a plot").figure(figsize=size, layout="constrained")
+    return figure
 
 
 def plot(simulation, figure=None):

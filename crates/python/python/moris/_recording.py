@@ -8,6 +8,7 @@ import numpy as np
 from . import _moris
 from ._errors import RecordingError
 from ._optional import need
+from ._outputs import Outputs
 
 OPTIONS = (
     "format",
@@ -86,8 +87,6 @@ class Recording:
     @property
     def inputs(self):
         """The washout's inputs at each sample, by the names of the FMU's variables: Outputs."""
-        from ._outputs import Outputs
-
         return Outputs(*self._native.samples())
 
     def to_pandas(self):

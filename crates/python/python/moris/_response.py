@@ -3,6 +3,8 @@
 import numpy as np
 
 from . import _moris
+from ._optional import pandas
+from ._plot import plot_response
 
 
 class FrequencyResponse:
@@ -25,8 +27,6 @@ class FrequencyResponse:
 
     def to_pandas(self):
         """The responses as a pandas.DataFrame: a row for each input, frequency and output."""
-        from ._optional import pandas
-
         rows = [
             (name, frequency, output, abs(ratio), np.degrees(np.angle(ratio)), abs(small), np.degrees(np.angle(small)))
             for name, of_input, of_small in zip(self.channels, self.ratios, self.small)
@@ -38,8 +38,6 @@ class FrequencyResponse:
 
     def plot(self, figure=None):
         """Draws modulus and phase of the direct channels; returns the matplotlib figure."""
-        from ._plot import plot_response
-
         return plot_response(self, figure)
 
     def __repr__(self):

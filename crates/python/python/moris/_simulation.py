@@ -1,5 +1,7 @@
 """Simulations of recordings, and the bound."""
 
+import base64
+import io
 from html import escape
 from pathlib import Path
 from typing import NamedTuple
@@ -9,9 +11,9 @@ import numpy as np
 from . import _moris
 from ._measures import Measures
 from ._outputs import Outputs
+from ._plot import plot
 from ._recording import recording_of
 
-STANDARD_GRAVITY = 9.80665
 AXES = {"x": "surge", "y": "sway", "z": "heave"}
 
 
@@ -53,8 +55,6 @@ class Simulation(Outputs):
 
     def plot(self, figure=None):
         """Draws felt over desired specific force and angular velocity, and the actuators; returns the matplotlib figure."""
-        from ._plot import plot
-
         return plot(self, figure)
 
     def report(self, path, compare=()):
@@ -80,9 +80,6 @@ class Simulation(Outputs):
 
 def _picture(simulation):
     """The plot as an image in HTML; nothing where there is no matplotlib."""
-    import base64
-    import io
-
     try:
         from matplotlib.figure import Figure
     except ImportError:

@@ -10,6 +10,7 @@ import numpy as np
 from . import _moris
 from ._cluster import Cluster
 from ._errors import ClusterError
+from ._optional import pandas
 from ._progress import Progress
 from ._recording import Recording, recordings_of
 from ._variables import near_misses
@@ -63,8 +64,6 @@ class Sweep:
 
     def to_pandas(self):
         """The measures as a pandas.DataFrame, a row for each set and recording: for sweeps without a reduction."""
-        from ._optional import pandas
-
         frames = []
         for result in self.value:
             frame = pandas().DataFrame(result.values, columns=list(MEASURES))
@@ -179,14 +178,6 @@ class _Context:
         return _moris.sweep_chunk(self.recordings, self.rig, sets, self.strategy, self.preview, threads)
 
 
-def _task(context, sets):
-    return context.measures(sets, 1)
-
-
-def _make(*arguments):
-    return _Context(*arguments)
-
-
 def _chunk(recordings):
     """As many sets as take some tenths of a second on a core."""
     samples = sum(recording.duration / recording.step for recording in recordings)
@@ -210,13 +201,13 @@ def _here(context, chunks, cancelled):
 
 def _on_cluster(client, context, chunks, cancelled):
     """Chunks with their measures, in order. As many are on their way as keep every thread busy, and no more."""
-    cluster = Cluster(client, _make, (context.recordings, context.rig, context.base, context.strategy, context.preview))
+    cluster = Cluster(client, _Context, (context.recordings, context.rig, context.base, context.strategy, context.preview))
     ahead = AHEAD * cluster.threads()
     underway = deque()
     try:
         while not cancelled():
             for sets in itertools.islice(chunks, ahead - len(underway)):
-                underway.append((sets, cluster.submit(_task, sets)))
+                underway.append((sets, cluster.submit(_Context.measures, sets, 1)))
             if not underway:
                 return
             sets, future = underway[0]

@@ -2,6 +2,7 @@
 
 from . import _moris
 from ._cluster import Cluster
+from ._optional import pandas
 from ._progress import Progress
 from ._recording import recordings_of
 from ._simulation import write_parameters
@@ -33,8 +34,6 @@ class Tuned:
 
     def to_pandas(self):
         """The errors as a pandas.DataFrame, a row for each recording."""
-        from ._optional import pandas
-
         return pandas().DataFrame.from_dict(self.errors, orient="index")
 
     def __repr__(self):
@@ -101,13 +100,22 @@ def tune(
     cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)
     searches = 1 + (min(folds, len(tuned_on)) if len(tuned_on) > 1 else 0)
     bar = Progress(progress, searches * evaluations, "tuning", "set")
+    begun = []
+
+    def observe(search, tried, error):
+        if search not in begun:
+            begun.append(search)
+        done = begun.index(search) * evaluations + min(tried, evaluations)
+        bar.to(done, f"{search}: {'none fits yet' if error is None else f'error {error:.4f}'}")
+        return stop is None or not stop(search, tried, error)
+
     try:
         found = tuning.run(
             evaluations,
             seed,
             folds,
             patience,
-            _Observer(bar, evaluations, stop),
+            observe,
             None if cluster is None else lambda *given: cluster.result(cluster.submit(_costs, *given)),
             0 if cluster is None else max(16, 2 * cluster.threads()),
         )
@@ -119,23 +127,6 @@ def tune(
 
 def _costs(tuning, names, values):
     return tuning.costs(names, values)
-
-
-class _Observer:
-    """Shows progress, and asks `stop` when to end."""
-
-    def __init__(self, bar, evaluations, stop):
-        self._bar = bar
-        self._evaluations = evaluations
-        self._stop = stop
-        self._searches = []
-
-    def __call__(self, search, tried, error):
-        if search not in self._searches:
-            self._searches.append(search)
-        done = self._searches.index(search) * self._evaluations + min(tried, self._evaluations)
-        self._bar.to(done, f"{search}: {'none fits yet' if error is None else f'error {error:.4f}'}")
-        return self._stop is None or not self._stop(search, tried, error)
 
 
 __all__ = ["Tuned", "tune"]
