@@ -216,7 +216,7 @@ def charts_are_zoomed_and_clicked(browser):
         for found, expected in zip(page.evaluate("simulationReport.now.shown"), (20, 45)):
             near(found, expected, 0.1, "shown time")
         page.screenshot(path=PICTURES / "zoomed.png")
-        page.get_by_role("button", name="All", exact=True).click()
+        page.get_by_role("button", name="Whole recording").click()
         assert page.evaluate("simulationReport.now.shown") == [0, 60]
 
 

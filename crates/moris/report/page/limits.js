@@ -35,7 +35,7 @@ class TimeLine {
       return time > 0 ? `${long} ${fixed(time, 1)} s (${fixed(100 * time / (last - first), 0)} %)` : null;
     }).filter(Boolean);
     this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
-    this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "Nothing was limited.";
+    this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "No limit was active.";
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
     this.element.querySelector(".events").hidden = this.events.length === 0;
   }

@@ -79,7 +79,7 @@ function select(index) {
 function buildCharts() {
   const box = byId("charts");
   const of = report.runs.length > 1 ? ` (${now.run.name})` : "";
-  const lane = element("section", {}, [element("h2", {}, ["What was limited" + of]), timeLine.element]);
+  const lane = element("section", {}, [element("h2", {}, ["Active limits" + of]), timeLine.element]);
   charts = [];
   const built = sections(now.run).map(({ heading, charts: listed, note, of_run: ofRun }) => {
     const made = listed.map((one) => new Chart(one, shown, handlers));
