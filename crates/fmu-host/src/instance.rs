@@ -174,6 +174,14 @@ impl Instance {
         self.expect_ok("fmi2DoStep", status)
     }
 
+    /// Steps of `step` seconds from time 0, each communication point a product: k times `step`.
+    ///
+    /// # Errors
+    /// The FMU does not make a step.
+    pub fn steps(&mut self, count: u32, step: f64) -> Result<(), HostError> {
+        (0..count).try_for_each(|k| self.step(f64::from(k) * step, step))
+    }
+
     /// `fmi2Terminate`
     pub fn terminate(&mut self) -> Status {
         // SAFETY: the FMU's instance.

@@ -7,9 +7,7 @@
 //! let mut washout = fmu.instantiate("washout")?;
 //! washout.initialize(&[("tilt.angleLimit", 0.3)], None)?;
 //! washout.set("vehicle.speed", 20.0)?;
-//! for step in 0..1000 {
-//!     washout.step(f64::from(step) * 1e-3, 1e-3)?;
-//! }
+//! washout.steps(1000, 1e-3)?;
 //! println!("{}", washout.get("actuator[1].length")?);
 //! # Ok(())
 //! # }

@@ -71,7 +71,7 @@ fn a_refused_parameter_can_be_set_again() {
 fn run(instance: &mut Instance) -> Vec<f64> {
     instance.initialize(&[("tau", 0.3)], Some(1.0)).unwrap();
     instance.set("u", 1.0).unwrap();
-    (0..3).for_each(|step| instance.step(f64::from(step) * 0.1, 0.1).unwrap());
+    instance.steps(3, 0.1).unwrap();
     (0..IDENTITY.slots.len()).map(|slot| instance.get(&IDENTITY.variable_name(slot)).unwrap()).collect()
 }
 
