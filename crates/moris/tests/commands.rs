@@ -71,16 +71,16 @@ fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same
     let file = singular_rig(directory.path());
     let output = moris(directory.path(), &["rig", "check", &file, "--samples", "20000"]);
     assert!(!output.status.success());
-    let said = text(&output.stdout);
-    let lengths = said.split("lengths of\n").nth(1).unwrap().lines().next().unwrap();
+    let printed = text(&output.stdout);
+    let lengths = printed.split("lengths of\n").nth(1).unwrap().lines().next().unwrap();
     let lengths: Vec<f64> = lengths.trim().trim_end_matches(" m").split(", ").map(|l| l.parse().unwrap()).collect();
-    assert!(lengths.len() == 6 && lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{said}");
+    assert!(lengths.len() == 6 && lengths.iter().all(|length| (1.0..=1.6).contains(length)), "{printed}");
     assert!(directory.path().join("moris-report/singular.svg").exists());
     // Legs that do not hold the yaw set it no speed.
-    let yaw = said.lines().find(|line| line.trim_start().starts_with("yaw")).unwrap();
-    assert_eq!(yaw.matches("singular").count(), 2, "{said}");
+    let yaw = printed.lines().find(|line| line.trim_start().starts_with("yaw")).unwrap();
+    assert_eq!(yaw.matches("singular").count(), 2, "{printed}");
     let digits = |word: &str| word.chars().filter(char::is_ascii_digit).count();
-    assert!(said.split_whitespace().all(|word| digits(word) < 8), "{said}");
+    assert!(printed.split_whitespace().all(|word| digits(word) < 8), "{printed}");
 }
 
 #[test]
@@ -89,8 +89,8 @@ fn a_run_leaves_the_crate_s_outputs_and_a_page() {
     write_recording(directory.path(), "ride.csv");
     let output = moris(directory.path(), &["simulate", "ride.csv", "--report", "out", "--fade-in", "0"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
-    assert!(said.contains("The recording fits the rig") && said.contains("force x"), "{said}");
+    let printed = text(&output.stdout);
+    assert!(printed.contains("The recording fits the rig") && printed.contains("force x"), "{printed}");
 
     // The table against the crate, stepped here.
     let mut parameters = Parameters::default();
@@ -130,11 +130,11 @@ fn runs_with_other_parameters_stand_beside_the_first() {
     let narrow = rigs().join("narrow.toml").display().to_string();
     let output = moris(directory.path(), &["simulate", "ride.csv", "--rig", &narrow, "--compare", "small-motions"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
-    let said = text(&output.stdout);
+    let printed = text(&output.stdout);
     assert!(
-        said.contains("Narrow mock-up, 0.45 m stroke, parameters default:")
-            && said.contains("parameters small-motions:"),
-        "{said}"
+        printed.contains("Narrow mock-up, 0.45 m stroke, parameters default:")
+            && printed.contains("parameters small-motions:"),
+        "{printed}"
     );
     assert!(text(&output.stderr).starts_with("ride: reading\nride: simulating\n"), "{}", text(&output.stderr));
     for file in ["ride.outputs.csv", "ride.small-motions.outputs.csv", "ride.html"] {
@@ -168,8 +168,8 @@ fn what_would_be_written_into_one_file_is_refused_before_anything_is_ridden() {
     ] {
         let output = moris(here, arguments);
         assert!(!output.status.success(), "{arguments:?}");
-        let said = text(&output.stderr);
-        assert!(said.contains("outputs.csv") && said.contains("rename"), "{said}");
+        let printed = text(&output.stderr);
+        assert!(printed.contains("outputs.csv") && printed.contains("rename"), "{printed}");
         assert!(!here.join("moris-report").exists());
     }
 }
@@ -230,10 +230,10 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     fs::write(directory.path().join("broken.csv"), "time,ax\n0,1\n").unwrap();
     let output = moris(directory.path(), &["simulate", "missing.csv", "broken.csv", "ride.csv", "--no-bound"]);
     assert_eq!(output.status.code(), Some(1));
-    let said = text(&output.stderr);
-    let errors: Vec<&str> = said.lines().filter(|line| line.starts_with("error")).collect();
-    assert_eq!(errors.len(), 2, "{said}");
-    assert!(errors[0].contains("cannot read missing.csv") && errors[1].matches("broken.csv").count() == 1, "{said}");
+    let printed = text(&output.stderr);
+    let errors: Vec<&str> = printed.lines().filter(|line| line.starts_with("error")).collect();
+    assert_eq!(errors.len(), 2, "{printed}");
+    assert!(errors[0].contains("cannot read missing.csv") && errors[1].matches("broken.csv").count() == 1, "{printed}");
     assert!(text(&output.stdout).contains("The recording fits the rig"));
     assert!(directory.path().join("moris-report/ride.html").exists());
 }
@@ -361,9 +361,9 @@ fn a_new_rig_is_asked_for_checked_and_written() {
     // Answers that cannot be are asked for again.
     let answers = "long\n-1\nwide\n1.1\n-8 8 112 128 232\n".to_owned() + &"\n".repeat(20);
     let output = ask("long.toml", &answers);
-    let said = text(&output.stdout);
+    let printed = text(&output.stdout);
     for reason in ["-1: it must be above 0", "wide: it must be a number", "six numbers are needed"] {
-        assert!(output.status.success() && said.contains(reason), "{said}");
+        assert!(output.status.success() && printed.contains(reason), "{printed}");
     }
     assert!(fs::read_to_string(directory.path().join("long.toml")).unwrap().contains("radius = 1.1"));
     // Nothing is written over, of a singular rig, of one out of reach, or of half a dialog.

@@ -357,8 +357,8 @@ fn a_turned_sensor_is_turned_back() {
         assert_is_the_car(&found, 0.0, 1e-6);
         // What it says gives the same.
         let warning = found.warnings.iter().find_map(|warning| warning.split_once("--mounting=")).unwrap().1;
-        let said = Mounting::parse(warning.split_whitespace().next().unwrap()).unwrap();
-        assert_is_the_car(&read_text(&text(degrees), &with(said)).unwrap(), 0.0, 0.03);
+        let given = Mounting::parse(warning.split_whitespace().next().unwrap()).unwrap();
+        assert_is_the_car(&read_text(&text(degrees), &with(given)).unwrap(), 0.0, 0.03);
     }
     // A sensor on its side, without an option: what to do is said.
     let message = read_text(&text([90.0, 0.0, 0.0]), &ConventionOptions::default()).unwrap_err();

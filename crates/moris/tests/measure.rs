@@ -140,8 +140,8 @@ fn steps_that_do_not_fit_and_empty_folders_are_errors_with_a_remedy() {
         (&["empty"], "no recording (*.csv) in empty"),
     ] {
         let (output, _) = measure(directory.path(), arguments);
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(!output.status.success() && said.contains(expected), "{said}");
+        let printed = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && printed.contains(expected), "{printed}");
     }
 }
 

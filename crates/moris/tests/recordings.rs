@@ -188,12 +188,12 @@ fn options_stand_over_the_file_of_conventions() {
         columns: vec![(Quantity::Force(1), "lateral".to_owned())],
         ..ConventionOptions::default()
     };
-    let said = options.load().unwrap();
-    assert_eq!(said.axes, Axes::ForwardRightDown);
-    assert_eq!(said.unit(Dimension::Force), Some(ForceUnit::MetrePerSecondSquared.unit()));
-    assert_eq!(said.unit(Dimension::Rate), None);
-    assert_eq!((said.column(Quantity::Force(0)), said.column(Quantity::Force(1))), ("x", "lateral"));
-    assert_eq!(said.rate_frame, RateFrame::Body);
+    let given = options.load().unwrap();
+    assert_eq!(given.axes, Axes::ForwardRightDown);
+    assert_eq!(given.unit(Dimension::Force), Some(ForceUnit::MetrePerSecondSquared.unit()));
+    assert_eq!(given.unit(Dimension::Rate), None);
+    assert_eq!((given.column(Quantity::Force(0)), given.column(Quantity::Force(1))), ("x", "lateral"));
+    assert_eq!(given.rate_frame, RateFrame::Body);
 
     fs::write(&file, "force-units = \"g\"\n").unwrap();
     let message = options.load().unwrap_err().to_string();
@@ -226,16 +226,16 @@ fn wrong_units_and_axes_are_recognised() {
     assert!(refusal(&turned, &default).contains("x is nearest to the vertical"));
 
     // Given units and axes that are not the recording's are also refused.
-    let said = |options: ConventionOptions| refusal(&plain(), &options);
+    let given = |options: ConventionOptions| refusal(&plain(), &options);
     assert!(
-        said(ConventionOptions { force_unit: Some(ForceUnit::Gravity), ..default.clone() })
+        given(ConventionOptions { force_unit: Some(ForceUnit::Gravity), ..default.clone() })
             .contains("--force-unit m/s2")
     );
     assert!(
-        said(ConventionOptions { gravity: Some(Gravity::Removed), ..default.clone() }).contains("--gravity included")
+        given(ConventionOptions { gravity: Some(Gravity::Removed), ..default.clone() }).contains("--gravity included")
     );
     let axes = Some(Axes::ForwardRightDown);
-    assert!(said(ConventionOptions { axes, ..default.clone() }).contains("--axes forward-left-up"));
+    assert!(given(ConventionOptions { axes, ..default.clone() }).contains("--axes forward-left-up"));
     let angles = csv(&format!("{PLAIN},roll,pitch"), &samples(), |s| [&s[..7], &[20.0 * s[7], s[8]]].concat());
     assert!(refusal(&angles, &default).contains("use --angle-unit deg"));
 }
@@ -397,8 +397,8 @@ proptest! {
 
 #[test]
 fn a_command_s_own_time_to_lead_in_gives_way_to_any_that_is_said_also_to_none() {
-    let fade_in = |said| ConventionOptions { fade_in: said, ..ConventionOptions::default() };
-    let found = |said| fade_in(said).load_or_fade_in(1.0).unwrap().fade_in;
+    let fade_in = |given| ConventionOptions { fade_in: given, ..ConventionOptions::default() };
+    let found = |given| fade_in(given).load_or_fade_in(1.0).unwrap().fade_in;
     assert_eq!((found(None), found(Some(0.0)), found(Some(2.0))), (1.0, 0.0, 2.0));
     assert_eq!(fade_in(None).load().unwrap().fade_in, 0.0);
 }

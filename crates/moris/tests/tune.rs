@@ -225,15 +225,18 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
     write_recording(here, &weaving());
     write_recording(here, &brisk());
     let output = moris(here, &["tune", "weaving.csv", "brisk.csv", "--evaluations", "100", "--report", "out"]);
-    let said = String::from_utf8(output.stdout).unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
     // Two rides that have little in common: what is tuned on one may be worse on the other, and then it is said first.
-    let first = said.lines().next().unwrap();
-    assert!(first.starts_with("WORSE than before") || first.starts_with("Not worse than before on any of 2"), "{said}");
+    let first = printed.lines().next().unwrap();
+    assert!(
+        first.starts_with("WORSE than before") || first.starts_with("Not worse than before on any of 2"),
+        "{printed}"
+    );
     let status = if first.starts_with("WORSE") { 2 } else { 0 };
     assert_eq!(output.status.code(), Some(status), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(fs::read_to_string(here.join("tuned.toml")).unwrap().starts_with(&format!("# {first}")));
-    assert!(said.contains("On recordings that it was not tuned on, the mean error goes from"), "{said}");
-    assert!(!said.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{said}");
+    assert!(printed.contains("On recordings that it was not tuned on, the mean error goes from"), "{printed}");
+    assert!(!printed.lines().any(|line| line.starts_with("| weaving") && line.contains('–')), "{printed}");
     let tuned = Setup::load(None, &[here.join("tuned.toml").display().to_string()]).unwrap();
     assert_ne!(tuned.parameters, Parameters::default());
     for file in ["out/tune.md", "out/weaving.tuned.html", "out/brisk.tuned.html"] {
@@ -251,14 +254,14 @@ fn rides_that_are_held_out_are_not_tuned_on() {
     write_recording(here, &weaving());
     write_recording(here, &brisk());
     let alone = moris(here, &["tune", "weaving.csv", "--evaluations", "60", "--output", "alone.toml"]);
-    let said = String::from_utf8(alone.stdout).unwrap();
-    assert!(said.contains("No recording was held out: nothing is known of other recordings."), "{said}");
+    let printed = String::from_utf8(alone.stdout).unwrap();
+    assert!(printed.contains("No recording was held out: nothing is known of other recordings."), "{printed}");
     let tried = moris(
         here,
         &["tune", "weaving.csv", "--evaluations", "60", "--output", "tried.toml", "--hold-out", "brisk.csv"],
     );
-    let said = String::from_utf8(tried.stdout).unwrap();
-    assert!(said.contains("On recordings that it was not tuned on"), "{said}");
+    let printed = String::from_utf8(tried.stdout).unwrap();
+    assert!(printed.contains("On recordings that it was not tuned on"), "{printed}");
     let values = |file: &str| {
         let text = fs::read_to_string(here.join(file)).unwrap();
         text.lines().filter(|line| !line.starts_with('#')).map(str::to_owned).collect::<Vec<_>>()
@@ -286,8 +289,11 @@ fn a_ride_that_cannot_be_kept_within_the_limits_is_named() {
     write_recording(directory.path(), &weaving());
     let output = moris(directory.path(), &["tune", "weaving.csv", "--evaluations", "40", "--stroke-reserve", "0.31"]);
     assert!(!output.status.success());
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert!(said.contains("no parameters were found") && said.contains("weaving for 100.00 % of its time"), "{said}");
+    let printed = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        printed.contains("no parameters were found") && printed.contains("weaving for 100.00 % of its time"),
+        "{printed}"
+    );
     assert!(!directory.path().join("tuned.toml").exists());
 }
 
@@ -304,15 +310,15 @@ fn ctrl_c_keeps_the_best_so_far() {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    let mut told = BufReader::new(child.stderr.take().unwrap());
+    let mut reports = BufReader::new(child.stderr.take().unwrap());
     let mut line = String::new();
-    told.read_line(&mut line).unwrap();
+    reports.read_line(&mut line).unwrap();
     assert!(line.contains("Ctrl-C"), "{line}");
     let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
     assert!(sent.success());
     let output = child.wait_with_output().unwrap();
-    let said = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{said}");
-    assert!(said.contains("was interrupted") && said.contains("No recording was held out"), "{said}");
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{printed}");
+    assert!(printed.contains("was interrupted") && printed.contains("No recording was held out"), "{printed}");
     assert!(directory.path().join("tuned.toml").exists());
 }

@@ -38,9 +38,9 @@ fn every_function_is_allowed_where_the_standard_says() {
 fn check(function: &str, states: &str, letter: &str, state: &str, mut instance: Instance) {
     let allowed = states.contains(letter);
     let before = bytes(&mut instance);
-    let said = instance.messages().len();
+    let entries = instance.messages().len();
     let status = call(function, &mut instance);
-    let messages = instance.messages().split_off(said);
+    let messages = instance.messages().split_off(entries);
     let refused = messages.iter().any(|message| message.text.contains("not allowed in state"));
     assert_eq!(!refused, allowed, "{function} in state '{state}': {messages:?}");
     if refused {

@@ -10,7 +10,7 @@ use moris_fmu_host::api::{Callbacks, Text};
 use crate::fixture::*;
 
 /// Arguments of a call of the logger: instance name, status, category, message, argument.
-type Said = (String, c_int, String, String, String);
+type Entry = (String, c_int, String, String, String);
 
 unsafe extern "C" fn log(
     environment: *mut c_void,
@@ -21,9 +21,9 @@ unsafe extern "C" fn log(
     argument: Text,
 ) {
     // SAFETY: the environment is the one that `ask` passes.
-    let said = unsafe { &*environment.cast::<Mutex<Vec<Said>>>() };
+    let entries = unsafe { &*environment.cast::<Mutex<Vec<Entry>>>() };
     let entry = (text(instance_name), status, text(category), text(message), text(argument));
-    said.lock().unwrap().push(entry);
+    entries.lock().unwrap().push(entry);
 }
 
 struct Request {
@@ -41,10 +41,10 @@ impl Default for Request {
 }
 
 /// Attempts an instance: success, and the messages until it is freed.
-fn ask(request: Request) -> (bool, Vec<Said>) {
+fn ask(request: Request) -> (bool, Vec<Entry>) {
     let fmu = open();
-    let said = Mutex::new(Vec::<Said>::new());
-    let environment = (&raw const said).cast_mut().cast();
+    let entries = Mutex::new(Vec::<Entry>::new());
+    let environment = (&raw const entries).cast_mut().cast();
     let callbacks =
         Callbacks { logger: Some(log), allocate_memory: None, free_memory: None, step_finished: None, environment };
     let guid = request.guid.as_deref().map(c_string);
@@ -57,14 +57,14 @@ fn ask(request: Request) -> (bool, Vec<Said>) {
         (fmu.api().free_instance)(component);
         !component.is_null()
     };
-    (made, said.into_inner().unwrap())
+    (made, entries.into_inner().unwrap())
 }
 
 #[track_caller]
 fn assert_refused(request: Request, name: &str, part: &str) {
-    let (made, said) = ask(request);
+    let (made, entries) = ask(request);
     assert!(!made);
-    let [(instance_name, status, category, message, argument)] = &said[..] else { panic!("{said:?}") };
+    let [(instance_name, status, category, message, argument)] = &entries[..] else { panic!("{entries:?}") };
     assert_eq!((instance_name.as_str(), *status, category.as_str()), (name, 3, "logStatusError"));
     assert_eq!(message, "%s", "a text must never be a format");
     assert!(argument.contains(part), "{argument}");
@@ -73,10 +73,10 @@ fn assert_refused(request: Request, name: &str, part: &str) {
 #[test]
 fn is_made_silently_unless_logging_is_on() {
     assert_eq!(ask(Request::default()), (true, vec![]));
-    let (made, said) = ask(Request { logging_on: 1, ..Default::default() });
+    let (made, entries) = ask(Request { logging_on: 1, ..Default::default() });
     assert!(made);
     let event = ("name".into(), 0, "logEvents".into(), "%s".into(), "FirstOrder 1.0 instantiated".into());
-    assert_eq!(said, [event]);
+    assert_eq!(entries, [event]);
 }
 
 #[test]
@@ -111,17 +111,17 @@ fn takes_every_location_of_resources() {
 
 #[test]
 fn takes_names_that_are_not_ascii() {
-    let (made, said) = ask(Request { name: Some(c"W\xc3\xa4sche %s"), logging_on: 1, ..Default::default() });
+    let (made, entries) = ask(Request { name: Some(c"W\xc3\xa4sche %s"), logging_on: 1, ..Default::default() });
     assert!(made);
-    assert_eq!(said[0].0, "Wäsche %s");
+    assert_eq!(entries[0].0, "Wäsche %s");
 }
 
 /// The host's struct and strings may be gone as soon as the call returns.
 #[test]
 fn keeps_no_pointer_of_the_host() {
     let fmu = open();
-    let said = Mutex::new(Vec::<Said>::new());
-    let environment = (&raw const said).cast_mut().cast();
+    let entries = Mutex::new(Vec::<Entry>::new());
+    let environment = (&raw const entries).cast_mut().cast();
     let mut name = *b"first\0";
     let mut guid = c_string(&guid()).into_bytes_with_nul();
     let mut callbacks =
@@ -137,8 +137,8 @@ fn keeps_no_pointer_of_the_host() {
         assert_eq!((fmu.api().do_step)(component, 0.0, 0.1, 1), 3);
         (fmu.api().free_instance)(component);
     }
-    let said = said.into_inner().unwrap();
-    assert_eq!((said.len(), said[0].0.as_str()), (1, "first"));
+    let entries = entries.into_inner().unwrap();
+    assert_eq!((entries.len(), entries[0].0.as_str()), (1, "first"));
 }
 
 #[test]
@@ -185,17 +185,17 @@ fn debug_logging_chooses_events_and_refuses_unknown_categories() {
     ];
     for (on, categories, events) in cases {
         assert_eq!(set(on, categories), Status::Ok);
-        let said = instance.messages().len();
+        let entries = instance.messages().len();
         assert_eq!(instance.reset(), Status::Ok);
-        assert_eq!(instance.messages().len() - said, usize::from(events), "{on} {categories:?}");
+        assert_eq!(instance.messages().len() - entries, usize::from(events), "{on} {categories:?}");
         // Errors are always logged.
         assert_eq!(instance.do_step(0.0, 1.0), Status::Error);
         assert_eq!(last_message(&instance).category, "logStatusError");
     }
     assert_call_error(&instance, set(0, &[c"logEvents", c"log%s"]), Status::Error, &["fmi2SetDebugLogging", "log%s"]);
-    let said = instance.messages().len();
+    let entries = instance.messages().len();
     assert_eq!(instance.reset(), Status::Ok);
-    assert_eq!(instance.messages().len(), said + 1, "a refused call changes nothing");
+    assert_eq!(instance.messages().len(), entries + 1, "a refused call changes nothing");
     // SAFETY: the component is alive; null is to be refused.
     let status = unsafe { (api.api().set_debug_logging)(c, 1, 1, [null()].as_ptr()) };
     assert_eq!(status, 3);

@@ -60,7 +60,7 @@ pub fn failed() -> Instance {
 
 /// The last message of the instance.
 pub fn last_message(instance: &Instance) -> Message {
-    instance.messages().pop().expect("nothing was said")
+    instance.messages().pop().expect("no message was logged")
 }
 
 /// Asserts that the call failed with this status, and that the last message has all of these parts.

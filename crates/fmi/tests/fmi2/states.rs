@@ -97,8 +97,8 @@ fn damaged_bytes_are_refused() {
     let good = bytes(&mut instance);
     let refused = |bytes: &[u8], instance: &mut Instance, what: &str| {
         assert!(instance.deserialize(bytes).is_err(), "{what}");
-        let said = instance.take_messages();
-        assert!(said.last().unwrap().text.contains("the serialized state is rejected"), "{what}");
+        let entries = instance.take_messages();
+        assert!(entries.last().unwrap().text.contains("the serialized state is rejected"), "{what}");
     };
     for length in 0..good.len() {
         refused(&good[..length], &mut instance, &format!("cut to {length}"));

@@ -41,9 +41,9 @@ fn every_function_is_allowed_where_the_standard_says() {
 
 fn check(function: &str, allowed: bool, state: &str, instance: &Instance) {
     let before = instance.bytes();
-    let said = instance.messages().len();
+    let entries = instance.messages().len();
     let status = call(function, instance);
-    let messages = instance.messages().split_off(said);
+    let messages = instance.messages().split_off(entries);
     let refused = messages.iter().any(|(_, _, text)| text.contains("not allowed in state"));
     assert_eq!(!refused, allowed, "{function} in state '{state}': {messages:?}");
     if NOT_PROVIDED.contains(&function) && allowed {

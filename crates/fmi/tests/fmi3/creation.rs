@@ -27,13 +27,13 @@ impl Default for Request {
 }
 
 /// Attempts an instance: success, and the messages until it is freed.
-fn ask(request: &Request) -> (bool, Vec<Said>) {
+fn ask(request: &Request) -> (bool, Vec<Entry>) {
     let library = open();
-    let said = Mutex::new(Vec::new());
+    let entries = Mutex::new(Vec::new());
     let name = request.name.map_or(null(), CStr::as_ptr);
     let token = request.token.as_ref().map_or(null(), |token| token.as_ptr());
     let (references, count) = (request.intermediate_variables.as_ptr(), request.intermediate_variables.len());
-    let (logging, events, environment) = (request.logging_on, request.event_mode_used, environment(&said));
+    let (logging, events, environment) = (request.logging_on, request.event_mode_used, environment(&entries));
     // SAFETY: strings and arrays live during the call, the messages longer than the instance.
     let made = unsafe {
         let instantiate = library.api().instantiate_co_simulation;
@@ -54,14 +54,14 @@ fn ask(request: &Request) -> (bool, Vec<Said>) {
         (library.api().free_instance)(instance);
         !instance.is_null()
     };
-    (made, said.into_inner().unwrap())
+    (made, entries.into_inner().unwrap())
 }
 
 #[track_caller]
 fn assert_refused(request: &Request, part: &str) {
-    let (made, said) = ask(request);
+    let (made, entries) = ask(request);
     assert!(!made);
-    let [(status, category, text)] = &said[..] else { panic!("{said:?}") };
+    let [(status, category, text)] = &entries[..] else { panic!("{entries:?}") };
     assert_eq!((*status, category.as_str()), (ERROR, "logStatusError"));
     assert!(text.starts_with("fmi3InstantiateCoSimulation: ") && text.contains(part), "{text}");
 }
@@ -69,9 +69,9 @@ fn assert_refused(request: &Request, part: &str) {
 #[test]
 fn is_made_silently_unless_logging_is_on() {
     assert_eq!(ask(&Request::default()), (true, vec![]));
-    let (made, said) = ask(&Request { logging_on: 1, ..Default::default() });
+    let (made, entries) = ask(&Request { logging_on: 1, ..Default::default() });
     assert!(made);
-    assert_eq!(said, [(OK, "logEvents".into(), "Lags 1.0 instantiated".into())]);
+    assert_eq!(entries, [(OK, "logEvents".into(), "Lags 1.0 instantiated".into())]);
 }
 
 #[test]
@@ -94,8 +94,8 @@ fn a_number_sign_in_a_message_is_doubled() {
 #[test]
 fn only_co_simulation_is_possible() {
     let library = open();
-    let said = Mutex::new(Vec::new());
-    let (name, token, environment) = (c"name".as_ptr(), token(), environment(&said));
+    let entries = Mutex::new(Vec::new());
+    let (name, token, environment) = (c"name".as_ptr(), token(), environment(&entries));
     // SAFETY: the strings live during the calls.
     unsafe {
         let model_exchange = library.api().instantiate_model_exchange;
@@ -104,9 +104,9 @@ fn only_co_simulation_is_possible() {
         let scheduled = library.api().instantiate_scheduled_execution;
         assert!(scheduled(name, token.as_ptr(), null(), 0, 0, environment, Some(log), None, None, None).is_null());
     }
-    let said = said.into_inner().unwrap();
-    assert_eq!(said.len(), 2);
-    assert!(said.iter().all(|(status, _, text)| *status == ERROR && text.contains("for co-simulation only")));
+    let entries = entries.into_inner().unwrap();
+    assert_eq!(entries.len(), 2);
+    assert!(entries.iter().all(|(status, _, text)| *status == ERROR && text.contains("for co-simulation only")));
 }
 
 #[test]
@@ -128,15 +128,15 @@ fn does_without_a_logger() {
 
 /// True for each of an event, a discarded value and an error that is logged.
 fn logged(instance: &Instance) -> [bool; 3] {
-    let said = |act: &dyn Fn()| {
+    let entries = |act: &dyn Fn()| {
         let before = instance.messages().len();
         act();
         instance.messages().len() > before
     };
     [
-        said(&|| assert_eq!(instance.reset(), OK)),
-        said(&|| assert_eq!(instance.set(&[reference("u")], &[f64::NAN; 3]), DISCARD)),
-        said(&|| assert_eq!(instance.exit_initialization_mode(), ERROR)),
+        entries(&|| assert_eq!(instance.reset(), OK)),
+        entries(&|| assert_eq!(instance.set(&[reference("u")], &[f64::NAN; 3]), DISCARD)),
+        entries(&|| assert_eq!(instance.exit_initialization_mode(), ERROR)),
     ]
 }
 

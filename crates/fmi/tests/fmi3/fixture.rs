@@ -42,8 +42,8 @@ pub fn reference(name: &str) -> u32 {
 }
 
 /// A message of the FMU: status, category, text.
-pub type Said = (c_int, String, String);
-type Messages = Mutex<Vec<Said>>;
+pub type Entry = (c_int, String, String);
+type Messages = Mutex<Vec<Entry>>;
 
 pub unsafe extern "C" fn log(environment: *mut c_void, status: c_int, category: Text, message: Text) {
     // SAFETY: the environment is the one passed with this function.
@@ -92,12 +92,12 @@ impl Instance {
         self.library.api()
     }
 
-    pub fn messages(&self) -> Vec<Said> {
+    pub fn messages(&self) -> Vec<Entry> {
         self.messages.lock().unwrap().clone()
     }
 
-    pub fn last_message(&self) -> Said {
-        self.messages().pop().expect("nothing was said")
+    pub fn last_message(&self) -> Entry {
+        self.messages().pop().expect("no message was logged")
     }
 
     /// Asserts that the call failed with this status, and that the last message

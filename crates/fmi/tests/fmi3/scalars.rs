@@ -123,8 +123,8 @@ fn messages_name_variables_as_the_description_does() {
         values[usize::from(row.element)] = value[0];
         let status = instance.set(&[first], &values);
         instance.assert_call_error(status, DISCARD, &[as_element]);
-        let (_, _, said) = instance.last_message();
-        assert!(as_scalar == as_element || !said.contains(as_scalar), "{said}");
+        let (_, _, entries) = instance.last_message();
+        assert!(as_scalar == as_element || !entries.contains(as_scalar), "{entries}");
     }
 }
 
