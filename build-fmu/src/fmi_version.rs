@@ -38,8 +38,8 @@ impl FmiVersion {
         self.choose(None, Some(FmiVersion::Fmi3(Layout::Arrays)))
     }
 
-    /// The names that a shared library exports: all functions of the version's header, for importers
-    /// look for all of them.
+    /// The names that a shared library exports: all functions of the version's header, for
+    /// importers look for all of them.
     pub fn functions(self) -> &'static [&'static str] {
         self.choose(fmi2::calling_sequence::NAMES, fmi3::calling_sequence::NAMES)
     }

@@ -25,8 +25,8 @@ pub trait Scalar: Copy {
     fn from_slot(slot: f64) -> Self;
 }
 
-/// Declares a version's type of values: the types of variables that it holds, and how a slot holds such
-/// a value. The version's function `type_name` has to be in scope.
+/// Declares a version's type of values: the types of variables that it holds, and how a slot holds
+/// such a value. The version's function `type_name` has to be in scope.
 macro_rules! scalar {
     ($type:ident, $($value_type:ident)|+, |$value:ident| $to_slot:expr, |$slot:ident| $from_slot:expr) => {
         impl Scalar for $type {
