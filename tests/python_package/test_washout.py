@@ -214,7 +214,7 @@ def test_a_copied_state_goes_on_to_the_bit_and_apart(duplicate, strategy):
 def test_a_damaged_state_is_refused():
     function, (state,) = moris.Washout().__reduce__()
     for wrong in (b"", state[:100], b"x" + state):
-        with pytest.raises(ValueError, match="the state of a washout is refused"):
+        with pytest.raises(ValueError, match="the state of a washout is rejected"):
             function(wrong)
 
 
