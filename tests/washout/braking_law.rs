@@ -39,6 +39,25 @@ fn hostile_targets(random: &mut Random, last: &Motion<Vector3<f64>>, step: f64) 
 }
 
 #[test]
+fn the_units_continue_from_the_real_motion_always_or_beyond_tightened_limits() {
+    let (wide, step) = (parameters(&[]).safety, 0.001);
+    let narrow = SafetyParameters { position_limit: Vector3::repeat(0.01), ..wide };
+    let splitter = parameters(&[]).splitter;
+    let real = Motion { position: Vector3::new(0.2, 0.0, 0.0), ..Motion::default() };
+    let mut linear = DirectLinearMotion::new(&splitter, 4, step);
+
+    linear.stay_within(&wide, &real);
+    assert_eq!(*linear.motion(), Motion::default());
+    linear.continue_from(&real);
+    assert_eq!(*linear.motion(), real);
+    let elsewhere = Motion { position: Vector3::new(0.1, 0.0, 0.0), ..real };
+    linear.stay_within(&wide, &elsewhere);
+    assert_eq!(*linear.motion(), real);
+    linear.stay_within(&narrow, &elsewhere);
+    assert_eq!(*linear.motion(), elsewhere);
+}
+
+#[test]
 fn a_steady_acceleration_leads_to_the_velocity_demanded() {
     let start =
         Motion { position: Vector3::new(0.1, 0.2, 0.3), velocity: Vector3::new(1.0, -2.0, 0.5), ..Motion::default() };
