@@ -16,6 +16,7 @@ mod gravitational;
 mod hostile;
 mod kinematics;
 mod limits_in_flight;
+mod model;
 mod paper_runs;
 mod preaction;
 mod preview;

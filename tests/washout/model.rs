@@ -1,0 +1,55 @@
+//! The washout as a model: what a host of the model calls is the washout itself.
+
+use moris_interface::{MOST_INTERNAL_STEPS, Model};
+use moris_washout::interface::Inputs;
+use moris_washout::{Input, Preview, Washout, presets};
+
+use crate::common::random::Random;
+
+const STEP: f64 = 0.01;
+
+/// A force with a preview of what is to come, at random.
+fn inputs(random: &mut Random) -> Inputs {
+    let mut vehicle = Input { lean: random.between(-0.3, 0.3), ..Input::default() };
+    vehicle.specific_force.x = random.between(-3.0, 3.0);
+    let surge = std::array::from_fn(|_| random.between(-3.0, 3.0));
+    Inputs { vehicle, preview: Preview { count: 10, surge, ..Preview::default() } }
+}
+
+#[test]
+fn each_function_of_the_model_is_the_washouts() {
+    let mut parameters = presets::parameters(presets::PREVIEW);
+    let mut random = Random::new(1);
+    let first = inputs(&mut random);
+    let mut washout = Washout::new(&parameters).unwrap().starting_with(&first.vehicle);
+    let mut model = <Washout as Model>::new(&parameters, &first).unwrap();
+    assert_eq!(Model::output(&model), washout.output());
+    assert_ne!(Model::output(&model), Washout::new(&parameters).unwrap().output(), "the head leans");
+    for k in 0..300 {
+        let (start, end) = (inputs(&mut random), inputs(&mut random));
+        washout.preview(&start.preview);
+        if k % 2 == 0 {
+            Model::step_between(&mut model, &start, &end, STEP);
+            washout.step_between(&start.vehicle, &end.vehicle, STEP);
+        } else {
+            Model::step(&mut model, &start, STEP);
+            washout.step(&start.vehicle, STEP);
+        }
+        if k == 150 {
+            parameters.tilt.rate_limit *= 0.5;
+            Model::retune(&mut model, &parameters).unwrap();
+            washout.retune(&parameters).unwrap();
+        }
+        assert_eq!(Model::output(&model), washout.output(), "step {k}");
+        assert_eq!(Model::output_derivative(&model), washout.output_derivative(), "step {k}");
+    }
+    assert!(washout.output().position.x.abs() > 1e-3, "the platform moved");
+}
+
+#[test]
+fn the_longest_step_is_the_most_internal_steps() {
+    let mut parameters = presets::parameters(&[]);
+    parameters.structure.max_step = 0.004;
+    let model = <Washout as Model>::new(&parameters, &Inputs::default()).unwrap();
+    assert_eq!(model.longest_step(), MOST_INTERNAL_STEPS * 0.004);
+}
