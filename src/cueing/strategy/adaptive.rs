@@ -143,3 +143,216 @@ fn integrated([x, v]: [f64; 2], acceleration: f64, step: f64) -> [f64; 2] {
 fn sensitivity(value: f64) -> f64 {
     at_rest_if_tiny(value.clamp(-LARGEST_SENSITIVITY, LARGEST_SENSITIVITY))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::STANDARD_GRAVITY;
+
+    const STEP: f64 = 1e-3;
+    /// With the head at the platform's origin, and limits that nothing reaches.
+    const FREE: AxisModel = AxisModel {
+        head_height: 0.0,
+        gravity: STANDARD_GRAVITY,
+        position_limit: 1e9,
+        velocity_limit: 1e9,
+        angle_limit: 1e9,
+        rate_limit: 1e9,
+        acceleration_limit: 1e9,
+    };
+
+    /// Parameters with these nominal gains, which the adaptation does not move.
+    fn fixed(gains: [f64; 2]) -> AdaptiveParameters {
+        let [nominal1, nominal2] = gains;
+        AdaptiveParameters { nominal1, nominal2, gain1: 0.0, gain2: 0.0, ..AdaptiveParameters::default() }
+    }
+
+    fn adaptive(model: &AxisModel, parameters: &AdaptiveParameters) -> Adaptation {
+        Adaptive::new(&[*model; 2], parameters).axes[0]
+    }
+
+    fn reference(time: f64) -> f64 {
+        1.2 * (1.3 * time).sin() + 0.4 * (4.1 * time).cos()
+    }
+
+    /// An axis that moves as decided, by the explicit Euler rule.
+    struct Axis {
+        state: AxisState,
+        /// The decision of the last step, and the tilt rate after it.
+        dropped: f64,
+        rate: f64,
+        adaptation: Adaptation,
+    }
+
+    impl Axis {
+        fn new(parameters: &AdaptiveParameters) -> Self {
+            let adaptation = adaptive(&FREE, parameters);
+            Axis { state: AxisState::default(), dropped: 0.0, rate: 0.0, adaptation }
+        }
+
+        fn advance(&mut self, parameters: &AdaptiveParameters, time: f64) {
+            let decision = self.adaptation.decide(&FREE, parameters, &self.state, reference(time), 1.0, STEP);
+            let AxisState { position, velocity, tilt, tilt_rate } = self.state;
+            self.dropped = decision.dropped_force;
+            self.rate = tilt_rate + STEP * decision.tilt_acceleration;
+            let acceleration = reference(time) - STANDARD_GRAVITY * tilt.sin() + self.dropped;
+            self.state = AxisState {
+                position: position + STEP * velocity,
+                velocity: velocity + STEP * acceleration,
+                tilt: tilt + STEP * self.rate,
+                tilt_rate: self.rate,
+            };
+        }
+    }
+
+    #[test]
+    fn the_decision_is_the_law_of_the_coordinated_filter() {
+        let parameters = fixed([0.7, 0.2]);
+        let model = AxisModel { head_height: 1.3, ..FREE };
+        let state = AxisState { position: 0.2, velocity: -0.3, tilt: 0.15, tilt_rate: 0.05 };
+        let decision = adaptive(&model, &parameters).decide(&model, &parameters, &state, 2.0, 1.0, STEP);
+        let left = 2.0 - STANDARD_GRAVITY * 0.15_f64.sin();
+        let alpha = (0.2 * left - 0.05) / STEP;
+        let AdaptiveParameters { omega, zeta, .. } = parameters;
+        let acceleration = 0.7 * (left + 1.3 * alpha) + 2.0 * zeta * omega * 0.3 - omega * omega * 0.2;
+        // What is felt: a - H alpha + g sin q.
+        let felt = acceleration - 1.3 * alpha + STANDARD_GRAVITY * 0.15_f64.sin();
+        assert!((decision.tilt_acceleration - alpha).abs() < 1e-9);
+        assert!((decision.dropped_force - (felt - 2.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn sensitivities_and_the_gradient_are_finite_differences() {
+        const SHIFT: f64 = 1e-6;
+        let base = [0.7, 0.12];
+        let shifted = |gain: usize, by: f64| fixed(std::array::from_fn(|k| base[k] + if k == gain { by } else { 0.0 }));
+        let sets = [shifted(0, 0.0), shifted(0, SHIFT), shifted(0, -SHIFT), shifted(1, SHIFT), shifted(1, -SHIFT)];
+        let mut axes = sets.map(|set| Axis::new(&set));
+        // The gains are pulled towards others.
+        let towards = AdaptiveParameters { nominal1: 0.5, nominal2: 0.3, gain1: 1e-3, gain2: 1e-3, ..fixed(base) };
+        let mut farthest = 0.0_f64;
+        for k in 0..8000 {
+            let time = k as f64 * STEP;
+            let before = axes[0].state;
+            let mut adapting = axes[0].adaptation;
+            adapting.decide(&FREE, &towards, &before, reference(time), 1.0, STEP);
+            let states = axes.each_ref().map(|axis| axis.state);
+            for (axis, set) in axes.iter_mut().zip(&sets) {
+                axis.advance(set, time);
+            }
+            let slope =
+                |of: fn(&Axis) -> f64, gain: usize| (of(&axes[1 + 2 * gain]) - of(&axes[2 + 2 * gain])) / (2.0 * SHIFT);
+            let earlier = |of: fn(&AxisState) -> f64, gain: usize| {
+                (of(&states[1 + 2 * gain]) - of(&states[2 + 2 * gain])) / (2.0 * SHIFT)
+            };
+            let Adaptation { to_travel_gain, to_tilt_gain, tilt, .. } = axes[0].adaptation;
+            for (found, expected) in [
+                (to_travel_gain[0], slope(|axis| axis.state.position, 0)),
+                (to_travel_gain[1], slope(|axis| axis.state.velocity, 0)),
+                (to_tilt_gain[0], slope(|axis| axis.state.position, 1)),
+                (to_tilt_gain[1], slope(|axis| axis.state.velocity, 1)),
+                (tilt, slope(|axis| axis.state.tilt, 1)),
+            ] {
+                assert!(
+                    (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
+                    "{time} s: {found} beside {expected}"
+                );
+            }
+            farthest = farthest.max(tilt.abs());
+            let weights = AdaptiveParameters::default();
+            let pulls = [weights.pull1 * (base[0] - 0.5), weights.pull2 * (base[1] - 0.3)];
+            for (gain, pull) in pulls.into_iter().enumerate() {
+                let mut gradient = axes[0].dropped * slope(|axis| axis.dropped, gain)
+                    + weights.weight_position * before.position * earlier(|state| state.position, gain)
+                    + weights.weight_velocity * before.velocity * earlier(|state| state.velocity, gain)
+                    + pull;
+                if gain == 1 {
+                    gradient += weights.weight_tilt_rate * before.tilt_rate * slope(|axis| axis.rate, gain);
+                }
+                let found = (base[gain] - adapting.gains[gain]) / (1e-3 * STEP);
+                assert!(
+                    (found - gradient).abs() < 1e-5 * (1.0 + gradient.abs()),
+                    "{time} s: {found} beside {gradient}"
+                );
+            }
+        }
+        assert!(farthest > 0.1, "the tilt moves: {farthest}");
+    }
+
+    #[test]
+    fn while_a_limit_holds_the_tilt_its_sensitivity_decays() {
+        let parameters = fixed([0.7, 0.2]);
+        let limited = |model: AxisModel, tilt: f64, tilt_rate: f64| {
+            let mut axis = adaptive(&model, &parameters);
+            axis.tilt = 0.5;
+            let state = AxisState { tilt, tilt_rate, ..AxisState::default() };
+            let decision = axis.decide(&model, &parameters, &state, 2.0, 1.0, STEP);
+            ((axis.tilt - 0.5 * (1.0 - SENSITIVITY_DECAY * STEP)).abs() < 1e-12, decision.tilt_acceleration)
+        };
+        let gentle = AxisModel { acceleration_limit: 0.2, ..FREE };
+        let slow = AxisModel { rate_limit: 0.05, ..FREE };
+        let low = AxisModel { angle_limit: 0.1, ..FREE };
+        assert!(!limited(FREE, 0.0, 0.0).0);
+        assert_eq!(limited(gentle, 0.0, 0.0), (true, 0.2));
+        let (held, alpha) = limited(slow, 0.0, 0.0);
+        assert!(held && (alpha - 0.05 / STEP).abs() < 1e-9, "{alpha}");
+        assert!(limited(low, 0.1, 0.0).0 && limited(low, -0.1, 0.0).0 && !limited(low, 0.09, 0.0).0);
+    }
+
+    #[test]
+    fn gains_stay_between_a_tenth_of_their_nominal_value_and_one() {
+        let parameters = AdaptiveParameters { gain1: 1e6, gain2: 1e6, nominal1: 0.6, nominal2: 2.0, ..fixed([0.0; 2]) };
+        let mut axis = adaptive(&FREE, &parameters);
+        let (mut least, mut most) = ([1.0_f64; 2], [0.0_f64; 2]);
+        for k in 0..2000 {
+            let state = AxisState { position: (0.01 * k as f64).sin(), tilt: 0.1, ..AxisState::default() };
+            axis.decide(&FREE, &parameters, &state, reference(k as f64 * STEP), 1.0, STEP);
+            for gain in 0..2 {
+                least[gain] = least[gain].min(axis.gains[gain]);
+                most[gain] = most[gain].max(axis.gains[gain]);
+            }
+        }
+        assert_eq!((least, most), ([LEAST_GAIN * 0.6, LEAST_GAIN], [1.0; 2]));
+    }
+
+    #[test]
+    fn travel_weighs_more_near_the_ends_of_the_strokes() {
+        let parameters = AdaptiveParameters { gain1: 1e-3, ..fixed([0.7, 0.2]) };
+        let change = |margin: f64, tenfold: f64| {
+            let weights = AdaptiveParameters {
+                weight_position: tenfold * parameters.weight_position,
+                weight_velocity: tenfold * parameters.weight_velocity,
+                ..parameters
+            };
+            let mut adaptive = Adaptive::new(&[FREE; 2], &weights);
+            adaptive.axes[1].to_travel_gain = [0.3, 0.4];
+            let state = AxisState { position: 0.2, velocity: 0.1, ..AxisState::default() };
+            adaptive.decide(&[state; 2], [1.0; 2], margin, STEP);
+            assert_ne!(adaptive.axes[0], adaptive.axes[1], "each axis has its own sensitivities");
+            adaptive.axes[1].gains[0]
+        };
+        for (margin, factor) in [(0.3, 1.0), (NEAR_END, 1.0), (0.05, 1.0 + DEARER / 4.0), (0.0, 1.0 + DEARER)] {
+            assert!((change(margin, 1.0) - change(1.0, factor)).abs() < 1e-15, "{margin} m");
+        }
+        assert_ne!(change(0.05, 1.0), change(1.0, 1.0));
+    }
+
+    #[test]
+    fn sensitivities_are_bounded_and_come_to_rest() {
+        assert_eq!(sensitivity(2e3), LARGEST_SENSITIVITY);
+        assert_eq!(sensitivity(-2e3), -LARGEST_SENSITIVITY);
+        assert_eq!(sensitivity(1e-31), 0.0);
+        assert_eq!(sensitivity(-1e-29), -1e-29);
+    }
+
+    #[test]
+    fn retuning_keeps_the_gains() {
+        let before = fixed([0.7, 0.2]);
+        let after = AdaptiveParameters { weight_position: 3.0, nominal1: 0.4, ..before };
+        let mut adaptive = Adaptive::new(&[FREE; 2], &before);
+        let axes = adaptive.axes;
+        let model = AxisModel { gravity: 9.0, ..FREE };
+        adaptive.retune(&[model; 2], &after);
+        assert_eq!(adaptive, Adaptive { models: [model; 2], parameters: after, axes });
+    }
+}

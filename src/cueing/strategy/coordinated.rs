@@ -291,3 +291,265 @@ fn models(parameters: &Parameters) -> [AxisModel; 2] {
         acceleration_limit: tilt.acceleration_limit,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cueing::evaluator::felt;
+    use crate::cueing::strategy::regulator::Regulator;
+    use crate::platform::{PlatformCoordinates, PlatformMotion};
+    use crate::presets;
+
+    const STEP: f64 = 0.004;
+
+    fn parameters(strategy: StrategyKind) -> Parameters {
+        presets::parameters(&[("strategy", 1.0 + strategy as i32 as f64), ("solver.maxStep", STEP)])
+    }
+
+    /// A turn that has a part of everything.
+    fn turn() -> Motion<Vector3<f64>> {
+        Motion {
+            position: Vector3::new(0.2, -0.15, 0.3),
+            velocity: Vector3::new(0.4, 0.3, -0.5),
+            acceleration: Vector3::new(-1.5, 1.0, 0.7),
+        }
+    }
+
+    /// A guard a step after it set off from neutral.
+    fn moving(parameters: &Parameters) -> ActuatorGuard {
+        let mut guard = ActuatorGuard::new(&parameters.rig, STEP);
+        let acceleration = Vector3::new(2.0, -1.0, 0.5);
+        let linear = Motion { position: 0.5 * STEP * STEP * acceleration, velocity: STEP * acceleration, acceleration };
+        let demand = PlatformCoordinates { linear, angles: Motion::default() };
+        let motion =
+            PlatformMotion::new(&linear, &RotationalMotion::new(&demand.angles), parameters.rig.neutral_height);
+        guard.advance(&demand, &motion, &parameters.safety, STEP);
+        assert_eq!(guard.coordinates(), &demand);
+        guard
+    }
+
+    /// Runs `check` in circumstances with this engagement, with the platform and the rider in
+    /// motion.
+    fn in_circumstances(parameters: &Parameters, engagement: f64, check: impl FnOnce(&Circumstances)) {
+        let guard = moving(parameters);
+        check(&Circumstances {
+            parameters,
+            guard: &guard,
+            head: &LocationFrame::new(&parameters.structure, 0.1),
+            force: Vector3::new(1.0, -0.7, 9.5),
+            angles: &turn(),
+            lean: 0.1 * engagement,
+            engagement,
+            time_to_stop: f64::INFINITY,
+        });
+    }
+
+    /// The force felt with this travel.
+    fn felt_force(
+        circumstances: &Circumstances,
+        turning: &RotationalMotion,
+        travel: [Motion; 2],
+        heave: &Motion,
+    ) -> [f64; 2] {
+        let Parameters { structure, rig, .. } = circumstances.parameters;
+        let linear = Motion::from_axes(|k| [travel[0], travel[1], *heave][k]);
+        let motion = PlatformMotion::new(&linear, turning, rig.neutral_height);
+        let force = felt(&motion, circumstances.head, structure.gravity).specific_force;
+        [force.x, force.y]
+    }
+
+    const HEAVE: Motion = Motion { position: 0.02, velocity: 0.1, acceleration: 0.8 };
+
+    #[test]
+    fn the_felt_force_is_the_cue_and_the_dropped_force() {
+        for strategy in [StrategyKind::Adaptive, StrategyKind::Optimal] {
+            let parameters = parameters(strategy);
+            in_circumstances(&parameters, 1.0, |circumstances| {
+                let mut coordinated = Coordinated::new(&parameters).unwrap();
+                coordinated.advance_tilt(circumstances, STEP);
+                let turning = RotationalMotion::new(circumstances.angles);
+                let travel = coordinated.travel(circumstances, &turning, &HEAVE, STEP);
+                let felt = felt_force(circumstances, &turning, travel, &HEAVE);
+                for k in 0..2 {
+                    let dropped = coordinated.dropped_force[k];
+                    assert!(dropped.abs() > 1e-3, "{dropped}");
+                    assert!((felt[k] - circumstances.force[k] - dropped).abs() < 1e-11, "{felt:?}, dropped {dropped}");
+                    let now = circumstances.guard.coordinates().linear.axis(k);
+                    let mean = 0.5 * (now.velocity + travel[k].velocity);
+                    assert!((travel[k].position - now.position - mean * STEP).abs() < 1e-15);
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn a_platform_turned_on_its_side_needs_no_unbounded_travel() {
+        let parameters = parameters(StrategyKind::Optimal);
+        in_circumstances(&parameters, 1.0, |circumstances| {
+            // The determinant is the roll's cosine, -0.03 and 0.02 here.
+            for roll in [1.6_f64, 1.55] {
+                let head = LocationFrame::new(&parameters.structure, 0.0);
+                let angles = Motion { position: Vector3::new(roll, 0.0, 0.0), ..Motion::default() };
+                let circumstances = Circumstances { head: &head, angles: &angles, ..*circumstances };
+                let coordinated = Coordinated::new(&parameters).unwrap();
+                let turning = RotationalMotion::new(&angles);
+                // Heave falls with the gravity: only the cue in sway is left.
+                let heave = Motion { acceleration: -parameters.structure.gravity, ..HEAVE };
+                let travel = coordinated.travel(&circumstances, &turning, &heave, STEP);
+                let [_, felt] = felt_force(&circumstances, &turning, travel, &heave);
+                let expected = -0.7 * roll.cos().abs() / LEAST_DETERMINANT;
+                assert!((felt - expected).abs() < 1e-11, "{felt} beside {expected}");
+            }
+        });
+    }
+
+    #[test]
+    fn the_law_sees_the_effective_reference_and_the_platforms_motion() {
+        let parameters = parameters(StrategyKind::Optimal);
+        let Parameters { optimal, tilt, safety, structure, .. } = parameters;
+        in_circumstances(&parameters, 1.0, |circumstances| {
+            let mut coordinated = Coordinated::new(&parameters).unwrap();
+            let before = [0.01, -0.02].map(|position| Motion { position, velocity: 0.5 * position, acceleration: 0.0 });
+            coordinated.tilt = before;
+            coordinated.advance_tilt(circumstances, STEP);
+            let turn = turn();
+            let height = circumstances.head.point.z;
+            let (gravity, lean) = (structure.gravity, 0.1);
+            let references = [
+                1.0 + gravity * turn.position.y.sin() - height * turn.acceleration.y,
+                -0.7 - gravity * (turn.position.x + lean).sin() + height * turn.acceleration.x,
+            ];
+            for k in 0..2 {
+                let model = AxisModel {
+                    head_height: structure.head_height,
+                    gravity,
+                    position_limit: safety.position_limit[k],
+                    velocity_limit: safety.velocity_limit[k],
+                    angle_limit: tilt.angle_limit,
+                    rate_limit: tilt.rate_limit,
+                    acceleration_limit: tilt.acceleration_limit,
+                };
+                let tuning = super::super::optimal::Tuning::from(&optimal);
+                let gains = Regulator::new(&model, &tuning.weights).unwrap().gains;
+                let now = circumstances.guard.coordinates().linear.axis(k);
+                let slow = references[k] * (1.0 - (-STEP / optimal.split_time).exp());
+                let Motion { position, velocity, .. } = before[k];
+                let state = [now.position, now.velocity, position, velocity, slow, references[k] - slow];
+                let decided = [0, 1].map(|i| -(0..6).map(|j| gains[(i, j)] * state[j]).sum::<f64>());
+                let Motion { velocity: rate, .. } = coordinated.tilt[k];
+                assert!((coordinated.dropped_force[k] - decided[0]).abs() < 1e-11, "{decided:?}");
+                let limit = tilt.acceleration_limit;
+                let expected = velocity + STEP * decided[1].clamp(-limit, limit);
+                assert!((rate - expected).abs() < 1e-13, "{rate} beside {expected}");
+            }
+            let [roll, pitch] = coordinated.tilt();
+            let [surge, sway] = coordinated.tilt;
+            let reversed = [-pitch.position, -pitch.velocity, -pitch.acceleration];
+            assert_eq!((roll, reversed), (sway, [surge.position, surge.velocity, surge.acceleration]));
+        });
+    }
+
+    #[test]
+    fn between_engaged_and_disengaged_the_law_and_the_return_mix() {
+        let parameters = parameters(StrategyKind::Optimal);
+        let before = Motion { position: 0.002, velocity: 0.001, acceleration: 0.0 };
+        let after = |engagement: f64| {
+            let mut coordinated = Coordinated::new(&parameters).unwrap();
+            coordinated.tilt = [before; 2];
+            let mut travel = [Motion::default(); 2];
+            in_circumstances(&parameters, engagement, |circumstances| {
+                // The same decisions for every engagement, within the limits.
+                let angles = Motion::default();
+                let force = Vector3::new(0.05, -0.03, 9.8);
+                let circumstances = Circumstances { lean: 0.0, angles: &angles, force, ..*circumstances };
+                coordinated.advance_tilt(&circumstances, STEP);
+                let turning = RotationalMotion::new(circumstances.angles);
+                travel = coordinated.travel(&circumstances, &turning, &HEAVE, STEP);
+            });
+            (coordinated.tilt.map(|tilt| tilt.velocity), travel.map(|axis| axis.acceleration))
+        };
+        let (engaged, mixed, disengaged) = (after(1.0), after(0.25), after(0.0));
+        for k in 0..2 {
+            let tilt = 0.25 * engaged.0[k] + 0.75 * disengaged.0[k];
+            assert!((mixed.0[k] - tilt).abs() < 1e-15);
+            let travel = 0.25 * engaged.1[k] + 0.75 * disengaged.1[k];
+            assert!((mixed.1[k] - travel).abs() < 1e-10);
+            let now = moving(&parameters).coordinates().linear.axis(k);
+            assert!(
+                (disengaged.1[k] + now.position + 2.0 * now.velocity).abs() < 1e-12,
+                "critically damped at 1 rad/s"
+            );
+            assert!(disengaged.0[k] < before.velocity && engaged.0[k] != disengaged.0[k], "the tilt levels");
+        }
+    }
+
+    #[test]
+    fn a_tilt_near_its_limit_of_angle_or_rate_is_limited() {
+        let parameters = parameters(StrategyKind::Optimal);
+        let limited = |axis: usize, angle: f64, rate: f64| {
+            let mut coordinated = Coordinated::new(&parameters).unwrap();
+            coordinated.limited = true;
+            coordinated.tilt[axis].position = angle * parameters.tilt.angle_limit;
+            coordinated.tilt[axis].velocity = rate * parameters.tilt.rate_limit;
+            in_circumstances(&parameters, 1.0, |circumstances| {
+                // So short a step hardly changes the tilt.
+                coordinated.advance_tilt(circumstances, 1e-6);
+            });
+            coordinated.limited
+        };
+        for axis in 0..2 {
+            for sign in [1.0, -1.0] {
+                assert!(limited(axis, sign * 0.9995, 0.0) && !limited(axis, sign * 0.9985, 0.0));
+                assert!(limited(axis, 0.0, sign * 0.9995) && !limited(axis, 0.0, sign * 0.9985));
+            }
+        }
+    }
+
+    #[test]
+    fn heave_is_bounded_softly_under_the_predictive_strategy_alone() {
+        let at = |time: f64| Motion {
+            position: 0.3 * (2.0 * time).sin(),
+            velocity: 0.6 * (2.0 * time).cos(),
+            acceleration: -1.2 * (2.0 * time).sin(),
+        };
+        let predictive = Coordinated::new(&parameters(StrategyKind::Predictive)).unwrap();
+        for k in 0..100 {
+            const SHIFT: f64 = 1e-5;
+            let time = 0.05 * k as f64;
+            let [before, now, after] = [time - SHIFT, time, time + SHIFT].map(|time| predictive.heave(&at(time)));
+            assert!((now.position - 0.1 * (at(time).position / 0.1).tanh()).abs() < 1e-15);
+            assert!((now.velocity - (after.position - before.position) / (2.0 * SHIFT)).abs() < 1e-7);
+            assert!((now.acceleration - (after.velocity - before.velocity) / (2.0 * SHIFT)).abs() < 1e-5);
+        }
+        for strategy in [StrategyKind::Adaptive, StrategyKind::Optimal] {
+            assert_eq!(Coordinated::new(&parameters(strategy)).unwrap().heave(&at(0.4)), at(0.4));
+        }
+    }
+
+    #[test]
+    fn plans_keep_a_margin_from_the_ends_of_the_strokes() {
+        let mut parameters = parameters(StrategyKind::Predictive);
+        parameters.angular.omega1.pitch *= 2.0;
+        parameters.angular.omega1.yaw *= 3.0;
+        for (margin, kept) in [(0.02, 0.02), (10.0, 0.15)] {
+            parameters.predictive.leg_margin = margin;
+            in_circumstances(&parameters, 1.0, |circumstances| {
+                let geometry = Geometry::from(&parameters.rig);
+                let surroundings = circumstances.surroundings(&geometry);
+                for (found, expected) in surroundings.stroke.into_iter().zip([1.0 + kept, 1.6 - kept]) {
+                    assert!((found - expected).abs() < 1e-12, "{found} m beside {expected}");
+                }
+                assert_eq!(surroundings.heave, circumstances.guard.coordinates().linear.position.z);
+                let omega = parameters.angular.omega1;
+                assert_eq!(surroundings.frequencies, Vector3::new(omega.roll, omega.pitch, omega.yaw));
+            });
+        }
+    }
+
+    #[test]
+    fn tiny_motions_are_none() {
+        let tiny = |value: f64| Motion { position: value, velocity: -value, acceleration: value };
+        assert_eq!(flushed(&tiny(1e-31)), Motion::default());
+        assert_eq!(flushed(&tiny(1e-29)), tiny(1e-29));
+    }
+}
