@@ -73,6 +73,47 @@ fn what_is_out_of_its_range_is_refused() {
 }
 
 #[test]
+fn a_leg_at_an_end_of_its_stroke_at_neutral_is_refused() {
+    let lengths = Washout::new(&parameters(&[])).unwrap().output().length;
+    let longest = lengths.into_iter().fold(0.0, f64::max);
+    let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
+    for end in [("actuator.maxLength", longest), ("actuator.minLength", shortest)] {
+        let refusal = refusal(&[end]);
+        assert_eq!(refusal.variable, "rig.neutralHeight", "{refusal}");
+    }
+}
+
+#[test]
+fn less_stroke_at_neutral_than_a_leg_moves_in_half_a_step_is_refused() {
+    let lengths = Washout::new(&parameters(&[])).unwrap().output().length;
+    let longest = lengths.into_iter().fold(0.0, f64::max);
+    let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
+    // A h^2/8 at 100 m/s2 and V h/2 at 1.25 m/s, both in steps of 50 ms.
+    for velocity_limit in [5.0, 1.25] {
+        const RESERVE: f64 = 0.03125;
+        let with = |end: &str, length: f64| {
+            check(&parameters(&[
+                ("solver.maxStep", 0.05),
+                ("actuator.accelerationLimit", 100.0),
+                ("actuator.velocityLimit", velocity_limit),
+                (end, length),
+            ]))
+        };
+        for (end, neutral, outwards) in [("actuator.maxLength", longest, 1.0), ("actuator.minLength", shortest, -1.0)] {
+            assert_eq!(with(end, neutral + outwards * (RESERVE + 1e-9)), Ok(()));
+            for reserve in [RESERVE, RESERVE - 1e-9] {
+                let refusal = with(end, neutral + outwards * reserve).unwrap_err();
+                assert_eq!(refusal.variable, "solver.maxStep");
+                assert!(
+                    refusal.reason.contains("up to 0.0312 m") && refusal.reason.contains("only 0.0312 m"),
+                    "{refusal}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn the_model_refuses_alike_and_retuning_changes_nothing() {
     let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
     Washout::start_slots(&mut slots);
