@@ -174,11 +174,6 @@ impl AxisProgram {
         Some(AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian })
     }
 
-    /// Largest tilt acceleration, which the controls are relative to \[rad/s2\].
-    pub fn acceleration_limit(&self) -> f64 {
-        self.model.acceleration_limit
-    }
-
     /// The nodes without any control.
     pub fn free_nodes(&self, data: &Data) -> Nodes {
         self.from_data * data
@@ -331,5 +326,164 @@ pub fn set_axis_normals(rows: &mut Rows<CONTROLS, ROWS>, program: &Program) {
         for (normal, column) in rows.normals.iter_mut().skip(k * AXIS_ROWS).zip(normals.column_iter()) {
             normal.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&column);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::STANDARD_GRAVITY;
+
+    const MODELS: [AxisModel; 2] = [
+        AxisModel {
+            head_height: 1.2,
+            gravity: STANDARD_GRAVITY,
+            position_limit: 0.45,
+            velocity_limit: 1.1,
+            angle_limit: 0.38,
+            rate_limit: 0.052,
+            acceleration_limit: 0.2,
+        },
+        AxisModel {
+            head_height: 0.9,
+            gravity: 9.5,
+            position_limit: 0.3,
+            velocity_limit: 0.8,
+            angle_limit: 0.25,
+            rate_limit: 0.07,
+            acceleration_limit: 0.4,
+        },
+    ];
+    const WEIGHTS: Weights = Weights {
+        position: 0.2,
+        velocity: 0.03,
+        tilt_rate: 0.01,
+        tilt_acceleration: 0.02,
+        slow_pole: 0.3,
+        fast_pole: 4.0,
+    };
+
+    fn program(horizon: Horizon) -> Program {
+        Program::new(&MODELS, &WEIGHTS, horizon).unwrap()
+    }
+
+    /// A state, a forecast and controls with a part of everything.
+    fn example() -> (AxisState, Forecast, AxisControls) {
+        let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
+        let forecast = Forecast { means: SVector::from_fn(|k, _| 0.5 - 0.3 * k as f64), end: [0.7, -0.4] };
+        (state, forecast, AxisControls::from_fn(|k, _| (1.0 + k as f64).sin()))
+    }
+
+    /// The integral of the weighted squares by the trapezoidal rule, and the regulator's cost to come.
+    fn cost(axis: &AxisProgram, state: &AxisState, forecast: &Forecast, controls: &AxisControls) -> f64 {
+        let model = &axis.model;
+        let running = |state: &[f64]| {
+            WEIGHTS.position * (state[0] / model.position_limit).powi(2)
+                + WEIGHTS.velocity * (state[1] / model.velocity_limit).powi(2)
+                + WEIGHTS.tilt_rate * (state[3] / model.rate_limit).powi(2)
+        };
+        let nodes = axis.nodes(&axis.free_nodes(&data(state, forecast)), controls);
+        let mut before = vec![state.position, state.velocity, state.tilt, state.tilt_rate];
+        let mut cost = 0.0;
+        for (block, duration) in axis.horizon.durations().into_iter().enumerate() {
+            let after = nodes.as_slice()[4 * block..4 * block + 4].to_vec();
+            let (dropped, tilting) = (controls[block], controls[BLOCKS + block]);
+            cost += duration * (dropped * dropped + (WEIGHTS.tilt_acceleration + 1e-5) * tilting * tilting);
+            cost += 0.5 * duration * (running(&before) + running(&after));
+            before = after;
+        }
+        before.extend(forecast.end);
+        let end = SVector::<f64, 6>::from_column_slice(&before);
+        let to_come = Regulator::new(model, &WEIGHTS).unwrap().cost;
+        0.5 * (cost + end.dot(&(to_come * end)))
+    }
+
+    #[test]
+    fn the_cost_is_that_of_the_regulator() {
+        let (state, forecast, controls) = example();
+        for horizon in [Horizon::Near, Horizon::Far] {
+            for axis in &program(horizon).axes {
+                let gradient = axis.gradient(&data(&state, &forecast));
+                for scale in [0.1, -1.0, 3.0] {
+                    let controls = scale * controls;
+                    let quadratic = gradient.dot(&controls) + 0.5 * controls.dot(&(axis.hessian() * controls));
+                    let [free, controlled] =
+                        [AxisControls::zeros(), controls].map(|controls| cost(axis, &state, &forecast, &controls));
+                    let expected = controlled - free;
+                    assert!((quadratic - expected).abs() < 1e-10 * controlled, "{quadratic} beside {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rows_are_motions_relative_to_their_limits() {
+        for (program, model) in program(Horizon::Near).axes.iter().zip(MODELS) {
+            let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = model;
+            let farthest = 0.435 / 0.45 * position_limit;
+            let controls = AxisControls::from_fn(|k, _| 0.01 * k as f64);
+            // Each node 10 % farther than the one before.
+            let state = |node: usize| [0.1, 0.2, -0.03, 0.004].map(|start| start * 1.1_f64.powi(node as i32));
+            let nodes = Nodes::from_fn(|k, _| state(k / 4)[k % 4]);
+            let rows = program.rows(&nodes, &controls);
+            let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, {expected}");
+            for node in 0..BLOCKS {
+                let [x, v, q, w] = state(node);
+                let expected = [x / farthest, v / (0.95 * velocity_limit), q / angle_limit, w / (0.999 * rate_limit)];
+                for (k, expected) in expected.into_iter().enumerate() {
+                    close(rows[4 * node + k], expected);
+                }
+                close(rows[4 * BLOCKS + node], 0.01 * (BLOCKS + node) as f64);
+                if node < BLOCKS - 1 {
+                    let half = 0.5 * Horizon::Near.durations()[node + 1];
+                    close(rows[5 * BLOCKS + node], (x + half * v) / farthest);
+                }
+            }
+            let [x, v, q, w] = state(BLOCKS - 1);
+            close(rows[6 * BLOCKS - 1], (x + 0.3 * v) / farthest);
+            // The distance to a stop at the limits' rate is rate^2/(2 acceleration).
+            close(rows[6 * BLOCKS], (q + w * rate_limit / (2.0 * acceleration_limit)) / angle_limit);
+        }
+    }
+
+    #[test]
+    fn the_normals_are_the_slopes_of_the_rows() {
+        let (state, forecast, controls) = example();
+        for horizon in [Horizon::Near, Horizon::Far] {
+            let program = program(horizon);
+            let rows = rows(&program);
+            assert_eq!((rows.normals.len(), rows.lower.min(), rows.upper.max()), (ROWS, -1.0, 1.0));
+            for (k, axis) in program.axes.iter().enumerate() {
+                let free = axis.free_nodes(&data(&state, &forecast));
+                let expected =
+                    axis.rows(&axis.nodes(&free, &controls), &controls) - axis.rows(&free, &AxisControls::zeros());
+                let mut all = SVector::<f64, CONTROLS>::zeros();
+                all.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&controls);
+                for (number, normal) in rows.normals.iter().enumerate() {
+                    let inside = (k * AXIS_ROWS..(k + 1) * AXIS_ROWS).contains(&number);
+                    let expected = if inside { expected[number - k * AXIS_ROWS] } else { 0.0 };
+                    assert!((normal.dot(&all) - expected).abs() < 1e-12, "row {number} of axis {k}");
+                }
+                for (node, state) in [(0, 0), (3, 2), (BLOCKS - 1, 0)] {
+                    let change = axis.nodes(&Nodes::zeros(), &controls)[4 * node + state];
+                    assert!((axis.response(node, state).dot(&controls) - change).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn retuning_is_construction_and_without_a_regulator_changes_nothing() {
+        let other = Weights { position: 2.0, ..WEIGHTS };
+        let models = [MODELS[1], MODELS[0]];
+        let mut programs = Programs::new(&MODELS, &WEIGHTS).unwrap();
+        programs.retune(&models, &other);
+        assert_eq!(programs, Programs::new(&models, &other).unwrap());
+        for horizon in [Horizon::Near, Horizon::Far] {
+            assert_eq!(programs.over(horizon).horizon, horizon);
+        }
+        let before = programs.clone();
+        programs.retune(&models, &Weights { position: f64::NAN, ..WEIGHTS });
+        assert_eq!(programs, before);
     }
 }
