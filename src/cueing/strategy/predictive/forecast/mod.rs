@@ -12,6 +12,9 @@
 //! preview's end, the mixture as of that time follows. Preview and mixture are weighted by their
 //! latest errors, as the experts are, so that a wrong preview loses its weight.
 
+#[cfg(test)]
+mod tests;
+
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
@@ -484,112 +487,5 @@ impl Forecaster {
             }
             sum / weights
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const MEMORY: Memory = Memory { fit: 60.0, selection: 3.0 };
-
-    /// The forecaster after `time` seconds of a reference, sampled every 20 ms.
-    fn followed(reference: impl Fn(f64) -> f64, time: f64, kind: ForecastKind) -> Forecaster {
-        let tables = Tables::default();
-        let mut forecaster = Forecaster::new(&tables);
-        for k in 0..(time / SAMPLE).round() as usize {
-            for j in 0..20 {
-                forecaster.advance(reference(k as f64 * SAMPLE + f64::from(j + 1) * 0.001), 0.001);
-            }
-            forecaster.sample(&tables, kind, &MEMORY);
-        }
-        forecaster
-    }
-
-    /// Means of a reference over the blocks that follow a time.
-    fn means(reference: impl Fn(f64) -> f64, time: f64) -> SVector<f64, BLOCKS> {
-        let (ends, durations) = (Horizon::Near.ends(), Horizon::Near.durations());
-        SVector::from_fn(|k, _| {
-            let start = time + ends[k] - durations[k];
-            (0..1000).map(|i| reference(start + durations[k] * (f64::from(i) + 0.5) / 1000.0)).sum::<f64>() / 1000.0
-        })
-    }
-
-    #[test]
-    fn a_periodic_reference_is_learned() {
-        let reference = |t: f64| 2.0 * (1.3 * t).sin() + 0.5 * (4.0 * t).cos();
-        let error = |kind| {
-            let (mut sum, mut count) = (0.0, 0.0);
-            for time in [61.0, 62.3, 63.9, 65.2] {
-                let forecaster = followed(reference, time, kind);
-                sum += (forecaster.forecast.means - means(reference, time)).norm_squared();
-                count += BLOCKS as f64;
-            }
-            (sum / count).sqrt()
-        };
-        let (learned, hold, decay) =
-            (error(ForecastKind::Learned), error(ForecastKind::Hold), error(ForecastKind::Decay));
-        assert!(learned < 0.15, "{learned}");
-        assert!(learned < 0.2 * hold && learned < 0.2 * decay, "{learned}, {hold}, {decay}");
-    }
-
-    #[test]
-    fn a_constant_reference_is_expected_to_stay_and_none_to_stay_none() {
-        let forecast = followed(|_| 1.5, 30.0, ForecastKind::Learned).forecast;
-        assert!(forecast.means.iter().all(|mean| (mean - 1.5).abs() < 0.05), "{}", forecast.means);
-        assert_eq!(followed(|_| 0.0, 10.0, ForecastKind::Learned).forecast, Forecast::default());
-    }
-
-    #[test]
-    fn over_a_longer_horizon_a_forecast_keeps_its_integral_and_fades() {
-        let forecast = Forecast { means: SVector::from_fn(|k, _| 1.0 + k as f64), end: [2.0, 0.5] };
-        assert!((forecast.over(Horizon::Near).means - forecast.means).amax() < 1e-12);
-        let far = forecast.over(Horizon::Far);
-        let sum = |means: &SVector<f64, BLOCKS>, horizon: Horizon| means.dot(&SVector::from(horizon.durations()));
-        let [slow, fast] = FADE_DECAY;
-        let tail = 2.0 * (1.0 - (-slow * FORECAST).exp()) / slow + 0.5 * (1.0 - (-fast * FORECAST).exp()) / fast;
-        let expected = sum(&forecast.means, Horizon::Near) + tail;
-        assert!((sum(&far.means, Horizon::Far) - expected).abs() < 1e-12);
-        assert!((far.end[0] - 2.0 * (-slow * FORECAST).exp()).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_stop_takes_the_reference_away_from_its_time_on() {
-        let forecaster = followed(|_| -2.0, 20.0, ForecastKind::Learned);
-        let forecast = forecaster.until_stop(1.5, Horizon::Far);
-        let (ends, durations) = (Horizon::Far.ends(), Horizon::Far.durations());
-        for k in 0..BLOCKS {
-            let braking = (1.5 - (ends[k] - durations[k])).clamp(0.0, durations[k]) / durations[k];
-            assert!((forecast.means[k] + 2.0 * braking).abs() < 1e-9, "block {k}: {}", forecast.means[k]);
-        }
-        assert_eq!(forecast.end, [0.0; 2]);
-    }
-
-    #[test]
-    fn low_passes_follow_a_step_as_exponentials() {
-        let forecaster = followed(|_| 1.0, 0.6, ForecastKind::Hold);
-        for (low, time) in forecaster.low_passes.iter().zip(TIME_CONSTANTS) {
-            assert!((low - (1.0 - (-0.6 / time).exp())).abs() < 1e-12);
-        }
-        assert!((forecaster.integral - 0.6).abs() < 1e-12);
-    }
-
-    #[test]
-    fn the_priors_covariance_is_that_of_a_simulated_process() {
-        // An Ornstein-Uhlenbeck process of one pole through one low-pass, by its Lyapunov equation.
-        let covariance = prior_covariance();
-        for (feature, time) in TIME_CONSTANTS[..FEATURES - 1].iter().enumerate() {
-            let a = 1.0 / time;
-            let (mut variance, mut with_input) = (0.0, 0.0);
-            for (s, input_variance) in PRIOR {
-                // y' = a (u - y), E u^2 = 1: E uy = a/(a + s), E y^2 = E uy.
-                let cross = a / (a + s);
-                with_input += input_variance * cross;
-                variance += input_variance * cross;
-            }
-            assert!((covariance[(0, feature + 1)] - with_input).abs() < 1e-12);
-            assert!((covariance[(feature + 1, feature + 1)] - variance).abs() < 1e-12);
-        }
-        assert!(covariance.symmetric_eigenvalues().min() > 0.0);
     }
 }
