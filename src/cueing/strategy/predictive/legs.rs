@@ -159,4 +159,37 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn rows_are_about_the_plan_before_while_heave_and_turns_fade() {
+        let rig = Rig::default();
+        let geometry = Geometry::from(&rig);
+        let surroundings = Surroundings {
+            geometry: &geometry,
+            neutral_height: rig.neutral_height,
+            stroke: [rig.min_length, rig.max_length],
+            heave: 0.05,
+            angles: Vector3::new(0.05, -0.04, 0.1),
+            angle_rates: Vector3::new(0.2, 0.1, -0.3),
+            frequencies: Vector3::new(0.9, 0.6, 1.0),
+        };
+        let plan = [0.1, -0.07].map(|start| Nodes::from_fn(|k, _| start * (1.0 + 0.1 * k as f64)));
+        for horizon in [Horizon::Near, Horizon::Far] {
+            let rows = leg_rows(&surroundings, &plan, horizon);
+            for (node, end) in horizon.ends().into_iter().enumerate() {
+                let heave = if end < 0.1 { 0.05 } else { 0.05 * (-(end - 0.1) / 0.4).exp() };
+                let angles = surroundings.angles_after(end);
+                let state = |k: usize| [plan[0][4 * node + k], plan[1][4 * node + k]];
+                let (position, tilt) = (state(0), state(2));
+                let pose = Pose {
+                    position: Vector3::new(position[0], position[1], rig.neutral_height + heave),
+                    orientation: Orientation::new(RollPitchYaw::new(angles.x + tilt[1], angles.y - tilt[0], angles.z)),
+                };
+                for (row, length) in rows[node].iter().zip(leg_lengths(&geometry, &pose)) {
+                    let slopes: f64 = (0..2).map(|k| row.by_position[k] * position[k] + row.by_tilt[k] * tilt[k]).sum();
+                    assert!((row.offset + slopes - length).abs() < 1e-12, "node {node}");
+                }
+            }
+        }
+    }
 }
