@@ -268,8 +268,7 @@ impl Washout {
         };
         match &mut self.strategy {
             Strategy::Classical(classical) => {
-                let forces = [force_start, force_end];
-                classical.advance_tilt(forces, &rotation_at_end, &head_at_end, lean, &self.parameters, step);
+                classical.advance_tilt([force_start, force_end], &rotation_at_end, &circumstances(), step);
             }
             Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances(), step),
         }

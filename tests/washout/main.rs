@@ -10,6 +10,7 @@ mod communication_steps;
 mod compensation;
 mod conditioning;
 mod default_set;
+mod derivatives;
 mod errata;
 mod evaluator;
 mod gravitational;

@@ -3,11 +3,12 @@
 
 use moris_washout::cueing::gravitational::{GravitationalStrategy, tilt_target};
 use moris_washout::interface::TiltParameters;
+use moris_washout::{Washout, presets};
 use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::random::Random;
-use crate::common::{G, cases, parameters};
+use crate::common::{G, accelerating, cases, parameters};
 
 /// The force at the head for which the pitch target is this, with no sway.
 fn force_for_pitch(pitch: f64) -> Vector3<f64> {
@@ -121,4 +122,29 @@ fn a_limit_of_one_angle_alone_is_reported() {
     assert!(limited([1.0, 0.0], &slow));
     assert!(limited([0.0, 1.0], &slow));
     assert!(limited([8.0, 0.0], &quick));
+}
+
+/// Tilt that is tracked turns the vertical part of the low-frequency force into the tilt's own
+/// target.
+#[test]
+fn a_vertical_force_makes_no_tilt_go_to_and_fro() {
+    const STEP: f64 = 0.001;
+    for set in [presets::PAPER, presets::MOTORCYCLE, presets::CAR] {
+        for (heave, omega) in [(1.5, 3.0), (4.0, 3.0), (-5.0, 0.7)] {
+            let mut washout = Washout::new(&presets::parameters(set)).unwrap();
+            let mut turns = 0;
+            let mut before = 0.0;
+            for k in 0..15_000 {
+                let input = |time: f64| {
+                    let force = Vector3::new(0.3 * (0.4 * time).sin(), 0.05 * (1.3 * time).cos(), 0.0);
+                    accelerating(force.x, force.y, heave * (omega * time).sin())
+                };
+                washout.step_between(&input(k as f64 * STEP), &input((k + 1) as f64 * STEP), STEP);
+                let acceleration = washout.output_derivative().tilt_roll_rate;
+                turns += usize::from(acceleration * before < 0.0);
+                before = acceleration;
+            }
+            assert!(turns < 150, "heave of {heave} m/s2: {turns} changes of direction in 15,000 steps");
+        }
+    }
 }

@@ -5,7 +5,7 @@ use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
 use nalgebra::{SMatrix, SVector};
 
-use super::{DualActiveSet, Rows, Status};
+use super::{DualActiveSet, PendingRow, Rows, Status};
 
 /// A program, random or of a ride.
 pub struct Program<const N: usize, const M: usize> {
@@ -266,4 +266,65 @@ fn numbers_that_are_not_finite_end_the_solve() {
     let mut program = Random(5).feasible::<6, 20>();
     program.gradient[2] = f64::NAN;
     assert_eq!(solved(&program, 100).status(), Status::Failed);
+}
+
+/// A program of two variables that are to be zero: its rows are normals with their lower bounds.
+fn at_least<const M: usize>(rows: [([f64; 2], f64); M]) -> Program<2, M> {
+    let normals = rows.iter().map(|(normal, _)| SVector::from(*normal)).collect();
+    let lower = SVector::from(rows.map(|(_, lower)| lower));
+    Program::new(SMatrix::identity(), SVector::zeros(), Rows { normals, lower, upper: SVector::repeat(1e9) })
+}
+
+#[test]
+fn each_row_that_is_added_is_an_iteration() {
+    for (second, iterations) in [(-1.0, 1), (0.5, 2)] {
+        let solver = solved(&at_least([([1.0, 0.0], 1.0), ([0.0, 1.0], second)]), 100);
+        assert_eq!((solver.status(), solver.iterations()), (Status::Solved, iterations));
+    }
+}
+
+#[test]
+fn nearly_dependent_rows_and_small_ones_are_rows() {
+    let nearly_opposite = at_least([([1.0, 0.0], 1.0), ([-1.0, 1e-8], -1.0 + 1e-8)]);
+    let small = at_least([([1e-6, 0.0], 1e-6), ([0.0, 1e-6], 1e-6)]);
+    for program in [nearly_opposite, small] {
+        let solver = solved(&program, 100);
+        assert_eq!((solver.status(), solver.given_up()), (Status::Solved, 0));
+        assert!((solver.solution() - SVector::from([1.0, 1.0])).amax() < 1e-6, "{}", solver.solution());
+    }
+}
+
+#[test]
+fn an_abandoned_solve_has_failed_and_the_next_one_is_new() {
+    let program = Random(7).feasible::<6, 20>();
+    let mut solver = DualActiveSet::<6, 20>::new();
+    solver.start(&program.factor, &program.gradient);
+    solver.advance(&program.rows, 2);
+    solver.abandon();
+    let left = *solver.solution();
+    assert_eq!(solver.advance(&program.rows, 100), Status::Failed);
+    assert_eq!(*solver.solution(), left, "nothing goes on");
+    solver.start(&program.factor, &program.gradient);
+    solver.advance(&program.rows, 100);
+    assert_eq!(solver.solution(), solved(&program, 100).solution());
+}
+
+#[test]
+fn a_state_that_no_solve_leads_to_fails() {
+    let mut program = at_least([([1.0, 0.0], 1.0)]);
+    // A row more than there are bounds.
+    program.rows.normals.push(SVector::from([0.0, 1.0]));
+    let started = || {
+        let mut solver = DualActiveSet::<2, 1>::new();
+        solver.start(&program.factor, &program.gradient);
+        solver
+    };
+    for row in [1, 2, u32::MAX] {
+        let mut solver = started();
+        solver.pending = Some(PendingRow { row, side: 1.0, multiplier: 0.0 });
+        assert_eq!(solver.advance(&program.rows, 1), Status::Failed, "row {row}");
+    }
+    let mut solver = started();
+    solver.active = 3;
+    assert_eq!(solver.advance(&program.rows, 1), Status::Failed);
 }
