@@ -244,13 +244,13 @@ impl Washout {
 
     /// One step of Fig. 4, from left to right. The cue goes linearly from the last sample to `end`.
     fn internal_step(&mut self, end: &Sample, step: f64) {
-        let (head, head_at_end) = (self.last.head, end.head);
+        let head_at_end = &end.head;
         let (mut cue_start, mut cue_end) = self.conditioned(self.last.cue, end.cue, self.last.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
         let rotation = self.guard.motion().orientation.rotation;
         let rotation_at_end = self.guard.motion().rotation_after(step);
-        let force_start = rotation * head.to_platform_axes(cue_start.force);
+        let force_start = rotation * self.last.head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
         let beside_tilt = self.angular.advance(cue_start.rates, cue_end.rates, step);
@@ -259,7 +259,7 @@ impl Washout {
         let circumstances = || Circumstances {
             parameters: &self.parameters,
             guard: &self.guard,
-            head: &head_at_end,
+            head: head_at_end,
             force: cue_end.force,
             angles: &beside_tilt,
             lean,
@@ -268,7 +268,8 @@ impl Washout {
         };
         match &mut self.strategy {
             Strategy::Classical(classical) => {
-                classical.advance_tilt([force_start, force_end], &rotation_at_end, &circumstances(), step);
+                let forces = [force_start, force_end];
+                classical.advance_tilt(forces, &rotation_at_end, head_at_end, lean, &self.parameters, step);
             }
             Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances(), step),
         }
@@ -295,7 +296,7 @@ impl Washout {
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
         self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
         self.guard.advance(&demand, &motion, safety, step);
-        self.felt = felt(self.guard.motion(), &head_at_end, structure.gravity);
+        self.felt = felt(self.guard.motion(), head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.limited();

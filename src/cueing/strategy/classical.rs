@@ -4,11 +4,10 @@
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::coordinated::Circumstances;
 use crate::cueing::gravitational::GravitationalStrategy;
 use crate::cueing::splitter::LowPass;
 use crate::interface::Parameters;
-use crate::motion::orientation::RollPitchYaw;
+use crate::platform::LocationFrame;
 
 /// The strategy with its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,7 +37,8 @@ impl Classical {
     }
 
     /// Advances the tilt by `step` seconds, in which the force in the base frame goes linearly from
-    /// `start` to `end`. `rotation` is the platform's, as predicted for the step's end.
+    /// `start` to `end`. `rotation` is the platform's, as predicted for the step's end, `head` that
+    /// at the end, and `lean` what the platform makes up for.
     ///
     /// The tilt's own part in it is taken as it was the longest step before that. Where the
     /// low-frequency force has a vertical part, a tilt predicted from its present rate would follow
@@ -47,24 +47,25 @@ impl Classical {
         &mut self,
         [start, end]: [Vector3<f64>; 2],
         rotation: &Matrix3<f64>,
-        circumstances: &Circumstances,
+        head: &LocationFrame,
+        lean: f64,
+        parameters: &Parameters,
         step: f64,
     ) {
-        let Circumstances { parameters, guard, head, lean, .. } = *circumstances;
         let Parameters { tilt, structure, .. } = parameters;
         let low_frequency = self.low_pass.advance(start, end, step);
-        let own_turn = guard.motion().orientation.angular_velocity(self.change_over(structure.max_step, step));
-        let force = head.to_location_axes(rotation.tr_mul(&(low_frequency + own_turn.cross(&low_frequency))));
+        let mut force = rotation.tr_mul(&low_frequency);
+        let [roll, pitch] = self.change_over(structure.max_step, step);
+        force.x += pitch * force.z;
+        force.y -= roll * force.z;
+        let force = head.to_location_axes(force);
         self.gravitational.advance(force, structure.gravity, lean, tilt, structure.max_step, step);
     }
 
-    /// Change of the tilt over `time` seconds, of which the last `step` are to come and the others
-    /// have passed.
-    fn change_over(&self, time: f64, step: f64) -> RollPitchYaw {
-        let [roll, pitch] = [self.gravitational.roll, self.gravitational.pitch].map(|tilt| {
-            let bend = 0.5 * step * tilt.acceleration;
-            step * (tilt.velocity + bend) + (time - step) * (tilt.velocity - bend)
-        });
-        RollPitchYaw::new(roll, pitch, 0.0)
+    /// Change of roll and pitch over `time` seconds, of which the last `step` are to come and the
+    /// others have passed.
+    fn change_over(&self, time: f64, step: f64) -> [f64; 2] {
+        let bend = step * (step - 0.5 * time);
+        [self.gravitational.roll, self.gravitational.pitch].map(|tilt| time * tilt.velocity + bend * tilt.acceleration)
     }
 }
