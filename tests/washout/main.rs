@@ -20,6 +20,7 @@ mod limits_in_flight;
 mod model;
 mod paper_runs;
 mod preaction;
+mod presets;
 mod preview;
 mod reconstruction;
 mod refusals;

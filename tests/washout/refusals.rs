@@ -114,6 +114,38 @@ fn less_stroke_at_neutral_than_a_leg_moves_in_half_a_step_is_refused() {
 }
 
 #[test]
+fn weights_without_a_regulator_are_refused_by_the_strategys_name() {
+    for (strategy, prefix) in [(3.0, "optimal"), (4.0, "predictive")] {
+        let weight = |name: &str, value: f64| (format!("{prefix}.{name}"), value);
+        let extreme = [
+            weight("weightPosition", 33.0),
+            weight("weightVelocity", 5.7e5),
+            weight("weightTiltRate", 1.5e-4),
+            weight("weightTiltAcceleration", 3.9e-5),
+            weight("slowPole", 0.016),
+            weight("fastPole", 4.4),
+        ];
+        let mut changed = vec![
+            ("strategy", strategy),
+            ("safety.x.positionLimit", 3.9e5),
+            ("safety.x.velocityLimit", 6.3e-9),
+            ("tilt.rateLimit", 1.9e-7),
+            ("tilt.accelerationLimit", 560.0),
+            ("tilt.angleLimit", 2e-4),
+        ];
+        let mut washout = Washout::new(&parameters(&[("strategy", strategy)])).unwrap();
+        let before = washout.clone();
+        changed.extend(extreme.iter().map(|(name, value)| (name.as_str(), *value)));
+        let unusable = parameters(&changed);
+        for refusal in [Washout::new(&unusable).unwrap_err(), washout.retune(&unusable).unwrap_err()] {
+            assert_eq!(refusal.variable, format!("{prefix}.weightPosition"));
+            assert!(refusal.reason.contains("is 33, ") && refusal.reason.contains("Riccati"), "{refusal}");
+        }
+        assert_eq!(washout, before);
+    }
+}
+
+#[test]
 fn the_model_refuses_alike_and_retuning_changes_nothing() {
     let mut slots = vec![0.0; Washout::IDENTITY.slots.len()];
     Washout::start_slots(&mut slots);

@@ -10,6 +10,10 @@ type Hamiltonian = SMatrix<f64, { 2 * N }, { 2 * N }>;
 /// The matrix sign iteration converges quadratically; a solvable equation needs 10 to 20.
 const MAX_ITERATIONS: usize = 60;
 
+/// Largest residual of a solution, relative to the terms of the equation. Rounding makes larger ones
+/// where the terms differ by many orders of magnitude; what results is then no regulator.
+const TOLERANCE: f64 = 1e-6;
+
 /// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None
 /// if there is no such P.
 ///
@@ -41,11 +45,11 @@ pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
         return None;
     }
     let p = 0.5 * (p + p.transpose());
-    p.iter().all(|entry| entry.is_finite()).then_some(p)
+    let size = q.amax() + (p * s * p).amax();
+    (residual(a, s, q, &p).amax() <= TOLERANCE * size).then_some(p)
 }
 
 /// The left side of the equation, which a solution makes zero.
-#[cfg(test)]
 pub fn residual(a: &Square, s: &Square, q: &Square, p: &Square) -> Square {
     a.transpose() * p + p * a + q - p * s * p
 }
@@ -68,9 +72,10 @@ mod tests {
     }
 
     #[test]
-    fn an_equation_without_a_stabilizing_solution_has_none_or_a_large_residual() {
+    fn an_equation_without_a_stabilizing_solution_has_none() {
         // Unstable, and without an input.
         let a = Square::identity();
-        assert!(solve(&a, &Square::zeros(), &Square::identity()).is_none_or(|p| p.amax() > 1e6 || p.amax() < 0.0));
+        assert_eq!(solve(&a, &Square::zeros(), &Square::identity()), None);
+        assert_eq!(solve(&(f64::NAN * a), &a, &a), None);
     }
 }
