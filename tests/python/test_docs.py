@@ -145,11 +145,14 @@ def other_tests_fmus():
 
 
 def with_commands(page):
-    return any(block.language in ("sh", "python") and not block.information for block in blocks(page))
+    """True if these tests run blocks of the page."""
+    return page != PYTHON_PAGE and any(
+        block.language in ("sh", "python") and not block.information for block in blocks(page)
+    )
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the commands are for bash")
-@pytest.mark.parametrize("page", [page for page in PAGES if with_commands(page) and page != PYTHON_PAGE], ids=name)
+@pytest.mark.parametrize("page", filter(with_commands, PAGES), ids=name)
 def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
     shown = run_page(page)
     # Elsewhere the last digits of a search may differ.
