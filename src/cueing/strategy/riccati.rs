@@ -10,8 +10,8 @@ type Hamiltonian = SMatrix<f64, { 2 * N }, { 2 * N }>;
 /// The matrix sign iteration converges quadratically; a solvable equation needs 10 to 20.
 const MAX_ITERATIONS: usize = 60;
 
-/// Largest residual of a solution, relative to the terms of the equation. Rounding makes larger ones
-/// where the terms differ by many orders of magnitude; what results is then no regulator.
+/// Largest residual of a solution, relative to the terms of the equation. Rounding makes larger
+/// ones where the terms differ by many orders of magnitude; what results is then no regulator.
 const TOLERANCE: f64 = 1e-6;
 
 /// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None

@@ -374,7 +374,8 @@ mod tests {
         (state, forecast, AxisControls::from_fn(|k, _| (1.0 + k as f64).sin()))
     }
 
-    /// The integral of the weighted squares by the trapezoidal rule, and the regulator's cost to come.
+    /// The integral of the weighted squares by the trapezoidal rule, and the
+    /// regulator's cost to come.
     fn cost(axis: &AxisProgram, state: &AxisState, forecast: &Forecast, controls: &AxisControls) -> f64 {
         let model = &axis.model;
         let running = |state: &[f64]| {
