@@ -76,3 +76,71 @@ impl Optimal {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interface::{Parameters, STANDARD_GRAVITY};
+
+    const MODEL: AxisModel = AxisModel {
+        head_height: 1.2,
+        gravity: STANDARD_GRAVITY,
+        position_limit: 0.45,
+        velocity_limit: 1.0,
+        angle_limit: 0.38,
+        rate_limit: 0.052,
+        acceleration_limit: 0.2,
+    };
+    const STEP: f64 = 0.01;
+
+    fn tuning() -> Tuning {
+        (&Parameters::default().optimal).into()
+    }
+
+    fn after(steps: usize, references: [f64; 2]) -> Optimal {
+        let mut optimal = Optimal::new(&[MODEL; 2], &tuning()).unwrap();
+        for _ in 0..steps {
+            optimal.decide(&[AxisState::default(); 2], references, STEP);
+        }
+        optimal
+    }
+
+    #[test]
+    fn the_reference_is_split_by_a_low_pass_and_fed_back_with_the_state() {
+        let references = [1.5, -0.7];
+        let states = [0.1, -0.2].map(|position| AxisState {
+            position,
+            velocity: 0.3 * position,
+            tilt: -0.4 * position,
+            tilt_rate: 0.05 * position,
+        });
+        let mut optimal = after(6, references);
+        let decisions = optimal.decide(&states, references, STEP);
+        let gains = Regulator::new(&MODEL, &tuning().weights).unwrap().gains;
+        for k in 0..2 {
+            let slow = references[k] * (1.0 - (-7.0 * STEP / tuning().split_time).exp());
+            let AxisState { position, velocity, tilt, tilt_rate } = states[k];
+            let state = [position, velocity, tilt, tilt_rate, slow, references[k] - slow];
+            let expected = [0, 1].map(|i| -(0..6).map(|j| gains[(i, j)] * state[j]).sum::<f64>());
+            let Decision { dropped_force, tilt_acceleration } = decisions[k];
+            assert!((dropped_force - expected[0]).abs() < 1e-12, "{dropped_force} beside {expected:?}");
+            assert!((tilt_acceleration - expected[1]).abs() < 1e-12, "{tilt_acceleration} beside {expected:?}");
+        }
+    }
+
+    #[test]
+    fn retuning_keeps_the_slow_part_and_without_a_regulator_everything() {
+        let mut optimal = after(6, [1.5, -0.7]);
+        let before = optimal;
+        assert!(optimal.retune(&[MODEL; 2], &tuning()));
+        assert_eq!(optimal, before);
+        let other = Tuning { split_time: 0.3, ..tuning() };
+        assert!(optimal.retune(&[MODEL; 2], &other));
+        assert_eq!(optimal, Optimal { slow: before.slow, ..Optimal::new(&[MODEL; 2], &other).unwrap() });
+        assert_ne!(optimal.slow, [0.0; 2]);
+        let kept = optimal;
+        let unusable = Weights { position: f64::NAN, ..other.weights };
+        assert!(!optimal.retune(&[MODEL; 2], &Tuning { weights: unusable, ..other }));
+        assert_eq!(optimal, kept);
+    }
+}

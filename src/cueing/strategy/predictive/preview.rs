@@ -256,4 +256,49 @@ mod tests {
         assert!((slow + fast - reference(0.8)).abs() < 1e-12);
         assert!((slow - ahead.low_pass(0.2, 0.6, 0.8)).abs() < 1e-12);
     }
+
+    #[test]
+    fn between_the_preview_s_end_and_the_forecast_s_the_low_pass_follows_the_forecast() {
+        let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
+        let ahead = Ahead::new(&course(), (0.0, 0.5), 0.0).unwrap();
+        let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
+        let mut low = ahead.low_pass(0.2, 0.6, 1.5);
+        let (ends, step) = (Horizon::Near.ends(), 1e-4);
+        for k in 0..29_000 {
+            let time = (f64::from(k) + 0.5) * step;
+            let mean = after.means[ends.iter().position(|end| time < *end).unwrap()];
+            low += (mean - low) * (1.0 - (-step / 0.6_f64).exp());
+            if k % 1000 == 500 {
+                let [slow, fast] = previewed.parts(1.5 + f64::from(k + 1) * step);
+                assert!((slow - low).abs() < 1e-9, "{slow} beside {low}");
+                assert!((slow + fast - mean).abs() < 1e-9, "{fast}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_course_holds_the_cues_of_its_preview_up_to_what_is_not_a_number() {
+        let mut preview = Preview { count: 3, step: 0.25, ..Preview::default() };
+        (preview.surge[..4]).copy_from_slice(&[1.0, f64::NAN, 3.0, 4.0]);
+        (preview.sway[..4]).copy_from_slice(&[-1.0, -2.0, -3.0, -4.0]);
+        let cue = |[surge, sway]: [f64; 2]| [2.0 * surge, 3.0 * sway];
+        let [surge, sway] = Course::of(&preview, cue);
+        assert_eq!((surge.count, surge.step, surge.values[0]), (1, 0.25, 2.0));
+        assert_eq!((sway.count, sway.step, sway.values[..3].to_vec()), (3, 0.25, vec![-3.0, -6.0, -9.0]));
+        for nothing in
+            [Preview { count: 0, ..preview }, Preview { count: -1, ..preview }, Preview { step: f64::NAN, ..preview }]
+        {
+            assert_eq!(Course::of(&nothing, cue), [Course::default(); 2]);
+        }
+    }
+
+    #[test]
+    fn only_a_course_that_has_not_begun_is_put_off() {
+        let mut course = Course { age: 0.0, begun: false, ..course() };
+        course.put_off(0.05);
+        assert_eq!((course.age, course.length()), (-0.05, 0.2 * 8.0 + 0.05));
+        course.advance(0.15);
+        course.put_off(0.3);
+        assert!((course.age - 0.1).abs() < 1e-15 && (course.length() - 1.5).abs() < 1e-12);
+    }
 }
