@@ -276,4 +276,28 @@ mod tests {
         step(&mut preaction, 100.0, &limits);
         assert_eq!(preaction.phase, Phase::Recovering { from: speed });
     }
+
+    #[test]
+    fn the_surge_takes_no_more_than_the_tilt_leaves_over() {
+        let mut preaction = StopPreaction::new(STEP);
+        preaction.phase = Phase::Launching { acceleration: 2.0 };
+        (preaction.time_left, preaction.tilted_for) = (0.3, -1.0);
+        preaction.move_surge(-1.05, &safety(0.5, 1.0, 10.0), STEP);
+        assert!((preaction.surge.acceleration + 0.05).abs() < 1e-12, "{:?}", preaction.surge);
+        preaction.move_surge(-9.0, &safety(0.5, 1.0, 10.0), STEP);
+        let growing = 2.0 * (1.0 - 0.3 / LAUNCH_TIME);
+        assert!((preaction.surge.acceleration + growing).abs() < 1e-12, "{:?}", preaction.surge);
+    }
+
+    #[test]
+    fn a_recovery_ends_at_rest_within_a_step() {
+        const LONG: f64 = 0.2;
+        let mut preaction = StopPreaction::new(LONG);
+        preaction.phase = Phase::Recovering { from: 0.2 };
+        preaction.surge.velocity = -0.0011;
+        // Easing out alone would turn the surge round.
+        assert!(2.0 * (0.2_f64 * 0.0011).sqrt() / LAUNCH_TIME * LONG > 0.0011);
+        preaction.move_surge(0.0, &safety(0.5, 1.0, 10.0), LONG);
+        assert!(preaction.surge.velocity.abs() < 1e-15, "{:?}", preaction.surge);
+    }
 }

@@ -268,6 +268,8 @@ fn the_learned_forecast_is_that_of_plain_sums() {
             }
         }
     }
+    let off = (forecaster.errors - errors).component_div(&errors).amax();
+    assert!(off < 1e-5, "errors are off by {off}");
     let latest = &all[samples];
     for target in 0..TARGETS {
         let weights = [0, 1, 2, 3].map(|expert: usize| errors[(expert, target)].powi(-4));
@@ -424,4 +426,14 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
         }
     }
     assert!(expected[1][BLOCKS - 1] > 0.01, "{}", expected[1]);
+}
+
+#[test]
+fn the_angular_channels_part_of_the_reference_fades_over_a_preview() {
+    let tables = Tables::default();
+    let mut forecaster = followed(|_| 0.0, 1.0, ForecastKind::Hold);
+    forecaster.preview(&course(|_| 0.0, 0.0, 8));
+    forecaster.set_beside(0.5);
+    let previewed = forecaster.previewed(&tables, ForecastKind::Hold).unwrap();
+    assert!((previewed.ahead.last() - 0.5 * (-1.6_f64).exp()).abs() < 1e-12, "{}", previewed.ahead.last());
 }
