@@ -290,7 +290,13 @@ mod tests {
     }
 
     #[test]
-    fn a_recovery_ends_at_rest_within_a_step() {
+    fn a_recovery_eases_out_and_ends_at_rest_within_a_step() {
+        let mut preaction = StopPreaction::new(STEP);
+        preaction.phase = Phase::Recovering { from: 0.2 };
+        preaction.surge.velocity = -0.1;
+        preaction.move_surge(0.0, &safety(0.5, 1.0, 10.0), STEP);
+        assert!((preaction.surge.acceleration - 2.0 * 0.02_f64.sqrt() / LAUNCH_TIME).abs() < 1e-12);
+
         const LONG: f64 = 0.2;
         let mut preaction = StopPreaction::new(LONG);
         preaction.phase = Phase::Recovering { from: 0.2 };
