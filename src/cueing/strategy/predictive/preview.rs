@@ -260,18 +260,21 @@ mod tests {
     #[test]
     fn between_the_preview_s_end_and_the_forecast_s_the_low_pass_follows_the_forecast() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
-        let ahead = Ahead::new(&course(), (0.0, 0.5), 0.0).unwrap();
-        let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
-        let mut low = ahead.low_pass(0.2, 0.6, 1.5);
-        let (ends, step) = (Horizon::Near.ends(), 1e-4);
-        for k in 0..29_000 {
-            let time = (f64::from(k) + 0.5) * step;
-            let mean = after.means[ends.iter().position(|end| time < *end).unwrap()];
-            low += (mean - low) * (1.0 - (-step / 0.6_f64).exp());
-            if k % 1000 == 500 {
-                let [slow, fast] = previewed.parts(1.5 + f64::from(k + 1) * step);
-                assert!((slow - low).abs() < 1e-9, "{slow} beside {low}");
-                assert!((slow + fast - mean).abs() < 1e-9, "{fast}");
+        for count in [4, 8] {
+            let ahead = Ahead::new(&Course { count, ..course() }, (0.0, 0.5), 0.0).unwrap();
+            let length = ahead.length();
+            let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
+            let mut low = ahead.low_pass(0.2, 0.6, length);
+            let (ends, step) = (Horizon::Near.ends(), 1e-4);
+            for k in 0..29_000 {
+                let time = (f64::from(k) + 0.5) * step;
+                let mean = after.means[ends.iter().position(|end| time < *end).unwrap()];
+                low += (mean - low) * (1.0 - (-step / 0.6_f64).exp());
+                if k % 1000 == 500 {
+                    let [slow, fast] = previewed.parts(length + f64::from(k + 1) * step);
+                    assert!((slow - low).abs() < 1e-9, "{slow} beside {low}");
+                    assert!((slow + fast - mean).abs() < 1e-9, "{fast}");
+                }
             }
         }
     }
