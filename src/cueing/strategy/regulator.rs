@@ -173,4 +173,25 @@ mod tests {
             assert!(cost.symmetric_eigenvalues().min() > -1e-9 * cost.amax());
         }
     }
+
+    #[test]
+    fn an_equation_that_rounding_leaves_unsolved_has_no_regulator() {
+        let model = AxisModel {
+            position_limit: 3.9e5,
+            velocity_limit: 6.3e-9,
+            angle_limit: 2e-4,
+            rate_limit: 1.9e-7,
+            acceleration_limit: 560.0,
+            ..MODEL
+        };
+        let weights = Weights {
+            position: 33.0,
+            velocity: 5.7e5,
+            tilt_rate: 1.5e-4,
+            tilt_acceleration: 3.9e-5,
+            slow_pole: 0.016,
+            fast_pole: 4.4,
+        };
+        assert_eq!(Regulator::new(&model, &weights), None);
+    }
 }
