@@ -46,7 +46,8 @@ pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
     }
     let p = 0.5 * (p + p.transpose());
     let size = q.amax() + (p * s * p).amax();
-    (residual(a, s, q, &p).amax() <= TOLERANCE * size).then_some(p)
+    let finite = p.iter().all(|entry| entry.is_finite());
+    (finite && residual(a, s, q, &p).amax() <= TOLERANCE * size).then_some(p)
 }
 
 /// The left side of the equation, which a solution makes zero.
