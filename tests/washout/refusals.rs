@@ -72,11 +72,14 @@ fn what_is_out_of_its_range_is_refused() {
     }
 }
 
+fn extreme_lengths_at_neutral() -> [f64; 2] {
+    let lengths = Washout::new(&parameters(&[])).unwrap().output().length;
+    [lengths.into_iter().fold(f64::INFINITY, f64::min), lengths.into_iter().fold(0.0, f64::max)]
+}
+
 #[test]
 fn a_leg_at_an_end_of_its_stroke_at_neutral_is_refused() {
-    let lengths = Washout::new(&parameters(&[])).unwrap().output().length;
-    let longest = lengths.into_iter().fold(0.0, f64::max);
-    let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
+    let [shortest, longest] = extreme_lengths_at_neutral();
     for end in [("actuator.maxLength", longest), ("actuator.minLength", shortest)] {
         let refusal = refusal(&[end]);
         assert_eq!(refusal.variable, "rig.neutralHeight", "{refusal}");
@@ -85,9 +88,7 @@ fn a_leg_at_an_end_of_its_stroke_at_neutral_is_refused() {
 
 #[test]
 fn less_stroke_at_neutral_than_a_leg_moves_in_half_a_step_is_refused() {
-    let lengths = Washout::new(&parameters(&[])).unwrap().output().length;
-    let longest = lengths.into_iter().fold(0.0, f64::max);
-    let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
+    let [shortest, longest] = extreme_lengths_at_neutral();
     // A h^2/8 at 100 m/s2 and V h/2 at 1.25 m/s, both in steps of 50 ms.
     for velocity_limit in [5.0, 1.25] {
         const RESERVE: f64 = 0.03125;

@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::random::Random;
-use crate::common::{G, accelerating, cases, parameters};
+use crate::common::{G, accelerating, cases, parameters, ride_between};
 
 /// The force at the head for which the pitch target is this, with no sway.
 fn force_for_pitch(pitch: f64) -> Vector3<f64> {
@@ -128,22 +128,18 @@ fn a_limit_of_one_angle_alone_is_reported() {
 /// target.
 #[test]
 fn a_vertical_force_makes_no_tilt_go_to_and_fro() {
-    const STEP: f64 = 0.001;
     for set in [presets::PAPER, presets::MOTORCYCLE, presets::CAR] {
         for (heave, omega) in [(1.5, 3.0), (4.0, 3.0), (-5.0, 0.7)] {
             let mut washout = Washout::new(&presets::parameters(set)).unwrap();
-            let mut turns = 0;
-            let mut before = 0.0;
-            for k in 0..15_000 {
-                let input = |time: f64| {
-                    let force = Vector3::new(0.3 * (0.4 * time).sin(), 0.05 * (1.3 * time).cos(), 0.0);
-                    accelerating(force.x, force.y, heave * (omega * time).sin())
-                };
-                washout.step_between(&input(k as f64 * STEP), &input((k + 1) as f64 * STEP), STEP);
-                let acceleration = washout.output_derivative().tilt_roll_rate;
-                turns += usize::from(acceleration * before < 0.0);
-                before = acceleration;
-            }
+            let input = |time: f64| {
+                accelerating(0.3 * (0.4 * time).sin(), 0.05 * (1.3 * time).cos(), heave * (omega * time).sin())
+            };
+            let (mut turns, mut rate, mut before) = (0, 0.0, 0.0);
+            ride_between(&mut washout, 15.0, 0.001, input, |_, output| {
+                let change = output.tilt_roll_rate - rate;
+                turns += usize::from(change * before < 0.0);
+                (rate, before) = (output.tilt_roll_rate, change);
+            });
             assert!(turns < 150, "heave of {heave} m/s2: {turns} changes of direction in 15,000 steps");
         }
     }

@@ -55,6 +55,7 @@ impl Classical {
         let Parameters { tilt, structure, .. } = parameters;
         let low_frequency = self.low_pass.advance(start, end, step);
         let mut force = rotation.tr_mul(&low_frequency);
+        // Turned back by the tilt's change. Only the vertical part couples the tilt to itself.
         let [roll, pitch] = self.change_over(structure.max_step, step);
         force.x += pitch * force.z;
         force.y -= roll * force.z;

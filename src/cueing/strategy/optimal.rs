@@ -80,17 +80,9 @@ impl Optimal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interface::{Parameters, STANDARD_GRAVITY};
+    use crate::cueing::strategy::regulator::tests::MODEL;
+    use crate::interface::Parameters;
 
-    const MODEL: AxisModel = AxisModel {
-        head_height: 1.2,
-        gravity: STANDARD_GRAVITY,
-        position_limit: 0.45,
-        velocity_limit: 1.0,
-        angle_limit: 0.38,
-        rate_limit: 0.052,
-        acceleration_limit: 0.2,
-    };
     const STEP: f64 = 0.01;
 
     fn tuning() -> Tuning {

@@ -102,11 +102,11 @@ pub fn dynamics(model: &AxisModel, weights: &Weights) -> (SMatrix<f64, 6, 6>, SM
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::interface::STANDARD_GRAVITY;
 
-    const MODEL: AxisModel = AxisModel {
+    pub const MODEL: AxisModel = AxisModel {
         head_height: 1.2,
         gravity: STANDARD_GRAVITY,
         position_limit: 0.45,

@@ -90,21 +90,32 @@ fn legs_near(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::interface::Rig;
 
-    #[test]
-    fn angles_go_on_as_the_high_pass_lets_them_while_the_vehicle_turns_steadily() {
+    /// The default rig's, with a platform that only the plan moves.
+    pub fn surroundings(geometry: &Geometry) -> Surroundings<'_> {
         let rig = Rig::default();
-        let surroundings = Surroundings {
-            geometry: &Geometry::from(&rig),
+        Surroundings {
+            geometry,
             neutral_height: rig.neutral_height,
             stroke: [rig.min_length, rig.max_length],
             heave: 0.0,
+            angles: Vector3::zeros(),
+            angle_rates: Vector3::zeros(),
+            frequencies: Vector3::repeat(1.0),
+        }
+    }
+
+    #[test]
+    fn angles_go_on_as_the_high_pass_lets_them_while_the_vehicle_turns_steadily() {
+        let geometry = Geometry::from(&Rig::default());
+        let surroundings = Surroundings {
             angles: Vector3::new(0.05, -0.04, 0.1),
             angle_rates: Vector3::new(0.2, 0.0, -0.3),
             frequencies: Vector3::new(0.9, 0.6, 1.0),
+            ..surroundings(&geometry)
         };
         // y'' + 2 w y' + w^2 y = 0, by small steps of the midpoint rule.
         let (mut angles, mut rates) = (surroundings.angles, surroundings.angle_rates);
@@ -125,17 +136,9 @@ mod tests {
 
     #[test]
     fn slopes_are_those_of_finite_differences() {
-        let rig = Rig::default();
-        let geometry = Geometry::from(&rig);
-        let surroundings = Surroundings {
-            geometry: &geometry,
-            neutral_height: rig.neutral_height,
-            stroke: [rig.min_length, rig.max_length],
-            heave: 0.03,
-            angles: Vector3::new(0.05, -0.04, 0.1),
-            angle_rates: Vector3::zeros(),
-            frequencies: Vector3::repeat(1.0),
-        };
+        let geometry = Geometry::from(&Rig::default());
+        let surroundings =
+            Surroundings { heave: 0.03, angles: Vector3::new(0.05, -0.04, 0.1), ..surroundings(&geometry) };
         let (position, tilt) = ([0.1, -0.2], [0.15, -0.1]);
         let length = |position: [f64; 2], tilt: [f64; 2], leg: usize| {
             let row = legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03)[leg];
@@ -165,13 +168,11 @@ mod tests {
         let rig = Rig::default();
         let geometry = Geometry::from(&rig);
         let surroundings = Surroundings {
-            geometry: &geometry,
-            neutral_height: rig.neutral_height,
-            stroke: [rig.min_length, rig.max_length],
             heave: 0.05,
             angles: Vector3::new(0.05, -0.04, 0.1),
             angle_rates: Vector3::new(0.2, 0.1, -0.3),
             frequencies: Vector3::new(0.9, 0.6, 1.0),
+            ..surroundings(&geometry)
         };
         let plan = [0.1, -0.07].map(|start| Nodes::from_fn(|k, _| start * (1.0 + 0.1 * k as f64)));
         for horizon in [Horizon::Near, Horizon::Far] {

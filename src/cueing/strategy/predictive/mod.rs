@@ -334,7 +334,7 @@ mod tests {
     use crate::interface::{Parameters, Rig};
     use crate::platform::Geometry;
     use dual_active_set::tests::{Program, compare};
-    use nalgebra::Vector3;
+    use legs::tests::surroundings;
     use std::f64::consts::TAU;
 
     const MODEL: AxisModel = AxisModel {
@@ -349,19 +349,6 @@ mod tests {
 
     fn predictive() -> Predictive {
         Predictive::new(&[MODEL; 2], &(&Parameters::default().predictive).into()).unwrap()
-    }
-
-    fn surroundings(geometry: &Geometry) -> Surroundings<'_> {
-        let rig = Rig::default();
-        Surroundings {
-            geometry,
-            neutral_height: rig.neutral_height,
-            stroke: [rig.min_length, rig.max_length],
-            heave: 0.0,
-            angles: Vector3::zeros(),
-            angle_rates: Vector3::zeros(),
-            frequencies: Vector3::repeat(1.0),
-        }
     }
 
     /// Advances by `steps` steps of 1 ms at this reference. Returns the last step's decisions.

@@ -142,6 +142,13 @@ impl Plain {
         Plain { values, low_passes }
     }
 
+    /// Advances a forecaster to a sample from the one before.
+    fn advance(&self, forecaster: &mut Forecaster, n: usize) {
+        for value in &self.values[(n - 1) * PER_SAMPLE..n * PER_SAMPLE] {
+            forecaster.advance(*value, 0.001);
+        }
+    }
+
     fn value(&self, n: usize) -> f64 {
         if n == 0 { 0.0 } else { self.values[n * PER_SAMPLE - 1] }
     }
@@ -231,9 +238,7 @@ fn the_learned_forecast_is_that_of_plain_sums() {
     let mut forecaster = Forecaster::new(&tables);
     let mut fits = vec![from_features(&tables.fade)];
     for n in 1..=samples {
-        for value in &plain.values[(n - 1) * PER_SAMPLE..n * PER_SAMPLE] {
-            forecaster.advance(*value, 0.001);
-        }
+        plain.advance(&mut forecaster, n);
         forecaster.sample(&tables, ForecastKind::Learned, &MEMORY);
         // A fit every five samples.
         let fit = if n % 5 == 1 { plain_fit(&plain, &tables, n) } else { fits[n - 1] };
@@ -398,9 +403,7 @@ fn errors_of_a_preview_rise_fast_and_fall_slowly() {
     let mut expected = [1e-4, 2e-3].map(SVector::<f64, BLOCKS>::repeat);
     let mut made = vec![];
     for n in 1..=samples {
-        for value in &plain.values[(n - 1) * PER_SAMPLE..n * PER_SAMPLE] {
-            forecaster.advance(*value, 0.001);
-        }
+        plain.advance(&mut forecaster, n);
         // At first there is no preview; then it is wrong for a while.
         let wrong = if n % 100 < 50 { 0.8 } else { 0.0 };
         if n > 20 {
