@@ -1,0 +1,386 @@
+//! Tests of the plan as a whole: when it is made, what it keeps, and what it is made from.
+
+use super::*;
+use crate::interface::{Parameters, Rig};
+use crate::platform::Geometry;
+use dual_active_set::tests::{Program, compare};
+use legs::tests::surroundings;
+use std::f64::consts::TAU;
+
+const MODEL: AxisModel = AxisModel {
+    head_height: 1.2,
+    gravity: 9.80665,
+    position_limit: 0.45,
+    velocity_limit: 1.0,
+    angle_limit: 0.38,
+    rate_limit: 0.052,
+    acceleration_limit: 0.2,
+};
+
+fn predictive() -> Predictive {
+    Predictive::new(&[MODEL; 2], &(&Parameters::default().predictive).into()).unwrap()
+}
+
+/// Advances by `steps` steps of 1 ms at this reference. Returns the last step's decisions.
+fn passed(predictive: &mut Predictive, steps: usize, reference: f64) -> Option<[Decision; 2]> {
+    let geometry = Geometry::from(&Rig::default());
+    let mut decisions = None;
+    for _ in 0..steps {
+        decisions = predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, 0.001);
+        predictive.observe([reference; 2], [0.0; 2], 0.001);
+    }
+    decisions
+}
+
+#[test]
+fn a_plan_is_made_every_20_ms_and_is_never_older_than_that_and_its_making() {
+    let mut predictive = predictive();
+    let mut begun = 0;
+    for _ in 0..500 {
+        passed(&mut predictive, 1, 3.0);
+        assert!(predictive.plan().age < 0.04, "{}", predictive.plan().age);
+        begun += usize::from(predictive.begun < 0.0015);
+    }
+    assert_eq!(begun, 25);
+    assert!(predictive.plan().iterations > 0 && !predictive.plan().kept);
+}
+
+#[test]
+fn a_new_plan_is_as_old_as_its_making() {
+    let mut predictive = predictive();
+    // A demand beyond every limit takes more iterations than one step has.
+    let (mut making, mut slow) = (0.0, 0);
+    for _ in 0..1000 {
+        let begins = predictive.due && predictive.solver.status() != Status::Running;
+        let running = predictive.solver.status() == Status::Running;
+        making = if begins { 0.001 } else { making + 0.001 };
+        passed(&mut predictive, 1, 6.0);
+        if running && predictive.solver.status() == Status::Solved {
+            assert!((predictive.plan().age - making).abs() < 1e-12, "{} s, {making} s", predictive.plan().age);
+            slow += usize::from(making > 0.0025);
+        }
+    }
+    assert!(slow > 0);
+}
+
+#[test]
+fn a_step_of_up_to_1_ms_has_eight_iterations_and_a_longer_one_more_in_proportion() {
+    let mut before = predictive();
+    passed(&mut before, 1000, 6.0);
+    while !before.due {
+        passed(&mut before, 1, 6.0);
+    }
+    let geometry = Geometry::from(&Rig::default());
+    let advanced = |predictive: &mut Predictive, step: f64| {
+        predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, step);
+        predictive.solver.iterations()
+    };
+    advanced(&mut before, 0.001);
+    for (step, iterations) in [(0.0001, 8), (0.001, 8), (0.0015, 12)] {
+        let mut predictive = before.clone();
+        assert_eq!(advanced(&mut predictive, step), iterations);
+        assert_eq!(predictive.solver.status(), Status::Running);
+    }
+}
+
+#[test]
+fn a_decision_is_that_of_the_block_that_the_plan_has_reached() {
+    let mut predictive = predictive();
+    passed(&mut predictive, 1500, 5.0);
+    // From now on the plan is carried out to its end.
+    passed(&mut predictive, 100, f64::NAN);
+    let mut blocks = [false; BLOCKS];
+    while let Some(block) = predictive.plan.horizon.block_at(predictive.plan.age) {
+        blocks[block] = true;
+        let controls = predictive.plan.controls;
+        let decisions = passed(&mut predictive, 1, f64::NAN).unwrap();
+        for (decision, controls) in decisions.iter().zip(controls) {
+            assert_eq!(decision.dropped_force, controls[block]);
+            assert_eq!(decision.tilt_acceleration, MODEL.acceleration_limit * controls[BLOCKS + block]);
+        }
+    }
+    assert!(blocks[3..].iter().all(|&reached| reached));
+}
+
+#[test]
+fn retuning_is_construction_and_what_cannot_be_used_changes_nothing() {
+    let mut predictive = predictive();
+    passed(&mut predictive, 50, 3.0);
+    while predictive.due || predictive.solver.status() == Status::Running {
+        passed(&mut predictive, 1, 3.0);
+    }
+    let (before, tuning) = (predictive.clone(), predictive.tuning);
+    assert!(predictive.retune(&[MODEL; 2], &tuning));
+    assert_eq!(predictive, before);
+    let unusable = Tuning { weights: Weights { position: f64::NAN, ..tuning.weights }, ..tuning };
+    assert!(!predictive.retune(&[MODEL; 2], &unusable));
+    assert_eq!(predictive, before);
+
+    let models = [AxisModel { position_limit: 0.2, ..MODEL }, MODEL];
+    let other = Tuning { weights: Weights { position: 2.0, ..tuning.weights }, ..tuning };
+    assert!(predictive.retune(&models, &other));
+    let made = Predictive::new(&models, &other).unwrap();
+    assert_eq!((&predictive.programs, predictive.models, predictive.tuning), (&made.programs, models, other));
+    let normals = |predictive: &Predictive| predictive.rows.normals[..2 * AXIS_ROWS].to_vec();
+    assert_eq!(normals(&predictive), normals(&made));
+    // The plan stays until the next one is made.
+    assert!(predictive.due && predictive.plan == before.plan);
+}
+
+#[test]
+fn a_plan_is_made_from_the_same_forecast_by_any_steps() {
+    let observed = |step: usize| {
+        let mut predictive = predictive();
+        predictive.tuning.memory = Memory { fit: 20.0, selection: 1.0 };
+        for k in (0..12_000).step_by(step) {
+            // Constant over 60 ms.
+            let reference = |phase: f64| 2.0 * (0.1 * (k / 60) as f64 + phase).sin();
+            predictive.observe([reference(0.0), reference(1.0)], [0.0; 2], 0.001 * step as f64);
+        }
+        predictive
+    };
+    let fine = observed(1);
+    for step in [4, 15, 20, 30, 60] {
+        let coarse = observed(step);
+        assert!((coarse.until_sample - fine.until_sample).abs() < 1e-9, "{step} ms");
+        for (found, expected) in coarse.forecasters.iter().zip(&fine.forecasters) {
+            let [found, expected] = [found, expected]
+                .map(|forecaster| forecaster.over(Horizon::Near, &fine.tables, ForecastKind::Learned).means);
+            assert!(expected.amax() > 0.1 && (found - expected).amax() < 1e-6, "{step} ms: {found} beside {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_long_preview_is_planned_for_over_the_far_horizon() {
+    let mut predictive = predictive();
+    let course = |count: usize| Course { step: 0.1, count, ..Course::default() };
+    for (counts, lag, horizon) in [
+        ([19, 19], 0.0, Horizon::Near),
+        ([19, 22], 0.0, Horizon::Far),
+        ([22, 19], 0.0, Horizon::Far),
+        ([19, 19], 0.2, Horizon::Far),
+        ([0, 0], 0.0, Horizon::Near),
+    ] {
+        predictive.preview(&counts.map(course));
+        predictive.put_off_preview(lag);
+        predictive.due = true;
+        predictive.solver.abandon();
+        passed(&mut predictive, 1, 0.0);
+        assert_eq!(predictive.horizon, horizon, "{counts:?} elements, {lag} s later");
+        let normals = program::rows(predictive.programs.over(horizon)).normals;
+        assert_eq!(predictive.rows.normals[..2 * AXIS_ROWS], normals[..2 * AXIS_ROWS]);
+    }
+}
+
+/// A plan begun at rest after a second at this reference.
+fn begun(predictive: &mut Predictive, reference: f64, time_to_stop: f64) {
+    let geometry = Geometry::from(&Rig::default());
+    for _ in 0..1000 {
+        predictive.observe([reference; 2], [0.0; 2], 0.001);
+    }
+    predictive.begin(&[AxisState::default(); 2], &surroundings(&geometry), time_to_stop);
+}
+
+#[test]
+fn a_foreseen_stop_ends_the_reference_of_surge_where_no_preview_contains_it() {
+    // Velocities in surge and sway at the far horizon's end, without any control.
+    let ends = |predictive: &Predictive| predictive.free.map(|nodes| nodes[4 * BLOCKS - 3]);
+    let mut plain = predictive();
+    begun(&mut plain, 2.0, 1.5);
+    let [surge, sway] = ends(&plain);
+    assert_eq!(plain.horizon, Horizon::Far);
+    assert!((surge - 3.0).abs() < 1e-9, "2 m/s2 over 1.5 s: {surge} m/s");
+    assert!(sway > 6.0, "2 m/s2 over 6 s, some of it expected to fade: {sway} m/s");
+
+    let mut endless = predictive();
+    begun(&mut endless, 2.0, f64::INFINITY);
+    assert_eq!(endless.horizon, Horizon::Near);
+    let [surge, sway] = ends(&endless);
+    assert!(surge == sway && surge > 4.0, "{surge}, {sway}");
+
+    let mut previewed = predictive();
+    previewed.preview(&[Course { step: 0.5, count: 12, values: [2.0; _], ..Course::default() }; 2]);
+    begun(&mut previewed, 2.0, 1.5);
+    let [surge, sway] = ends(&previewed);
+    assert!(surge == sway && surge > 6.0, "{surge}, {sway}");
+}
+
+#[test]
+fn a_plan_before_that_opposes_the_reference_is_surcharged_in_surge() {
+    let mut predictive = predictive();
+    for controls in &mut predictive.plan.controls {
+        controls.rows_mut(0, 3).fill(-2.0 - 2.0 * OPPOSITE_FORCE);
+    }
+    begun(&mut predictive, 2.0, f64::INFINITY);
+    let inverse = *predictive.factor * predictive.factor.transpose();
+    for (axis, program) in predictive.programs.near.axes.iter().enumerate() {
+        let begin = axis * AXIS_CONTROLS;
+        let mut expected = *program.hessian();
+        for block in 0..3 {
+            expected[(block, block)] += Horizon::Near.durations()[block] * OPPOSITE_SURCHARGE[axis];
+        }
+        let product = expected * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
+        assert!((product - SMatrix::identity()).amax() < 1e-8, "axis {axis}");
+    }
+}
+
+#[test]
+fn the_plan_keeps_the_actuators_within_their_stroke() {
+    let geometry = Geometry::from(&Rig::default());
+    let neutral = surroundings(&geometry);
+    let half = 0.06;
+    let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
+    let narrow = Surroundings { stroke: [middle - half, middle + half], ..neutral };
+    let mut predictive = predictive();
+    for _ in 0..3000 {
+        predictive.decide(&[AxisState::default(); 2], &narrow, f64::INFINITY, 0.001);
+        predictive.observe([5.0, 3.0], [0.0; 2], 0.001);
+    }
+    assert!(!predictive.plan.kept);
+    assert!(predictive.rows.normals.iter().all(|normal| normal.amax() > 0.0), "each row limits something");
+    // The plan is that of the step before, about which the rows are linear.
+    let mut farthest = 0.0_f64;
+    for (node, legs) in leg_rows(&narrow, &predictive.plan.nodes, Horizon::Near).iter().enumerate() {
+        for leg in legs {
+            let along = |axis: usize, state: usize| predictive.plan.nodes[axis][4 * node + state];
+            let length = leg.offset
+                + (0..2).map(|k| leg.by_position[k] * along(k, 0) + leg.by_tilt[k] * along(k, 2)).sum::<f64>();
+            farthest = farthest.max((length - middle).abs());
+            assert!((length - middle).abs() < half + 1e-3, "node {node}: {length} m");
+        }
+    }
+    assert!(farthest > half - 1e-3, "a strong reference must reach a limit: {farthest} m");
+}
+
+#[test]
+fn without_a_new_plan_the_one_before_is_carried_out_to_its_end() {
+    let mut predictive = predictive();
+    passed(&mut predictive, 500, 3.0);
+    // Nothing can be planned for what is not a number.
+    let decisions = passed(&mut predictive, 1000, f64::NAN).expect("the plan reaches 3 s ahead");
+    assert!(predictive.plan().kept);
+    assert!(decisions.iter().all(|decision| decision.dropped_force.is_finite()));
+    assert!((0.9..1.1).contains(&predictive.plan().age));
+    assert_eq!(passed(&mut predictive, 2100, f64::NAN), None);
+}
+
+#[test]
+fn the_plan_keeps_its_rows() {
+    let mut predictive = predictive();
+    passed(&mut predictive, 2000, 6.0);
+    for (axis, program) in predictive.programs.near.axes.iter().enumerate() {
+        let rows = program.rows(&predictive.plan.nodes[axis], &predictive.plan.controls[axis]);
+        assert!(rows.amax() <= 1.0 + 1e-8, "{}", rows.amax());
+        assert!(rows.amax() > 0.999, "a strong reference must reach a limit");
+    }
+}
+
+/// Surge and sway `step` seconds later, if they move by this decision at this reference.
+fn moved(state: &AxisState, decision: &Decision, reference: f64, step: f64) -> AxisState {
+    let AxisState { position, velocity, tilt, tilt_rate } = *state;
+    let Decision { dropped_force, tilt_acceleration } = *decision;
+    let acceleration = reference + dropped_force - MODEL.gravity * tilt + MODEL.head_height * tilt_acceleration;
+    AxisState {
+        position: position + velocity * step,
+        velocity: velocity + acceleration * step,
+        tilt: tilt + tilt_rate * step,
+        tilt_rate: tilt_rate + tilt_acceleration * step,
+    }
+}
+
+#[test]
+fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds() {
+    const STEP: f64 = 0.001;
+    let mut predictive = predictive();
+    let geometry = Geometry::from(&Rig::default());
+    let mut states = [AxisState::default(); 2];
+    let (mut begun, mut limited) = (0, 0);
+    for k in 0..30_000 {
+        let t = f64::from(k) * STEP;
+        let waves = |waves: [(f64, f64); 4]| waves.iter().map(|(a, f)| a * (TAU * f * t).sin()).sum::<f64>();
+        let references =
+            [[(2.5, 0.07), (1.5, 0.21), (0.8, 0.9), (0.3, 11.0)], [(1.8, 0.09), (1.2, 0.33), (0.7, 1.1), (0.3, 13.0)]]
+                .map(waves);
+        let due = predictive.due;
+        let decisions = predictive.decide(&states, &surroundings(&geometry), f64::INFINITY, STEP).unwrap_or_default();
+        if due && predictive.solver.status() == Status::Running && predictive.solver.iterations() == 0 {
+            begun += 1;
+            if begun % 5 == 0 {
+                // The solve begins at the minimum without rows, -J J' times the gradient.
+                let inverse = predictive.factor.try_inverse().unwrap();
+                let gradient = -inverse.tr_mul(&(inverse * predictive.solver.solution()));
+                compare(&Program { factor: *predictive.factor, gradient, rows: (*predictive.rows).clone() });
+            }
+        }
+        limited += usize::from(predictive.plan().iterations > 10);
+        for (axis, state) in states.iter_mut().enumerate() {
+            *state = moved(state, &decisions[axis], references[axis], STEP);
+        }
+        predictive.observe(references, [0.0; 2], STEP);
+    }
+    // The ride is long and demands more than the platform can do.
+    assert!(begun > 1000 && limited > 1000, "{begun} programs, {limited}");
+}
+
+#[test]
+fn only_a_felt_force_against_the_expected_one_is_opposed() {
+    let mut forecast = Forecast::default();
+    forecast.means.fill(-2.0);
+    let mut controls = AxisControls::zeros();
+    controls.as_mut_slice()[..4].copy_from_slice(&[1.0, 2.0, 2.0 + 0.5 * OPPOSITE_FORCE, 5.0]);
+    let opposed = opposition(&forecast, &controls);
+    assert_eq!((opposed[0], opposed[1], opposed[3], opposed[4]), (0.0, 0.0, 1.0, 0.0));
+    assert!((opposed[2] - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn the_factor_is_that_of_the_hessian_with_the_surcharges() {
+    let predictive = predictive();
+    let program = predictive.programs.over(Horizon::Far);
+    let surcharges = [SVector::from_fn(|k, _| 0.1 * k as f64), SVector::repeat(0.3)];
+    let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
+    assert!(program.factorize(&surcharges, &mut factor));
+    // J J' is the inverse of the Hessian.
+    let inverse = factor * factor.transpose();
+    for (k, surcharge) in surcharges.iter().enumerate() {
+        let mut hessian = *program.axes[k].hessian();
+        for block in 0..BLOCKS {
+            hessian[(block, block)] += Horizon::Far.durations()[block] * surcharge[block];
+        }
+        let begin = k * AXIS_CONTROLS;
+        let product = hessian * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
+        assert!((product - SMatrix::identity()).amax() < 1e-8, "{}", (product - SMatrix::identity()).amax());
+    }
+}
+
+#[test]
+fn condensed_nodes_are_those_of_the_block_equations() {
+    let predictive = predictive();
+    let controls = AxisControls::from_fn(|k, _| 0.3 * (k as f64).sin());
+    let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
+    let mut forecast = Forecast::default();
+    forecast.means.fill(0.7);
+    let data = program::data(&state, &forecast);
+    let axis = &predictive.programs.near.axes[0];
+    let nodes = axis.nodes(&axis.free_nodes(&data), &controls);
+    let (mut x, mut v, mut q, mut w) = (0.1, -0.2, 0.05, 0.01);
+    for block in 0..BLOCKS {
+        let alpha = MODEL.acceleration_limit * controls[BLOCKS + block];
+        let steps = 20_000;
+        let step = Horizon::Near.durations()[block] / f64::from(steps);
+        for _ in 0..steps {
+            let middle = q + 0.5 * step * (w + step * alpha / 3.0);
+            let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + controls[block];
+            x += step * (v + 0.5 * step * a);
+            v += step * a;
+            q += step * (w + 0.5 * step * alpha);
+            w += step * alpha;
+        }
+        let expected = [x, v, q, w];
+        for (k, expected) in expected.iter().enumerate() {
+            let found = nodes[4 * block + k];
+            assert!((found - expected).abs() < 1e-8, "block {block}, state {k}: {found}, {expected}");
+        }
+    }
+}
