@@ -400,6 +400,15 @@ mod tests {
     }
 
     #[test]
+    fn data_are_the_start_the_means_and_the_end() {
+        let (state, forecast, _) = example();
+        let AxisState { position, velocity, tilt, tilt_rate } = state;
+        let mut expected = vec![position, velocity, tilt, tilt_rate];
+        expected.extend(forecast.means.iter().chain(&forecast.end));
+        assert_eq!(data(&state, &forecast).as_slice(), expected);
+    }
+
+    #[test]
     fn the_cost_is_that_of_the_regulator() {
         let (state, forecast, controls) = example();
         for horizon in [Horizon::Near, Horizon::Far] {

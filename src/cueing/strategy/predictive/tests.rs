@@ -156,7 +156,7 @@ fn a_long_preview_is_planned_for_over_the_far_horizon() {
     let mut predictive = predictive();
     let course = |count: usize| Course { step: 0.1, count, ..Course::default() };
     for (counts, lag, horizon) in [
-        ([19, 19], 0.0, Horizon::Near),
+        ([20, 20], 0.0, Horizon::Near),
         ([19, 22], 0.0, Horizon::Far),
         ([22, 19], 0.0, Horizon::Far),
         ([19, 19], 0.2, Horizon::Far),
@@ -170,6 +170,21 @@ fn a_long_preview_is_planned_for_over_the_far_horizon() {
         assert_eq!(predictive.horizon, horizon, "{counts:?} elements, {lag} s later");
         let normals = program::rows(predictive.programs.over(horizon)).normals;
         assert_eq!(predictive.rows.normals[..2 * AXIS_ROWS], normals[..2 * AXIS_ROWS]);
+    }
+}
+
+#[test]
+fn each_axis_is_planned_for_its_own_reference() {
+    let geometry = Geometry::from(&Rig::default());
+    for references in [[1.0, 0.0], [0.0, 1.0]] {
+        let mut predictive = predictive();
+        for _ in 0..500 {
+            predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, 0.001);
+            predictive.observe(references, [0.0; 2], 0.001);
+        }
+        for (controls, reference) in predictive.plan.controls.iter().zip(references) {
+            assert_eq!(controls.amax() > 0.01, reference > 0.0, "{controls} for {reference} m/s2");
+        }
     }
 }
 
@@ -233,12 +248,14 @@ fn the_plan_keeps_the_actuators_within_their_stroke() {
     let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
     let narrow = Surroundings { stroke: [middle - half, middle + half], ..neutral };
     let mut predictive = predictive();
+    let states = [AxisState { tilt: 0.05, ..AxisState::default() }, AxisState { tilt: -0.03, ..AxisState::default() }];
     for _ in 0..3000 {
-        predictive.decide(&[AxisState::default(); 2], &narrow, f64::INFINITY, 0.001);
+        predictive.decide(&states, &narrow, f64::INFINITY, 0.001);
         predictive.observe([5.0, 3.0], [0.0; 2], 0.001);
     }
     assert!(!predictive.plan.kept);
     assert!(predictive.rows.normals.iter().all(|normal| normal.amax() > 0.0), "each row limits something");
+    assert!((predictive.rows.upper - predictive.rows.lower).add_scalar(-2.0).amax() < 1e-12);
     // The plan is that of the step before, about which the rows are linear.
     let mut farthest = 0.0_f64;
     for (node, legs) in leg_rows(&narrow, &predictive.plan.nodes, Horizon::Near).iter().enumerate() {
@@ -383,4 +400,23 @@ fn condensed_nodes_are_those_of_the_block_equations() {
             assert!((found - expected).abs() < 1e-8, "block {block}, state {k}: {found}, {expected}");
         }
     }
+}
+
+#[test]
+fn a_solve_of_too_many_iterations_is_abandoned_and_the_plan_before_kept() {
+    let geometry = Geometry::from(&Rig::default());
+    let neutral = surroundings(&geometry);
+    let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
+    let narrow = Surroundings { stroke: [middle - 0.1, middle + 0.1], ..neutral };
+    // Far beyond the limits, where most rows contradict each other.
+    let far = AxisState { position: 0.5, velocity: 0.9, tilt: 0.3, tilt_rate: 0.05 };
+    let mut predictive = predictive();
+    predictive.begin(&[far; 2], &narrow, f64::INFINITY);
+    let before = predictive.plan;
+    for _ in 0..15 {
+        assert_eq!(predictive.solver.status(), Status::Running);
+        predictive.proceed(0.001);
+    }
+    assert_eq!(predictive.solver.status(), Status::Failed);
+    assert_eq!(predictive.plan, Plan { kept: true, iterations: 120, ..before });
 }
