@@ -69,7 +69,8 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
         jacobian.fixed_columns_mut::<3>(3).apply(|entry| *entry /= radius);
         let singular_values = jacobian.svd(false, false).singular_values;
         let condition = singular_values.max() / singular_values.min();
-        failed |= condition.is_nan() || condition > WORST_CONDITION || jacobian.determinant().signum() != neutral_sign;
+        let regular = (1.0..=WORST_CONDITION).contains(&condition);
+        failed |= !regular || jacobian.determinant().signum() != neutral_sign;
         found.smallest_singular_value = found.smallest_singular_value.min(singular_values.min());
         found.worst_condition = found.worst_condition.max(condition);
         !failed

@@ -166,6 +166,21 @@ fn inverts(target: [f64; 6], random: &mut Random) {
 }
 
 #[test]
+fn forward_kinematics_keeps_a_pose_that_fits() {
+    let geometry = geometry();
+    let mut random = Random::new(29);
+    for _ in 0..100 {
+        let mut between = |largest: f64| random.between(-largest, largest);
+        let guess = Pose {
+            position: Vector3::new(between(0.1), between(0.1), 1.2 + between(0.05)),
+            orientation: Orientation::new(RollPitchYaw::new(between(0.2), between(0.2), between(0.2))),
+        };
+        let target = leg_lengths(&geometry, &guess).map(|length| length + 5e-14);
+        assert_eq!(forward_kinematics(&geometry, &target, &guess), Ok(guess));
+    }
+}
+
+#[test]
 fn forward_kinematics_converges_near_a_pitch_of_90_degrees() {
     for degrees in [60.0_f64, 80.0, 85.0, 87.0, 88.5] {
         let pitch = degrees.to_radians();

@@ -401,3 +401,19 @@ fn without_rounding(gap: f64) -> f64 {
 fn sum_of_magnitudes(vector: &Vector3<f64>) -> f64 {
     vector.x.abs() + vector.y.abs() + vector.z.abs()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::turning_point;
+
+    #[test]
+    fn velocity_turns_round_between_opposite_ones_alone() {
+        // v^2/(2a) beyond the start.
+        assert_eq!(turning_point(1.0, 2.0, -1.0, -4.0), 1.5);
+        assert_eq!(turning_point(-1.0, -2.0, 1.0, 4.0), -1.5);
+        // The end of an interval is looked at for itself.
+        for (before, after) in [(2.0, 0.0), (-2.0, 0.0), (2.0, 1.0), (-2.0, -1.0), (0.0, -1.0), (0.0, 1.0)] {
+            assert_eq!(turning_point(1.0, before, after, 4.0), 1.0, "{before} and {after} m/s");
+        }
+    }
+}

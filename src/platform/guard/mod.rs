@@ -205,8 +205,7 @@ impl ActuatorGuard {
 
     /// The time derivative of [`ActuatorGuard::stroke_margin`] \[m/s\].
     pub fn stroke_margin_rate(&self) -> f64 {
-        let nearest = self.margins().fold((f64::INFINITY, 0.0), |a, b| if b.0 < a.0 { b } else { a });
-        nearest.1
+        self.margins().min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |(_, rate)| rate)
     }
 
     /// Each leg's distance from each end of its stroke, and the rate of it.
