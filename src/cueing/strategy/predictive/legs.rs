@@ -108,6 +108,11 @@ pub(super) mod tests {
         }
     }
 
+    /// A leg's length by its row \[m\].
+    pub fn length(row: &LegRow, position: [f64; 2], tilt: [f64; 2]) -> f64 {
+        row.offset + (0..2).map(|k| row.by_position[k] * position[k] + row.by_tilt[k] * tilt[k]).sum::<f64>()
+    }
+
     #[test]
     fn angles_go_on_as_the_high_pass_lets_them_while_the_vehicle_turns_steadily() {
         let geometry = Geometry::from(&Rig::default());
@@ -141,8 +146,7 @@ pub(super) mod tests {
             Surroundings { heave: 0.03, angles: Vector3::new(0.05, -0.04, 0.1), ..surroundings(&geometry) };
         let (position, tilt) = ([0.1, -0.2], [0.15, -0.1]);
         let length = |position: [f64; 2], tilt: [f64; 2], leg: usize| {
-            let row = legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03)[leg];
-            row.offset + (0..2).map(|k| row.by_position[k] * position[k] + row.by_tilt[k] * tilt[k]).sum::<f64>()
+            length(&legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03)[leg], position, tilt)
         };
         let step = 1e-5;
         for (leg, row) in legs_near(&surroundings, &surroundings.angles, position, tilt, 0.03).iter().enumerate() {

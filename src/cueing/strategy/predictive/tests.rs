@@ -4,7 +4,7 @@ use super::*;
 use crate::interface::{Parameters, Rig};
 use crate::platform::Geometry;
 use dual_active_set::tests::{Program, compare};
-use legs::tests::surroundings;
+use legs::tests::{length, surroundings};
 use std::f64::consts::TAU;
 
 const MODEL: AxisModel = AxisModel {
@@ -24,12 +24,49 @@ fn predictive() -> Predictive {
 /// Advances by `steps` steps of 1 ms at this reference. Returns the last step's decisions.
 fn passed(predictive: &mut Predictive, steps: usize, reference: f64) -> Option<[Decision; 2]> {
     let geometry = Geometry::from(&Rig::default());
+    passed_in(predictive, &surroundings(&geometry), steps, &[AxisState::default(); 2], [reference; 2])
+}
+
+/// The same in other surroundings, in these states, and at references of surge and sway.
+fn passed_in(
+    predictive: &mut Predictive,
+    surroundings: &Surroundings,
+    steps: usize,
+    states: &[AxisState; 2],
+    references: [f64; 2],
+) -> Option<[Decision; 2]> {
     let mut decisions = None;
     for _ in 0..steps {
-        decisions = predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, 0.001);
-        predictive.observe([reference; 2], [0.0; 2], 0.001);
+        decisions = predictive.decide(states, surroundings, f64::INFINITY, 0.001);
+        predictive.observe(references, [0.0; 2], 0.001);
     }
     decisions
+}
+
+/// Surroundings in which the legs may leave the middle of their stroke by `half` only.
+fn narrow(geometry: &Geometry, half: f64) -> Surroundings<'_> {
+    let neutral = surroundings(geometry);
+    let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
+    Surroundings { stroke: [middle - half, middle + half], ..neutral }
+}
+
+/// Checks that J J' is the inverse of the program's Hessian with these surcharges.
+fn assert_factor(
+    factor: &SMatrix<f64, CONTROLS, CONTROLS>,
+    program: &program::Program,
+    surcharges: &[SVector<f64, BLOCKS>; 2],
+) {
+    let inverse = factor * factor.transpose();
+    for (k, surcharge) in surcharges.iter().enumerate() {
+        let mut hessian = *program.axes[k].hessian();
+        for block in 0..BLOCKS {
+            hessian[(block, block)] += program.horizon.durations()[block] * surcharge[block];
+        }
+        let begin = k * AXIS_CONTROLS;
+        let product = hessian * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
+        let difference = (product - SMatrix::identity()).amax();
+        assert!(difference < 1e-8, "axis {k}: {difference}");
+    }
 }
 
 #[test]
@@ -51,9 +88,8 @@ fn a_new_plan_is_as_old_as_its_making() {
     // A demand beyond every limit takes more iterations than one step has.
     let (mut making, mut slow) = (0.0, 0);
     for _ in 0..1000 {
-        let begins = predictive.due && predictive.solver.status() != Status::Running;
         let running = predictive.solver.status() == Status::Running;
-        making = if begins { 0.001 } else { making + 0.001 };
+        making = if predictive.due && !running { 0.001 } else { making + 0.001 };
         passed(&mut predictive, 1, 6.0);
         if running && predictive.solver.status() == Status::Solved {
             assert!((predictive.plan().age - making).abs() < 1e-12, "{} s, {making} s", predictive.plan().age);
@@ -178,17 +214,14 @@ fn each_axis_is_planned_for_its_own_reference() {
     let geometry = Geometry::from(&Rig::default());
     for references in [[1.0, 0.0], [0.0, 1.0]] {
         let mut predictive = predictive();
-        for _ in 0..500 {
-            predictive.decide(&[AxisState::default(); 2], &surroundings(&geometry), f64::INFINITY, 0.001);
-            predictive.observe(references, [0.0; 2], 0.001);
-        }
+        passed_in(&mut predictive, &surroundings(&geometry), 500, &[AxisState::default(); 2], references);
         for (controls, reference) in predictive.plan.controls.iter().zip(references) {
             assert_eq!(controls.amax() > 0.01, reference > 0.0, "{controls} for {reference} m/s2");
         }
     }
 }
 
-/// A plan begun at rest after a second at this reference.
+/// Begins a plan at rest after a second at this reference.
 fn begun(predictive: &mut Predictive, reference: f64, time_to_stop: f64) {
     let geometry = Geometry::from(&Rig::default());
     for _ in 0..1000 {
@@ -228,31 +261,19 @@ fn a_plan_before_that_opposes_the_reference_is_surcharged_in_surge() {
         controls.rows_mut(0, 3).fill(-2.0 - 2.0 * OPPOSITE_FORCE);
     }
     begun(&mut predictive, 2.0, f64::INFINITY);
-    let inverse = *predictive.factor * predictive.factor.transpose();
-    for (axis, program) in predictive.programs.near.axes.iter().enumerate() {
-        let begin = axis * AXIS_CONTROLS;
-        let mut expected = *program.hessian();
-        for block in 0..3 {
-            expected[(block, block)] += Horizon::Near.durations()[block] * OPPOSITE_SURCHARGE[axis];
-        }
-        let product = expected * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
-        assert!((product - SMatrix::identity()).amax() < 1e-8, "axis {axis}");
-    }
+    let opposed = SVector::from_fn(|block, _| if block < 3 { 1.0 } else { 0.0 });
+    assert_factor(&predictive.factor, &predictive.programs.near, &OPPOSITE_SURCHARGE.map(|most| most * opposed));
 }
 
 #[test]
 fn the_plan_keeps_the_actuators_within_their_stroke() {
     let geometry = Geometry::from(&Rig::default());
-    let neutral = surroundings(&geometry);
     let half = 0.06;
-    let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
-    let narrow = Surroundings { stroke: [middle - half, middle + half], ..neutral };
+    let narrow = narrow(&geometry, half);
+    let middle = narrow.stroke.iter().sum::<f64>() / 2.0;
     let mut predictive = predictive();
     let states = [AxisState { tilt: 0.05, ..AxisState::default() }, AxisState { tilt: -0.03, ..AxisState::default() }];
-    for _ in 0..3000 {
-        predictive.decide(&states, &narrow, f64::INFINITY, 0.001);
-        predictive.observe([5.0, 3.0], [0.0; 2], 0.001);
-    }
+    passed_in(&mut predictive, &narrow, 3000, &states, [5.0, 3.0]);
     assert!(!predictive.plan.kept);
     assert!(predictive.rows.normals.iter().all(|normal| normal.amax() > 0.0), "each row limits something");
     assert!((predictive.rows.upper - predictive.rows.lower).add_scalar(-2.0).amax() < 1e-12);
@@ -260,9 +281,8 @@ fn the_plan_keeps_the_actuators_within_their_stroke() {
     let mut farthest = 0.0_f64;
     for (node, legs) in leg_rows(&narrow, &predictive.plan.nodes, Horizon::Near).iter().enumerate() {
         for leg in legs {
-            let along = |axis: usize, state: usize| predictive.plan.nodes[axis][4 * node + state];
-            let length = leg.offset
-                + (0..2).map(|k| leg.by_position[k] * along(k, 0) + leg.by_tilt[k] * along(k, 2)).sum::<f64>();
+            let [position, tilt] = [0, 2].map(|state| predictive.plan.nodes.map(|nodes| nodes[4 * node + state]));
+            let length = length(leg, position, tilt);
             farthest = farthest.max((length - middle).abs());
             assert!((length - middle).abs() < half + 1e-3, "node {node}: {length} m");
         }
@@ -358,17 +378,7 @@ fn the_factor_is_that_of_the_hessian_with_the_surcharges() {
     let surcharges = [SVector::from_fn(|k, _| 0.1 * k as f64), SVector::repeat(0.3)];
     let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
     assert!(program.factorize(&surcharges, &mut factor));
-    // J J' is the inverse of the Hessian.
-    let inverse = factor * factor.transpose();
-    for (k, surcharge) in surcharges.iter().enumerate() {
-        let mut hessian = *program.axes[k].hessian();
-        for block in 0..BLOCKS {
-            hessian[(block, block)] += Horizon::Far.durations()[block] * surcharge[block];
-        }
-        let begin = k * AXIS_CONTROLS;
-        let product = hessian * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
-        assert!((product - SMatrix::identity()).amax() < 1e-8, "{}", (product - SMatrix::identity()).amax());
-    }
+    assert_factor(&factor, program, &surcharges);
 }
 
 #[test]
@@ -405,13 +415,10 @@ fn condensed_nodes_are_those_of_the_block_equations() {
 #[test]
 fn a_solve_of_too_many_iterations_is_abandoned_and_the_plan_before_kept() {
     let geometry = Geometry::from(&Rig::default());
-    let neutral = surroundings(&geometry);
-    let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
-    let narrow = Surroundings { stroke: [middle - 0.1, middle + 0.1], ..neutral };
     // Far beyond the limits, where most rows contradict each other.
     let far = AxisState { position: 0.5, velocity: 0.9, tilt: 0.3, tilt_rate: 0.05 };
     let mut predictive = predictive();
-    predictive.begin(&[far; 2], &narrow, f64::INFINITY);
+    predictive.begin(&[far; 2], &narrow(&geometry, 0.1), f64::INFINITY);
     let before = predictive.plan;
     for _ in 0..15 {
         assert_eq!(predictive.solver.status(), Status::Running);
