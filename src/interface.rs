@@ -116,6 +116,8 @@ interface! {
         "predictive.planAge" plan_age: f64 [S] = 0.0;
         /// Iterations that the last plan of the predictive strategy took.
         "predictive.iterations" plan_iterations: i32 = 0;
+        /// True if the soft limits changed the motion during the last communication step.
+        "status.softLimited" soft_limited: bool = false;
     }
 }
 
@@ -308,6 +310,16 @@ interface! {
 }
 
 interface! {
+    /// The soft limits, in front of the safety units and the actuator guard.
+    pub struct SoftLimitParameters: Parameter, Tunable {
+        /// Rate at which the platform may approach a limit: at most this times the distance left per second. 0 is off.
+        "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 100.0 } = 5.0;
+        /// Reserve that is kept at either end of an axis and of an actuator's stroke, at most a quarter of it.
+        "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;
+    }
+}
+
+interface! {
     /// Structure of the filter; fixed after initialisation.
     pub struct StructureParameters: Parameter, Fixed {
         /// Magnitude of gravity.
@@ -441,6 +453,7 @@ interface_tree! {
         adaptive: AdaptiveParameters,
         optimal: OptimalParameters,
         predictive: PredictiveParameters,
+        soft_limit: SoftLimitParameters,
         rig: Rig,
     }
 }

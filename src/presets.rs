@@ -21,6 +21,7 @@ use crate::washout::Washout;
 /// - Rates: cued in full, without a low-pass.
 /// - Compensation by block (4): accelerations only.
 /// - Inputs: held.
+/// - Soft limits: off.
 ///
 /// It is made for smooth rides. Where rates vibrate, the platform turns with them and
 /// shakes the rider's head.
@@ -56,6 +57,7 @@ const OF_THE_PAPER: &[(&str, f64)] = &[
     ("tilt.rateLimit", 0.052_359_877_559_829_88),
     ("tilt.accelerationLimit", 0.2),
     ("tilt.angleLimit", 0.38),
+    ("softLimit.pace", 0.0),
 ];
 
 /// Break frequencies at which tilt reproduces nearly all of an acceleration.
@@ -114,23 +116,23 @@ pub const MOTORCYCLE: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.15),
 ];
 
-/// For cars, which turn slowly and sway hard: the default with less sway, more of the roll and
-/// pitch rates, slower tilt, and heave down to a lower frequency.
+/// For cars, which turn slowly and sway hard: the default with less sway, roll and pitch down to a
+/// lower frequency, slower tilt, and heave down to a lower frequency.
 pub const CAR: &[(&str, f64)] = &[
     ("splitter.x.omega2", 0.35),
     ("splitter.y.omega1", 3.2),
     ("splitter.y.zeta1", 1.8),
     ("splitter.y.omega2", 1.4),
-    ("splitter.z.omega1", 1.5),
+    ("splitter.z.omega1", 3.0),
     ("angular.roll.omega1", 0.35),
     ("angular.pitch.omega1", 0.5),
     ("angular.yaw.omega1", 0.12),
     ("scale.specificForce.x", 0.9),
     ("scale.specificForce.y", 0.6),
-    ("scale.angularVelocity.x", 0.5),
-    ("scale.angularVelocity.y", 0.4),
+    ("scale.angularVelocity.x", 0.25),
+    ("scale.angularVelocity.y", 0.3),
     ("scale.angularVelocity.z", 0.4),
-    ("input.rateCutoff", 45.0),
+    ("input.rateCutoff", 22.0),
     ("tilt.rateLimit", 0.033),
     ("tilt.accelerationLimit", 0.12),
     ("tilt.angleLimit", 0.165),

@@ -11,6 +11,7 @@ use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
+use crate::cueing::soft_limits::{self, SoftLimits};
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::coordinated::Circumstances;
 use crate::cueing::strategy::predictive::preview::Course;
@@ -42,8 +43,8 @@ use crate::validate::{check, check_change};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Washout {
     parameters: Parameters,
-    /// 1: engaged, 0: disengaged, between them: on the way.
-    engagement: f64,
+    /// Fraction of the time to engage that has passed. 1: engaged, 0: disengaged.
+    engaging: f64,
     /// The input at the end of the last step, and its cue.
     last: Sample,
     input_filter: InputFilter,
@@ -51,6 +52,7 @@ pub struct Washout {
     strategy: Strategy,
     angular: AngularChannel,
     direct_linear: DirectLinearMotion,
+    soft_limits: SoftLimits,
     guard: ActuatorGuard,
     felt: Felt,
     limited: Limited,
@@ -79,6 +81,7 @@ impl Sample {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Limited {
     tilt: bool,
+    soft: bool,
     safety: bool,
     actuator: bool,
 }
@@ -92,7 +95,7 @@ struct PreviousStep {
 }
 
 /// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
-pub const ENGAGE_TIME: f64 = 1.0;
+pub const ENGAGE_TIME: f64 = 2.0;
 
 impl Washout {
     /// The washout at rest at neutral.
@@ -108,13 +111,14 @@ impl Washout {
         let at_rest = felt(guard.motion(), &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
-            engagement: 1.0,
+            engaging: 1.0,
             last,
             input_filter: InputFilter::default(),
             preaction: StopPreaction::new(structure.max_step),
             strategy,
             angular: AngularChannel::new(angular, structure.angular_order),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
+            soft_limits: SoftLimits::new(rig),
             guard,
             felt: at_rest,
             limited: Limited::default(),
@@ -126,7 +130,7 @@ impl Washout {
     /// the input is, and the head is where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
         self.last = Sample::new(input.sanitized(), &self.parameters);
-        self.engagement = f64::from(input.engaged);
+        self.engaging = f64::from(input.engaged);
         self.felt = felt(self.guard.motion(), &self.last.head, self.parameters.structure.gravity);
         self.before.felt = self.felt;
         self
@@ -159,7 +163,8 @@ impl Washout {
         if let Some(predictive) = self.strategy.predictive_mut() {
             predictive.preview(&Course::of(preview, |[surge, sway]| {
                 let force = Vector3::new(surge, sway, input.specific_force.z);
-                let cue = self.engagement * cue_force(force, input, conditioning, structure.gravity, head.lean);
+                let cue =
+                    engagement(self.engaging) * cue_force(force, input, conditioning, structure.gravity, head.lean);
                 [cue.x, cue.y]
             }));
         }
@@ -255,7 +260,7 @@ impl Washout {
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
         let beside_tilt = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // Disengaged, the platform does not make up for the rider's lean either.
-        let lean = head_at_end.lean * self.engagement;
+        let lean = head_at_end.lean * engagement(self.engaging);
         let circumstances = || Circumstances {
             parameters: &self.parameters,
             guard: &self.guard,
@@ -263,7 +268,7 @@ impl Washout {
             force: cue_end.force,
             angles: &beside_tilt,
             lean,
-            engagement: self.engagement,
+            engagement: engagement(self.engaging),
             time_to_stop: self.preaction.time_left(),
         };
         match &mut self.strategy {
@@ -285,22 +290,48 @@ impl Washout {
         match &self.strategy {
             Strategy::Classical(_) => demand.add_to_axis(0, self.preaction.surge()),
             Strategy::Coordinated(coordinated) => {
-                let heave = coordinated.heave(&demand.axis(2));
+                let heave = demand.axis(2);
                 let [surge, sway] = coordinated.travel(&circumstances(), &turning, &heave, step);
                 demand = Motion::from_axes(|k| [surge, sway, heave][k]);
             }
         }
-        let linear = self.direct_linear.advance_within_limits(&demand, safety, step);
-
-        let demand = PlatformCoordinates { linear: *linear, angles };
-        let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
+        let mut demand = PlatformCoordinates { linear: demand, angles };
+        let mut motion = PlatformMotion::new(&demand.linear, &turning, rig.neutral_height);
+        let mut legs = self.guard.legs_of(&motion);
+        let soft = self.parameters.soft_limit.pace > 0.0;
+        if soft {
+            let limited = soft_limits::Limited {
+                parameters: &self.parameters.soft_limit,
+                safety,
+                rig,
+                heave: self.strategy.largest_heave(),
+                coordinates: self.guard.coordinates(),
+                legs: self.guard.legs(),
+            };
+            if let Some(softened) = self.soft_limits.soften(&demand, &legs, &limited, step) {
+                demand = softened;
+                motion = demand.motion(rig.neutral_height);
+                legs = self.guard.legs_of(&motion);
+                self.limited.soft = true;
+            }
+        }
+        let linear = self.direct_linear.advance_within_limits(&demand.linear, safety, step);
+        if *linear != demand.linear {
+            demand.linear = *linear;
+            motion = demand.motion(rig.neutral_height);
+            legs = self.guard.legs_of(&motion);
+        }
         self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance(&demand, &motion, safety, step);
+        self.guard.advance_with_legs(&demand, &motion, &legs, safety, step);
         self.felt = felt(self.guard.motion(), head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();
         self.limited.actuator |= self.guard.limited();
-        if self.guard.limited() {
+        if soft {
+            if self.soft_limits.active() || self.direct_linear.follows() || self.guard.limited() {
+                self.continue_from_real(cue_end.rates);
+            }
+        } else if self.guard.limited() {
             let real = &self.guard.coordinates().linear;
             match &self.strategy {
                 Strategy::Classical(_) => self.direct_linear.stay_within(safety, real),
@@ -310,12 +341,35 @@ impl Washout {
         }
     }
 
+    /// Continues the filters from the motion that the platform really makes, where a limit has
+    /// changed it. `rates` are those at the step's end.
+    #[cold]
+    fn continue_from_real(&mut self, rates: Vector3<f64>) {
+        let PlatformCoordinates { linear, angles } = self.guard.coordinates();
+        if self.guard.limited() || self.direct_linear.follows() {
+            self.direct_linear.continue_from(linear);
+        }
+        let mut linear = *linear;
+        if matches!(self.strategy, Strategy::Classical(_)) {
+            let surge = self.preaction.surge();
+            linear.position.x -= surge.position;
+            linear.velocity.x -= surge.velocity;
+        }
+        self.direct_linear.continue_filters_from(&linear);
+        let (mut angle, mut rate) = (angles.position, angles.velocity);
+        for (k, tilt) in self.strategy.tilt().iter().enumerate() {
+            angle[k] -= tilt.position;
+            rate[k] -= tilt.velocity;
+        }
+        self.angular.continue_from(&angle, &rate, rates);
+    }
+
     /// The cue at the step's start and end as the channels receive it: filtered, and faded while
     /// the washout is being engaged or disengaged.
     fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
-        let before = self.engagement;
-        self.engagement = engagement_after(before, engaged, step);
-        let (start, end) = (start.scaled(before), end.scaled(self.engagement));
+        let before = engagement(self.engaging);
+        self.engaging = engaging_after(self.engaging, engaged, step);
+        let (start, end) = (start.scaled(before), end.scaled(engagement(self.engaging)));
         self.input_filter.advance(start, end, &self.parameters.conditioning, step)
     }
 
@@ -323,7 +377,7 @@ impl Washout {
     fn preact(&mut self, start: &mut Cue, end: &mut Cue, input: &Input, step: f64) {
         let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
         if structure.preaction == Preaction::On {
-            let acceleration = self.engagement * forward_acceleration(input, conditioning, structure.gravity);
+            let acceleration = engagement(self.engaging) * forward_acceleration(input, conditioning, structure.gravity);
             let braking = [end.force.x, acceleration, input.speed];
             self.preaction.advance(braking, structure.gravity, tilt, safety, step);
             // The predictive strategy plans for the stop itself.
@@ -348,7 +402,7 @@ impl Washout {
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
         self.last = Sample::new(self.last.input, parameters);
-        let now = self.input_filter.output(self.last.cue.scaled(self.engagement), &parameters.conditioning);
+        let now = self.input_filter.output(self.last.cue.scaled(engagement(self.engaging)), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;
         self.direct_linear.retune(&parameters.splitter, order, force_before, force_after);
@@ -408,6 +462,7 @@ impl Washout {
             plan_kept,
             plan_age,
             plan_iterations,
+            soft_limited: self.limited.soft,
         }
     }
 
@@ -442,10 +497,15 @@ impl Washout {
     }
 }
 
-/// The engagement after `step` seconds on the way to `engaged`.
-fn engagement_after(engagement: f64, engaged: bool, step: f64) -> f64 {
+/// Fraction of the cue in force. It goes without a kink from 0, disengaged, to 1, engaged.
+fn engagement(engaging: f64) -> f64 {
+    engaging * engaging * (3.0 - 2.0 * engaging)
+}
+
+/// The fraction of the time to engage after `step` seconds on the way to `engaged`.
+fn engaging_after(engaging: f64, engaged: bool, step: f64) -> f64 {
     let change = step / ENGAGE_TIME;
-    if engaged { min(engagement + change, 1.0) } else { max(engagement - change, 0.0) }
+    if engaged { min(engaging + change, 1.0) } else { max(engaging - change, 0.0) }
 }
 
 /// The error for a strategy's weights without a numerical solution of the Riccati equation.

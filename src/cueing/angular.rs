@@ -50,6 +50,16 @@ impl AngularChannel {
         self.rates = rates;
         Motion { position: self.chains.first_integral(), velocity: rates, acceleration }
     }
+
+    /// Continues from angles and rates that are not those demanded, at the end of a step to whose
+    /// end the rates `end` led. The angles' difference is washed out like an input, the rates' fades.
+    #[cold]
+    pub fn continue_from(&mut self, angles: &Vector3<f64>, rates: &Vector3<f64>, end: Vector3<f64>) {
+        self.chains.set_first_integral(angles);
+        let demanded = self.chains.high_pass(end + self.offset.value());
+        self.offset.add(rates - demanded);
+        self.rates = *rates;
+    }
 }
 
 fn denominators(parameters: &AngularParameters, order: i32) -> [Denominator; 3] {

@@ -52,6 +52,13 @@ impl DirectLinearMotion {
         }
     }
 
+    /// Continues the filters from a motion that is not the one they demanded. What made the
+    /// difference acts like an input, and is washed out like one.
+    #[cold]
+    pub fn continue_filters_from(&mut self, motion: &Motion<Vector3<f64>>) {
+        self.chains.set_integrals(&motion.velocity, &motion.position);
+    }
+
     /// Surge, sway and heave `step` seconds later that keep the safety limits and come
     /// nearest to the demand.
     pub fn advance_within_limits(
@@ -72,6 +79,11 @@ impl DirectLinearMotion {
     /// Surge, sway and heave now.
     pub fn motion(&self) -> &Motion<Vector3<f64>> {
         self.safety.motion()
+    }
+
+    /// True if a safety unit's motion is not the demanded one.
+    pub fn follows(&self) -> bool {
+        self.safety.follows()
     }
 
     /// Continues from the platform's real motion if the safety units' own is beyond limits

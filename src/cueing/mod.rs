@@ -19,5 +19,6 @@ pub mod evaluator;
 pub mod gravitational;
 pub(crate) mod preaction;
 pub mod safety;
+pub mod soft_limits;
 pub mod splitter;
 pub mod strategy;

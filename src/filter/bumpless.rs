@@ -16,6 +16,11 @@ const TIME_CONSTANT: f64 = 0.5;
 const OVER: f64 = 1e-15;
 
 impl FadingOffset {
+    /// The correction now.
+    pub fn value(&self) -> Vector3<f64> {
+        self.value
+    }
+
     /// Adds a correction.
     pub fn add(&mut self, value: Vector3<f64>) {
         self.value += value;

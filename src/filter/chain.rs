@@ -132,6 +132,21 @@ impl Chains {
         self.state(1)
     }
 
+    /// Sets the first and the second integral of the high-pass.
+    pub fn set_integrals(&mut self, first: &Vector3<f64>, second: &Vector3<f64>) {
+        for (k, state) in self.states.iter_mut().enumerate() {
+            let state = state.as_mut_array();
+            (state[0], state[1]) = (first[k], second[k]);
+        }
+    }
+
+    /// Sets the first integral of the high-pass.
+    pub fn set_first_integral(&mut self, first: &Vector3<f64>) {
+        for (k, state) in self.states.iter_mut().enumerate() {
+            state.as_mut_array()[0] = first[k];
+        }
+    }
+
     /// Only the last term of the low-pass, cn/D of the input: a low-pass without
     /// zeros, for an order of 2.
     pub fn all_pole_low_pass(&self) -> Vector3<f64> {

@@ -5,6 +5,7 @@
 
 mod braking_law;
 mod chain;
+mod comfort;
 mod common;
 mod communication_steps;
 mod compensation;

@@ -39,8 +39,15 @@ fn what_must_be_above_zero_is_refused_at_zero_and_below() {
         if any_sign.iter().any(|prefix| name.starts_with(prefix)) {
             continue;
         }
-        let may_be_zero =
-            ["input.cutoff", "input.rateCutoff", "head.height", "head.torsoLength"].contains(&name.as_str());
+        let may_be_zero = [
+            "input.cutoff",
+            "input.rateCutoff",
+            "head.height",
+            "head.torsoLength",
+            "softLimit.pace",
+            "softLimit.margin",
+        ]
+        .contains(&name.as_str());
         let bad = if may_be_zero { vec![-1.0] } else { vec![-1.0, 0.0] };
         for value in bad {
             let refusal = refusal(&[(&name, value)]);

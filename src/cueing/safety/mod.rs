@@ -49,6 +49,11 @@ impl SafetyUnits {
         self.active != [false; 3]
     }
 
+    /// True if the motion on an axis is not the demanded one.
+    pub fn follows(&self) -> bool {
+        self.following != [false; 3]
+    }
+
     /// Continues from the platform's real motion, where that is not the one that the units gave.
     #[cold]
     pub fn continue_from(&mut self, motion: &Motion<Vector3<f64>>) {

@@ -79,8 +79,8 @@ const NEARLY: f64 = 0.999;
 /// Smallest magnitude of the determinant of the head's axes that is divided by. Only a platform
 /// that is nearly turned on its side has a smaller one.
 const LEAST_DETERMINANT: f64 = 0.1;
-/// Bound on heave under the predictive strategy \[m\]. Heave far below it hardly changes.
-const SOFT_HEAVE: f64 = 0.1;
+/// Largest heave under the predictive strategy \[m\]. More would take the legs' stroke from surge and sway.
+const LARGEST_HEAVE: f64 = 0.1;
 
 impl Coordinated {
     /// At rest at neutral, by the strategy that the parameters choose. None if its
@@ -203,28 +203,33 @@ impl Coordinated {
         beside.z += heave.acceleration + parameters.structure.gravity;
         // The head's x and y, in the base frame: felt = axis . (a + beside).
         let axes = [Vector3::x(), Vector3::y()].map(|axis| rotation * head.to_platform_axes(axis));
-        let needed = [0, 1].map(|k: usize| force[k] + self.dropped_force[k] - axes[k].dot(&beside));
+        let now = &guard.coordinates().linear;
+        // Disengaged, travel returns to neutral, and the rider feels that and the tilt's gravity. The tilt's
+        // acceleration is compensated all the same: it may jump.
+        let returning = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
+        let alone = Vector3::new(returning.x, returning.y, heave.acceleration + parameters.structure.gravity);
+        let needed = [0, 1].map(|k: usize| {
+            let cued = force[k] + self.dropped_force[k];
+            self.fraction * cued + (1.0 - self.fraction) * axes[k].dot(&alone) - axes[k].dot(&beside)
+        });
         let determinant = axes[0].x * axes[1].y - axes[0].y * axes[1].x;
         let divisor = determinant.abs().max(LEAST_DETERMINANT).copysign(determinant);
         let accelerations = [
             (needed[0] * axes[1].y - needed[1] * axes[0].y) / divisor,
             (needed[1] * axes[0].x - needed[0] * axes[1].x) / divisor,
         ];
-        let now = &guard.coordinates().linear;
         [0, 1].map(|k: usize| {
             let now = now.axis(k);
-            let homewards = -RETURN_FREQUENCY * (RETURN_FREQUENCY * now.position + 2.0 * now.velocity);
-            let acceleration = self.fraction * accelerations[k] + (1.0 - self.fraction) * homewards;
             let limits = Limits::safety(&parameters.safety, k, parameters.structure.max_step);
-            flushed(&limits.at_velocity(&now, now.velocity + acceleration * step, step))
+            flushed(&limits.at_velocity(&now, now.velocity + accelerations[k] * step, step))
         })
     }
 
-    /// Heave under this strategy: softly bounded by the predictive one, unchanged by the others.
-    pub fn heave(&self, heave: &Motion) -> Motion {
+    /// The largest heave that the strategy leaves to the heave channel \[m\].
+    pub fn largest_heave(&self) -> f64 {
         match &self.law {
-            Law::Predictive(_) => softened(heave),
-            Law::Adaptive(_) | Law::Optimal(_) => *heave,
+            Law::Predictive(_) => LARGEST_HEAVE,
+            Law::Adaptive(_) | Law::Optimal(_) => f64::INFINITY,
         }
     }
 }
@@ -235,18 +240,6 @@ fn flushed(motion: &Motion) -> Motion {
         position: at_rest_if_tiny(motion.position),
         velocity: at_rest_if_tiny(motion.velocity),
         acceleration: at_rest_if_tiny(motion.acceleration),
-    }
-}
-
-/// z -> L tanh(z/L).
-fn softened(heave: &Motion) -> Motion {
-    let ratio = libm::tanh(heave.position / SOFT_HEAVE);
-    let slope = 1.0 - ratio * ratio;
-    let speed = heave.velocity;
-    Motion {
-        position: SOFT_HEAVE * ratio,
-        velocity: slope * speed,
-        acceleration: slope * (heave.acceleration - 2.0 * ratio * speed * speed / SOFT_HEAVE),
     }
 }
 
@@ -506,24 +499,10 @@ mod tests {
     }
 
     #[test]
-    fn heave_is_bounded_softly_under_the_predictive_strategy_alone() {
-        let at = |time: f64| Motion {
-            position: 0.3 * (2.0 * time).sin(),
-            velocity: 0.6 * (2.0 * time).cos(),
-            acceleration: -1.2 * (2.0 * time).sin(),
-        };
-        let predictive = Coordinated::new(&parameters(StrategyKind::Predictive)).unwrap();
-        for k in 0..100 {
-            const SHIFT: f64 = 1e-5;
-            let time = 0.05 * k as f64;
-            let [before, now, after] = [time - SHIFT, time, time + SHIFT].map(|time| predictive.heave(&at(time)));
-            assert!((now.position - 0.1 * (at(time).position / 0.1).tanh()).abs() < 1e-15);
-            assert!((now.velocity - (after.position - before.position) / (2.0 * SHIFT)).abs() < 1e-7);
-            assert!((now.acceleration - (after.velocity - before.velocity) / (2.0 * SHIFT)).abs() < 1e-5);
-        }
-        for strategy in [StrategyKind::Adaptive, StrategyKind::Optimal] {
-            assert_eq!(Coordinated::new(&parameters(strategy)).unwrap().heave(&at(0.4)), at(0.4));
-        }
+    fn only_the_predictive_strategy_bounds_heave() {
+        let largest = |strategy| Coordinated::new(&parameters(strategy)).unwrap().largest_heave();
+        assert_eq!(largest(StrategyKind::Predictive), 0.1);
+        assert_eq!([StrategyKind::Adaptive, StrategyKind::Optimal].map(largest), [f64::INFINITY; 2]);
     }
 
     #[test]

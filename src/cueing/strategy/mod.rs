@@ -109,6 +109,14 @@ impl Strategy {
         }
     }
 
+    /// The largest heave that the strategy leaves to the heave channel \[m\].
+    pub fn largest_heave(&self) -> f64 {
+        match self {
+            Strategy::Classical(_) => f64::INFINITY,
+            Strategy::Coordinated(coordinated) => coordinated.largest_heave(),
+        }
+    }
+
     /// True if a limit changed the strategy's tilt in the last step.
     pub fn tilt_limited(&self) -> bool {
         match self {

@@ -70,9 +70,14 @@ impl ActuatorGuard {
         }
     }
 
-    /// Advances by `step` seconds. At their end the platform is to move as `demand` says; `motion`
-    /// is the same in the base frame. `safety` are the limits of surge, sway and heave in force.
+    /// The legs of a motion of the platform.
     #[inline(always)]
+    pub fn legs_of(&self, motion: &PlatformMotion) -> Legs {
+        inverse_kinematics(&self.machine.geometry, motion)
+    }
+
+    /// As [`ActuatorGuard::advance_with_legs`], where the demand's legs are not known.
+    #[cfg(test)]
     pub fn advance(
         &mut self,
         demand: &PlatformCoordinates,
@@ -80,8 +85,23 @@ impl ActuatorGuard {
         safety: &SafetyParameters,
         step: f64,
     ) {
-        let legs = inverse_kinematics(&self.machine.geometry, motion);
-        let candidate = Candidate { coordinates: demand, motion, legs: &legs };
+        let legs = self.legs_of(motion);
+        self.advance_with_legs(demand, motion, &legs, safety, step);
+    }
+
+    /// Advances by `step` seconds. At their end the platform is to move as `demand` says; `motion`
+    /// is the same in the base frame, and `legs` are its legs. `safety` are the limits of surge, sway
+    /// and heave in force.
+    #[inline(always)]
+    pub fn advance_with_legs(
+        &mut self,
+        demand: &PlatformCoordinates,
+        motion: &PlatformMotion,
+        legs: &Legs,
+        safety: &SafetyParameters,
+        step: f64,
+    ) {
+        let candidate = Candidate { coordinates: demand, motion, legs };
         if self.limited.is_none()
             && let Some(duration) = self.machine.certify_by_bounds(self.state(), candidate, safety, step)
         {

@@ -1,0 +1,134 @@
+//! The promise to the person: a smooth input is felt smoothly, and the hard limits are not needed.
+
+use moris_washout::{Output, Parameters, Washout, presets};
+use nalgebra::Vector3;
+
+use crate::common::{G, accelerating, ride_between};
+
+/// The sets, and each strategy alone.
+const SETS: [(&str, &[(&str, f64)]); 9] = [
+    ("classical", &[]),
+    ("motorcycle", presets::MOTORCYCLE),
+    ("car", presets::CAR),
+    ("adaptive", presets::ADAPTIVE),
+    ("optimal", presets::OPTIMAL),
+    ("predictive", presets::PREDICTIVE),
+    ("adaptive alone", &[("strategy", 2.0)]),
+    ("optimal alone", &[("strategy", 3.0)]),
+    ("predictive alone", &[("strategy", 4.0)]),
+];
+
+/// Goes from 0 to 1 without a kink in `duration` from `start` on.
+fn smooth(t: f64, start: f64, duration: f64) -> f64 {
+    let u = ((t - start) / duration).clamp(0.0, 1.0);
+    u * u * (3.0 - 2.0 * u)
+}
+
+type Force = fn(f64) -> [f64; 3];
+
+fn brake(t: f64) -> [f64; 3] {
+    let surge = 3.0 * (smooth(t, 3.0, 0.8) - smooth(t, 8.0, 0.8)) - 5.0 * (smooth(t, 14.0, 0.8) - smooth(t, 19.0, 0.8));
+    [surge, 3.0 * (smooth(t, 24.0, 1.0) - smooth(t, 30.0, 1.0)), 0.0]
+}
+
+fn drive(t: f64) -> [f64; 3] {
+    let surge = 1.5 * (0.9 * t).sin() + 0.8 * (2.3 * t).sin();
+    [surge * smooth(t, 0.0, 2.0), 0.8 * (1.3 * t).sin() * smooth(t, 0.0, 2.0), 0.0]
+}
+
+fn heave(t: f64) -> [f64; 3] {
+    [smooth(t, 1.0, 1.0), 0.5 * smooth(t, 1.0, 1.0), 2.0 * (3.0 * t).sin() * smooth(t, 2.0, 2.0)]
+}
+
+fn lateral(t: f64) -> [f64; 3] {
+    let sway = smooth(t, 4.0, 1.0) - smooth(t, 9.0, 1.0) - smooth(t, 16.0, 1.0) + smooth(t, 21.0, 1.0);
+    [0.0, 8.0 * sway, 0.0]
+}
+
+const DRIVES: [(&str, Force); 4] = [("brake", brake), ("drive", drive), ("heave", heave), ("lateral", lateral)];
+
+/// The felt and the desired force every millisecond, and the last outputs of every step.
+fn felt(parameters: &Parameters, force: Force) -> (Vec<[Vector3<f64>; 2]>, Vec<Output>) {
+    let mut washout = Washout::new(parameters).unwrap();
+    let (mut forces, mut outputs) = (Vec::new(), Vec::new());
+    let input = |t: f64| accelerating(force(t)[0], force(t)[1], force(t)[2]);
+    ride_between(&mut washout, 40.0, 0.001, input, |t, output| {
+        forces.push([output.felt_specific_force, input(t).specific_force]);
+        outputs.push(*output);
+    });
+    (forces, outputs)
+}
+
+/// Largest change within 20 ms beyond that of the desired force within 60 ms around it, and largest
+/// magnitude beyond the desired one's.
+fn jolt_and_peak(forces: &[[Vector3<f64>; 2]], axis: usize) -> (f64, f64) {
+    let change = |k: usize, which: usize| (forces[k + 20][which][axis] - forces[k][which][axis]).abs();
+    let mut jolt = 0.0_f64;
+    for k in (0..forces.len() - 20).step_by(5) {
+        let around = k.saturating_sub(20)..=(k + 20).min(forces.len() - 21);
+        let desired = around.step_by(5).map(|k| change(k, 1)).fold(0.0, f64::max);
+        jolt = jolt.max(change(k, 0) - desired);
+    }
+    let still = if axis == 2 { G } else { 0.0 };
+    let largest = |which: usize| forces.iter().map(|pair| (pair[which][axis] - still).abs()).fold(0.0, f64::max);
+    (jolt, largest(0) - largest(1))
+}
+
+#[test]
+fn a_smooth_drive_is_felt_without_jolts_and_peaks() {
+    for (set, changed) in SETS {
+        let parameters = presets::parameters(changed);
+        for (drive, force) in DRIVES {
+            let (forces, outputs) = felt(&parameters, force);
+            for axis in 0..3 {
+                let (jolt, peak) = jolt_and_peak(&forces, axis);
+                assert!(jolt < 0.5, "{set}, {drive}, axis {axis}: jolt of {jolt} m/s2");
+                assert!(peak < 0.75, "{set}, {drive}, axis {axis}: peak of {peak} m/s2");
+            }
+            let hard = outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
+            assert_eq!(hard, 0, "{set}, {drive}: steps at a hard limit");
+        }
+    }
+}
+
+/// Limits that are far away change nothing, to the bit.
+#[test]
+fn soft_limits_that_do_not_act_change_no_bit() {
+    for strategy in [1.0, 2.0, 3.0, 4.0] {
+        let calm: Force = |t| [0.4 * (0.9 * t).sin(), 0.3 * (1.3 * t).sin(), 0.2 * (2.0 * t).sin()];
+        let with = |pace| presets::parameters(&[("strategy", strategy), ("softLimit.pace", pace)]);
+        let (on, off) = (felt(&with(12.0), calm), felt(&with(0.0), calm));
+        assert!(on.1.iter().all(|output| !output.soft_limited), "strategy {strategy}");
+        assert_eq!(on.1, off.1, "strategy {strategy}");
+    }
+}
+
+/// The same ride with and without soft limits: who acts.
+#[test]
+fn soft_limits_act_before_the_hard_ones() {
+    let run = |pace| felt(&presets::parameters(&[("strategy", 3.0), ("softLimit.pace", pace)]), lateral).1;
+    let (on, off) = (run(5.0), run(0.0));
+    assert!(on.iter().any(|output| output.soft_limited));
+    assert!(off.iter().any(|output| output.safety_active || output.actuator_limited));
+    assert!(off.iter().all(|output| !output.soft_limited));
+}
+
+/// Whatever is retuned in flight, the soft limits' own motion ends at neutral.
+#[test]
+fn after_soft_limits_the_platform_comes_back_to_neutral() {
+    for (set, changed) in SETS {
+        let mut washout = Washout::new(&presets::parameters(changed)).unwrap();
+        let mut acted = false;
+        for k in 0..70_000 {
+            let t = f64::from(k) * 0.001;
+            let swell = if t < 10.0 { 6.0 * (2.0 * t).sin() } else { 0.0 };
+            washout.step(&accelerating(swell, 0.8 * swell, swell), 0.001);
+            acted |= washout.output().soft_limited;
+        }
+        let output = washout.output();
+        assert!(acted, "{set}");
+        let away = (output.position - Vector3::new(0.0, 0.0, 1.091)).amax();
+        let angles = output.orientation.to_vector().amax();
+        assert!(away < 5e-3 && angles < 2e-3, "{set}: {away} m, {angles} rad");
+    }
+}
