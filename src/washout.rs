@@ -295,7 +295,8 @@ impl Washout {
         let demand = PlatformCoordinates { linear: *linear, angles };
         let motion = PlatformMotion::new(linear, &turning, rig.neutral_height);
         self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance(&demand, &motion, safety, step);
+        let resting = self.guard.limited() && cue_end.asks_for_no_motion() && lean == 0.0;
+        self.guard.advance(&demand, &motion, safety, resting, step);
         self.felt = felt(self.guard.motion(), head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();
