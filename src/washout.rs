@@ -322,7 +322,8 @@ impl Washout {
             legs = self.guard.legs_of(&motion);
         }
         self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        self.guard.advance_with_legs(&demand, &motion, &legs, safety, step);
+        let resting = self.guard.limited() && cue_end.asks_for_no_motion() && lean == 0.0;
+        self.guard.advance_with_legs(&demand, &motion, &legs, safety, resting, step);
         self.felt = felt(self.guard.motion(), head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();

@@ -22,6 +22,13 @@ impl Cue {
     pub fn scaled(self, factor: f64) -> Self {
         Cue { force: self.force * factor, rates: self.rates * factor }
     }
+
+    /// True if force and rates are too small to be felt.
+    pub fn asks_for_no_motion(&self) -> bool {
+        const FORCE: f64 = 1e-3;
+        const RATE: f64 = 1e-4;
+        self.force.amax() <= FORCE && self.rates.amax() <= RATE
+    }
 }
 
 /// Gravity removed, scaled and limited: the cue in the vehicle's motion at one instant.

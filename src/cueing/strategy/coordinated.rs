@@ -316,7 +316,7 @@ mod tests {
         let demand = PlatformCoordinates { linear, angles: Motion::default() };
         let motion =
             PlatformMotion::new(&linear, &RotationalMotion::new(&demand.angles), parameters.rig.neutral_height);
-        guard.advance(&demand, &motion, &parameters.safety, STEP);
+        guard.advance(&demand, &motion, &parameters.safety, false, STEP);
         assert_eq!(guard.coordinates(), &demand);
         guard
     }

@@ -11,13 +11,14 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::bounds::JointBounds;
+use super::home::Home;
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law::{Limits, ROUNDING, WITH_ROUNDING};
 use crate::motion::min_max::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion};
+use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, leg_lengths};
 
 /// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
 /// accelerations that the legs' rotation causes.
@@ -34,12 +35,14 @@ pub struct Machine {
     pub geometry: Geometry,
     pub neutral_height: f64,
     /// The farthest joint from the platform's origin \[m\].
-    radius: f64,
+    pub(super) radius: f64,
     /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke
     /// by [`stroke_reserve`].
     pub limits: Limits,
     /// Duration of a stop for each m/s of a leg \[s2/m\].
     stop_time_per_speed: f64,
+    /// What the straight way to neutral needs.
+    pub(super) home: Home,
 }
 
 /// A state that the platform may have next: its coordinates, the same as a motion in the
@@ -62,8 +65,8 @@ pub struct State<'a> {
 /// Speed of the platform's origin \[m/s\] and the sum of the angles' rates' magnitudes \[rad/s\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Speed {
-    linear: f64,
-    angular: f64,
+    pub(super) linear: f64,
+    pub(super) angular: f64,
 }
 
 impl Speed {
@@ -74,7 +77,7 @@ impl Speed {
 
     /// A bound on the speed of any joint.
     #[inline(always)]
-    fn of_joints(self, radius: f64) -> f64 {
+    pub(super) fn of_joints(self, radius: f64) -> f64 {
         self.linear + self.angular * radius
     }
 }
@@ -91,17 +94,20 @@ impl Machine {
     /// The machine of a rig; no step will be longer than `longest_step` \[s\].
     pub fn new(rig: &Rig, longest_step: f64) -> Self {
         let reserve = stroke_reserve(rig, longest_step);
+        let geometry = Geometry::from(rig);
+        let limits = Limits {
+            min: rig.min_length + reserve,
+            max: rig.max_length - reserve,
+            velocity: rig.velocity_limit,
+            acceleration: rig.acceleration_limit,
+            longest_step,
+        };
         Machine {
-            geometry: Geometry::from(rig),
+            home: Home::new(&leg_lengths(&geometry, &Pose::neutral(rig)), &limits),
+            geometry,
             neutral_height: rig.neutral_height,
             radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
-            limits: Limits {
-                min: rig.min_length + reserve,
-                max: rig.max_length - reserve,
-                velocity: rig.velocity_limit,
-                acceleration: rig.acceleration_limit,
-                longest_step,
-            },
+            limits,
             stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
         }
     }
@@ -343,7 +349,8 @@ impl Transition {
     }
 }
 
-/// True if surge, sway and heave keep their safety limits at every instant of the transition.
+/// True if surge, sway and heave keep their safety limits at every instant of the transition: on
+/// the trajectory, which ends a gap before the candidate, and at the candidate.
 pub fn axes_keep_limits(
     from: &PlatformCoordinates,
     to: &PlatformCoordinates,
@@ -351,7 +358,7 @@ pub fn axes_keep_limits(
     step: f64,
 ) -> bool {
     let (now, next) = (&from.linear, &to.linear);
-    let Transition { start, gap, .. } = Transition::new(now, next, step);
+    let Transition { start, end, gap } = Transition::new(now, next, step);
     let mut keeps = true;
     for k in 0..3 {
         let (before, after) = (now.velocity[k], next.velocity[k]);
@@ -364,7 +371,8 @@ pub fn axes_keep_limits(
         let fastest = max(safety.velocity_limit[k] * WITH_ROUNDING, before.abs());
         keeps &= max(before.abs(), after.abs()) + gap / step <= fastest;
         let (lowest, highest) = reachable(from, safety, k);
-        keeps &= lowest <= min(next.position[k], turned) && max(next.position[k], turned) <= highest;
+        let (arrived, shown) = (end.position[k], next.position[k]);
+        keeps &= lowest <= min(min(arrived, shown), turned) && max(max(arrived, shown), turned) <= highest;
     }
     keeps
 }
@@ -398,7 +406,7 @@ fn without_rounding(gap: f64) -> f64 {
 }
 
 #[inline(always)]
-fn sum_of_magnitudes(vector: &Vector3<f64>) -> f64 {
+pub(super) fn sum_of_magnitudes(vector: &Vector3<f64>) -> f64 {
     vector.x.abs() + vector.y.abs() + vector.z.abs()
 }
 

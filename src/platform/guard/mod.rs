@@ -6,7 +6,7 @@
 //! does one of two things:
 //!
 //! 1. It accepts a candidate state. Both the transition to it and a stop plan from it are
-//!    certified; that plan is stored.
+//!    certified; that plan is stored. So is the straight way to neutral from the plan's end.
 //! 2. It follows the stored plan, which needs no check.
 //!
 //! The first candidate is the demand itself; others lie between the plan's next state and a
@@ -14,6 +14,7 @@
 
 mod bounds;
 mod certificate;
+mod home;
 mod pursuit;
 #[cfg(test)]
 mod tests;
@@ -51,7 +52,18 @@ struct Limited {
     coordinates: PlatformCoordinates,
     /// Of the legs' lengths, over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
+    /// Time for which the input has been at rest meanwhile \[s\].
+    resting: f64,
+    /// The fraction of its speed with which the platform goes straight home, if it does.
+    homeward: Option<f64>,
 }
+
+/// Time for which the input rests while the platform is kept from its demand, before the platform
+/// goes straight home \[s\].
+const PATIENCE: f64 = 10.0;
+/// Factors on the speed of the way home after a step without and with a certified candidate.
+const SLOWER: f64 = 1.0 / 64.0;
+const FASTER: f64 = 8.0;
 
 impl ActuatorGuard {
     /// At rest at neutral; no step will be longer than `longest_step` \[s\].
@@ -83,15 +95,16 @@ impl ActuatorGuard {
         demand: &PlatformCoordinates,
         motion: &PlatformMotion,
         safety: &SafetyParameters,
+        resting: bool,
         step: f64,
     ) {
         let legs = self.legs_of(motion);
-        self.advance_with_legs(demand, motion, &legs, safety, step);
+        self.advance_with_legs(demand, motion, &legs, safety, resting, step);
     }
 
     /// Advances by `step` seconds. At their end the platform is to move as `demand` says; `motion`
     /// is the same in the base frame, and `legs` are its legs. `safety` are the limits of surge, sway
-    /// and heave in force.
+    /// and heave in force. `resting` tells that the input asks for no motion.
     #[inline(always)]
     pub fn advance_with_legs(
         &mut self,
@@ -99,37 +112,56 @@ impl ActuatorGuard {
         motion: &PlatformMotion,
         legs: &Legs,
         safety: &SafetyParameters,
+        resting: bool,
         step: f64,
     ) {
         let candidate = Candidate { coordinates: demand, motion, legs };
         if self.limited.is_none()
             && let Some(duration) = self.machine.certify_by_bounds(self.state(), candidate, safety, step)
+            && self.machine.sees_home_by_bounds(candidate, duration)
         {
             self.accept(candidate, StopPlan::new(demand, StopDurations::common(duration)));
         } else {
-            self.advance_in_doubt(candidate, safety, step);
+            self.advance_in_doubt(candidate, safety, resting, step);
         }
     }
 
     /// Advances towards a demand that bounds alone do not certify, or that the platform is behind.
     #[cold]
-    fn advance_in_doubt(&mut self, demand: Candidate, safety: &SafetyParameters, step: f64) {
+    fn advance_in_doubt(&mut self, demand: Candidate, safety: &SafetyParameters, resting: bool, step: f64) {
         let joined = self.limited.is_none() || self.has_caught_up(demand, safety, step);
         let followed = self.plan.advanced(step);
-        let plan = if joined { self.certified(demand, &followed, safety, step) } else { None };
+        let plan = if joined { self.certified_to_see_home(demand, &followed, safety, step) } else { None };
         if let Some(plan) = plan {
             self.accept(demand, plan);
             self.limited = None;
             return;
         }
         let before = self.legs;
-        let (next, plan) = self.nearest(demand, followed, safety, step);
+        let (resting, homeward) = self.patience(resting, step);
+        let found = self.nearest(demand, &followed, homeward, safety, step);
+        let homeward =
+            homeward.map(|fraction| if found.is_some() { min(FASTER * fraction, 1.0) } else { SLOWER * fraction });
+        let (next, plan) = found.unwrap_or_else(|| (self.following(&followed, step), followed));
         self.accept(next.candidate(), plan);
         self.limited = Some(Limited {
             demand: *demand.coordinates,
             coordinates: next.coordinates,
             leg_accelerations: std::array::from_fn(|i| (self.legs.velocity[i] - before.velocity[i]) / step),
+            resting,
+            homeward,
         });
+    }
+
+    /// Time for which the input has been at rest, `step` seconds later. Once that is longer than
+    /// [`PATIENCE`] and the platform rests as well, it begins to go straight home, and the fraction
+    /// of its speed is given. It goes on until it joins its demand or the input moves.
+    fn patience(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
+        let Some(Limited { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
+            return (0.0, None);
+        };
+        let at_rest = self.speed == Speed::default();
+        (before + step, homeward.or_else(|| (before >= PATIENCE && at_rest).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
@@ -141,6 +173,20 @@ impl ActuatorGuard {
         let limits = WITH_ROUNDING * safety.velocity_limit;
         let (next, held) = (plan.times_until_within(&limits), followed.times_until_within(&limits));
         (0..3).all(|k| next[k] <= held[k]).then_some(plan)
+    }
+
+    /// As [`ActuatorGuard::certified`], with a certified way home from the end of the stop.
+    fn certified_to_see_home(
+        &self,
+        to: Candidate,
+        followed: &StopPlan,
+        safety: &SafetyParameters,
+        step: f64,
+    ) -> Option<StopPlan> {
+        let plan = self.certified(to, followed, safety, step)?;
+        let [.., duration] = plan.durations().breakpoints();
+        let sees = self.machine.sees_home_by_bounds(to, duration) || self.machine.sees_home(&plan.at(duration));
+        sees.then_some(plan)
     }
 
     /// True if the platform may join the demand. The positions must differ from what the
@@ -196,13 +242,18 @@ impl ActuatorGuard {
         &self.legs
     }
 
-    /// The accelerations of the commanded legs' lengths \[m/s2\]: over the last step while the
-    /// guard limits the motion.
+    /// The accelerations of the commanded legs' lengths \[m/s2\], within their limit.
+    ///
+    /// While the guard limits the motion, they are means over the last step. Otherwise they are
+    /// those of the platform's motion. Where these jump, the legs make the jump over a step, and
+    /// keep their limit with the mean; an acceleration beyond the limit is then given as the limit.
     pub fn leg_accelerations(&self) -> [f64; 6] {
-        match &self.limited {
+        let most = self.machine.limits.acceleration;
+        let accelerations = match &self.limited {
             Some(limited) => limited.leg_accelerations,
             None => leg_accelerations(&self.machine.geometry, &self.motion),
-        }
+        };
+        accelerations.map(|acceleration| acceleration.clamp(-most, most))
     }
 
     /// The motion that the platform makes.

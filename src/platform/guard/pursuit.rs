@@ -29,30 +29,41 @@ impl Trial {
 }
 
 impl ActuatorGuard {
-    /// The certified state nearest to a pursuit of the demand, with its plan. Without one, the next
-    /// state on the plan held; `followed` is that plan at the step's end.
+    /// The certified state nearest to a pursuit of the demand, with its plan, if there is one.
+    /// `followed` is the plan held, at the step's end. With `homeward`, neutral is pursued on the
+    /// straight way there, with this fraction of the speed.
     pub(super) fn nearest(
         &self,
         demand: Candidate,
-        followed: StopPlan,
+        followed: &StopPlan,
+        homeward: Option<f64>,
         safety: &SafetyParameters,
         step: f64,
-    ) -> (Trial, StopPlan) {
+    ) -> Option<(Trial, StopPlan)> {
         let now = self.coordinates();
         let on_plan = followed.now();
-        let pursued = self.pursued(now, demand.legs, safety, step);
-        let certified = |fraction: f64| {
-            let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
-            let plan = self.certified(trial.candidate(), &followed, safety, step)?;
-            Some((trial, plan))
+        let pursued = match homeward {
+            Some(fraction) => self.machine.homeward(now, safety, fraction, step),
+            None => self.pursued(now, demand.legs, safety, step),
         };
-        farthest(certified).unwrap_or_else(|| {
-            let mut coordinates = on_plan;
-            for (after, before) in [(&mut coordinates.linear, &now.linear), (&mut coordinates.angles, &now.angles)] {
-                after.acceleration = (after.velocity - before.velocity) / step;
-            }
-            (self.trial(coordinates), followed)
+        farthest(|fraction| {
+            let trial = self.trial(on_plan.towards(&pursued, fraction, now, step));
+            let plan = match homeward {
+                // A part of a certified way home is certified.
+                Some(_) => self.certified(trial.candidate(), followed, safety, step),
+                None => self.certified_to_see_home(trial.candidate(), followed, safety, step),
+            }?;
+            Some((trial, plan))
         })
+    }
+
+    /// The next state on the plan held; `followed` is that plan at the step's end.
+    pub(super) fn following(&self, followed: &StopPlan, step: f64) -> Trial {
+        let (now, mut next) = (self.coordinates(), followed.now());
+        for (after, before) in [(&mut next.linear, &now.linear), (&mut next.angles, &now.angles)] {
+            after.acceleration = (after.velocity - before.velocity) / step;
+        }
+        self.trial(next)
     }
 
     /// The state that the platform reaches if each leg pursues its target under its own limits, and

@@ -225,6 +225,8 @@ impl Conditions {
     fn axes_keep(&self) -> bool {
         let Case { now, next, step: h } = &self.case;
         (0..3).all(|k| {
+            // The trajectory ends a gap before the candidate.
+            let arrived = next.linear.position[k] - self.gap(&now.linear, &next.linear)[k];
             let gap = size(self.gap(&now.linear, &next.linear)[k]);
             let (before, after) = (now.linear.velocity[k], next.linear.velocity[k]);
             let acceleration = (after - before) / h;
@@ -240,7 +242,9 @@ impl Conditions {
             acceleration.abs() + 2.0 * gap / (h * h) <= allowed
                 && next.linear.acceleration[k].abs() <= allowed
                 && most(before.abs(), after.abs()) + gap / h <= fastest
-                && [next.linear.position[k], turned].iter().all(|position| (lowest..=highest).contains(position))
+                && [next.linear.position[k], arrived, turned]
+                    .iter()
+                    .all(|position| (lowest..=highest).contains(position))
         })
     }
 

@@ -2,6 +2,7 @@
 //! the points looked at.
 
 mod edges;
+mod liveness;
 mod tightened;
 
 use std::cell::Cell;
@@ -305,6 +306,41 @@ fn the_platform_joins_its_demand_where_neither_legs_nor_axes_are_apart() {
     }
 }
 
+/// A demand whose acceleration jumps: the legs keep their limit with the mean over the step.
+#[test]
+fn reported_accelerations_of_the_legs_keep_their_limit() {
+    let rig = Rig { acceleration_limit: 5.0, ..Rig::default() };
+    let mut guard = ActuatorGuard::new(&rig, 0.001);
+    for (acceleration, expected) in [(1.0, None), (-1.0, None), (9.0, Some(5.0)), (-9.0, Some(-5.0))] {
+        let mut demand = PlatformCoordinates::default();
+        demand.linear.acceleration.z = acceleration;
+        guard.advance(&demand, &demand.motion(rig.neutral_height), &SafetyParameters::default(), false, 0.001);
+        assert!(!guard.limited());
+        let exact = leg_accelerations(&guard.machine.geometry, &guard.motion);
+        assert!(exact.iter().all(|exact| exact.abs() > 5.0) == expected.is_some());
+        assert_eq!(guard.leg_accelerations(), exact.map(|exact| expected.unwrap_or(exact)));
+    }
+}
+
+/// The trajectory of a candidate that falls short of it is looked at where it ends, too.
+#[test]
+fn a_trajectory_that_ends_beyond_a_position_limit_is_refused() {
+    let safety = SafetyParameters { position_limit: Vector3::repeat(0.1), ..SafetyParameters::default() };
+    let state = |position: f64, velocity: f64| {
+        let mut state = PlatformCoordinates::default();
+        state.linear.position.y = position;
+        state.linear.velocity.y = velocity;
+        state
+    };
+    let step = 0.01;
+    for (shown, accepted) in [(0.099_99, false), (0.1, false), (0.099_85, true)] {
+        // The trajectory ends 1e-4 m on from its start.
+        let start = if accepted { 0.099_85 } else { 0.099_95 };
+        let [from, to] = [state(start, 0.02), state(shown, 0.0)];
+        assert_eq!(certificate::axes_keep_limits(&from, &to, &safety, step), accepted, "{shown} m");
+    }
+}
+
 #[test]
 fn the_rate_of_the_stroke_margin_is_its_derivative() {
     let (rig, step) = (Rig::default(), 1e-4);
@@ -321,7 +357,7 @@ fn the_rate_of_the_stroke_margin_is_its_derivative() {
     let (mut margins, mut rates) = (Vec::new(), Vec::new());
     for k in 1..=15_000 {
         let demand = at(f64::from(k) * step);
-        guard.advance(&demand, &demand.motion(rig.neutral_height), &SafetyParameters::default(), step);
+        guard.advance(&demand, &demand.motion(rig.neutral_height), &SafetyParameters::default(), false, step);
         margins.push(guard.stroke_margin());
         rates.push(guard.stroke_margin_rate());
     }

@@ -51,7 +51,7 @@ impl Ride {
     fn advance(&mut self, count: usize, safety: &SafetyParameters) {
         let demand = self.demand.at((count + 1) as f64 * self.step);
         let motion: PlatformMotion = demand.motion(self.neutral_height);
-        self.guard.advance(&demand, &motion, safety, self.step);
+        self.guard.advance(&demand, &motion, safety, false, self.step);
     }
 
     fn speeds(&self) -> Vector3<f64> {

@@ -1,0 +1,174 @@
+//! The way home: from where the platform comes to rest, straight to neutral.
+//!
+//! On the way all coordinates are 1 - s times those of its start, s from 0 to 1. Every safety limit
+//! of position holds on it. With D the distance that a joint moves on it at most, W the sum of the
+//! angles' magnitudes and r the farthest joint, the vector g of a leg has |g'| <= D and
+//! |g''| <= W² r. The leg's length L = |g| therefore has
+//!
+//! (L²)'' <= 2 c with c = D² + L W² r, and L'' >= -W² r.
+//!
+//! Between two points of the way, a and b, a function whose second derivative is at most 2 c lies
+//! above the line between its ends by at least -c (s - a)(b - s). It stays above zero if its values
+//! at the ends add up to c (b - a)² or more.
+//!
+//! The way is certified if every leg is inside its stroke by at least s times a clearance. From any
+//! point of a certified way the rest of it is certified as well.
+
+use serde::{Deserialize, Serialize};
+
+use super::certificate::{Candidate, Machine, Speed, sum_of_magnitudes};
+use crate::interface::SafetyParameters;
+use crate::motion::Motion;
+use crate::motion::braking_law::Limits;
+use crate::motion::min_max::{max, min};
+use crate::platform::{PlatformCoordinates, inverse_kinematics};
+
+/// The clearance at neutral, as a fraction of the room that the legs have there.
+const CLEARANCE: f64 = 1.0 / 16.0;
+/// The largest number of points of a way that are looked at, and the largest number of parts into
+/// which it is divided.
+const MOST_POINTS: usize = 16;
+const MOST_PARTS: f64 = 32.0;
+
+/// The legs at neutral.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Home {
+    length: [f64; 6],
+    longest: f64,
+    /// The clearances at neutral from the shortest and the longest length \[m\].
+    clearance: [f64; 2],
+    /// How far beyond their clearances the legs are at least at neutral \[m\].
+    beyond_clearance: [f64; 2],
+    /// 1/(2 times the shortest length) \[1/m\].
+    per_two_lengths: f64,
+}
+
+impl Home {
+    /// For legs that have these lengths at neutral.
+    pub fn new(length: &[f64; 6], limits: &Limits) -> Self {
+        let shortest = length.iter().fold(f64::INFINITY, |least, &length| min(length, least));
+        let longest = length.iter().fold(0.0, |most, &length| max(length, most));
+        let room = [shortest - limits.min, limits.max - longest];
+        Home {
+            length: *length,
+            longest,
+            clearance: room.map(|room| CLEARANCE * room),
+            beyond_clearance: room.map(|room| (1.0 - CLEARANCE) * room),
+            per_two_lengths: 0.5 / limits.min,
+        }
+    }
+}
+
+/// Distances on the straight way to neutral.
+#[derive(Clone, Copy)]
+struct Distance {
+    /// Of any joint, at most \[m\].
+    joint: f64,
+    /// Sum of the angles' magnitudes \[rad\].
+    angular: f64,
+}
+
+impl Distance {
+    #[inline(always)]
+    fn of(coordinates: &PlatformCoordinates, radius: f64) -> Self {
+        let angular = sum_of_magnitudes(&coordinates.angles.position);
+        Distance { joint: coordinates.linear.position.norm() + angular * radius, angular }
+    }
+}
+
+impl Machine {
+    /// True if bounds are enough to certify the way home from the end of a stop that takes this
+    /// duration from the candidate. That stop moves no joint by more than half the duration times
+    /// its speed.
+    #[inline(always)]
+    pub fn sees_home_by_bounds(&self, to: Candidate, duration: f64) -> bool {
+        let Home { longest, beyond_clearance: [below, above], per_two_lengths, .. } = self.home;
+        let speed = Speed::of(to.coordinates);
+        let (travel, turn) = (0.5 * duration * speed.of_joints(self.radius), 0.5 * duration * speed.angular);
+        let distance = Distance::of(to.coordinates, self.radius);
+        let (joint, angular) = (distance.joint + travel, distance.angular + turn);
+        let turning = angular * angular * self.radius;
+        let sag = (joint * joint + (longest + joint) * turning) * per_two_lengths;
+        let lowest = self.limits.min + travel + max(sag - below, 0.0);
+        let highest = self.limits.max - travel - max(0.5 * turning - above, 0.0);
+        let mut sees = true;
+        for length in to.legs.length {
+            sees &= length >= lowest;
+            sees &= length <= highest;
+        }
+        sees
+    }
+
+    /// True if the way home from rest in these coordinates is certified.
+    pub fn sees_home(&self, rest: &PlatformCoordinates) -> bool {
+        let distance = Distance::of(rest, self.radius);
+        let turning = distance.angular * distance.angular * self.radius;
+        let sag = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
+        let [low, high] = self.home.clearance;
+        // Beyond the clearances, at the fraction s of the way: squares of lengths, and lengths.
+        let beyond = |s: f64, lengths: &[f64; 6]| {
+            let shortest = self.limits.min + low * s;
+            let longest = self.limits.max - high * s;
+            lengths.map(|length| [length * length - shortest * shortest, longest - length])
+        };
+        let at = |s: f64| {
+            let coordinates = PlatformCoordinates {
+                linear: Motion { position: rest.linear.position * (1.0 - s), ..Motion::default() },
+                angles: Motion { position: rest.angles.position * (1.0 - s), ..Motion::default() },
+            };
+            beyond(s, &inverse_kinematics(&self.geometry, &coordinates.motion(self.neutral_height)).length)
+        };
+        let neutral = beyond(1.0, &self.home.length);
+        let (mut begin, mut left, mut part) = (0.0, at(0.0), 1.0);
+        for _ in 1..MOST_POINTS {
+            let end = begin + part;
+            let right = if end < 1.0 { at(end) } else { neutral };
+            let least = [sag * part * part, 0.5 * turning * part * part];
+            let certified = (0..6).all(|i| {
+                (0..2).all(|k| left[i][k] >= 0.0 && right[i][k] >= 0.0 && left[i][k] + right[i][k] >= least[k])
+            });
+            if certified && end >= 1.0 {
+                return true;
+            }
+            if certified {
+                (begin, left) = (end, right);
+                part = (2.0 * part).min(1.0 - begin);
+            } else if part * MOST_PARTS > 1.0 {
+                part *= 0.5;
+            } else {
+                return false;
+            }
+        }
+        false
+    }
+    /// The state `step` seconds later on the straight way to neutral. The platform is at rest, or
+    /// moves along that way already. `fraction` reduces speed and acceleration.
+    pub fn homeward(
+        &self,
+        now: &PlatformCoordinates,
+        safety: &SafetyParameters,
+        fraction: f64,
+        step: f64,
+    ) -> PlatformCoordinates {
+        let distance = Distance::of(now, self.radius).joint;
+        // Of the legs' acceleration a part remains for their turning, of every limit a part for rounding.
+        let Limits { min: shortest, velocity, acceleration, longest_step, .. } = self.limits;
+        let mut hardest = 0.25 * acceleration;
+        let mut fastest = min(0.5 * velocity, (0.1 * acceleration * shortest).sqrt());
+        for k in 0..3 {
+            // The joints' travel for each metre on this axis.
+            let ratio = 0.5 * distance / max(now.linear.position[k].abs(), f64::MIN_POSITIVE);
+            hardest = min(safety.acceleration_limit[k] * ratio, hardest);
+            fastest = min(safety.velocity_limit[k] * ratio, fastest);
+        }
+        let along = Limits::symmetric(f64::INFINITY, fraction * fastest, fraction * hardest, longest_step);
+        let travelled =
+            Motion { position: -distance, velocity: Speed::of(now).of_joints(self.radius), acceleration: 0.0 };
+        let speed = along.follow(&travelled, &Motion::default(), along.acceleration, step).velocity;
+        let rate = if distance > 0.0 { max(speed, 0.0) / distance } else { 0.0 };
+        PlatformCoordinates {
+            linear: now.linear.at_velocity(-rate * now.linear.position, step),
+            angles: now.angles.at_velocity(-rate * now.angles.position, step),
+        }
+    }
+}
