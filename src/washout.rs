@@ -107,6 +107,7 @@ impl Washout {
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
         let guard = ActuatorGuard::new(rig, structure.max_step);
         let strategy = Strategy::new(parameters).ok_or_else(|| no_regulator(parameters))?;
+        let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
         let last = Sample::new(Input::default(), parameters);
         let at_rest = felt(guard.motion(), &last.head, structure.gravity);
         Ok(Washout {
@@ -118,7 +119,7 @@ impl Washout {
             strategy,
             angular: AngularChannel::new(angular, structure.angular_order),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
-            soft_limits: SoftLimits::new(rig),
+            soft_limits,
             guard,
             felt: at_rest,
             limited: Limited::default(),
@@ -298,26 +299,19 @@ impl Washout {
         let mut demand = PlatformCoordinates { linear: demand, angles };
         let mut motion = PlatformMotion::new(&demand.linear, &turning, rig.neutral_height);
         let mut legs = self.guard.legs_of(&motion);
-        let soft = self.parameters.soft_limit.pace > 0.0;
+        let soft = self.soft_limits.enabled();
         if soft {
-            let limited = soft_limits::Limited {
-                parameters: &self.parameters.soft_limit,
-                safety,
-                rig,
-                heave: self.strategy.largest_heave(),
-                coordinates: self.guard.coordinates(),
-                legs: self.guard.legs(),
-            };
-            if let Some(softened) = self.soft_limits.soften(&demand, &legs, &limited, step) {
+            let state = soft_limits::State { coordinates: self.guard.coordinates(), legs: self.guard.legs() };
+            if let Some(softened) = self.soft_limits.soften(&demand, &legs, &state, step) {
                 demand = softened;
                 motion = demand.motion(rig.neutral_height);
                 legs = self.guard.legs_of(&motion);
                 self.limited.soft = true;
             }
         }
-        let linear = self.direct_linear.advance_within_limits(&demand.linear, safety, step);
-        if *linear != demand.linear {
-            demand.linear = *linear;
+        let linear = *self.direct_linear.advance_within_limits(&demand.linear, safety, step);
+        if self.direct_linear.follows() {
+            demand.linear = linear;
             motion = demand.motion(rig.neutral_height);
             legs = self.guard.legs_of(&motion);
         }
@@ -402,6 +396,7 @@ impl Washout {
         }
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
+        self.soft_limits = SoftLimits::new(parameters, self.strategy.largest_heave());
         self.last = Sample::new(self.last.input, parameters);
         let now = self.input_filter.output(self.last.cue.scaled(engagement(self.engaging)), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);

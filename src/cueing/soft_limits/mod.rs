@@ -18,10 +18,12 @@ mod tests;
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
+use wide::f64x4;
 
 use self::nearest::{Accelerations, ROWS, RowValues, Rows, Sides, nearest};
-use crate::interface::{Rig, SafetyParameters, SoftLimitParameters};
+use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
+use crate::motion::lanes::lanes;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, jacobian, leg_accelerations};
@@ -31,20 +33,19 @@ use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, jacob
 pub struct SoftLimits {
     geometry: Geometry,
     neutral_height: f64,
+    pace: f64,
+    axis_ends: [Ends; 3],
+    leg_ends: Ends,
+    /// The same of the three axes, the last one twice, and of four legs.
+    axes: FourEnds,
+    legs: FourEnds,
     /// The rows that acted in the last step.
     sides: Sides,
-    inverse_weights: Accelerations,
 }
 
-/// The state and the limits that the ranges follow from.
+/// The platform's coordinates and its legs at a step's start.
 #[derive(Clone, Copy)]
-pub struct Limited<'a> {
-    pub parameters: &'a SoftLimitParameters,
-    pub safety: &'a SafetyParameters,
-    pub rig: &'a Rig,
-    /// The largest heave that the strategy wants \[m\].
-    pub heave: f64,
-    /// The platform's coordinates and its legs at the step's start.
+pub struct State<'a> {
     pub coordinates: &'a PlatformCoordinates,
     pub legs: &'a Legs,
 }
@@ -57,7 +58,7 @@ const ACCELERATION: f64 = 0.95;
 const VELOCITY_PACE: f64 = 25.0;
 
 /// A quantity's limits of position, velocity and acceleration.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Ends {
     min: f64,
     max: f64,
@@ -84,15 +85,64 @@ impl Ends {
     }
 }
 
+/// The ends of four quantities side by side, about the middle of their ranges.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+struct FourEnds {
+    middle: f64x4,
+    half: f64x4,
+    velocity: f64x4,
+    acceleration: f64x4,
+}
+
+impl FourEnds {
+    fn of(ends: [Ends; 4]) -> Self {
+        let four = |value: fn(&Ends) -> f64| f64x4::new(ends.each_ref().map(value));
+        FourEnds {
+            middle: four(|ends| 0.5 * (ends.min + ends.max)),
+            half: four(|ends| 0.5 * (ends.max - ends.min)),
+            velocity: four(|ends| ends.velocity),
+            acceleration: four(|ends| ends.acceleration),
+        }
+    }
+
+    /// True if velocities that change by so much in a step are within [`Ends::range`].
+    #[inline(always)]
+    fn keep(&self, position: f64x4, velocity: f64x4, change: f64x4, pace: f64, step: f64) -> bool {
+        let (damped, drawn, slowed) = (2.0 * pace * step, pace * pace * step, VELOCITY_PACE * step);
+        let mut keep =
+            (self.half * drawn).simd_ge((change + velocity * damped + (position - self.middle) * drawn).abs());
+        keep &= (self.velocity * slowed).simd_ge((change + velocity * slowed).abs());
+        keep &= (self.acceleration * step).simd_ge(change.abs());
+        keep.to_bitmask() == 0b1111
+    }
+}
+
 impl SoftLimits {
-    /// The soft limits of a rig.
-    pub fn new(rig: &Rig) -> Self {
+    /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
+    pub fn new(parameters: &Parameters, heave: f64) -> Self {
+        let Parameters { safety, soft_limit, rig, .. } = parameters;
+        let farthest = |k: usize| if k == 2 { min(safety.position_limit[k], heave) } else { safety.position_limit[k] };
+        let axes = [0, 1, 2].map(|k: usize| {
+            let ends = [-farthest(k), farthest(k)];
+            Ends::new(ends, safety.velocity_limit[k], safety.acceleration_limit[k], soft_limit.margin)
+        });
+        let Rig { min_length, max_length, velocity_limit, acceleration_limit, .. } = *rig;
+        let leg = Ends::new([min_length, max_length], velocity_limit, acceleration_limit, soft_limit.margin);
         SoftLimits {
             geometry: Geometry::from(rig),
             neutral_height: rig.neutral_height,
+            pace: soft_limit.pace,
+            axis_ends: axes,
+            leg_ends: leg,
+            axes: FourEnds::of([axes[0], axes[1], axes[2], axes[2]]),
+            legs: FourEnds::of([leg; 4]),
             sides: Sides::default(),
-            inverse_weights: Accelerations::from(WEIGHTS.map(|weight| 1.0 / weight)),
         }
+    }
+
+    /// True unless they are switched off.
+    pub fn enabled(&self) -> bool {
+        self.pace > 0.0
     }
 
     /// True if the demand was changed in the last step.
@@ -107,24 +157,43 @@ impl SoftLimits {
         &mut self,
         demand: &PlatformCoordinates,
         legs: &Legs,
-        limited: &Limited,
+        state: &State,
         step: f64,
     ) -> Option<PlatformCoordinates> {
-        if limited.keep(demand, legs, step) {
-            self.sides = Sides::default();
+        if self.keeps(demand, legs, state, step) {
+            if self.sides.any() {
+                self.sides = Sides::default();
+            }
             return None;
         }
-        self.softened(demand, limited, step)
+        self.softened(demand, state, step)
+    }
+
+    /// True if the mean accelerations of axes and legs over the step are within their ranges.
+    #[inline(always)]
+    fn keeps(&self, demand: &PlatformCoordinates, legs: &Legs, state: &State, step: f64) -> bool {
+        let (axes, before) = (&demand.linear.velocity, &state.coordinates.linear);
+        let change = lanes(axes) - lanes(&before.velocity);
+        let mut keeps = self.axes.keep(lanes(&before.position), lanes(&before.velocity), change, self.pace, step);
+        // The six legs, of which the middle two are in both fours.
+        let four = |values: &[f64; 6], from: usize| f64x4::new(std::array::from_fn(|i| values[from + i]));
+        for from in [0, 2] {
+            let velocity = four(&state.legs.velocity, from);
+            let change = four(&legs.velocity, from) - velocity;
+            keeps &= self.legs.keep(four(&state.legs.length, from), velocity, change, self.pace, step);
+        }
+        keeps
     }
 
     #[cold]
-    fn softened(&mut self, demand: &PlatformCoordinates, limited: &Limited, step: f64) -> Option<PlatformCoordinates> {
-        let PlatformCoordinates { linear, angles } = limited.coordinates;
+    fn softened(&mut self, demand: &PlatformCoordinates, state: &State, step: f64) -> Option<PlatformCoordinates> {
+        let PlatformCoordinates { linear, angles } = state.coordinates;
         let change = (demand.linear.velocity - linear.velocity) / step;
         let turn = (demand.angles.velocity - angles.velocity) / step;
         let demanded = Accelerations::new(change.x, change.y, change.z, turn.x, turn.y, turn.z);
-        let rows = self.rows(limited);
-        let nearest = nearest(&demanded, &self.inverse_weights, &rows, &mut self.sides);
+        let rows = self.rows(state);
+        let inverse_weights = Accelerations::from(WEIGHTS.map(|weight| 1.0 / weight));
+        let nearest = nearest(&demanded, &inverse_weights, &rows, &mut self.sides);
         if !self.sides.any() {
             return None;
         }
@@ -135,8 +204,8 @@ impl SoftLimits {
     }
 
     /// The ranges of the accelerations. A leg's is J c and what remains without accelerations.
-    fn rows(&self, limited: &Limited) -> Rows {
-        let PlatformCoordinates { linear, angles } = limited.coordinates;
+    fn rows(&self, state: &State) -> Rows {
+        let PlatformCoordinates { linear, angles } = state.coordinates;
         let coasting = PlatformCoordinates {
             linear: Motion { acceleration: Vector3::zeros(), ..*linear },
             angles: Motion { acceleration: Vector3::zeros(), ..*angles },
@@ -156,47 +225,13 @@ impl SoftLimits {
         normals.fixed_view_mut::<6, 3>(3, 0).copy_from(&jacobian.fixed_columns::<3>(0));
         normals.fixed_view_mut::<6, 3>(3, 3).copy_from(&by_angles);
         let (mut lower, mut upper) = (RowValues::zeros(), RowValues::zeros());
-        for row in 0..ROWS {
-            let ((least, most), remaining) = match row {
-                0..3 => (limited.axis_range(row), 0.0),
-                _ => (limited.leg_range(row - 3), remaining[row - 3]),
-            };
-            (lower[row], upper[row]) = (least - remaining, most - remaining);
-        }
-        Rows { normals, lower, upper }
-    }
-}
-
-impl Limited<'_> {
-    /// True if the mean accelerations of axes and legs over the step are within their ranges.
-    #[inline(always)]
-    fn keep(&self, demand: &PlatformCoordinates, legs: &Legs, step: f64) -> bool {
-        let mut keep = true;
         for k in 0..3 {
-            let (least, most) = self.axis_range(k);
-            let change = demand.linear.velocity[k] - self.coordinates.linear.velocity[k];
-            keep &= (least * step <= change) & (change <= most * step);
+            (lower[k], upper[k]) = self.axis_ends[k].range(linear.position[k], linear.velocity[k], self.pace);
         }
         for i in 0..6 {
-            let (least, most) = self.leg_range(i);
-            let change = legs.velocity[i] - self.legs.velocity[i];
-            keep &= (least * step <= change) & (change <= most * step);
+            let (least, most) = self.leg_ends.range(state.legs.length[i], state.legs.velocity[i], self.pace);
+            (lower[3 + i], upper[3 + i]) = (least - remaining[i], most - remaining[i]);
         }
-        keep
-    }
-
-    #[inline(always)]
-    fn axis_range(&self, k: usize) -> (f64, f64) {
-        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = self.safety;
-        let farthest = if k == 2 { min(position_limit[k], self.heave) } else { position_limit[k] };
-        let ends = Ends::new([-farthest, farthest], velocity_limit[k], acceleration_limit[k], self.parameters.margin);
-        ends.range(self.coordinates.linear.position[k], self.coordinates.linear.velocity[k], self.parameters.pace)
-    }
-
-    #[inline(always)]
-    fn leg_range(&self, i: usize) -> (f64, f64) {
-        let Rig { min_length, max_length, velocity_limit, acceleration_limit, .. } = *self.rig;
-        let ends = Ends::new([min_length, max_length], velocity_limit, acceleration_limit, self.parameters.margin);
-        ends.range(self.legs.length[i], self.legs.velocity[i], self.parameters.pace)
+        Rows { normals, lower, upper }
     }
 }

@@ -3,12 +3,17 @@
 use nalgebra::{Cholesky, SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
+use crate::motion::min_max::{max, min};
+
 /// Accelerations of surge, sway, heave \[m/s2\], roll, pitch and yaw \[rad/s2\].
 pub type Accelerations = SVector<f64, 6>;
 /// Surge, sway, heave and the six legs.
 pub const ROWS: usize = 9;
 /// A value for each row.
 pub type RowValues = SVector<f64, ROWS>;
+
+/// A W^-1 A' of the rows' normals A.
+type Gram = SMatrix<f64, ROWS, ROWS>;
 
 /// Ranges of linear combinations of the accelerations: lower <= normals c <= upper.
 #[derive(Clone, Copy, Debug)]
@@ -32,10 +37,12 @@ impl Sides {
 /// Weight of a violated row's square, beside weights of about 1 of the accelerations. Rows that
 /// contradict each other are violated a little instead of not being solved.
 pub const PENALTY: f64 = 1e4;
-/// Trials in which all rows that are wrong change at once; then one a trial, which ends for certain
-/// in exact arithmetic (Murty's method for a positive definite matrix).
-const TRIALS_AT_ONCE: usize = 8;
-const MOST_TRIALS: usize = 40;
+/// Trials in which all rows that are wrong change at once, before they change one by one.
+const TRIALS_AT_ONCE: usize = 6;
+/// Changes one by one; random programs take 20 at most.
+const MOST_CHANGES: usize = 60;
+/// Multiplier that counts as zero.
+const ZERO: f64 = 1e-12;
 /// Violation that counts as rounding \[m/s2\].
 const RESOLVED: f64 = 1e-9;
 
@@ -45,7 +52,8 @@ const RESOLVED: f64 = 1e-9;
 ///
 /// The dual is solved by principal pivoting: with the acting rows S, their multipliers solve
 /// (A W^-1 A' + I/penalty)_SS lambda = (A demand - bound)_S. A row of S whose multiplier has the wrong
-/// sign leaves, another that is violated enters.
+/// sign leaves, another that is violated enters. From one step to the next few rows change, so a
+/// trial or two are enough; where this goes round in circles, rows change [`one_by_one`].
 pub fn nearest(
     demand: &Accelerations,
     inverse_weights: &Accelerations,
@@ -55,30 +63,68 @@ pub fn nearest(
     let moved = SMatrix::<f64, 6, ROWS>::from_fn(|k, row| inverse_weights[k] * rows.normals[(row, k)]);
     let gram = rows.normals * moved;
     let demanded = rows.normals * demand;
-    let mut multipliers = RowValues::zeros();
-    for trial in 0..MOST_TRIALS {
-        let Some(found) = multipliers_of(&gram, &demanded, rows, sides) else { break };
-        multipliers = found;
+    let multipliers = all_at_once(&gram, &demanded, rows, sides).or_else(|| one_by_one(&gram, &demanded, rows, sides));
+    demand - moved * multipliers.unwrap_or_default()
+}
+
+/// A row's side if it is beyond its range.
+fn violated(value: f64, rows: &Rows, row: usize) -> i8 {
+    i8::from(value > rows.upper[row] + RESOLVED) - i8::from(value < rows.lower[row] - RESOLVED)
+}
+
+/// Principal pivoting from these sides on. None if it does not end soon.
+fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides) -> Option<RowValues> {
+    for _ in 0..TRIALS_AT_ONCE {
+        let multipliers = multipliers_of(gram, demanded, rows, sides)?;
         let values = demanded - gram * multipliers;
-        let mut wrong = 0;
+        let before = *sides;
         for row in 0..ROWS {
-            let side = match sides.0[row] {
-                0 if values[row] > rows.upper[row] + RESOLVED => 1,
-                0 if values[row] < rows.lower[row] - RESOLVED => -1,
+            sides.0[row] = match sides.0[row] {
+                0 => violated(values[row], rows, row),
                 side if f64::from(side) * multipliers[row] < 0.0 => 0,
-                _ => continue,
+                side => side,
             };
-            wrong += 1;
-            sides.0[row] = side;
-            if trial >= TRIALS_AT_ONCE {
-                break;
-            }
         }
-        if wrong == 0 {
-            break;
+        if *sides == before {
+            return Some(multipliers);
         }
     }
-    demand - moved * multipliers
+    None
+}
+
+/// Lawson and Hanson's method: the row that is violated most enters, and rows leave whose multipliers
+/// reach zero on the way to the next ones. The dual cost falls with each change, so it ends.
+fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides) -> Option<RowValues> {
+    *sides = Sides::default();
+    let mut multipliers = RowValues::zeros();
+    for _ in 0..MOST_CHANGES {
+        let values = demanded - gram * multipliers;
+        let beyond = |row: usize| max(values[row] - rows.upper[row], rows.lower[row] - values[row]);
+        let inside = (0..ROWS).filter(|row| sides.0[*row] == 0);
+        let worst = inside.max_by(|a, b| beyond(*a).total_cmp(&beyond(*b)));
+        let Some(worst) = worst.filter(|row| violated(values[*row], rows, *row) != 0) else { break };
+        sides.0[worst] = violated(values[worst], rows, worst);
+        // Each round but the last takes out a row.
+        for _ in 0..ROWS {
+            let next = multipliers_of(gram, demanded, rows, sides)?;
+            let mut fraction = 1.0;
+            for row in 0..ROWS {
+                if f64::from(sides.0[row]) * next[row] < 0.0 {
+                    fraction = min(multipliers[row] / (multipliers[row] - next[row]), fraction);
+                }
+            }
+            multipliers += fraction * (next - multipliers);
+            if fraction == 1.0 {
+                break;
+            }
+            for row in 0..ROWS {
+                if f64::from(sides.0[row]) * multipliers[row] <= ZERO {
+                    (sides.0[row], multipliers[row]) = (0, 0.0);
+                }
+            }
+        }
+    }
+    Some(multipliers)
 }
 
 /// The multipliers if exactly the rows of `sides` act; zero for the others.
