@@ -23,7 +23,7 @@ use super::optimal::Optimal;
 use super::predictive::legs::Surroundings;
 use super::predictive::{Plan, Predictive};
 use super::regulator::AxisModel;
-use super::{AxisState, at_rest_if_tiny};
+use super::{AxisState, Decision, at_rest_if_tiny};
 use crate::cueing::compensation::{centripetal, tangential};
 use crate::interface::{Parameters, StrategyKind};
 use crate::motion::Motion;
@@ -44,6 +44,9 @@ pub struct Coordinated {
     dropped_force: [f64; 2],
     /// Fraction of the law in force; the rest returns to neutral.
     fraction: f64,
+    /// 1: the law decides, 0: it has nothing to decide by, as after the end of a plan; between
+    /// them: on the way.
+    decided: f64,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,6 +77,8 @@ pub struct Circumstances<'a> {
 
 /// Disengaged, travel returns to neutral critically damped at this frequency \[rad/s\].
 const RETURN_FREQUENCY: f64 = 1.0;
+/// Time over which the return to neutral fades in after a plan's end \[s\].
+const DECISION_FADE: f64 = 1.0;
 /// A tilt within this fraction of its angle's or rate's limit counts as limited.
 const NEARLY: f64 = 0.999;
 /// Smallest magnitude of the determinant of the head's axes that is divided by. Only a platform
@@ -103,6 +108,7 @@ impl Coordinated {
             limited: false,
             dropped_force: [0.0; 2],
             fraction: 1.0,
+            decided: 1.0,
         })
     }
 
@@ -168,8 +174,12 @@ impl Coordinated {
                 decisions
             }
         };
-        let fraction = if decisions.is_some() { engagement } else { 0.0 };
-        let decisions = decisions.unwrap_or_default();
+        // Where a law has nothing to decide by, the dropped force stays while the return fades in.
+        let change = step / DECISION_FADE;
+        self.decided = (self.decided + if decisions.is_some() { change } else { -change }).clamp(0.0, 1.0);
+        let fraction = self.decided * engagement;
+        let decisions = decisions
+            .unwrap_or(self.dropped_force.map(|dropped_force| Decision { dropped_force, tilt_acceleration: 0.0 }));
         let tilt = &parameters.tilt;
         let longest_step = parameters.structure.max_step;
         let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, longest_step);
@@ -254,15 +264,17 @@ impl Circumstances<'_> {
     }
 
     fn surroundings<'a>(&'a self, geometry: &'a Geometry) -> Surroundings<'a> {
-        let Parameters { rig, predictive, angular, .. } = self.parameters;
-        let stroke = [rig.min_length, rig.max_length];
-        // A margin of half the stroke would leave nothing: at most a quarter is kept.
-        let margin = predictive.leg_margin.min(0.25 * (rig.max_length - rig.min_length));
+        let Parameters { rig, predictive, angular, splitter, .. } = self.parameters;
+        let linear = &self.guard.coordinates().linear;
         Surroundings {
             geometry,
             neutral_height: rig.neutral_height,
-            stroke: [stroke[0] + margin, stroke[1] - margin],
-            heave: self.guard.coordinates().linear.position.z,
+            stroke: [rig.min_length, rig.max_length],
+            margin: predictive.leg_margin,
+            heave: linear.position.z,
+            heave_velocity: linear.velocity.z,
+            heave_bound: SOFT_HEAVE,
+            heave_frequency: splitter.omega1.z,
             angles: self.angles.position,
             angle_rates: self.angles.velocity,
             frequencies: Vector3::new(angular.omega1.roll, angular.omega1.pitch, angular.omega1.yaw),
@@ -506,19 +518,51 @@ mod tests {
     }
 
     #[test]
+    fn after_a_plans_end_the_dropped_force_stays_while_the_return_fades_in() {
+        let parameters = parameters(StrategyKind::Predictive);
+        in_circumstances(&parameters, 1.0, |circumstances| {
+            let angles = Motion::default();
+            let circumstances =
+                &Circumstances { force: Vector3::new(4.0, 2.0, 9.8), angles: &angles, lean: 0.0, ..*circumstances };
+            let mut coordinated = Coordinated::new(&parameters).unwrap();
+            for _ in 0..250 {
+                coordinated.advance_tilt(circumstances, STEP);
+            }
+            // Nothing can be planned for what is not a number.
+            let force = Vector3::new(f64::NAN, f64::NAN, 9.8);
+            let unknown = Circumstances { force, ..*circumstances };
+            let mut before = coordinated.clone();
+            let (mut fading, mut largest) = (0, 0.0_f64);
+            for _ in 0..1100 {
+                coordinated.advance_tilt(&unknown, STEP);
+                assert!((coordinated.fraction - before.fraction).abs() < 1.001 * STEP);
+                if coordinated.fraction < 1.0 {
+                    fading += 1;
+                    assert_eq!(coordinated.dropped_force, before.dropped_force);
+                    largest = largest.max(coordinated.dropped_force[0].abs());
+                }
+                before = coordinated.clone();
+            }
+            assert!(coordinated.fraction == 0.0 && fading > 250 && largest > 0.01, "{fading} steps, {largest} m/s2");
+        });
+    }
+
+    #[test]
     fn plans_keep_a_margin_from_the_ends_of_the_strokes() {
         let mut parameters = parameters(StrategyKind::Predictive);
         parameters.angular.omega1.pitch *= 2.0;
         parameters.angular.omega1.yaw *= 3.0;
-        for (margin, kept) in [(0.02, 0.02), (10.0, 0.15)] {
+        // Of the room at neutral, whose length is 0.04 mm below the stroke's middle, half is left.
+        for (margin, kept, rounding) in [(0.02, 0.02, 1e-12), (10.0, 0.15, 2e-5)] {
             parameters.predictive.leg_margin = margin;
             in_circumstances(&parameters, 1.0, |circumstances| {
                 let geometry = Geometry::from(&parameters.rig);
                 let surroundings = circumstances.surroundings(&geometry);
-                for (found, expected) in surroundings.stroke.into_iter().zip([1.0 + kept, 1.6 - kept]) {
-                    assert!((found - expected).abs() < 1e-12, "{found} m beside {expected}");
+                for (found, expected) in surroundings.planned_stroke().into_iter().zip([1.0 + kept, 1.6 - kept]) {
+                    assert!((found - expected).abs() < rounding, "{found} m beside {expected}");
                 }
-                assert_eq!(surroundings.heave, circumstances.guard.coordinates().linear.position.z);
+                let heave = circumstances.guard.coordinates().linear.axis(2);
+                assert_eq!((surroundings.heave, surroundings.heave_velocity), (heave.position, heave.velocity));
                 let omega = parameters.angular.omega1;
                 assert_eq!(surroundings.frequencies, Vector3::new(omega.roll, omega.pitch, omega.yaw));
             });

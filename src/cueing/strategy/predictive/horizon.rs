@@ -1,4 +1,5 @@
-//! The plan's horizon: blocks over which dropped force and tilt acceleration are constant.
+//! The plan's horizon: blocks over which the dropped force is linear and the tilt acceleration
+//! constant.
 
 use serde::{Deserialize, Serialize};
 

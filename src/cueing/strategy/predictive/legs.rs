@@ -13,10 +13,17 @@ pub struct Surroundings<'a> {
     pub geometry: &'a Geometry,
     /// Height of the platform's origin at neutral \[m\].
     pub neutral_height: f64,
-    /// Shortest and longest length of an actuator in a plan \[m\].
+    /// Shortest and longest length of an actuator \[m\].
     pub stroke: [f64; 2],
-    /// Heave from neutral \[m\].
+    /// Reserve of a plan at either end of the stroke \[m\].
+    pub margin: f64,
+    /// Heave from neutral \[m\] and its velocity \[m/s\].
     pub heave: f64,
+    pub heave_velocity: f64,
+    /// Bound on heave \[m\].
+    pub heave_bound: f64,
+    /// Break frequency of heave's high-pass \[rad/s\].
+    pub heave_frequency: f64,
     /// Roll, pitch and yaw beside the tilt \[rad\] and their rates \[rad/s\].
     pub angles: Vector3<f64>,
     pub angle_rates: Vector3<f64>,
@@ -35,30 +42,53 @@ pub struct LegRow {
     pub by_tilt: [f64; 2],
 }
 
-/// Heave is expected to stay for the first time, and to fade with the second as time constant
-/// \[s\].
-const HEAVE_STAYS: f64 = 0.1;
-const HEAVE_FADES: f64 = 0.4;
+/// Frequency at which heave returns to neutral, relative to its high-pass's break frequency: it
+/// returns more slowly than by itself, since what moves it lasts for a time.
+const HEAVE_RETURN: f64 = 0.4;
 
 impl Surroundings<'_> {
+    /// Shortest and longest length of an actuator in a plan \[m\].
+    ///
+    /// The margin at an end takes at most half the room that the actuators have there at neutral.
+    /// So neutral is always within these lengths.
+    pub fn planned_stroke(&self) -> [f64; 2] {
+        let pose = Pose {
+            position: Vector3::new(0.0, 0.0, self.neutral_height),
+            orientation: Orientation::new(RollPitchYaw::default()),
+        };
+        let lengths = leg_lengths(self.geometry, &pose);
+        let [shortest, longest] = [f64::min, f64::max].map(|pick| lengths.iter().copied().fold(lengths[0], pick));
+        let [min, max] = self.stroke;
+        [min + self.margin.min(0.5 * (shortest - min).max(0.0)), max - self.margin.min(0.5 * (max - longest).max(0.0))]
+    }
+
+    /// Heave after `time` seconds: it returns to neutral critically damped.
+    fn heave_after(&self, time: f64) -> f64 {
+        let frequency = HEAVE_RETURN * self.heave_frequency;
+        let heave = free_response(self.heave, self.heave_velocity, frequency, time);
+        heave.clamp(-self.heave_bound, self.heave_bound)
+    }
+
     /// Roll, pitch and yaw beside the tilt after `time` seconds, if the vehicle goes
     /// on turning as it does.
     ///
     /// They are the free response of a second-order high-pass with damping 1. It stands for the
     /// angular channel's other filters too.
     fn angles_after(&self, time: f64) -> Vector3<f64> {
-        Vector3::from_fn(|k, _| {
-            let (angle, frequency) = (self.angles[k], self.frequencies[k]);
-            (angle + (self.angle_rates[k] + frequency * angle) * time) * libm::exp(-frequency * time)
-        })
+        Vector3::from_fn(|k, _| free_response(self.angles[k], self.angle_rates[k], self.frequencies[k], time))
     }
+}
+
+/// What is left of a value after `time` seconds if it returns to zero critically damped.
+fn free_response(value: f64, rate: f64, frequency: f64, time: f64) -> f64 {
+    (value + (rate + frequency * value) * time) * libm::exp(-frequency * time)
 }
 
 /// The legs at each node of a plan for surge and sway, near the poses of the plan before.
 pub fn leg_rows(surroundings: &Surroundings, plan: &[Nodes; 2], horizon: Horizon) -> [[LegRow; 6]; BLOCKS] {
     let ends = horizon.ends();
     std::array::from_fn(|node| {
-        let heave = surroundings.heave * libm::exp(-(ends[node] - HEAVE_STAYS).max(0.0) / HEAVE_FADES);
+        let heave = surroundings.heave_after(ends[node]);
         let position = [0, 1].map(|axis: usize| plan[axis][4 * node]);
         let tilt = [0, 1].map(|axis: usize| plan[axis][4 * node + 2]);
         legs_near(surroundings, &surroundings.angles_after(ends[node]), position, tilt, heave)
@@ -101,7 +131,11 @@ pub(super) mod tests {
             geometry,
             neutral_height: rig.neutral_height,
             stroke: [rig.min_length, rig.max_length],
+            margin: 0.0,
             heave: 0.0,
+            heave_velocity: 0.0,
+            heave_bound: 0.1,
+            heave_frequency: 5.0,
             angles: Vector3::zeros(),
             angle_rates: Vector3::zeros(),
             frequencies: Vector3::repeat(1.0),
@@ -173,6 +207,7 @@ pub(super) mod tests {
         let geometry = Geometry::from(&rig);
         let surroundings = Surroundings {
             heave: 0.05,
+            heave_velocity: -0.2,
             angles: Vector3::new(0.05, -0.04, 0.1),
             angle_rates: Vector3::new(0.2, 0.1, -0.3),
             frequencies: Vector3::new(0.9, 0.6, 1.0),
@@ -182,7 +217,8 @@ pub(super) mod tests {
         for horizon in [Horizon::Near, Horizon::Far] {
             let rows = leg_rows(&surroundings, &plan, horizon);
             for (node, end) in horizon.ends().into_iter().enumerate() {
-                let heave = if end < 0.1 { 0.05 } else { 0.05 * (-(end - 0.1) / 0.4).exp() };
+                // Critically damped at 0.4 times 5 rad/s.
+                let heave = (0.05 + (-0.2 + 2.0 * 0.05) * end) * (-2.0 * end).exp();
                 let angles = surroundings.angles_after(end);
                 let state = |k: usize| [plan[0][4 * node + k], plan[1][4 * node + k]];
                 let (position, tilt) = (state(0), state(2));
@@ -195,6 +231,31 @@ pub(super) mod tests {
                     assert!((row.offset + slopes - length).abs() < 1e-12, "node {node}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn heave_is_expected_within_its_bound() {
+        let geometry = Geometry::from(&Rig::default());
+        for sign in [1.0, -1.0] {
+            let fast = Surroundings { heave_velocity: sign * 2.0, ..surroundings(&geometry) };
+            assert_eq!(fast.heave_after(0.4), sign * 0.1);
+        }
+    }
+
+    #[test]
+    fn a_margin_leaves_half_the_room_at_neutral() {
+        let rig = Rig::default();
+        let geometry = Geometry::from(&rig);
+        let neutral = surroundings(&geometry);
+        let rest = length(&legs_near(&neutral, &Vector3::zeros(), [0.0; 2], [0.0; 2], 0.0)[0], [0.0; 2], [0.0; 2]);
+        for (below, above, margin, kept) in
+            [(0.2, 0.3, 0.015, [0.015, 0.015]), (0.01, 0.3, 0.015, [0.005, 0.015]), (0.2, 0.0, 0.5, [0.1, 0.0])]
+        {
+            let surroundings = Surroundings { stroke: [rest - below, rest + above], margin, ..neutral };
+            let [min, max] = surroundings.planned_stroke();
+            assert!((min - (rest - below + kept[0])).abs() < 1e-9 && (max - (rest + above - kept[1])).abs() < 1e-9);
+            assert!((min..=max).contains(&rest) || (rest - max).abs() < 1e-9);
         }
     }
 }

@@ -18,16 +18,16 @@ pub mod program;
 #[cfg(test)]
 mod tests;
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Rows, Status};
-use self::forecast::{Forecast, Forecaster, Memory, Tables};
+use self::forecast::{Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, SAMPLE};
 use self::legs::{Surroundings, leg_rows};
 use self::preview::Course;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, ROWS};
-use super::regulator::{AxisModel, Regulator, Weights};
+use super::regulator::{AxisModel, Weights};
 use super::{AxisState, Decision};
 use crate::interface::{ForecastKind, PredictiveParameters};
 
@@ -38,11 +38,6 @@ const PACE: f64 = 0.001;
 const LONG_PREVIEW: f64 = 2.0;
 /// A plan that takes more iterations is abandoned.
 const MAX_ITERATIONS: u32 = 120;
-/// Largest surcharges on dropped forces, of surge and of sway, that reverse the felt force. They
-/// add to the weight of 1. Sway has few opposite cues, and a surcharge does not reduce them.
-const OPPOSITE_SURCHARGE: [f64; 2] = [0.5, 0.0];
-/// Felt force in the opposite direction from which on the surcharge is largest \[m/s2\].
-const OPPOSITE_FORCE: f64 = 0.15;
 /// Differences of time below this are rounding \[s\].
 const INSTANT: f64 = 1e-9;
 
@@ -63,7 +58,6 @@ pub struct Predictive {
     forecasters: [Box<Forecaster>; 2],
     until_sample: f64,
     programs: Programs,
-    factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
     rows: Box<Rows<CONTROLS, ROWS>>,
     solver: Box<DualActiveSet<CONTROLS, ROWS>>,
     /// True: a new plan is due.
@@ -74,6 +68,8 @@ pub struct Predictive {
     free: [Nodes; 2],
     begun: f64,
     plan: Plan,
+    /// Dropped forces in force \[m/s2\]. They go linearly from node to node of the plan.
+    dropped_forces: [f64; 2],
 }
 
 /// A plan, and how far it has been carried out.
@@ -128,13 +124,13 @@ impl Predictive {
             until_sample: SAMPLE,
             rows: Box::new(program::rows(&programs.near)),
             programs,
-            factor: Box::new(SMatrix::zeros()),
             solver: Box::new(DualActiveSet::new()),
             due: true,
             horizon: Horizon::Near,
             free: [Nodes::zeros(); 2],
             begun: 0.0,
             plan,
+            dropped_forces: [0.0; 2],
         })
     }
 
@@ -144,10 +140,9 @@ impl Predictive {
         if (models, tuning) == (&self.models, &self.tuning) {
             return true;
         }
-        if models.iter().any(|model| Regulator::new(model, &tuning.weights).is_none()) {
+        if !self.programs.retune(models, &tuning.weights) {
             return false;
         }
-        self.programs.retune(models, &tuning.weights);
         program::set_axis_normals(&mut self.rows, self.programs.over(self.horizon));
         (self.models, self.tuning) = (*models, *tuning);
         self.solver.abandon();
@@ -176,9 +171,12 @@ impl Predictive {
             self.proceed(step);
         }
         let decisions = self.plan.horizon.block_at(self.plan.age).map(|block| {
-            [0, 1].map(|axis: usize| Decision {
-                dropped_force: self.plan.controls[axis][block],
-                tilt_acceleration: self.models[axis].acceleration_limit * self.plan.controls[axis][BLOCKS + block],
+            [0, 1].map(|axis: usize| {
+                self.dropped_forces[axis] = self.plan.dropped_force_after(axis, self.dropped_forces[axis], step);
+                Decision {
+                    dropped_force: self.dropped_forces[axis],
+                    tilt_acceleration: self.models[axis].acceleration_limit * self.plan.controls[axis][BLOCKS + block],
+                }
             })
         });
         self.plan.age += step;
@@ -240,7 +238,6 @@ impl Predictive {
         }
         let program = self.programs.over(horizon);
         let mut gradient = SVector::<f64, CONTROLS>::zeros();
-        let mut surcharges = [SVector::zeros(); 2];
         for (k, axis) in program.axes.iter().enumerate() {
             let forecaster = &self.forecasters[k];
             // A stop ends the reference of surge; a preview already contains the stop.
@@ -249,8 +246,7 @@ impl Predictive {
             } else {
                 forecaster.over(horizon, &self.tables, self.tuning.forecast)
             };
-            surcharges[k] = OPPOSITE_SURCHARGE[k] * opposition(&forecast, &self.plan.controls[k]);
-            let data = program::data(&states[k], &forecast);
+            let data = program::data(&states[k], self.dropped_forces[k], &forecast);
             self.free[k] = axis.free_nodes(&data);
             gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
             let free = axis.rows(&self.free[k], &AxisControls::zeros());
@@ -258,17 +254,12 @@ impl Predictive {
             self.rows.upper.fixed_rows_mut::<AXIS_ROWS>(k * AXIS_ROWS).copy_from(&free.map(|value| 1.0 - value));
         }
         self.limit_legs(surroundings);
-        if self.programs.over(horizon).factorize(&surcharges, &mut self.factor) {
-            self.solver.start(&self.factor, &gradient);
-        } else {
-            self.solver.abandon();
-            self.plan.kept = true;
-        }
+        self.solver.start(&self.programs.over(horizon).factor, &gradient);
     }
 
     /// Sets the rows of the actuators, in halves of the stroke.
     fn limit_legs(&mut self, surroundings: &Surroundings) {
-        let [min, max] = surroundings.stroke;
+        let [min, max] = surroundings.planned_stroke();
         let scale = 2.0 / (max - min);
         let program = self.programs.over(self.horizon);
         // After a change of horizon the plan's nodes are at other times: the rows are less exact for once.
@@ -320,12 +311,19 @@ impl Predictive {
     }
 }
 
-/// Degree, from 0 to 1, to which the plan before makes the rider feel the opposite of what is
-/// expected, in each block. An opposite cue is worse than a missing one of the same error.
-fn opposition(forecast: &Forecast, controls: &AxisControls) -> SVector<f64, BLOCKS> {
-    SVector::from_fn(|block, _| {
-        let expected = forecast.means[block];
-        let opposite = -(expected + controls[block]) * expected.signum();
-        (opposite / OPPOSITE_FORCE).clamp(0.0, 1.0)
-    })
+impl Plan {
+    /// Dropped force of an axis after a step of `step` seconds, at whose beginning it is
+    /// `dropped_force`: on the line from there to the next node, and from node to node after it. It
+    /// stays at the last one.
+    fn dropped_force_after(&self, axis: usize, dropped_force: f64, step: f64) -> f64 {
+        let (controls, end) = (&self.controls[axis], self.age + step);
+        let Some(block) = self.horizon.block_at(end) else { return controls[BLOCKS - 1] };
+        let node = self.horizon.ends()[block];
+        let (mut time, mut from) = (self.age, dropped_force);
+        let begin = node - self.horizon.durations()[block];
+        if block > 0 && begin > self.age {
+            (time, from) = (begin, controls[block - 1]);
+        }
+        from + (controls[block] - from) * (end - time) / (node - time)
+    }
 }

@@ -1,19 +1,21 @@
-//! The plan as a quadratic program, condensed: its variables are the blocks' dropped forces and
-//! tilt accelerations alone.
+//! The plan as a quadratic program, condensed: its variables are the dropped force at the nodes and
+//! the blocks' tilt accelerations alone.
 //!
-//! Over block j of duration T, with the reference's mean F and constant dropped force e and
-//! tilt acceleration alpha,
+//! The nodes are the blocks' ends. The dropped force e is linear between them, from the value in
+//! force at the start. Over a block of duration T, with the reference's mean F, the dropped force e
+//! at its beginning and e' at its end, and the constant tilt acceleration alpha,
 //!
 //! ```text
-//!     u  = F + H alpha + e
-//!     x' = x + v T + u T^2/2 - g' (q T^2/2 + w T^3/6 + alpha T^4/24)
-//!     v' = v + u T - g' (q T + w T^2/2 + alpha T^3/6)
+//!     u  = F + H alpha
+//!     x' = x + v T + u T^2/2 + (2 e + e') T^2/6 - g' (q T^2/2 + w T^3/6 + alpha T^4/24)
+//!     v' = v + u T + (e + e') T/2 - g' (q T + w T^2/2 + alpha T^3/6)
 //!     q' = q + w T + alpha T^2/2,   w' = w + alpha T
 //! ```
 //!
 //! with g' somewhat below g, the chord of the sine. The nodes' states are linear in the start, the
-//! reference and the variables. The cost is that of the regulator, by the trapezoidal rule, with
-//! the regulator's cost to come at the end.
+//! reference and the variables. The cost is that of the regulator and a weight of the dropped
+//! force's slope: integrals of e^2 and of its slope's square, the trapezoidal rule for the motion,
+//! and the regulator's cost to come at the end.
 
 use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
@@ -24,7 +26,8 @@ use super::horizon::{BLOCKS, Horizon};
 use crate::cueing::strategy::AxisState;
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 
-/// Variables of an axis: dropped forces \[m/s2\], then tilt accelerations relative to their limit.
+/// Variables of an axis: dropped forces at the nodes \[m/s2\], then tilt accelerations of the blocks
+/// relative to their limit.
 pub const AXIS_CONTROLS: usize = 2 * BLOCKS;
 /// Variables: those of surge, then those of sway.
 pub const CONTROLS: usize = 2 * AXIS_CONTROLS;
@@ -38,8 +41,12 @@ pub const ROWS: usize = 2 * AXIS_ROWS + LEG_ROWS;
 
 /// Position, velocity, tilt and tilt rate at each node, node by node.
 pub type Nodes = SVector<f64, { 4 * BLOCKS }>;
-/// The start's four, the reference's means, and its slow and fast part at the end.
-pub type Data = SVector<f64, { BLOCKS + 6 }>;
+/// The start's four and its dropped force, the reference's means, and its slow and fast part at the
+/// end.
+pub type Data = SVector<f64, DATA>;
+const DATA: usize = BLOCKS + 7;
+/// The start's dropped force among the data.
+const DROPPED: usize = 4;
 /// The variables of an axis.
 pub type AxisControls = SVector<f64, AXIS_CONTROLS>;
 
@@ -54,6 +61,8 @@ const STOPPING_TIME: f64 = 0.3;
 pub const CHORD: f64 = 0.985;
 /// A small weight of tilt acceleration keeps the program strictly convex.
 const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
+/// Weight of the dropped force's slope, relative to that of the dropped force \[s2\].
+const SLOPE_WEIGHT: f64 = 3e-3;
 
 /// The programs over both horizons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -69,10 +78,16 @@ impl Programs {
         Some(Programs { near: program(Horizon::Near)?, far: program(Horizon::Far)? })
     }
 
-    /// Replaces both by those for other models or weights.
-    pub fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) {
-        self.near.retune(models, weights);
-        self.far.retune(models, weights);
+    /// Replaces both by those for other models or weights. False, and nothing changes, if there is
+    /// no regulator for them.
+    pub fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) -> bool {
+        // In place of the old ones, because a change of parameters allocates nothing.
+        let axis = |horizon, axis: usize| AxisProgram::new(&models[axis], weights, horizon);
+        let axes = |horizon| Some([axis(horizon, 0)?, axis(horizon, 1)?]);
+        let (Some(near), Some(far)) = (axes(Horizon::Near), axes(Horizon::Far)) else { return false };
+        self.near.replace(&near);
+        self.far.replace(&far);
+        true
     }
 
     /// The program over a horizon.
@@ -90,48 +105,31 @@ pub struct Program {
     pub horizon: Horizon,
     /// Surge and sway.
     pub axes: [Box<AxisProgram>; 2],
+    /// L^-T of the Hessian L L' of both axes.
+    pub factor: Box<SMatrix<f64, CONTROLS, CONTROLS>>,
 }
 
 impl Program {
     /// The program of both axes. None if there is no regulator for these weights.
     pub fn new(models: &[AxisModel; 2], weights: &Weights, horizon: Horizon) -> Option<Self> {
         let axis = |axis: usize| AxisProgram::new(&models[axis], weights, horizon).map(Box::new);
-        Some(Program { horizon, axes: [axis(0)?, axis(1)?] })
+        let mut program = Program { horizon, axes: [axis(0)?, axis(1)?], factor: Box::new(SMatrix::zeros()) };
+        program.join_factors();
+        Some(program)
     }
 
-    /// Replaces the program by that for other models or weights; it stays if there is no other.
-    fn retune(&mut self, models: &[AxisModel; 2], weights: &Weights) {
-        // In place of the old one, because a change of parameters allocates nothing.
-        let [Some(surge), Some(sway)] =
-            [0, 1].map(|axis: usize| AxisProgram::new(&models[axis], weights, self.horizon))
-        else {
-            return;
-        };
-        (*self.axes[0], *self.axes[1]) = (surge, sway);
-    }
-
-    /// Sets `factor` to L^-T of the Hessian L L' of both axes, the dropped force of each block
-    /// weighted more by `surcharges`. False if rounding has made the Hessian indefinite.
-    pub fn factorize(
-        &self,
-        surcharges: &[SVector<f64, BLOCKS>; 2],
-        factor: &mut SMatrix<f64, CONTROLS, CONTROLS>,
-    ) -> bool {
-        factor.fill(0.0);
-        for (k, axis) in self.axes.iter().enumerate() {
-            let mut hessian = axis.hessian;
-            for (block, duration) in self.horizon.durations().iter().enumerate() {
-                hessian[(block, block)] += duration * surcharges[k][block];
-            }
-            let Some(cholesky) = hessian.cholesky() else { return false };
-            let mut inverse = SMatrix::<f64, AXIS_CONTROLS, AXIS_CONTROLS>::identity();
-            if !cholesky.l_dirty().solve_lower_triangular_mut(&mut inverse) {
-                return false;
-            }
-            let begin = k * AXIS_CONTROLS;
-            factor.fixed_view_mut::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin).copy_from(&inverse.transpose());
+    fn replace(&mut self, axes: &[AxisProgram; 2]) {
+        for (axis, new) in self.axes.iter_mut().zip(axes) {
+            (**axis).clone_from(new);
         }
-        true
+        self.join_factors();
+    }
+
+    fn join_factors(&mut self) {
+        for (k, axis) in self.axes.iter().enumerate() {
+            let begin = k * AXIS_CONTROLS;
+            self.factor.fixed_view_mut::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin).copy_from(&axis.factor);
+        }
     }
 }
 
@@ -140,21 +138,20 @@ impl Program {
 pub struct AxisProgram {
     model: AxisModel,
     horizon: Horizon,
-    from_data: SMatrix<f64, { 4 * BLOCKS }, { BLOCKS + 6 }>,
+    from_data: SMatrix<f64, { 4 * BLOCKS }, DATA>,
     from_controls: SMatrix<f64, { 4 * BLOCKS }, AXIS_CONTROLS>,
-    gradient: SMatrix<f64, AXIS_CONTROLS, { BLOCKS + 6 }>,
+    gradient: SMatrix<f64, AXIS_CONTROLS, DATA>,
     hessian: SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS>,
+    /// L^-T of the Hessian L L'.
+    factor: SMatrix<f64, AXIS_CONTROLS, AXIS_CONTROLS>,
 }
 
 impl AxisProgram {
     /// The program of an axis. None if there is no regulator for these weights.
     pub fn new(model: &AxisModel, weights: &Weights, horizon: Horizon) -> Option<Self> {
         let regulator = Regulator::new(model, weights)?;
-        let from_data = responses(model, horizon, |data: &Data| {
-            (data.fixed_rows::<4>(0).into_owned(), data.fixed_rows::<BLOCKS>(4).into_owned(), AxisControls::zeros())
-        });
-        let from_controls =
-            responses(model, horizon, |controls: &AxisControls| (Vector4::zeros(), SVector::zeros(), *controls));
+        let from_data = responses(model, horizon, |data: &Data| (*data, AxisControls::zeros()));
+        let from_controls = responses(model, horizon, |controls: &AxisControls| (Data::zeros(), *controls));
         let mut weighted = SMatrix::<f64, { 4 * BLOCKS }, AXIS_CONTROLS>::zeros();
         for node in 0..BLOCKS {
             let weight = node_weight(model, weights, &regulator, horizon, node);
@@ -162,16 +159,29 @@ impl AxisProgram {
             weighted.fixed_rows_mut::<4>(4 * node).copy_from(&states);
         }
         let mut hessian = from_controls.tr_mul(&weighted);
+        let mut gradient = weighted.tr_mul(&from_data);
         for (block, duration) in horizon.durations().iter().enumerate() {
-            hessian[(block, block)] += duration;
+            // The integrals of e^2 and of the slope's square, by the values at both ends.
+            let same = duration / 3.0 + SLOPE_WEIGHT / duration;
+            let mixed = duration / 6.0 - SLOPE_WEIGHT / duration;
+            hessian[(block, block)] += same;
+            if block == 0 {
+                gradient[(0, DROPPED)] += mixed;
+            } else {
+                hessian[(block - 1, block - 1)] += same;
+                hessian[(block - 1, block)] += mixed;
+                hessian[(block, block - 1)] += mixed;
+            }
             hessian[(BLOCKS + block, BLOCKS + block)] +=
                 duration * (weights.tilt_acceleration + LEAST_TILT_ACCELERATION_WEIGHT);
         }
-        let mut gradient = weighted.tr_mul(&from_data);
         let end_to_end = regulator.cost.fixed_view::<4, 2>(0, 4);
         let end = from_controls.fixed_rows::<4>(4 * (BLOCKS - 1)).tr_mul(&end_to_end);
-        gradient.fixed_columns_mut::<2>(BLOCKS + 4).copy_from(&end);
-        Some(AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian })
+        gradient.fixed_columns_mut::<2>(DATA - 2).copy_from(&end);
+        let mut inverse = SMatrix::<f64, AXIS_CONTROLS, AXIS_CONTROLS>::identity();
+        let solved = hessian.cholesky()?.l_dirty().solve_lower_triangular_mut(&mut inverse);
+        let factor = inverse.transpose();
+        solved.then_some(AxisProgram { model: *model, horizon, from_data, from_controls, gradient, hessian, factor })
     }
 
     /// The nodes without any control.
@@ -221,7 +231,6 @@ impl AxisProgram {
             1.0 / angle_limit,
             1.0 / (RATE_FRACTION * rate_limit),
         ];
-        let durations = self.horizon.durations();
         let mut rows = SVector::zeros();
         for node in 0..BLOCKS {
             for (state, scale) in scales.iter().enumerate() {
@@ -229,8 +238,8 @@ impl AxisProgram {
             }
             rows[4 * BLOCKS + node] = controls[BLOCKS + node];
             if node + 1 < BLOCKS {
-                let middle = nodes[4 * node] + 0.5 * durations[node + 1] * nodes[4 * node + 1];
-                rows[5 * BLOCKS + node] = position * middle;
+                let alpha = self.model.acceleration_limit * controls[BLOCKS + node + 1];
+                rows[5 * BLOCKS + node] = position * self.middle(nodes, node + 1, alpha);
             }
         }
         let end = nodes.fixed_rows::<4>(4 * (BLOCKS - 1));
@@ -241,13 +250,26 @@ impl AxisProgram {
     }
 }
 
-/// Initial state of the program.
-pub fn data(state: &AxisState, forecast: &Forecast) -> Data {
-    let start = [state.position, state.velocity, state.tilt, state.tilt_rate];
+impl AxisProgram {
+    /// Position in the middle of a block after the first.
+    ///
+    /// It is that of the cubic through the nodes, and by the tilt acceleration a term of fourth
+    /// order less.
+    pub fn middle(&self, nodes: &Nodes, block: usize, alpha: f64) -> f64 {
+        let t = self.horizon.durations()[block];
+        let [before, after] = [4 * (block - 1), 4 * block];
+        let cubic = 0.5 * (nodes[before] + nodes[after]) + 0.125 * t * (nodes[before + 1] - nodes[after + 1]);
+        cubic - CHORD * self.model.gravity * alpha * t.powi(4) / 384.0
+    }
+}
+
+/// Initial state of the program, with the dropped force in force \[m/s2\].
+pub fn data(state: &AxisState, dropped_force: f64, forecast: &Forecast) -> Data {
+    let start = [state.position, state.velocity, state.tilt, state.tilt_rate, dropped_force];
     Data::from_fn(|k, _| match k {
-        0..4 => start[k],
-        k if k < BLOCKS + 4 => forecast.means[k - 4],
-        k => forecast.end[k - BLOCKS - 4],
+        0..=DROPPED => start[k],
+        k if k < DATA - 2 => forecast.means[k - DROPPED - 1],
+        k => forecast.end[k + 2 - DATA],
     })
 }
 
@@ -255,37 +277,37 @@ pub fn data(state: &AxisState, forecast: &Forecast) -> Data {
 fn responses<const K: usize>(
     model: &AxisModel,
     horizon: Horizon,
-    split: impl Fn(&SVector<f64, K>) -> (Vector4<f64>, SVector<f64, BLOCKS>, AxisControls),
+    split: impl Fn(&SVector<f64, K>) -> (Data, AxisControls),
 ) -> SMatrix<f64, { 4 * BLOCKS }, K> {
     let mut responses = SMatrix::<f64, { 4 * BLOCKS }, K>::zeros();
     for k in 0..K {
         let mut unit = SVector::<f64, K>::zeros();
         unit[k] = 1.0;
-        let (start, reference, controls) = split(&unit);
-        responses.set_column(k, &rolled_out(model, horizon, start, &reference, &controls));
+        let (data, controls) = split(&unit);
+        responses.set_column(k, &rolled_out(model, horizon, &data, &controls));
     }
     responses
 }
 
 /// The nodes that follow from a start, a reference and controls.
-fn rolled_out(
-    model: &AxisModel,
-    horizon: Horizon,
-    start: Vector4<f64>,
-    reference: &SVector<f64, BLOCKS>,
-    controls: &AxisControls,
-) -> Nodes {
+fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisControls) -> Nodes {
     let mut nodes = Nodes::zeros();
-    let [mut x, mut v, mut q, mut w]: [f64; 4] = start.into();
+    let [mut x, mut v, mut q, mut w] = [data[0], data[1], data[2], data[3]];
+    let mut dropped = data[DROPPED];
     for (block, &t) in horizon.durations().iter().enumerate() {
         let alpha = model.acceleration_limit * controls[BLOCKS + block];
-        let constant = reference[block] + model.head_height * alpha + controls[block];
+        let constant = data[DROPPED + 1 + block] + model.head_height * alpha;
         let gravity = CHORD * model.gravity;
-        // The tilt's first and second integral over the block.
+        // The tilt's first and second integral over the block, and the dropped force's.
         let once = t * (q + t * (w / 2.0 + t * alpha / 6.0));
         let twice = t * t * (q / 2.0 + t * (w / 6.0 + t * alpha / 24.0));
-        (x, v) = (x + t * (v + 0.5 * t * constant) - gravity * twice, v + t * constant - gravity * once);
+        let next = controls[block];
+        let dropped_once = t * (dropped + next) / 2.0;
+        let dropped_twice = t * t * (2.0 * dropped + next) / 6.0;
+        x += t * (v + 0.5 * t * constant) + dropped_twice - gravity * twice;
+        v += t * constant + dropped_once - gravity * once;
         (q, w) = (q + w * t + 0.5 * alpha * t * t, w + alpha * t);
+        dropped = next;
         nodes.fixed_rows_mut::<4>(4 * block).copy_from(&Vector4::new(x, v, q, w));
     }
     nodes
@@ -367,6 +389,9 @@ mod tests {
         Program::new(&MODELS, &WEIGHTS, horizon).unwrap()
     }
 
+    /// The dropped force in force at the start \[m/s2\].
+    const DROPPED_BEFORE: f64 = -0.6;
+
     /// A state, a forecast and controls with a part of everything.
     fn example() -> (AxisState, Forecast, AxisControls) {
         let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
@@ -383,13 +408,19 @@ mod tests {
                 + WEIGHTS.velocity * (state[1] / model.velocity_limit).powi(2)
                 + WEIGHTS.tilt_rate * (state[3] / model.rate_limit).powi(2)
         };
-        let nodes = axis.nodes(&axis.free_nodes(&data(state, forecast)), controls);
+        let nodes = axis.nodes(&axis.free_nodes(&data(state, DROPPED_BEFORE, forecast)), controls);
         let mut before = vec![state.position, state.velocity, state.tilt, state.tilt_rate];
         let mut cost = 0.0;
+        let mut dropped_before = DROPPED_BEFORE;
         for (block, duration) in axis.horizon.durations().into_iter().enumerate() {
             let after = nodes.as_slice()[4 * block..4 * block + 4].to_vec();
             let (dropped, tilting) = (controls[block], controls[BLOCKS + block]);
-            cost += duration * (dropped * dropped + (WEIGHTS.tilt_acceleration + 1e-5) * tilting * tilting);
+            // Simpson's rule is exact for the square of a line.
+            let middle = 0.5 * (dropped_before + dropped);
+            cost += duration / 6.0 * (dropped_before.powi(2) + 4.0 * middle * middle + dropped * dropped);
+            cost += SLOPE_WEIGHT * (dropped - dropped_before).powi(2) / duration;
+            cost += duration * (WEIGHTS.tilt_acceleration + 1e-5) * tilting * tilting;
+            dropped_before = dropped;
             cost += 0.5 * duration * (running(&before) + running(&after));
             before = after;
         }
@@ -403,9 +434,9 @@ mod tests {
     fn data_are_the_start_the_means_and_the_end() {
         let (state, forecast, _) = example();
         let AxisState { position, velocity, tilt, tilt_rate } = state;
-        let mut expected = vec![position, velocity, tilt, tilt_rate];
+        let mut expected = vec![position, velocity, tilt, tilt_rate, DROPPED_BEFORE];
         expected.extend(forecast.means.iter().chain(&forecast.end));
-        assert_eq!(data(&state, &forecast).as_slice(), expected);
+        assert_eq!(data(&state, DROPPED_BEFORE, &forecast).as_slice(), expected);
     }
 
     #[test]
@@ -413,7 +444,7 @@ mod tests {
         let (state, forecast, controls) = example();
         for horizon in [Horizon::Near, Horizon::Far] {
             for axis in &program(horizon).axes {
-                let gradient = axis.gradient(&data(&state, &forecast));
+                let gradient = axis.gradient(&data(&state, DROPPED_BEFORE, &forecast));
                 for scale in [0.1, -1.0, 3.0] {
                     let controls = scale * controls;
                     let quadratic = gradient.dot(&controls) + 0.5 * controls.dot(&(axis.hessian() * controls));
@@ -445,8 +476,12 @@ mod tests {
                 }
                 close(rows[4 * BLOCKS + node], 0.01 * (BLOCKS + node) as f64);
                 if node < BLOCKS - 1 {
-                    let half = 0.5 * Horizon::Near.durations()[node + 1];
-                    close(rows[5 * BLOCKS + node], (x + half * v) / farthest);
+                    let t = Horizon::Near.durations()[node + 1];
+                    let [next_x, next_v, ..] = state(node + 1);
+                    let alpha = acceleration_limit * 0.01 * (BLOCKS + node + 1) as f64;
+                    let gravity = CHORD * model.gravity;
+                    let middle = 0.5 * (x + next_x) + t / 8.0 * (v - next_v) - gravity * alpha * t.powi(4) / 384.0;
+                    close(rows[5 * BLOCKS + node], middle / farthest);
                 }
             }
             let [x, v, q, w] = state(BLOCKS - 1);
@@ -464,7 +499,7 @@ mod tests {
             let rows = rows(&program);
             assert_eq!((rows.normals.len(), rows.lower.min(), rows.upper.max()), (ROWS, -1.0, 1.0));
             for (k, axis) in program.axes.iter().enumerate() {
-                let free = axis.free_nodes(&data(&state, &forecast));
+                let free = axis.free_nodes(&data(&state, DROPPED_BEFORE, &forecast));
                 let expected =
                     axis.rows(&axis.nodes(&free, &controls), &controls) - axis.rows(&free, &AxisControls::zeros());
                 let mut all = SVector::<f64, CONTROLS>::zeros();
@@ -487,13 +522,13 @@ mod tests {
         let other = Weights { position: 2.0, ..WEIGHTS };
         let models = [MODELS[1], MODELS[0]];
         let mut programs = Programs::new(&MODELS, &WEIGHTS).unwrap();
-        programs.retune(&models, &other);
+        assert!(programs.retune(&models, &other));
         assert_eq!(programs, Programs::new(&models, &other).unwrap());
         for horizon in [Horizon::Near, Horizon::Far] {
             assert_eq!(programs.over(horizon).horizon, horizon);
         }
         let before = programs.clone();
-        programs.retune(&models, &Weights { position: f64::NAN, ..WEIGHTS });
+        assert!(!programs.retune(&models, &Weights { position: f64::NAN, ..WEIGHTS }));
         assert_eq!(programs, before);
     }
 }

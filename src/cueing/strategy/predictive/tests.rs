@@ -3,6 +3,8 @@
 use super::*;
 use crate::interface::{Parameters, Rig};
 use crate::platform::Geometry;
+use nalgebra::SMatrix;
+
 use dual_active_set::tests::{Program, compare};
 use legs::tests::{length, surroundings};
 use std::f64::consts::TAU;
@@ -48,25 +50,6 @@ fn narrow(geometry: &Geometry, half: f64) -> Surroundings<'_> {
     let neutral = surroundings(geometry);
     let middle = neutral.stroke.iter().sum::<f64>() / 2.0;
     Surroundings { stroke: [middle - half, middle + half], ..neutral }
-}
-
-/// Checks that J J' is the inverse of the program's Hessian with these surcharges.
-fn assert_factor(
-    factor: &SMatrix<f64, CONTROLS, CONTROLS>,
-    program: &program::Program,
-    surcharges: &[SVector<f64, BLOCKS>; 2],
-) {
-    let inverse = factor * factor.transpose();
-    for (k, surcharge) in surcharges.iter().enumerate() {
-        let mut hessian = *program.axes[k].hessian();
-        for block in 0..BLOCKS {
-            hessian[(block, block)] += program.horizon.durations()[block] * surcharge[block];
-        }
-        let begin = k * AXIS_CONTROLS;
-        let product = hessian * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
-        let difference = (product - SMatrix::identity()).amax();
-        assert!(difference < 1e-8, "axis {k}: {difference}");
-    }
 }
 
 #[test]
@@ -120,7 +103,7 @@ fn a_step_of_up_to_1_ms_has_eight_iterations_and_a_longer_one_more_in_proportion
 }
 
 #[test]
-fn a_decision_is_that_of_the_block_that_the_plan_has_reached() {
+fn a_decision_is_on_the_line_to_the_next_node_and_of_the_block_that_the_plan_has_reached() {
     let mut predictive = predictive();
     passed(&mut predictive, 1500, 5.0);
     // From now on the plan is carried out to its end.
@@ -128,14 +111,75 @@ fn a_decision_is_that_of_the_block_that_the_plan_has_reached() {
     let mut blocks = [false; BLOCKS];
     while let Some(block) = predictive.plan.horizon.block_at(predictive.plan.age) {
         blocks[block] = true;
-        let controls = predictive.plan.controls;
+        let Plan { controls, horizon, age, .. } = predictive.plan;
+        let before = predictive.dropped_forces;
         let decisions = passed(&mut predictive, 1, f64::NAN).unwrap();
-        for (decision, controls) in decisions.iter().zip(controls) {
-            assert_eq!(decision.dropped_force, controls[block]);
-            assert_eq!(decision.tilt_acceleration, MODEL.acceleration_limit * controls[BLOCKS + block]);
+        for axis in 0..2 {
+            let left = horizon.ends()[block] - age;
+            let expected = before[axis] + (controls[axis][block] - before[axis]) * 0.001 / left;
+            assert!((decisions[axis].dropped_force - expected).abs() < 1e-9, "{expected} in block {block}");
+            assert_eq!(decisions[axis].tilt_acceleration, MODEL.acceleration_limit * controls[axis][BLOCKS + block]);
         }
     }
     assert!(blocks[3..].iter().all(|&reached| reached));
+    let last = predictive.plan.controls.map(|controls| controls[BLOCKS - 1]);
+    let apart = (0..2).map(|axis| (predictive.dropped_forces[axis] - last[axis]).abs());
+    assert!(apart.fold(0.0, f64::max) < 1e-9, "the plan ends at its last nodes");
+}
+
+#[test]
+fn a_long_step_goes_from_node_to_node() {
+    let mut plan = predictive().plan;
+    plan.controls[0].copy_from(&AxisControls::from_fn(|k, _| (k as f64).cos()));
+    for (age, step, block, from) in [(0.0, 0.07, 1, 0.5), (0.05, 0.4, 4, 0.0)] {
+        plan.age = age;
+        let controls = plan.controls[0];
+        let (begin, end) = (Horizon::Near.ends()[block - 1], Horizon::Near.ends()[block]);
+        let fraction = (age + step - begin) / (end - begin);
+        let expected = controls[block - 1] + fraction * (controls[block] - controls[block - 1]);
+        assert!((plan.dropped_force_after(0, from, step) - expected).abs() < 1e-12);
+    }
+    assert_eq!(plan.dropped_force_after(0, 0.2, 5.0), plan.controls[0][BLOCKS - 1]);
+}
+
+#[test]
+fn the_dropped_force_is_continuous_from_plan_to_plan() {
+    const STEP: f64 = 0.001;
+    let mut predictive = predictive();
+    let geometry = Geometry::from(&Rig::default());
+    let mut states = [AxisState::default(); 2];
+    let (mut before, mut steepest, mut largest) = ([0.0; 2], 0.0_f64, 0.0_f64);
+    for k in 0..20_000 {
+        let t = f64::from(k) * STEP;
+        let references = [3.0 * (0.7 * t).sin(), 2.0 * (1.1 * t).sin()];
+        // A stop that is foreseen now and then changes the horizon.
+        let time_to_stop = if k / 700 % 2 == 0 { f64::INFINITY } else { 2.0 };
+        let decisions = predictive.decide(&states, &surroundings(&geometry), time_to_stop, STEP).unwrap();
+        for (axis, state) in states.iter_mut().enumerate() {
+            let dropped = decisions[axis].dropped_force;
+            steepest = steepest.max((dropped - before[axis]).abs());
+            largest = largest.max(dropped.abs());
+            before[axis] = dropped;
+            *state = moved(state, &decisions[axis], references[axis], STEP);
+        }
+        predictive.observe(references, [0.0; 2], STEP);
+    }
+    assert!(largest > 0.5 && steepest < 0.05, "{steepest} m/s2 in a step, {largest} m/s2 at most");
+}
+
+#[test]
+fn a_plan_in_the_making_is_abandoned_when_the_parameters_change() {
+    let mut predictive = predictive();
+    passed(&mut predictive, 1000, 6.0);
+    while predictive.solver.status() != Status::Running {
+        passed(&mut predictive, 1, 6.0);
+    }
+    let models = [AxisModel { position_limit: 0.2, ..MODEL }; 2];
+    let tuning = predictive.tuning;
+    assert!(predictive.retune(&models, &tuning));
+    assert_eq!(predictive.solver.status(), Status::Failed, "its rows are no more those that it was begun with");
+    passed(&mut predictive, 1, 6.0);
+    assert!(predictive.begun < 0.0015 && !predictive.due, "a new one is begun at once");
 }
 
 #[test]
@@ -255,17 +299,6 @@ fn a_foreseen_stop_ends_the_reference_of_surge_where_no_preview_contains_it() {
 }
 
 #[test]
-fn a_plan_before_that_opposes_the_reference_is_surcharged_in_surge() {
-    let mut predictive = predictive();
-    for controls in &mut predictive.plan.controls {
-        controls.rows_mut(0, 3).fill(-2.0 - 2.0 * OPPOSITE_FORCE);
-    }
-    begun(&mut predictive, 2.0, f64::INFINITY);
-    let opposed = SVector::from_fn(|block, _| if block < 3 { 1.0 } else { 0.0 });
-    assert_factor(&predictive.factor, &predictive.programs.near, &OPPOSITE_SURCHARGE.map(|most| most * opposed));
-}
-
-#[test]
 fn the_plan_keeps_the_actuators_within_their_stroke() {
     let geometry = Geometry::from(&Rig::default());
     let half = 0.06;
@@ -345,9 +378,10 @@ fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds(
             begun += 1;
             if begun % 5 == 0 {
                 // The solve begins at the minimum without rows, -J J' times the gradient.
-                let inverse = predictive.factor.try_inverse().unwrap();
+                let factor = *predictive.programs.over(predictive.horizon).factor;
+                let inverse = factor.try_inverse().unwrap();
                 let gradient = -inverse.tr_mul(&(inverse * predictive.solver.solution()));
-                compare(&Program { factor: *predictive.factor, gradient, rows: (*predictive.rows).clone() });
+                compare(&Program { factor, gradient, rows: (*predictive.rows).clone() });
             }
         }
         limited += usize::from(predictive.plan().iterations > 10);
@@ -361,24 +395,18 @@ fn the_programs_of_a_ride_have_the_solution_that_an_interior_point_method_finds(
 }
 
 #[test]
-fn only_a_felt_force_against_the_expected_one_is_opposed() {
-    let mut forecast = Forecast::default();
-    forecast.means.fill(-2.0);
-    let mut controls = AxisControls::zeros();
-    controls.as_mut_slice()[..4].copy_from_slice(&[1.0, 2.0, 2.0 + 0.5 * OPPOSITE_FORCE, 5.0]);
-    let opposed = opposition(&forecast, &controls);
-    assert_eq!((opposed[0], opposed[1], opposed[3], opposed[4]), (0.0, 0.0, 1.0, 0.0));
-    assert!((opposed[2] - 0.5).abs() < 1e-12);
-}
-
-#[test]
-fn the_factor_is_that_of_the_hessian_with_the_surcharges() {
+fn the_factor_is_that_of_the_hessian() {
     let predictive = predictive();
-    let program = predictive.programs.over(Horizon::Far);
-    let surcharges = [SVector::from_fn(|k, _| 0.1 * k as f64), SVector::repeat(0.3)];
-    let mut factor = SMatrix::<f64, CONTROLS, CONTROLS>::zeros();
-    assert!(program.factorize(&surcharges, &mut factor));
-    assert_factor(&factor, program, &surcharges);
+    for horizon in [Horizon::Near, Horizon::Far] {
+        let program = predictive.programs.over(horizon);
+        let inverse = *program.factor * program.factor.transpose();
+        for (k, axis) in program.axes.iter().enumerate() {
+            let begin = k * AXIS_CONTROLS;
+            let product = axis.hessian() * inverse.fixed_view::<AXIS_CONTROLS, AXIS_CONTROLS>(begin, begin);
+            let difference = (product - SMatrix::identity()).amax();
+            assert!(difference < 1e-8, "axis {k}: {difference}");
+        }
+    }
 }
 
 #[test]
@@ -386,24 +414,32 @@ fn condensed_nodes_are_those_of_the_block_equations() {
     let predictive = predictive();
     let controls = AxisControls::from_fn(|k, _| 0.3 * (k as f64).sin());
     let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
-    let mut forecast = Forecast::default();
+    let mut forecast = forecast::Forecast::default();
     forecast.means.fill(0.7);
-    let data = program::data(&state, &forecast);
+    let data = program::data(&state, -0.4, &forecast);
     let axis = &predictive.programs.near.axes[0];
     let nodes = axis.nodes(&axis.free_nodes(&data), &controls);
     let (mut x, mut v, mut q, mut w) = (0.1, -0.2, 0.05, 0.01);
+    let mut dropped_before = -0.4;
     for block in 0..BLOCKS {
         let alpha = MODEL.acceleration_limit * controls[BLOCKS + block];
         let steps = 20_000;
         let step = Horizon::Near.durations()[block] / f64::from(steps);
-        for _ in 0..steps {
+        for k in 0..steps {
+            if 2 * k == steps && block > 0 {
+                let found = axis.middle(&nodes, block, alpha);
+                assert!((found - x).abs() < 1e-8, "middle of block {block}: {found}, {x}");
+            }
+            let fraction = (f64::from(k) + 0.5) / f64::from(steps);
+            let dropped = dropped_before + fraction * (controls[block] - dropped_before);
             let middle = q + 0.5 * step * (w + step * alpha / 3.0);
-            let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + controls[block];
+            let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + dropped;
             x += step * (v + 0.5 * step * a);
             v += step * a;
             q += step * (w + 0.5 * step * alpha);
             w += step * alpha;
         }
+        dropped_before = controls[block];
         let expected = [x, v, q, w];
         for (k, expected) in expected.iter().enumerate() {
             let found = nodes[4 * block + k];
