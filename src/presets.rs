@@ -155,10 +155,11 @@ pub const PREDICTIVE: &[(&str, f64)] = &[
     ("scale.specificForce.y", 1.0),
     ("scale.specificForce.z", 1.0),
     ("limit.specificForce.x", 4.5),
-    ("limit.specificForce.y", 7.0),
+    ("limit.specificForce.y", 5.0),
     ("tilt.rateLimit", 0.052_359_877_559_829_88),
     ("tilt.accelerationLimit", 0.4),
     ("tilt.angleLimit", 0.257),
+    ("softLimit.pace", 6.0),
 ];
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
@@ -166,8 +167,12 @@ pub const PREDICTIVE: &[(&str, f64)] = &[
 pub const PREVIEW: &[(&str, f64)] = &joined::<{ PREDICTIVE.len() + FARTHER.len() }>(PREDICTIVE, FARTHER);
 
 /// The limits of force and tilt that a preview allows.
-const FARTHER: &[(&str, f64)] =
-    &[("limit.specificForce.x", 10.0), ("limit.specificForce.y", 10.0), ("tilt.angleLimit", 0.38)];
+const FARTHER: &[(&str, f64)] = &[
+    ("limit.specificForce.x", 10.0),
+    ("limit.specificForce.y", 10.0),
+    ("tilt.angleLimit", 0.38),
+    ("softLimit.pace", 8.0),
+];
 
 /// A strategy that does not plan within the actuators' strokes. The specific force is unscaled, and
 /// the tilt limits are the paper's. Travel and its acceleration are limited so that surge and sway

@@ -273,7 +273,7 @@ impl Circumstances<'_> {
             margin: predictive.leg_margin,
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,
-            heave_bound: SOFT_HEAVE,
+            heave_bound: LARGEST_HEAVE,
             heave_frequency: splitter.omega1.z,
             angles: self.angles.position,
             angle_rates: self.angles.velocity,

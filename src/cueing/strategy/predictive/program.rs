@@ -62,7 +62,7 @@ pub const CHORD: f64 = 0.985;
 /// A small weight of tilt acceleration keeps the program strictly convex.
 const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
 /// Weight of the dropped force's slope, relative to that of the dropped force \[s2\].
-const SLOPE_WEIGHT: f64 = 3e-3;
+const SLOPE_WEIGHT: f64 = 3e-2;
 
 /// The programs over both horizons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
