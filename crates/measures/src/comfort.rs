@@ -63,7 +63,8 @@ fn interpolated(signal: &[f64], divisions: usize) -> Vec<f64> {
     let [first, ..] = signal else { return Vec::new() };
     let between = |pair: &[f64]| {
         let [from, to] = [pair[0], pair[1]];
-        (1..=divisions).map(move |k| from + (to - from) * k as f64 / divisions as f64)
+        // Exact at the samples themselves.
+        (1..=divisions).map(move |k| k as f64 / divisions as f64).map(move |t| (1.0 - t) * from + t * to)
     };
     std::iter::once(*first).chain(signal.windows(2).flat_map(between)).collect()
 }
