@@ -25,9 +25,9 @@ pub struct Excess {
 /// Comfort of the force on one axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comfort {
-    /// RMS of the felt force above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`], less that of the desired
-    /// force. None where the sampling is too coarse for that frequency, or the run too short for
-    /// the filter.
+    /// RMS of the felt force above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`], less that of the
+    /// desired force. None where the sampling is too coarse for that frequency, or the run too
+    /// short for the filter.
     pub shake: Option<Excess>,
     /// Change of the felt force within [`JOLT_TIME`], less the largest such change of the desired
     /// force from [`JOLT_TIME`] before to [`JOLT_TIME`] after it. None where the sampling is too
