@@ -179,23 +179,28 @@ impl Washout {
     /// than [`SHORTEST_STEP`] does nothing. A step longer than [`MOST_INTERNAL_STEPS`] internal
     /// steps is cut off there.
     pub fn step(&mut self, input: &Input, step: f64) {
+        self.step_observed(input, step, |_| ());
+    }
+
+    /// As [`Washout::step`]; `observe` receives the felt specific force after each internal step.
+    pub fn step_observed(&mut self, input: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         if step >= SHORTEST_STEP {
             match self.parameters.conditioning.reconstruction {
-                Reconstruction::Hold => self.hold(input, step),
-                Reconstruction::Ramp => self.ramp_to(input, step),
+                Reconstruction::Hold => self.hold(input, step, observe),
+                Reconstruction::Ramp => self.ramp_to(input, step, observe),
             }
         }
     }
 
     /// A step with the input held.
-    fn hold(&mut self, input: &Input, step: f64) {
+    fn hold(&mut self, input: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let held = Sample::new(input.sanitized(), &self.parameters);
         self.last = held;
-        self.substep(step, |washout, _, step| washout.internal_step(&held, step));
+        self.substep(step, |washout, _, step| washout.internal_step(&held, step), observe);
     }
 
     /// A step in which the input goes linearly from the last one to `end`.
-    fn ramp_to(&mut self, end: &Input, step: f64) {
+    fn ramp_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let end = end.sanitized();
         let start = self.last.input.ramp_start(&end);
         if start.orientation != self.last.input.orientation {
@@ -205,31 +210,43 @@ impl Washout {
         if let Some(predictive) = self.strategy.predictive_mut() {
             predictive.put_off_preview(step);
         }
-        self.step_to(&end, step);
+        self.step_to(&end, step, observe);
     }
 
     /// Advances by `step` seconds while the input goes linearly from `start` to `end` (first-order
     /// hold). It is engaged if `start` is.
     pub fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
+        self.step_between_observed(start, end, step, |_| ());
+    }
+
+    /// As [`Washout::step_between`]; `observe` receives the felt specific force after each internal
+    /// step.
+    pub fn step_between_observed(&mut self, start: &Input, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         if step >= SHORTEST_STEP {
             self.last = Sample::new(start.sanitized(), &self.parameters);
-            self.step_to(&end.sanitized(), step);
+            self.step_to(&end.sanitized(), step, observe);
         }
     }
 
     /// As [`Washout::step_between`], from the last sample.
-    fn step_to(&mut self, end: &Input, step: f64) {
+    fn step_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let start = self.last.input;
-        self.substep(step, |washout, fraction, step| {
+        let advance = |washout: &mut Self, fraction, step| {
             let end = Sample::new(start.towards(end, fraction), &washout.parameters);
             washout.internal_step(&end, step);
             washout.last = end;
-        });
+        };
+        self.substep(step, advance, observe);
     }
 
     /// Divides a step into internal ones. `advance` does one of them, with the fraction of the
-    /// whole at which it ends and its length.
-    fn substep(&mut self, step: f64, mut advance: impl FnMut(&mut Self, f64, f64)) {
+    /// whole at which it ends and its length. `observe` receives the felt specific force after each.
+    fn substep(
+        &mut self,
+        step: f64,
+        mut advance: impl FnMut(&mut Self, f64, f64),
+        mut observe: impl FnMut(&Vector3<f64>),
+    ) {
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
         self.limited = Limited::default();
@@ -237,6 +254,7 @@ impl Washout {
         while done < count {
             done += 1.0;
             advance(self, done / count, internal_step);
+            observe(&self.felt.specific_force);
         }
     }
 

@@ -121,6 +121,7 @@ def test_limits_that_no_parameters_keep_are_told(recordings):
         ({"groups": ["splitters"]}, "there is no group splitters; there are splitter, angular, scale, cutoff, tilt, strategy, order"),
         ({"weights": [0, 0, 0, 0, 0, 0]}, "must be six numbers, none below 0 and not all 0"),
         ({"stroke_reserve": -0.1}, "stroke_reserve is -0.1 m"),
+        ({"comfort": [0.2, 0, 4]}, "must be bounds of shake, jolt and peak above 0 m/s2"),
         ({"evaluations": 0}, "evaluations is 0, but must be 1 at least"),
         ({"patience": 0}, "patience is 0, but must be 1 at least"),
         ({"folds": -1}, "folds is -1, but must be 0 at least"),

@@ -1,6 +1,7 @@
 //! A manoeuvre replayed in a host's communication steps.
 
 use moris_washout::{Input, Output, Washout};
+use nalgebra::Vector3;
 
 use crate::Manoeuvre;
 
@@ -54,14 +55,16 @@ impl<'a> Replay<'a> {
     /// or of each sample where steps are shorter. An output's flags are then those of all steps
     /// since the output before.
     pub fn run(&self, washout: &mut Washout, observe: impl FnMut(&Input, &Output)) {
-        self.run_prepared(washout, |_, _| (), observe);
+        self.run_prepared(washout, |_, _| (), |_| (), observe);
     }
 
-    /// As [`Replay::run`]; `prepare` is called before each step with the time at its start \[s\].
+    /// As [`Replay::run`]; `prepare` is called before each step with the time at its start \[s\],
+    /// and `feel` with the felt specific force after each internal step \[m/s2\].
     pub fn run_prepared(
         &self,
         washout: &mut Washout,
         mut prepare: impl FnMut(&mut Washout, f64),
+        mut feel: impl FnMut(&Vector3<f64>),
         mut observe: impl FnMut(&Input, &Output),
     ) {
         let step = self.step() / self.divisions as f64;
@@ -73,11 +76,11 @@ impl<'a> Replay<'a> {
                 k => from.towards(to, k as f64 / self.divisions as f64),
             };
             prepare(washout, start);
-            let mut output = self.advance(washout, &at(0), &at(1), step);
+            let mut output = self.advance(washout, &at(0), &at(1), step, &mut feel);
             for k in 1..self.divisions {
                 let before = output;
                 prepare(washout, start + k as f64 * step);
-                output = self.advance(washout, &at(k), &at(k + 1), step);
+                output = self.advance(washout, &at(k), &at(k + 1), step, &mut feel);
                 output.tilt_limited |= before.tilt_limited;
                 output.safety_active |= before.safety_active;
                 output.actuator_limited |= before.actuator_limited;
@@ -86,11 +89,18 @@ impl<'a> Replay<'a> {
         }
     }
 
-    fn advance(&self, washout: &mut Washout, start: &Input, end: &Input, step: f64) -> Output {
+    fn advance(
+        &self,
+        washout: &mut Washout,
+        start: &Input,
+        end: &Input,
+        step: f64,
+        feel: impl FnMut(&Vector3<f64>),
+    ) -> Output {
         if self.slopes {
-            washout.step_between(start, end, step)
+            washout.step_between_observed(start, end, step, feel)
         } else {
-            washout.step(start, step)
+            washout.step_observed(start, step, feel)
         }
         washout.output()
     }

@@ -8,6 +8,7 @@
 //! | [`fidelity`](mod@fidelity) | RMS and peak error, correlation |
 //! | [`delay`](mod@delay) | delay of one signal behind another |
 //! | [`vestibular`] | what the semicircular canals and the otoliths make of a signal |
+//! | [`comfort`](mod@comfort) | shake, jolt and peak: what RMS errors hide |
 //! | [`cues`] | time above the perception thresholds: false cues, missing cues |
 //! | [`effort`](mod@effort) | stroke used, time limited |
 //! | [`bound`](mod@bound) | the least RMS error that any controller could reach |
@@ -18,6 +19,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bound;
+pub mod comfort;
 pub mod cues;
 pub mod delay;
 pub mod effort;

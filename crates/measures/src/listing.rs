@@ -1,6 +1,7 @@
 //! The measures as a list for people.
 
 use crate::bound::Bound;
+use crate::comfort::{Comfort, Excess};
 use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
@@ -29,6 +30,7 @@ const AXES: Axes<&str> = ["x", "y", "z"];
 const COMMON: &str = "common usage";
 const VESTIBULAR: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
     Approaches, NASA/CR-2005-213747";
+const COMFORT: &str = "docs/measures.md, comfort";
 const BOUND: &str = "docs/measures.md, the bound; solved with Clarabel (Goulart, Chen 2024)";
 const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
@@ -40,6 +42,7 @@ impl Measures {
         let mut rows = Vec::new();
         for (k, axis) in AXES.iter().enumerate() {
             rows.extend(FORCE.rows(axis, &self.force[k]));
+            rows.extend(self.comfort[k].iter().flat_map(|comfort| comfort_rows(axis, comfort)));
             rows.extend(SENSED_FORCE.rows(axis, &self.sensed_force[k]));
             if self.sensed_force[k].is_some() {
                 rows.extend(cue_rows(format!("sensed specific force {axis}"), &self.force_cues[k]));
@@ -113,6 +116,36 @@ impl Signal {
             ),
         ]
     }
+}
+
+fn comfort_rows(axis: &str, comfort: &Comfort) -> [Row; 3] {
+    let row = |name, excess: Option<Excess>, definition| Row {
+        subject: format!("specific force {axis}"),
+        name,
+        value: excess.map(|excess| excess.value),
+        unit: "m/s²",
+        definition,
+        source: COMFORT,
+    };
+    [
+        row(
+            "shake",
+            comfort.shake,
+            "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run; undefined \
+             where less than 16 samples a second are known.",
+        ),
+        row(
+            "jolt",
+            comfort.jolt,
+            "Largest change of the felt force within 20 ms beyond any such change of the desired force in the 60 ms around it; \
+             undefined where less than 50 samples a second are known.",
+        ),
+        row(
+            "peak",
+            Some(comfort.peak),
+            "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.",
+        ),
+    ]
 }
 
 fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
@@ -252,6 +285,7 @@ mod tests {
             step: 0.01,
             desired_force: &desired,
             felt_force: &felt,
+            felt_force_within_steps: &felt,
             desired_rate: &[[0.0; 3]; COUNT],
             felt_rate: &[[0.0; 3]; COUNT],
             platform: Platform {

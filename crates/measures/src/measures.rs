@@ -1,5 +1,6 @@
 //! All measures of a run.
 
+use crate::comfort::{Comfort, comfort};
 use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use crate::effort::{Effort, effort};
 use crate::fidelity::{Fidelity, fidelity};
@@ -18,6 +19,8 @@ pub struct Measures {
     /// Specific force, felt against desired; none on an axis on which nothing is
     /// desired and nothing felt.
     pub force: Axes<Option<Fidelity>>,
+    /// Comfort of the specific force; none where `force` has none.
+    pub comfort: Axes<Option<Comfort>>,
     /// Angular velocity, felt against desired.
     pub rate: Axes<Option<Fidelity>>,
     /// The same of the specific force that the otoliths sense.
@@ -44,7 +47,13 @@ impl Measures {
         let rate = Channel { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
         let [force_x, force_y, force_z] = force.compare(run.desired_force, run.felt_force);
         let [rate_x, rate_y, rate_z] = rate.compare(run.desired_rate, run.felt_rate);
+        let comfort_of = |k: usize| {
+            let (desired, felt) = (axis(run.desired_force, k), axis(run.felt_force_within_steps, k));
+            comfort(&desired, &felt, upright[k], run.step)
+        };
+        let is_felt = [&force_x, &force_y, &force_z].map(|axis| axis.raw.is_some());
         Ok(Measures {
+            comfort: std::array::from_fn(|k| is_felt[k].then(|| comfort_of(k))),
             force: [force_x.raw, force_y.raw, force_z.raw],
             rate: [rate_x.raw, rate_y.raw, rate_z.raw],
             sensed_force: [force_x.sensed, force_y.sensed, force_z.sensed],

@@ -12,6 +12,9 @@ pub struct Run<'a> {
     /// Specific force that the rider on the platform feels, in head axes, gravity's
     /// reaction included \[m/s2\].
     pub felt_force: &'a [[f64; 3]],
+    /// The same, with any whole number of samples to a step, for the measures of comfort. It begins
+    /// and ends with `felt_force`; without finer samples it is the same series.
+    pub felt_force_within_steps: &'a [[f64; 3]],
     /// Angular velocity that the vehicle's rider would feel, in head axes \[rad/s\].
     pub desired_rate: &'a [[f64; 3]],
     /// Angular velocity that the rider on the platform feels, in head axes \[rad/s\].
@@ -56,9 +59,7 @@ pub enum RunError {
     #[error("the run has {0} samples; at least 2 are needed")]
     TooShort(usize),
     /// A series does not belong to the others.
-    #[error(
-        "the series of {series} has {found} samples, that of the desired specific force {expected}; give each series a value for every sample"
-    )]
+    #[error("the series of {series} has {found} samples, not {expected}; give each series a value for every sample")]
     Length {
         /// Name of the series.
         series: &'static str,
@@ -94,6 +95,9 @@ impl Run<'_> {
         }
         check_series("desired specific force", self.desired_force, expected)?;
         check_series("felt specific force", self.felt_force, expected)?;
+        let steps = expected - 1;
+        let divisions = (self.felt_force_within_steps.len().saturating_sub(1) / steps).max(1);
+        check_series("felt specific force within steps", self.felt_force_within_steps, divisions * steps + 1)?;
         check_series("desired angular velocity", self.desired_rate, expected)?;
         check_series("felt angular velocity", self.felt_rate, expected)?;
         check_series("actuator lengths", self.platform.legs, expected)?;

@@ -238,17 +238,44 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     assert!(directory.path().join("moris-report/ride.html").exists());
 }
 
-/// A recording that the platform cannot follow: 6 m/s2 to and fro in heave, at twice its gain.
-#[test]
-fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
-    let directory = tempfile::tempdir().unwrap();
-    write_recording(directory.path(), "ride.csv");
+/// A recording that the platform cannot follow: swings of 8 m/s2 in surge and heave. The actuator
+/// guard stops it at once.
+fn write_rough_recording(directory: &Path) {
     let mut rough = "time,ax,ay,az,wx,wy,wz\n".to_owned();
     for k in 0..400 {
         let t = f64::from(k) / 100.0;
         writeln!(rough, "{t},{},0,{},0,0,0", 8.0 * (3.0 * t).sin(), 9.80665 + 8.0 * (5.0 * t).sin()).unwrap();
     }
-    fs::write(directory.path().join("rough.csv"), rough).unwrap();
+    fs::write(directory.join("rough.csv"), rough).unwrap();
+}
+
+#[test]
+fn a_felt_jolt_is_found_directly_after_the_limits() {
+    let directory = tempfile::tempdir().unwrap();
+    write_recording(directory.path(), "ride.csv");
+    write_rough_recording(directory.path());
+    let narrow = rigs().join("narrow.toml").display().to_string();
+    let output =
+        moris(directory.path(), &["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"]);
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let findings = |recording: &serde_json::Value| -> Vec<String> {
+        let findings = recording["results"][0]["findings"].as_array().unwrap();
+        findings.iter().map(|finding| finding.as_str().unwrap_or_else(|| panic!("{finding}")).to_owned()).collect()
+    };
+    let comfort = |text: &&String| [" shakes by ", " jolts by ", " peaks "].iter().any(|word| text.contains(word));
+    let (smooth, rough) = (findings(&all[0]), findings(&all[1]));
+    assert_eq!(smooth.iter().filter(comfort).count(), 0, "{smooth:?}");
+    assert!(rough[0].starts_with("The recording does not fit the rig."), "{rough:?}");
+    assert!(rough.iter().any(|text| text.contains(" jolts by ")), "{rough:?}");
+    let count = rough.iter().filter(comfort).count();
+    assert!(rough[1..=count].iter().all(|text| comfort(&text)), "{rough:?}");
+}
+
+#[test]
+fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
+    let directory = tempfile::tempdir().unwrap();
+    write_recording(directory.path(), "ride.csv");
+    write_rough_recording(directory.path());
     let narrow = rigs().join("narrow.toml").display().to_string();
     let arguments = ["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"];
     let output = moris(directory.path(), &arguments);

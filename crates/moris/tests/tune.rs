@@ -8,7 +8,7 @@ use std::process::{Command, Output};
 
 use moris::recording::Recording;
 use moris::simulate::Simulation;
-use moris::tune::cost::Objective;
+use moris::tune::cost::{Cost, Objective};
 use moris::tune::search::{Budget, evaluate_here, search};
 use moris::tune::space::{Group, Space};
 use moris_batch::Manoeuvre;
@@ -60,7 +60,7 @@ fn a_platform_at_rest_scores_1() {
     let mut still = Parameters::default();
     still.conditioning.force_scale *= 0.0;
     still.conditioning.rate_scale *= 0.0;
-    let cost = objective.cost(&simulation(&objective, &still));
+    let cost = objective.cost(&simulation(&objective, &still)).unwrap();
     assert!((cost.error - 1.0).abs() < 1e-12, "{cost:?}");
     assert!(cost.channels.iter().zip(objective.desired_rms()).all(|(error, desired)| (error - desired).abs() < 1e-12));
     assert!(cost.is_feasible());
@@ -76,7 +76,7 @@ fn what_is_felt_as_it_is_desired_scores_0_and_half_of_it_a_half() {
             output.felt_specific_force = rest + share * (input.specific_force - rest);
             output.felt_angular_velocity = share * input.angular_velocity;
         }
-        assert!((objective.cost(&perfect).error - (1.0 - share)).abs() < 1e-12);
+        assert!((objective.cost(&perfect).unwrap().error - (1.0 - share)).abs() < 1e-12);
     }
 }
 
@@ -85,7 +85,7 @@ fn only_channels_with_weight_count() {
     let mut weights = [0.0; 6];
     weights[1] = 2.0;
     let objective = Objective::new(weaving(), &Parameters::default(), &weights, NO_RESERVE).unwrap();
-    let cost = objective.cost(&simulation(&objective, &Parameters::default()));
+    let cost = objective.cost(&simulation(&objective, &Parameters::default())).unwrap();
     assert!((cost.error - cost.channels[1] / objective.desired_rms()[1]).abs() < 1e-12);
 }
 
@@ -97,7 +97,7 @@ fn the_search_s_short_way_comes_to_what_a_recording_comes_to() {
     parameters.splitter.omega1.x = 1.3;
     parameters.angular.zeta2.roll = 0.6;
     parameters.conditioning.rate_scale.x = 0.4;
-    assert_eq!(objective.coarse_cost(&parameters).unwrap(), objective.cost(&simulation(&objective, &parameters)));
+    assert_eq!(objective.coarse_cost(&parameters), objective.cost(&simulation(&objective, &parameters)));
 }
 
 #[test]
@@ -107,8 +107,54 @@ fn limits_that_act_and_a_reserve_that_is_touched_are_violations() {
     let loose = objective(wild, NO_RESERVE);
     let simulation = simulation(&loose, &Parameters::default());
     let acted = simulation.outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
-    assert_eq!(loose.cost(&simulation).violated, acted as f64 / simulation.outputs.len() as f64);
-    assert!(tight.cost(&simulation).violated > loose.cost(&simulation).violated);
+    assert_eq!(loose.cost(&simulation).unwrap().violated, acted as f64 / simulation.outputs.len() as f64);
+    assert!(tight.cost(&simulation).unwrap().violated > loose.cost(&simulation).unwrap().violated);
+}
+
+#[test]
+fn comfort_is_bounded_by_the_greater_of_bound_and_start() {
+    let wild = recording("wild", 3.0, |t, input| input.specific_force.z += 7.0 * (8.0 * t).sin() * t.min(1.0));
+    let mut calm = Parameters::default();
+    calm.conditioning.force_scale *= 0.1;
+    let from = |start: &Parameters, bounds| {
+        Objective::new(wild.clone(), start, &EQUAL, NO_RESERVE).unwrap().with_comfort_bounds(bounds)
+    };
+    let rough = Parameters::default();
+    let tight = from(&calm, [1e-3; 3]);
+    let cost = tight.cost(&simulation(&tight, &rough)).unwrap();
+    assert!(cost.excess > 1.0 && cost.comfort[1] > 0.1, "{cost:?}");
+    assert!(!Cost { violated: 0.0, ..cost }.is_feasible());
+    assert!(tight.coarse_cost(&rough).unwrap().excess > 1.0);
+    for (start, bounds) in [(&rough, [1e-3; 3]), (&calm, cost.comfort), (&calm, [f64::INFINITY; 3])] {
+        let objective = from(start, bounds);
+        assert_eq!(objective.cost(&simulation(&objective, &rough)).unwrap().excess, 0.0);
+    }
+    for objective in [&tight, &from(&rough, [1e-3; 3])] {
+        assert_eq!(objective.coarse_cost(objective.start()).unwrap().excess, 0.0);
+    }
+}
+
+#[test]
+fn parameters_beyond_the_bounds_of_comfort_never_win() {
+    let objective = objective(weaving(), NO_RESERVE);
+    let start = Parameters::default();
+    let space = Space::new(&start, &[Group::Splitter]);
+    let budget = Budget { evaluations: 150, seed: 1 };
+    let bound = 1.2 * start.splitter.omega1.x;
+    // The error falls with the frequency.
+    let best = |excess: f64| {
+        let evaluate = move |_: &[&Objective], parameters: &Parameters| {
+            let omega = parameters.splitter.omega1.x;
+            let excess = if omega > bound { excess } else { 0.0 };
+            Ok(vec![Cost { channels: [0.0; 6], error: 1.0 / omega, violated: 0.0, comfort: [0.0; 3], excess }])
+        };
+        search(&[&objective], &evaluate, &space, budget, |_, _| true).unwrap().best
+    };
+    assert!(best(0.0)[0].parameters.splitter.omega1.x > 2.0 * bound);
+    for excess in [1e-9, 1.0] {
+        let best = best(excess);
+        assert!(!best.is_empty() && best.iter().all(|found| found.parameters.splitter.omega1.x <= bound));
+    }
 }
 
 fn searched(threads: usize, seed: u64) -> Parameters {
@@ -142,8 +188,8 @@ fn the_search_finds_something_better_that_keeps_the_limits() {
         true
     });
     let best = &searched.unwrap().best;
-    let (before, after) =
-        (objective.cost(&simulation(&objective, &start)), objective.cost(&simulation(&objective, &best[0].parameters)));
+    let cost = |parameters: &Parameters| objective.cost(&simulation(&objective, parameters)).unwrap();
+    let (before, after) = (cost(&start), cost(&best[0].parameters));
     assert!(after.is_feasible() && after.error < 0.9 * before.error, "{} {}", before.error, after.error);
     assert!(tried.windows(2).all(|pair| pair[0].0 < pair[1].0 && pair[0].1 >= pair[1].1), "progress goes on and down");
     assert!(best[1..].windows(2).all(|pair| pair[0].error <= pair[1].error + 0.01));

@@ -25,6 +25,7 @@ static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock:
         step: 0.1,
         desired_force: &force,
         felt_force: &still,
+        felt_force_within_steps: &still,
         desired_rate: &force,
         felt_rate: &still,
         platform: Platform {

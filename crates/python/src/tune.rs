@@ -42,9 +42,9 @@ pub struct PyTuning {
     groups: Vec<Group>,
 }
 
-/// A cost as it is sent between machines: error of each channel, total error, and fraction of
-/// the time in violation.
-type Sent = ([f64; 6], f64, f64);
+/// A cost as it is sent between machines: error of each channel, total error, fraction of the time
+/// in violation, shake, jolt and peak, and their excess.
+type Sent = ([f64; 6], f64, f64, [f64; 3], f64);
 
 #[pymethods]
 impl PyTuning {
@@ -61,6 +61,7 @@ impl PyTuning {
         groups: Vec<String>,
         weights: [f64; 6],
         stroke_reserve: f64,
+        comfort: [f64; 3],
     ) -> PyResult<Self> {
         let before = setup::load(py, rig, parameters, strategy)?;
         if !weights.iter().all(|weight| (0.0..=1e6).contains(weight)) || weights.iter().sum::<f64>() <= 0.0 {
@@ -73,9 +74,15 @@ impl PyTuning {
                 "stroke_reserve is {stroke_reserve} m, but must not be below 0"
             )));
         }
+        if !comfort.iter().all(|bound| *bound > 0.0) {
+            return Err(PyValueError::new_err(format!(
+                "comfort is {comfort:?}, but must be bounds of shake, jolt and peak above 0 m/s2"
+            )));
+        }
         let groups = groups.iter().map(|name| group(name)).collect::<PyResult<_>>()?;
         let objective = |recording: &PyRef<PyRecording>| {
             let objective = Objective::new((*recording.inner).clone(), &before.parameters, &weights, stroke_reserve);
+            let objective = objective.map(|objective| objective.with_comfort_bounds(comfort));
             objective.map_err(|error| error::refused(py, &error, &all(&before.parameters)))
         };
         let objectives = recordings.iter().map(objective).collect::<PyResult<_>>()?;
@@ -90,7 +97,8 @@ impl PyTuning {
         let objectives: Vec<&Objective> = names.iter().filter_map(named).collect();
         let cost = |objective: &&Objective| objective.coarse_cost(&parameters).ok();
         let costs: Option<Vec<Cost>> = py.detach(|| objectives.iter().map(cost).collect());
-        Some(costs?.into_iter().map(|cost| (cost.channels, cost.error, cost.violated)).collect())
+        let sent = |cost: Cost| (cost.channels, cost.error, cost.violated, cost.comfort, cost.excess);
+        Some(costs?.into_iter().map(sent).collect())
     }
 
     /// Searches. `observe(name, tried, error)` returns False to end it with the best so far.
@@ -213,9 +221,7 @@ fn remote<'a>(
             function.call1(py, (names, all(parameters)))?.extract(py)
         });
         match sent {
-            Ok(Some(costs)) => {
-                Ok(costs.into_iter().map(|(channels, error, violated)| Cost { channels, error, violated }).collect())
-            }
+            Ok(Some(costs)) => Ok(costs.into_iter().map(received).collect()),
             Ok(None) => Err(anyhow::anyhow!("the parameters cannot be used")),
             Err(error) => {
                 lock(failure).get_or_insert(error);
@@ -224,6 +230,10 @@ fn remote<'a>(
             }
         }
     })
+}
+
+fn received((channels, error, violated, comfort, excess): Sent) -> Cost {
+    Cost { channels, error, violated, comfort, excess }
 }
 
 /// Reports progress to Python and checks for signals. Returns false if the search is to end.

@@ -1,5 +1,6 @@
 //! Findings of a simulation, in sentences.
 
+use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::fidelity::Fidelity;
 use moris_report::{Finding, Weight};
 
@@ -14,9 +15,19 @@ const FAITHFUL: f64 = 0.25;
 /// More than this fraction, and not cueing at all would be as good: a platform at rest has 1.
 const USELESS: f64 = 1.0;
 
-/// The findings, the most important first: did it fit, what limited it, how well was it felt.
+/// Least excesses of the felt force that are worth a sentence: well above what is felt at all, and
+/// well below what hurts \[m/s2\].
+const LEAST_SHAKE: f64 = 0.1;
+const LEAST_JOLT: f64 = 1.0;
+const LEAST_PEAK: f64 = 1.0;
+
+const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
+
+/// The findings, the most important first: did it fit, what does a rider complain of, what limited
+/// it, how well was it felt.
 pub fn of(outcome: &Outcome) -> Vec<Finding> {
     let mut findings = vec![fits(outcome)];
+    findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
     findings.extend(tilt(outcome));
     findings.extend((0..3).filter_map(|axis| force(outcome, axis)));
     findings
@@ -58,6 +69,32 @@ fn limited_time(what: &str, simulation: &Simulation, is_active: impl Fn(&Output)
     Some(format!("{what} limited the platform for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
 }
 
+/// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.
+fn comfort(outcome: &Outcome, axis: usize) -> Vec<Finding> {
+    let Some(Comfort { shake, jolt, peak }) = outcome.measures.comfort[axis] else { return Vec::new() };
+    let name = AXES[axis].to_lowercase();
+    let sentences = [
+        worth_saying(shake, LEAST_SHAKE).map(|Excess { value, time }| {
+            format!(
+                "Felt {name} shakes by {value:.2} m/s² (RMS above 8 Hz) at {time:.1} s, beyond the shaking of the desired force."
+            )
+        }),
+        worth_saying(jolt, LEAST_JOLT).map(|Excess { value, time }| {
+            format!(
+                "Felt {name} jolts by {value:.1} m/s² within 20 ms at {time:.1} s, beyond any change of the desired force there."
+            )
+        }),
+        worth_saying(Some(peak), LEAST_PEAK).map(|Excess { value, time }| {
+            format!("Felt {name} peaks {value:.1} m/s² above the largest desired force, at {time:.1} s.")
+        }),
+    ];
+    sentences.into_iter().flatten().map(|text| finding(Weight::Warning, text)).collect()
+}
+
+fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
+    excess.filter(|excess| excess.value >= least)
+}
+
 fn tilt(outcome: &Outcome) -> Option<Finding> {
     let fraction = outcome.measures.effort.tilt_limited;
     let limits = &outcome.setup.parameters.tilt;
@@ -77,7 +114,7 @@ fn tilt(outcome: &Outcome) -> Option<Finding> {
 
 /// Agreement of the specific force on an axis on which there is some.
 fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
-    let name = ["Surge", "Sway", "Heave"][axis];
+    let name = AXES[axis];
     let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;
     let desired = deviation(outcome.simulation.inputs.iter().map(|input| input.specific_force[axis]));
     if desired < LEAST_FORCE {

@@ -18,10 +18,13 @@ pub struct Entry {
     error: f64,
 }
 
-const HEADS: [&str; 7] = [
+const HEADS: [&str; 10] = [
     "duration s",
     "limits active %",
     "stroke used %",
+    "shake m/s²",
+    "jolt m/s²",
+    "peak m/s²",
     "sensed error, surge m/s²",
     "sway m/s²",
     "heave m/s²",
@@ -42,11 +45,14 @@ impl Entry {
             format!("{:.1}", 100.0 * limited),
             format!("{:.0}", 100.0 * effort.stroke_used),
         ];
+        // The largest of the axes.
+        let worst = |k: usize| measures.comfort.iter().flatten().map(|comfort| comfort.values()[k]).fold(0.0, f64::max);
+        let comfort = [worst(0), worst(1), worst(2)].map(|value| figure(Some(value)));
         let row = IndexRow {
             name: recording.name.clone(),
             file: page.file_name().unwrap_or_default().to_string_lossy().into_owned(),
             is_good: limited == 0.0,
-            cells: first.into_iter().chain(errors.map(figure)).chain([figure(Some(error))]).collect(),
+            cells: first.into_iter().chain(comfort).chain(errors.map(figure)).chain([figure(Some(error))]).collect(),
         };
         Entry { row, limited, error }
     }

@@ -22,6 +22,7 @@ pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
         step: simulation.step,
         desired_force: &inputs(|input| input.specific_force.into()),
         felt_force: &outputs(|output| output.felt_specific_force.into()),
+        felt_force_within_steps: &simulation.felt_within_steps.iter().map(|&felt| felt.into()).collect::<Vec<_>>(),
         desired_rate: &simulation.desired_rates().into_iter().map(Into::into).collect::<Vec<_>>(),
         felt_rate: &outputs(|output| output.felt_angular_velocity.into()),
         platform: Platform {

@@ -22,13 +22,21 @@ pub struct Simulation {
     pub inputs: Vec<Input>,
     /// The output at each sample; the first is that before the first step.
     pub outputs: Vec<Output>,
+    /// The felt specific force at the first sample and after each internal step \[m/s2\].
+    pub felt_within_steps: Vec<Vector3<f64>>,
 }
 
 impl Simulation {
     /// A recording alone, to be simulated with these parameters: no outputs yet.
     pub fn without_outputs(recording: &Recording, parameters: &Parameters) -> Self {
         let inputs = recording.inputs().to_vec();
-        Simulation { step: recording.step(), parameters: *parameters, inputs, outputs: Vec::new() }
+        Simulation {
+            step: recording.step(),
+            parameters: *parameters,
+            inputs,
+            outputs: Vec::new(),
+            felt_within_steps: Vec::new(),
+        }
     }
 
     /// Replays a manoeuvre from rest at neutral. `progress` is called at each observation.
@@ -52,17 +60,23 @@ impl Simulation {
         let inputs: Vec<Input> = replay.inputs().copied().collect();
         let mut washout = Washout::new(parameters)?.starting_with(&inputs[0]);
         let mut outputs = vec![washout.output()];
+        let mut felt_within_steps = vec![outputs[0].felt_specific_force];
         progress();
         let preview = |washout: &mut Washout, time: f64| {
             if let Some(previewer) = &previewer {
                 washout.preview(&previewer.at(time));
             }
         };
-        replay.run_prepared(&mut washout, preview, |_, output| {
-            outputs.push(*output);
-            progress();
-        });
-        Ok(Simulation { step: replay.step(), parameters: *parameters, inputs, outputs })
+        replay.run_prepared(
+            &mut washout,
+            preview,
+            |felt| felt_within_steps.push(*felt),
+            |_, output| {
+                outputs.push(*output);
+                progress();
+            },
+        );
+        Ok(Simulation { step: replay.step(), parameters: *parameters, inputs, outputs, felt_within_steps })
     }
 
     /// The time of each sample \[s\].

@@ -1,5 +1,6 @@
 //! Summary of a simulation on the terminal.
 
+use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 
@@ -36,6 +37,9 @@ fn table(outcome: &Outcome) -> TextTable {
         "RMS error",
         "bound",
         "peak error",
+        "shake",
+        "jolt",
+        "peak",
         "correlation",
         "delay",
         "sensed: RMS error",
@@ -50,9 +54,10 @@ fn table(outcome: &Outcome) -> TextTable {
     for (kind, unit, factor, raw, sensed, cues) in kinds {
         for (axis, name) in ["x", "y", "z"].iter().enumerate() {
             if let Some(fidelity) = &raw[axis] {
-                let bound =
-                    outcome.bounds[axis].as_ref().filter(|_| kind == "force").map(|bound| bound.bound.rms_error);
-                let row = row(fidelity, bound, sensed[axis].as_ref(), &cues[axis], unit, factor);
+                let is_force = kind == "force";
+                let bound = outcome.bounds[axis].as_ref().filter(|_| is_force).map(|bound| bound.bound.rms_error);
+                let comfort = measures.comfort[axis].as_ref().filter(|_| is_force);
+                let row = row(fidelity, bound, comfort, sensed[axis].as_ref(), &cues[axis], unit, factor);
                 table.push([format!("{kind} {name}")].into_iter().chain(row).collect());
             }
         }
@@ -63,17 +68,22 @@ fn table(outcome: &Outcome) -> TextTable {
 fn row(
     raw: &Fidelity,
     bound: Option<f64>,
+    comfort: Option<&Comfort>,
     sensed: Option<&Fidelity>,
     cues: &Cues,
     unit: &str,
     factor: f64,
-) -> [String; 8] {
+) -> [String; 11] {
     let number = |value: f64| format!("{:.2} {unit}", factor * value);
+    let excess = |excess: Option<Excess>| excess.map(|excess| number(excess.value));
     let or_undefined = |text: Option<String>| text.unwrap_or_else(|| UNDEFINED.to_owned());
     [
         number(raw.rms_error),
         or_undefined(bound.map(number)),
         number(raw.peak_error),
+        or_undefined(comfort.and_then(|comfort| excess(comfort.shake))),
+        or_undefined(comfort.and_then(|comfort| excess(comfort.jolt))),
+        or_undefined(comfort.and_then(|comfort| excess(Some(comfort.peak)))),
         or_undefined(raw.correlation.map(|correlation| format!("{correlation:.3}"))),
         or_undefined(raw.delay.map(|delay| format!("{:.0} ms", (1000.0 * delay).round() + 0.0))),
         or_undefined(sensed.map(|sensed| number(sensed.rms_error))),

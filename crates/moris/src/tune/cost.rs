@@ -1,4 +1,4 @@
-//! The objective: sensed error of a recording, and penalties for active limits.
+//! The objective: sensed error of a recording, time with active limits, and discomfort.
 //!
 //! A recording has six channels: specific force and angular velocity along x, y and z. Each is the
 //! vestibular model's response in units of the perception threshold, so that forces and rates can
@@ -13,6 +13,7 @@
 
 use std::sync::OnceLock;
 
+use moris_measures::comfort::comfort;
 use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
 use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -36,12 +37,17 @@ pub struct Cost {
     /// Fraction of the steps in which a safety unit or the actuator guard was active or the
     /// reserve of stroke was touched.
     pub violated: f64,
+    /// Shake, jolt and peak of the felt specific force, the largest of the axes \[m/s2\].
+    pub comfort: [f64; 3],
+    /// Relative amounts by which these exceed their bounds, added. A bound is at least the value
+    /// with the parameters that the search starts from.
+    pub excess: f64,
 }
 
 impl Cost {
     /// True if all constraints were kept throughout.
     pub fn is_feasible(&self) -> bool {
-        self.violated == 0.0
+        self.violated == 0.0 && self.excess == 0.0
     }
 }
 
@@ -61,6 +67,25 @@ pub struct Objective {
     /// Washouts at rest, indexed by the orders of splitter and angular channel less 2. They are
     /// kept, because constructing a washout surveys its rig.
     coarse: [[OnceLock<Washout>; 3]; 3],
+    /// The parameters that the search starts from.
+    start: Parameters,
+    /// Bounds of shake, jolt and peak \[m/s2\].
+    comfort_bounds: [f64; 3],
+    /// Shake, jolt and peak with the start's parameters, in the search's long steps and in those
+    /// that the parameters will be used with.
+    start_comfort: [OnceLock<[f64; 3]>; 2],
+}
+
+/// Default bounds of shake, jolt and peak \[m/s2\].
+pub const COMFORT_BOUNDS: [f64; 3] = [0.2, 4.0, 4.0];
+
+/// Internal steps of a simulation.
+#[derive(Clone, Copy)]
+enum Steps {
+    /// The search's long ones.
+    Coarse,
+    /// Those that the parameters will be used with.
+    Full,
 }
 
 /// Longest internal step in the search \[s\], unless the parameters have a longer one. The filters
@@ -84,6 +109,7 @@ impl Objective {
         weights: &Channels<f64>,
         stroke_reserve: f64,
     ) -> Result<Self, ParameterError> {
+        let start = *parameters;
         let mut parameters = recording.parameters(parameters);
         let desired = desired(&recording, &parameters);
         parameters.structure.max_step = recording.step().min(LONGEST_STEP).max(parameters.structure.max_step);
@@ -98,9 +124,23 @@ impl Objective {
             stroke_reserve,
             fixed: parameters,
             coarse: Default::default(),
+            start,
+            comfort_bounds: COMFORT_BOUNDS,
+            start_comfort: Default::default(),
         };
         objective.coarse(&parameters)?;
         Ok(objective)
+    }
+
+    /// The objective with these bounds of shake, jolt and peak in place of [`COMFORT_BOUNDS`]
+    /// \[m/s2\]. All are positive; an infinite one bounds nothing.
+    pub fn with_comfort_bounds(self, comfort_bounds: [f64; 3]) -> Self {
+        Objective { comfort_bounds, ..self }
+    }
+
+    /// The parameters that the search starts from.
+    pub fn start(&self) -> &Parameters {
+        &self.start
     }
 
     /// The recording's name.
@@ -128,6 +168,15 @@ impl Objective {
     /// # Errors
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
+        let (mut accumulator, felt) = self.coarse_run(parameters)?;
+        accumulator.comfort = self.comfort(&felt);
+        let start = || self.coarse_run(&self.start).map(|(_, felt)| self.comfort(&felt));
+        accumulator.excess = self.excess(&accumulator.comfort, Steps::Coarse, start)?;
+        Ok(accumulator.cost())
+    }
+
+    /// Costs without comfort, and the felt specific force after each of the search's long steps.
+    fn coarse_run(&self, parameters: &Parameters) -> Result<(CostAccumulator<'_>, Vec<Vector3<f64>>), ParameterError> {
         let mut washout = self.coarse(parameters)?.clone();
         let mut parameters = self.recording.parameters(parameters);
         let Parameters { structure, rig, .. } = washout.parameters();
@@ -137,8 +186,10 @@ impl Objective {
         let mut washout = washout.starting_with(&self.recording.inputs()[0]);
         let mut accumulator = CostAccumulator::new(self);
         accumulator.add(&washout.output());
-        self.recording.replay().run(&mut washout, |_, output| accumulator.add(output));
-        Ok(accumulator.cost())
+        let mut felt = vec![washout.output().felt_specific_force];
+        let feel = |force: &Vector3<f64>| felt.push(*force);
+        self.recording.replay().run_prepared(&mut washout, |_, _| (), feel, |_, output| accumulator.add(output));
+        Ok((accumulator, felt))
     }
 
     /// A washout at rest with the fixed parameters and the orders of these.
@@ -154,10 +205,54 @@ impl Objective {
     }
 
     /// Cost of a simulation.
-    pub fn cost(&self, simulation: &Simulation) -> Cost {
+    ///
+    /// # Errors
+    /// The parameters that the search starts from cannot be used.
+    pub fn cost(&self, simulation: &Simulation) -> Result<Cost, ParameterError> {
         let mut accumulator = CostAccumulator::new(self);
         simulation.outputs.iter().for_each(|output| accumulator.add(output));
-        accumulator.cost()
+        accumulator.comfort = self.comfort(&simulation.felt_within_steps);
+        let start = || {
+            let parameters = self.recording.parameters(&self.start);
+            let simulation = Simulation::of(&self.recording.replay(), &parameters, || ())?;
+            Ok(self.comfort(&simulation.felt_within_steps))
+        };
+        accumulator.excess = self.excess(&accumulator.comfort, Steps::Full, start)?;
+        Ok(accumulator.cost())
+    }
+
+    /// Shake, jolt and peak of a felt specific force, the largest of the axes.
+    fn comfort(&self, felt: &[Vector3<f64>]) -> [f64; 3] {
+        let of_axis = |k: usize| {
+            let felt: Vec<f64> = felt.iter().map(|felt| (felt - rest())[k]).collect();
+            comfort(&self.desired[k], &felt, 0.0, self.recording.step()).values()
+        };
+        let axes: [[f64; 3]; 3] = std::array::from_fn(of_axis);
+        std::array::from_fn(|k| axes.iter().map(|values| values[k]).fold(0.0, f64::max))
+    }
+
+    /// Relative amounts, added, by which shake, jolt and peak exceed both their bounds and those of
+    /// the start in the same steps. `start` computes the latter, once.
+    fn excess(
+        &self,
+        values: &[f64; 3],
+        steps: Steps,
+        start: impl FnOnce() -> Result<[f64; 3], ParameterError>,
+    ) -> Result<f64, ParameterError> {
+        let beyond = |bounds: &[f64; 3]| values.iter().zip(bounds).any(|(value, bound)| value > bound);
+        if !beyond(&self.comfort_bounds) {
+            return Ok(0.0);
+        }
+        let place = &self.start_comfort[steps as usize];
+        let start = match place.get() {
+            Some(start) => start,
+            None => {
+                let start = start()?;
+                place.get_or_init(|| start)
+            }
+        };
+        let bounds = self.comfort_bounds.iter().zip(start).map(|(bound, start)| bound.max(*start));
+        Ok(values.iter().zip(bounds).map(|(value, bound)| (value / bound - 1.0).max(0.0)).sum())
     }
 }
 
@@ -166,12 +261,15 @@ struct CostAccumulator<'a> {
     objective: &'a Objective,
     errors: Channels<Vec<f64>>,
     violated: usize,
+    comfort: [f64; 3],
+    excess: f64,
 }
 
 impl<'a> CostAccumulator<'a> {
     fn new(objective: &'a Objective) -> Self {
         let samples = objective.desired[0].len();
-        CostAccumulator { objective, errors: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
+        let errors = std::array::from_fn(|_| Vec::with_capacity(samples));
+        CostAccumulator { objective, errors, violated: 0, comfort: [0.0; 3], excess: 0.0 }
     }
 
     fn add(&mut self, output: &Output) {
@@ -193,6 +291,8 @@ impl<'a> CostAccumulator<'a> {
             channels,
             error: self.objective.weighted(&channels) / whole,
             violated: self.violated as f64 / self.errors[0].len() as f64,
+            comfort: self.comfort,
+            excess: self.excess,
         }
     }
 }

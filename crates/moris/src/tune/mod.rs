@@ -82,7 +82,8 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let objective = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
-        Ok(Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?)
+        let objective = Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?;
+        Ok(objective.with_comfort_bounds(options.comfort.0))
     };
     files.par_iter().map(objective).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::cost::Channels;
+use super::cost::{COMFORT_BOUNDS, Channels};
 use super::search::Budget;
 use super::space::Group;
 use crate::recording::ConventionOptions;
@@ -11,11 +11,11 @@ use crate::setup_options::SetupOptions;
 /// Search for parameters with a smaller sensed error on a rig
 ///
 /// Searches for break frequencies, dampings and scales with a small sensed error on all
-/// recordings. No safety unit and no actuator limit may be active at any time. The error of a
-/// recording is the vestibular model's response to felt minus desired. It is the RMS over time in
-/// perception thresholds, added in quadrature over specific force and angular velocity along x, y,
-/// z. It is divided by the same quantity of the desired motion. 0 is perfect; a platform at rest
-/// scores 1 on noticeable motion.
+/// recordings. No safety unit and no actuator limit may be active at any time. Shake, jolt and peak
+/// of the felt force may not exceed --comfort. The error of a recording is the vestibular model's
+/// response to felt minus desired. It is the RMS over time in perception thresholds, added in
+/// quadrature over specific force and angular velocity along x, y, z. It is divided by the same
+/// quantity of the desired motion. 0 is perfect; a platform at rest scores 1 on noticeable motion.
 ///
 /// Recordings fade in from rest over 1 s; --fade-in changes it. The search starts from the given
 /// parameters. Ctrl-C ends it and keeps the best result so far. The same seed gives the same result
@@ -49,6 +49,11 @@ pub struct Options {
     /// Stroke reserve of every actuator at either end, in m
     #[arg(long, value_name = "METRES", value_parser = reserve, default_value = "0.01")]
     pub stroke_reserve: f64,
+
+    /// Bounds of shake, jolt and peak of the felt force on every axis, in m/s²; inf for none. Where
+    /// they are exceeded before, the value before is the bound
+    #[arg(long, value_name = "BOUNDS", value_parser = comfort, default_value_t = Comfort(COMFORT_BOUNDS))]
+    pub comfort: Comfort,
 
     /// Parameter sets evaluated by each search after its coarse scan
     #[arg(long, value_name = "NUMBER", default_value_t = 3000)]
@@ -87,6 +92,26 @@ fn weights(text: &str) -> Result<Channels<f64>, String> {
         .ok_or_else(|| "six numbers are needed, none below 0 and not all 0, such as 1,1,1,0.5,0.5,0.5".to_owned())
 }
 
+/// Bounds of shake, jolt and peak \[m/s2\].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comfort(pub [f64; 3]);
+
+impl std::fmt::Display for Comfort {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let [shake, jolt, peak] = self.0;
+        write!(formatter, "{shake},{jolt},{peak}")
+    }
+}
+
+fn comfort(text: &str) -> Result<Comfort, String> {
+    let bounds: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+    let bounds: Option<[f64; 3]> = bounds.ok().and_then(|bounds| bounds.try_into().ok());
+    bounds
+        .filter(|bounds| bounds.iter().all(|bound| *bound > 0.0))
+        .map(Comfort)
+        .ok_or_else(|| "three numbers above 0 are needed, such as 0.2,4,4 or inf,4,4".to_owned())
+}
+
 fn reserve(text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
@@ -103,6 +128,15 @@ mod tests {
         assert_eq!(weights("1, 2,3,0,0,0.5"), Ok([1.0, 2.0, 3.0, 0.0, 0.0, 0.5]));
         for wrong in ["", "1,2,3", "1,1,1,1,1,-1", "0,0,0,0,0,0", "1,1,1,1,1,NaN", "a,b,c,d,e,f"] {
             assert!(weights(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn bounds_of_comfort_are_three_positive_numbers() {
+        assert_eq!(comfort("0.1, 3,inf"), Ok(Comfort([0.1, 3.0, f64::INFINITY])));
+        assert_eq!(comfort(&Comfort(COMFORT_BOUNDS).to_string()), Ok(Comfort(COMFORT_BOUNDS)));
+        for wrong in ["", "0.2,4", "0.2,4,4,4", "0,4,4", "0.2,-4,4", "NaN,4,4", "a,b,c"] {
+            assert!(comfort(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -41,6 +41,8 @@ const TOLERANCE: f64 = 1e-5;
 const PENALTY_OF_LIMITS: f64 = 2.0;
 /// Additional penalty if limits are active at any time.
 const PENALTY_OF_ANY: f64 = 0.05;
+/// Penalty for shake, jolt or peak beyond their bounds by a factor of e, in addition.
+const PENALTY_OF_DISCOMFORT: f64 = 0.5;
 /// Penalty for a point outside the space's box by a factor of e in one parameter.
 const PENALTY_OF_OUTSIDE: f64 = 0.1;
 /// Penalty for a distance from the start by a factor of e in every parameter. Of two equally
@@ -177,11 +179,11 @@ fn scan(recordings: &Recordings, space: &Space) -> Beginning {
 const SCALE_STEP: f64 = 0.8;
 const TRIES: i32 = 21;
 
-/// The start. If limits are active there, all scales are reduced until none is.
+/// The start. If constraints are violated there, all scales are reduced until none is.
 fn start_within_limits(recordings: &Recordings, space: &Space) -> Vec<f64> {
     let tries = (0..TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
     let keeps = |point: &nalgebra::DVector<f64>| {
-        recordings.objective(&space.parameters(point)).is_some_and(|(_, violated)| violated == 0.0)
+        recordings.objective(&space.parameters(point)).is_some_and(|judged| judged.is_feasible())
     };
     let start = tries.into_iter().find(keeps).unwrap_or_else(|| space.scaled_start(1.0));
     start.as_slice().to_vec()
@@ -203,9 +205,9 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Found) -> Found {
         let mut point = tidied.point.clone();
         point[k] = 0.0;
         let parameters = space.parameters(&nalgebra::DVector::from_column_slice(&point));
-        let Some((error, violated)) = recordings.objective(&parameters) else { continue };
-        if violated == 0.0 && error < tidied.error + WORTH_TIDYING {
-            tidied = Found { parameters, error, point, ..tidied };
+        let Some(judged) = recordings.objective(&parameters) else { continue };
+        if judged.is_feasible() && judged.error < tidied.error + WORTH_TIDYING {
+            tidied = Found { parameters, error: judged.error, point, ..tidied };
         }
     }
     tidied
@@ -215,6 +217,29 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Found) -> Found {
 const WEIGHT_OF_THE_WORST: f64 = 0.5;
 /// Penalty on a recording's error above that with the parameters that the search starts from.
 const PENALTY_OF_WORSENING: f64 = 4.0;
+
+/// Objective and violated constraints over all recordings.
+struct Judged {
+    error: f64,
+    /// Mean fraction of the time with active limits.
+    violated: f64,
+    /// Mean excess of shake, jolt and peak.
+    excess: f64,
+}
+
+impl Judged {
+    fn is_feasible(&self) -> bool {
+        self.violated == 0.0 && self.excess == 0.0
+    }
+
+    /// Penalty for violated constraints.
+    fn penalty(&self) -> f64 {
+        if self.is_feasible() {
+            return 0.0;
+        }
+        PENALTY_OF_ANY + PENALTY_OF_LIMITS * self.violated.sqrt() + PENALTY_OF_DISCOMFORT * self.excess.ln_1p()
+    }
+}
 
 /// The recordings and their errors at the start of the search.
 struct Recordings<'a> {
@@ -230,13 +255,13 @@ impl<'a> Recordings<'a> {
         Ok(Recordings { objectives, evaluate, starts })
     }
 
-    /// The objective and the mean fraction of the time in violation. `None` where the
-    /// parameters cannot be used.
+    /// The objective, and how far constraints are violated. `None` where the parameters cannot be
+    /// used.
     ///
     /// The objective is the mean error over the recordings, plus the weighted worst error, plus a
     /// penalty on each recording that gets worse. A set that improves one recording at another's
     /// expense is unlikely to improve an unknown recording.
-    fn objective(&self, parameters: &Parameters) -> Option<(f64, f64)> {
+    fn objective(&self, parameters: &Parameters) -> Option<Judged> {
         let costs = (self.evaluate)(self.objectives, parameters).ok()?;
         let count = costs.len() as f64;
         let mean = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
@@ -244,7 +269,9 @@ impl<'a> Recordings<'a> {
         let worse =
             costs.iter().zip(&self.starts).map(|(cost, start)| (cost.error - start).max(0.0)).sum::<f64>() / count;
         let violated = costs.iter().map(|cost| cost.violated).sum::<f64>() / count;
-        Some((mean + WEIGHT_OF_THE_WORST * worst + PENALTY_OF_WORSENING * worse, violated))
+        let excess = costs.iter().map(|cost| cost.excess).sum::<f64>() / count;
+        let error = mean + WEIGHT_OF_THE_WORST * worst + PENALTY_OF_WORSENING * worse;
+        Some(Judged { error, violated, excess })
     }
 }
 
@@ -253,16 +280,15 @@ fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &
     let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
     let parameters = space.parameters(&inside);
     // All parameters in the box can be used. If some cannot, their cost is the largest.
-    let Some((error, violated)) = recordings.objective(&parameters) else { return f64::MAX };
+    let Some(judged) = recordings.objective(&parameters) else { return f64::MAX };
+    let error = judged.error;
     let distance = inside.norm_squared() / inside.len() as f64;
     let cost = error + PENALTY_OF_DISTANCE * distance;
-    if violated == 0.0 {
+    if judged.is_feasible() {
         let found = Found { parameters, error, cost, point: inside.as_slice().to_vec() };
         best.lock().expect("no evaluation panics").add(found);
-        cost + PENALTY_OF_OUTSIDE * outside
-    } else {
-        cost + PENALTY_OF_OUTSIDE * outside + PENALTY_OF_LIMITS * violated.sqrt() + PENALTY_OF_ANY
     }
+    cost + PENALTY_OF_OUTSIDE * outside + judged.penalty()
 }
 
 /// The best sets so far, the best first. They do not depend on the order of evaluation.

@@ -93,8 +93,8 @@ pub fn text(before: &Setup, tuned: &Setup, results: &[RecordingResult], fraction
         );
     }
     let verdict = verdict(results, &before.parameters_name);
-    let (errors, channels, parameters) = (errors(results), channels(results), parameters(before, tuned));
-    text + &format!("{verdict}\n\n{errors}\n{channels}\n{parameters}")
+    let (errors, comfort, channels) = (errors(results), comfort(results), channels(results));
+    text + &format!("{verdict}\n\n{errors}\n{comfort}\n{channels}\n{}", parameters(before, tuned))
 }
 
 /// The mean errors before and after in a few sentences, on recordings tuned on and on others.
@@ -216,6 +216,15 @@ fn with_limits(cost: &Cost) -> String {
     }
 }
 
+fn comfort(results: &[RecordingResult]) -> String {
+    let row = |result: &RecordingResult| {
+        let after = result.tuned.or(result.unseen).unwrap_or(result.before);
+        let cell = |k: usize| format!("{:.2} → {:.2}", result.before.comfort[k], after.comfort[k]);
+        [result.name.clone(), cell(0), cell(1), cell(2)]
+    };
+    table(["felt force, m/s²: before → after", "shake", "jolt", "peak"], results.iter().map(row))
+}
+
 fn channels(results: &[RecordingResult]) -> String {
     let row = |result: &RecordingResult| {
         let after = result.tuned.or(result.unseen).unwrap_or(result.before);
@@ -265,7 +274,7 @@ mod tests {
     use super::*;
 
     fn cost(error: f64, violated: f64) -> Cost {
-        Cost { channels: [error; 6], error, violated }
+        Cost { channels: [error; 6], error, violated, comfort: [0.0; 3], excess: 0.0 }
     }
 
     fn result(before: Cost, unseen: Option<Cost>) -> RecordingResult {

@@ -161,9 +161,9 @@ fn within_limits(tuner: &Tuner, objectives: &[&Objective], best: &Setup, fractio
 }
 
 /// Indices of the fractions that improve the recordings left out, the best first. Their mean error
-/// is smaller than with the initial parameters, and no recording is worse by more than 5 %.
-/// Fractions with which limits are active no longer than before come first. If no recording was
-/// left out, the result is the last index.
+/// is smaller than with the initial parameters, and no recording is worse by more than 5 %. First
+/// come fractions with which limits are active no longer than before, and shake, jolt and peak are
+/// within their bounds. If no recording was left out, the result is the last index.
 fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
     if pairs.is_empty() {
         return vec![FRACTIONS.len() - 1];
@@ -175,8 +175,9 @@ fn serving(pairs: &[(Cost, Trials)]) -> Vec<usize> {
         let costs: Vec<Cost> = pairs.iter().map(|pair| pair.1[index]).collect::<Option<_>>()?;
         let error = mean(&mut costs.iter().map(|cost| cost.error));
         let violated = mean(&mut costs.iter().map(|cost| cost.violated));
+        let uncomfortable = costs.iter().any(|cost| cost.excess > 0.0);
         let worse = pairs.iter().zip(&costs).any(|(pair, cost)| cost.error > WORST_RATIO * pair.0.error);
-        (error < before && !worse).then_some((violated > violated_before, error, index))
+        (error < before && !worse).then_some((violated > violated_before || uncomfortable, error, index))
     };
     let mut ranked: Vec<(bool, f64, usize)> = (0..FRACTIONS.len()).filter_map(rank).collect();
     ranked.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -188,7 +189,7 @@ mod tests {
     use super::*;
 
     fn cost(error: f64, violated: f64) -> Cost {
-        Cost { channels: [error; 6], error, violated }
+        Cost { channels: [error; 6], error, violated, comfort: [0.0; 3], excess: 0.0 }
     }
 
     fn trials(errors: [f64; 6]) -> Trials {
@@ -216,6 +217,13 @@ mod tests {
         assert_eq!(serving(&[(cost(1.0, 0.02), costs)])[0], 5);
         costs[4] = None;
         assert_eq!(serving(&[(cost(1.0, 0.0), costs)]), [3, 2, 1, 0, 5]);
+    }
+
+    #[test]
+    fn fractions_beyond_the_bounds_of_comfort_come_last() {
+        let mut costs = trials([0.95, 0.9, 0.85, 0.8, 0.75, 0.7]);
+        costs[5] = Some(Cost { excess: 0.01, ..cost(0.7, 0.0) });
+        assert_eq!(serving(&[(cost(1.0, 0.0), costs)]), [4, 3, 2, 1, 0, 5]);
     }
 
     #[test]

@@ -81,8 +81,9 @@ impl Tuner<'_> {
         }
         let nearest = Setup { parameters: searched.nearest, ..self.setup.clone() };
         let text = format!(
-            "no parameters were found with which every recording stays clear of the safety units and the actuators' limits{}; omit the most \
-             demanding recording, or try more --evaluations, less --stroke-reserve, lower scales to start from, or, for vibration, \
+            "no parameters were found with which every recording stays clear of the safety units and the actuators' limits, and within the \
+             bounds of --comfort{}; omit the most demanding recording, or try more --evaluations, less --stroke-reserve, lower scales to \
+             start from, larger bounds of --comfort, or, for vibration, \
              --tune splitter,angular,scale,cutoff",
             self.violating_recordings(objectives, &nearest)?
         );
@@ -107,13 +108,19 @@ impl Tuner<'_> {
         found.chain(nearer).chain([self.setup.parameters]).collect::<Vec<_>>().into_iter().chain(scaled)
     }
 
-    /// The recordings on which limits are active, and for how long, as the end of a sentence.
+    /// The recordings that violate constraints, and how much, as the end of a sentence.
     fn violating_recordings(&self, objectives: &[&Objective], setup: &Setup) -> Result<String> {
         let mut limited = Vec::new();
         for objective in objectives {
-            let fraction = full_cost(objective, setup)?.violated;
-            if fraction > 0.0 {
-                limited.push(format!("{} for {:.2} % of its time", objective.name(), 100.0 * fraction));
+            let Cost { violated, comfort: [shake, jolt, peak], excess, .. } = full_cost(objective, setup)?;
+            if violated > 0.0 {
+                limited.push(format!("{} for {:.2} % of its time", objective.name(), 100.0 * violated));
+            }
+            if excess > 0.0 {
+                limited.push(format!(
+                    "{} with a shake of {shake:.2}, a jolt of {jolt:.1} and a peak of {peak:.1} m/s²",
+                    objective.name()
+                ));
             }
         }
         Ok(if limited.is_empty() {
@@ -161,5 +168,5 @@ pub fn worst_ratio(before: &[Cost], after: &[Cost]) -> f64 {
 /// The parameters cannot be used.
 pub fn full_cost(objective: &Objective, setup: &Setup) -> Result<Cost> {
     let parameters = objective.recording().parameters(&setup.parameters);
-    Ok(objective.cost(&Simulation::of(&objective.recording().replay(), &parameters, || ())?))
+    Ok(objective.cost(&Simulation::of(&objective.recording().replay(), &parameters, || ())?)?)
 }

@@ -339,6 +339,7 @@ def tune(
     groups: Sequence[str] = ("splitter", "angular", "scale", "strategy"),
     weights: Sequence[float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
     stroke_reserve: float = 0.01,
+    comfort: Sequence[float] = (0.2, 4.0, 4.0),
     evaluations: int = 3000,
     seed: int = 1,
     progress: _Show = None,

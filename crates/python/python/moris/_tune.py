@@ -54,6 +54,7 @@ def tune(
     groups=("splitter", "angular", "scale", "strategy"),
     weights=(1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
     stroke_reserve=0.01,
+    comfort=(0.2, 4.0, 4.0),
     evaluations=3000,
     seed=1,
     progress=None,
@@ -71,6 +72,7 @@ def tune(
     groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy" (weights, gains and poles of the
         strategy in use; the classical one has none), "order" (of the splitter's and the angular channel's high-passes).
     weights: of the errors of specific force x, y, z and angular velocity x, y, z. stroke_reserve: of each actuator [m].
+    comfort: bounds of the felt force's shake, jolt and peak [m/s2], at least their values with the initial parameters.
     evaluations: parameter sets of each search after its coarse scan. seed: of the random numbers.
     progress: True, False, None or a function of (done, total, text).
     patience: evaluations without a smaller error after which a search ends. stop: function of (search, evaluations, error)
@@ -95,6 +97,7 @@ def tune(
     folds = len(tuned_on) if folds is None else folds
     arguments = (
         [recording._native for recording in recordings], len(held_out), rig, parameters, strategy, list(groups), list(weights), stroke_reserve,
+        list(comfort),
     )  # fmt: skip
     tuning = _moris.Tuning(*arguments)
     cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)

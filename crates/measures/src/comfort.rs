@@ -1,0 +1,336 @@
+//! Comfort: shaking, jolts and peaks of the felt force that the desired force does not have.
+//!
+//! The RMS error hides them. A jolt of 10 m/s2 for 10 ms, once a minute, raises an RMS error of
+//! 0.40 m/s2 to 0.42 m/s2. The rider complains of nothing else.
+
+use std::collections::VecDeque;
+use std::f64::consts::PI;
+
+/// Frequency above which a felt force is shaking \[Hz\].
+pub const SHAKE_FREQUENCY: f64 = 8.0;
+/// Time over which shaking is averaged \[s\].
+pub const SHAKE_TIME: f64 = 2.0;
+/// Time within which a change of the force is a jolt \[s\].
+pub const JOLT_TIME: f64 = 0.02;
+
+/// Largest excess of the felt force over the desired force.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Excess {
+    /// The excess, at least 0 \[m/s2\].
+    pub value: f64,
+    /// When it occurs \[s\].
+    pub time: f64,
+}
+
+/// Comfort of the force on one axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comfort {
+    /// RMS of the felt force above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`], less that of the
+    /// desired force. None where the sampling is too coarse for that frequency, or the run too
+    /// short for the filter.
+    pub shake: Option<Excess>,
+    /// Change of the felt force within [`JOLT_TIME`], less the largest such change of the desired
+    /// force from [`JOLT_TIME`] before to [`JOLT_TIME`] after it. None where the sampling is too
+    /// coarse for that time.
+    pub jolt: Option<Excess>,
+    /// Largest absolute value of the felt force, less that of the desired force at any time.
+    pub peak: Excess,
+}
+
+impl Comfort {
+    /// Shake, jolt and peak; 0 where one is not available \[m/s2\].
+    pub fn values(&self) -> [f64; 3] {
+        [self.shake.unwrap_or_default(), self.jolt.unwrap_or_default(), self.peak].map(|excess| excess.value)
+    }
+}
+
+/// Compares two forces on an axis on which the force at rest is `rest`. `desired` is sampled every
+/// `step` seconds and linear between its samples. `felt` has a whole number of samples to a step,
+/// and begins and ends with `desired`.
+pub fn comfort(desired: &[f64], felt: &[f64], rest: f64, step: f64) -> Comfort {
+    let divisions = (felt.len().max(2) - 1) / (desired.len().max(2) - 1);
+    let step = step / divisions as f64;
+    let desired = interpolated(desired, divisions);
+    Comfort {
+        shake: shake(&desired, felt, step),
+        jolt: jolt(&desired, felt, step),
+        peak: peak(&desired, felt, rest, step),
+    }
+}
+
+/// The signal with so many samples to a step.
+fn interpolated(signal: &[f64], divisions: usize) -> Vec<f64> {
+    let [first, ..] = signal else { return Vec::new() };
+    let between = |pair: &[f64]| {
+        let [from, to] = [pair[0], pair[1]];
+        // Exact at the samples themselves.
+        (1..=divisions).map(move |k| k as f64 / divisions as f64).map(move |t| (1.0 - t) * from + t * to)
+    };
+    std::iter::once(*first).chain(signal.windows(2).flat_map(between)).collect()
+}
+
+/// The largest of these values with its time, at least 0.
+fn largest(values: impl Iterator<Item = f64>, time: impl Fn(usize) -> f64) -> Excess {
+    let (index, value) = values.enumerate().fold((0, 0.0), |most, next| if next.1 > most.1 { next } else { most });
+    Excess { value, time: time(index) }
+}
+
+fn peak(desired: &[f64], felt: &[f64], rest: f64, step: f64) -> Excess {
+    let deviation = |value: &f64| (value - rest).abs();
+    let most = desired.iter().map(deviation).fold(0.0, f64::max);
+    largest(felt.iter().map(|value| deviation(value) - most), |index| index as f64 * step)
+}
+
+fn jolt(desired: &[f64], felt: &[f64], step: f64) -> Option<Excess> {
+    // Rounding must not make the time a sample shorter.
+    let count = (JOLT_TIME / step * (1.0 + 1e-9)).floor() as usize;
+    if count == 0 || felt.len() <= count {
+        return None;
+    }
+    let around = sliding_max(&changes(desired, count), count, count);
+    let excess = changes(felt, count).into_iter().zip(around).map(|(felt, desired)| felt - desired);
+    Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * step))
+}
+
+/// Largest difference between any two of `count + 1` samples in succession, from each sample that
+/// has so many after it.
+fn changes(signal: &[f64], count: usize) -> Vec<f64> {
+    let negative: Vec<f64> = signal.iter().map(|value| -value).collect();
+    let (most, least) = (sliding_max(signal, 0, count), sliding_max(&negative, 0, count));
+    most.iter().zip(least).map(|(most, least)| most + least).take(signal.len() - count).collect()
+}
+
+/// The largest of the values from `before` samples before each to `after` samples after it.
+fn sliding_max(values: &[f64], before: usize, after: usize) -> Vec<f64> {
+    // Indices of values that no later one exceeds, the largest value first.
+    let mut candidates: VecDeque<usize> = VecDeque::new();
+    let mut coming = values.iter().enumerate().peekable();
+    let max_at = |k: usize| {
+        while let Some((index, value)) = coming.next_if(|(index, _)| *index <= k + after) {
+            while candidates.back().is_some_and(|&last| values[last] <= *value) {
+                candidates.pop_back();
+            }
+            candidates.push_back(index);
+        }
+        while candidates.front().is_some_and(|&first| first + before < k) {
+            candidates.pop_front();
+        }
+        candidates.front().map_or(values[k], |&first| values[first])
+    };
+    (0..values.len()).map(max_at).collect()
+}
+
+fn shake(desired: &[f64], felt: &[f64], step: f64) -> Option<Excess> {
+    let window = (SHAKE_TIME / step).round() as usize;
+    let rms = |signal| Some(sliding_rms(&above_shake_frequency(signal, step)?, window));
+    let excess = rms(felt)?.into_iter().zip(rms(desired)?).map(|(felt, desired)| felt - desired);
+    Some(largest(excess, |index| index as f64 * step))
+}
+
+/// RMS over a window of so many samples around each. Outside of the signal there is rest.
+fn sliding_rms(signal: &[f64], window: usize) -> Vec<f64> {
+    let mut sum = 0.0;
+    let sums: Vec<f64> = std::iter::once(0.0)
+        .chain(signal.iter().map(|value| {
+            sum += value * value;
+            sum
+        }))
+        .collect();
+    let rms = |k: usize| {
+        let begin = k.saturating_sub(window / 2);
+        let end = (k + window - window / 2).min(signal.len());
+        ((sums[end] - sums[begin]) / window as f64).max(0.0).sqrt()
+    };
+    (0..signal.len()).map(rms).collect()
+}
+
+/// Samples by which a signal is extended at each end before it is filtered, as SciPy's
+/// `sosfiltfilt` does for two sections.
+const EXTENSION: usize = 15;
+
+/// The signal above [`SHAKE_FREQUENCY`], without a shift in time: a Butterworth high-pass of fourth
+/// order, forward and backward. None where the sampling is too coarse or the signal too short.
+fn above_shake_frequency(signal: &[f64], step: f64) -> Option<Vec<f64>> {
+    let ratio = SHAKE_FREQUENCY * step;
+    if ratio >= 0.5 || signal.len() <= EXTENSION {
+        return None;
+    }
+    // Extended by its reflection in its ends, so that value and slope are continuous.
+    let last = signal.len() - 1;
+    let before = (1..=EXTENSION).rev().map(|k| 2.0 * signal[0] - signal[k]);
+    let after = (1..=EXTENSION).map(|k| 2.0 * signal[last] - signal[last - k]);
+    let mut extended: Vec<f64> = before.chain(signal.iter().copied()).chain(after).collect();
+    for _ in 0..2 {
+        high_pass(&mut extended, (PI * ratio).tan());
+        extended.reverse();
+    }
+    Some(extended[EXTENSION..=EXTENSION + last].to_vec())
+}
+
+/// Butterworth high-pass of fourth order by the bilinear transform, with `k` the tangent of half
+/// the cutoff's angle. It starts as if the first value had always been there.
+fn high_pass(signal: &mut [f64], k: f64) {
+    let first = signal.first().copied().unwrap_or(0.0);
+    signal.iter_mut().for_each(|value| *value -= first);
+    // A pole pair at this angle from the negative real axis has the damping cos(angle).
+    for angle in [PI / 8.0, 3.0 * PI / 8.0] {
+        let damping = 2.0 * k * angle.cos();
+        let gain = 1.0 / (1.0 + damping + k * k);
+        let (a1, a2) = (2.0 * gain * (k * k - 1.0), gain * (1.0 - damping + k * k));
+        let (mut z1, mut z2) = (0.0, 0.0);
+        for value in signal.iter_mut() {
+            let input = gain * *value;
+            let output = input + z1;
+            z1 = z2 - 2.0 * input - a1 * output;
+            z2 = input - a2 * output;
+            *value = output;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{SQRT_2, TAU};
+
+    use super::*;
+
+    fn sampled(rate: usize, seconds: usize, signal: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..seconds * rate).map(|k| signal(k as f64 / rate as f64)).collect()
+    }
+
+    fn after(start: f64, time: f64) -> f64 {
+        if time > start - 1e-9 { 1.0 } else { 0.0 }
+    }
+
+    /// A slow swing with a vibration of 12 Hz from 1 s on and a step at 2 s.
+    fn rough(t: f64) -> f64 {
+        1.5 * (2.0 * t).sin() + 0.4 * after(1.0, t) * (TAU * 12.0 * t).sin() + 0.8 * after(2.0, t)
+    }
+
+    fn vibrating(t: f64) -> f64 {
+        1.5 * (2.0 * t).sin() + 0.1 * (TAU * 20.0 * t).sin()
+    }
+
+    fn assert_near(value: f64, expected: f64, tolerance: f64) {
+        assert!((value - expected).abs() <= tolerance, "{value} is not {expected}");
+    }
+
+    #[test]
+    fn the_filter_is_scipy_s_butter_and_sosfiltfilt() {
+        // sosfiltfilt(butter(4, 8, "high", fs=rate, output="sos"), rough), SciPy 1.15.
+        let expected_100 = [
+            (0, 0.0003094285962699176),
+            (3, 0.00047623290591739095),
+            (98, -0.07590682969427931),
+            (100, -0.10860101159643984),
+            (150, 1.1702564139987048e-05),
+            (199, -0.6001446266124376),
+            (200, 0.3346305477750375),
+            (203, 0.3228880318770464),
+            (297, -0.23732499647162952),
+            (299, 0.02702613713766404),
+        ];
+        let expected_1000 = [
+            (0, -0.00244062121859),
+            (30, 0.005664590628989865),
+            (980, -0.07814756398746453),
+            (1990, -0.5407169187744286),
+            (2000, 0.39343283314131805),
+            (2970, -0.17899981061604867),
+            (2990, -0.09853660705067674),
+        ];
+        for (rate, expected) in [(100, &expected_100[..]), (1000, &expected_1000)] {
+            let filtered = above_shake_frequency(&sampled(rate, 3, rough), 1.0 / rate as f64).unwrap();
+            for (k, value) in expected {
+                assert_near(filtered[*k], *value, 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn shake_is_what_numpy_makes_of_both_signals() {
+        // The largest difference of sqrt(convolve(y * y, ones(n) / n, "same")) with n samples in 2 s.
+        for (rate, value, index) in [(100, 0.2100801792871749, 200), (1000, 0.20900338052645534, 2012)] {
+            let step = 1.0 / rate as f64;
+            let (desired, felt) = (sampled(rate, 3, vibrating), sampled(rate, 3, rough));
+            let shake = comfort(&desired, &felt, 0.0, step).shake.unwrap();
+            assert_near(shake.value, value, 1e-9);
+            assert_near(shake.time, index as f64 * step, 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_sine_shakes_by_its_rms_times_the_filter_s_modulus_squared() {
+        for rate in [20, 50, 100, 1000] {
+            let felt = sampled(rate, 20, |t| 0.5 * (TAU * 9.0 * t).sin());
+            let still = vec![0.0; felt.len()];
+            let shake = comfort(&still, &felt, 0.0, 1.0 / rate as f64).shake.unwrap();
+            let tangent = |frequency: f64| (PI * frequency / rate as f64).tan();
+            let modulus_squared = 1.0 / (1.0 + (tangent(8.0) / tangent(9.0)).powi(8));
+            assert_near(shake.value, 0.5 / SQRT_2 * modulus_squared, 5e-3);
+            // What is desired, too, is no shaking, nor is what is desired and not felt.
+            assert_eq!(comfort(&felt, &felt, 0.0, 1.0 / rate as f64).shake.unwrap().value, 0.0);
+            assert_eq!(comfort(&felt, &still, 0.0, 1.0 / rate as f64).shake.unwrap().value, 0.0);
+        }
+    }
+
+    #[test]
+    fn a_jolt_is_a_change_within_20_ms_beyond_that_of_the_desired_force_around_it() {
+        let step_at = |start: f64, size: f64| move |t: f64| size * after(start, t);
+        for rate in [50, 100, 128, 1000] {
+            let step = 1.0 / rate as f64;
+            let jolt = |desired: &dyn Fn(f64) -> f64, felt: &dyn Fn(f64) -> f64| {
+                comfort(&sampled(rate, 4, desired), &sampled(rate, 4, felt), 0.0, step).jolt.unwrap()
+            };
+            let found = jolt(&|_| 0.0, &step_at(2.0, -6.0));
+            assert_near(found.value, 6.0, 1e-12);
+            assert_near(found.time, 2.0, 0.02);
+            // A desired step accounts for as much of it, a little before or after as well.
+            assert_near(jolt(&step_at(2.0, 4.0), &step_at(2.0, 6.0)).value, 2.0, 1e-12);
+            assert_near(jolt(&step_at(2.0, 4.0), &step_at(2.0 + step, 6.0)).value, 2.0, 1e-12);
+            assert_near(jolt(&step_at(1.0, 4.0), &step_at(2.0, 6.0)).value, 6.0, 1e-12);
+            // A slope has what it rises by in 20 ms, in whole samples.
+            let rise = 30.0 * (0.02 * rate as f64).floor() * step;
+            assert_near(jolt(&|_| 0.0, &|t| 30.0 * t).value, rise, 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_jolt_of_a_millisecond_between_the_desired_samples_is_found() {
+        let desired = sampled(100, 4, |t| t);
+        let felt: Vec<f64> = (0..=3990).map(|k| 0.001 * f64::from(k) + if k == 1234 { 9.0 } else { 0.0 }).collect();
+        let found = comfort(&desired, &felt, 0.0, 0.01);
+        let jolt = found.jolt.unwrap();
+        assert_near(jolt.value, 9.0, 0.021);
+        assert_near(jolt.time, 1.234, 0.011);
+        assert_near(found.peak.value, 9.0 + 1.234 - 3.99, 1e-9);
+        assert_near(found.peak.time, 1.234, 1e-9);
+    }
+
+    #[test]
+    fn a_peak_is_measured_from_rest_and_less_than_desired_is_none() {
+        const G: f64 = 9.80665;
+        let desired = sampled(100, 4, |t| G + (TAU * t).sin());
+        let more = sampled(100, 4, |t| G - 3.0 * (TAU * t).sin());
+        let less = sampled(100, 4, |t| G + 0.3 * (TAU * t).sin());
+        assert_near(comfort(&desired, &more, G, 0.01).peak.value, 2.0, 1e-12);
+        assert_eq!(comfort(&desired, &less, G, 0.01).values(), [0.0; 3]);
+    }
+
+    #[test]
+    fn too_coarse_a_sampling_gives_no_number() {
+        let signals = |rate: usize| (sampled(rate, 20, |_| 0.0), sampled(rate, 20, |t| (TAU * t).sin()));
+        let of = |rate: usize| {
+            let (desired, felt) = signals(rate);
+            comfort(&desired, &felt, 0.0, 1.0 / rate as f64)
+        };
+        assert!(of(16).shake.is_none() && of(17).shake.is_some());
+        assert!(of(49).jolt.is_none() && of(50).jolt.is_some());
+        assert!(of(10).peak.value > 0.9);
+        // The filter needs more samples than its extension.
+        assert!(comfort(&[0.0; 15], &[0.0; 15], 0.0, 0.01).shake.is_none());
+        // A felt force that is sampled finely enough is judged, however coarse the desired force.
+        let coarse = comfort(&[0.0; 11], &sampled(100, 10, |_| 0.0)[..=990], 0.0, 1.0);
+        assert!(coarse.shake.is_some() && coarse.jolt.is_some());
+    }
+}
