@@ -239,8 +239,9 @@ impl Washout {
         self.substep(step, advance, observe);
     }
 
-    /// Divides a step into internal ones. `advance` does one of them, with the fraction of the
-    /// whole at which it ends and its length. `observe` receives the felt specific force after each.
+    /// Divides a step into internal ones. `advance` does one of them, with the fraction
+    /// of the whole at which it ends and its length. `observe` receives the felt
+    /// specific force after each.
     fn substep(
         &mut self,
         step: f64,

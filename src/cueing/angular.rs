@@ -51,8 +51,9 @@ impl AngularChannel {
         Motion { position: self.chains.first_integral(), velocity: rates, acceleration }
     }
 
-    /// Continues from angles and rates that are not those demanded, at the end of a step to whose
-    /// end the rates `end` led. The angles' difference is washed out like an input, the rates' fades.
+    /// Continues from angles and rates that are not those demanded, at the end of a step
+    /// to whose end the rates `end` led. The angles' difference is washed out like an
+    /// input, the rates' fades.
     #[cold]
     pub fn continue_from(&mut self, angles: &Vector3<f64>, rates: &Vector3<f64>, end: Vector3<f64>) {
         self.chains.set_first_integral(angles);

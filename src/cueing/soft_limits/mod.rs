@@ -7,8 +7,8 @@
 //!     -p^2 (q - lo - m) - 2 p q'  <=  q''  <=  p^2 (hi - m - q) - 2 p q'
 //! ```
 //!
-//! with the pace p and the margin m, an exponential control barrier function of relative degree two.
-//! A leg's acceleration is affine in the platform's. Where a demand leaves these ranges, it is
+//! with the pace p and the margin m, an exponential control barrier function of relative degree
+//! two. A leg's acceleration is affine in the platform's. Where a demand leaves these ranges, it is
 //! replaced by the [`nearest`] accelerations of all six coordinates. The ranges change continuously
 //! with the motion, so a smooth demand stays smooth.
 
@@ -150,8 +150,8 @@ impl SoftLimits {
         self.sides.any()
     }
 
-    /// The demand at the step's end, changed so that it approaches no limit faster than it may. None
-    /// if it need not be changed. `legs` are the demanded ones.
+    /// The demand at the step's end, changed so that it approaches no limit faster than it may.
+    /// None if it need not be changed. `legs` are the demanded ones.
     #[inline(always)]
     pub fn soften(
         &mut self,

@@ -47,11 +47,11 @@ const ZERO: f64 = 1e-12;
 const RESOLVED: f64 = 1e-9;
 
 /// The accelerations c with the least (c - demand)' W (c - demand) + penalty of the violations.
-/// `inverse_weights` is the diagonal of W^-1; `sides` holds the rows that acted in the last step, and
-/// then those that act now.
+/// `inverse_weights` is the diagonal of W^-1; `sides` holds the rows that acted in the last step,
+/// and then those that act now.
 ///
-/// The dual is solved by principal pivoting: with the acting rows S, their multipliers solve
-/// (A W^-1 A' + I/penalty)_SS lambda = (A demand - bound)_S. A row of S whose multiplier has the wrong
+/// The dual is solved by principal pivoting: with the acting rows S, their multipliers solve (A
+/// W^-1 A' + I/penalty)_SS lambda = (A demand - bound)_S. A row of S whose multiplier has the wrong
 /// sign leaves, another that is violated enters. From one step to the next few rows change, so a
 /// trial or two are enough; where this goes round in circles, rows change [`one_by_one`].
 pub fn nearest(
@@ -92,8 +92,9 @@ fn all_at_once(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides
     None
 }
 
-/// Lawson and Hanson's method: the row that is violated most enters, and rows leave whose multipliers
-/// reach zero on the way to the next ones. The dual cost falls with each change, so it ends.
+/// Lawson and Hanson's method: the row that is violated most enters, and rows leave
+/// whose multipliers reach zero on the way to the next ones. The dual cost falls with
+/// each change, so it ends.
 fn one_by_one(gram: &Gram, demanded: &RowValues, rows: &Rows, sides: &mut Sides) -> Option<RowValues> {
     *sides = Sides::default();
     let mut multipliers = RowValues::zeros();

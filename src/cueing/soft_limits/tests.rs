@@ -1,4 +1,4 @@
-//! The nearest accelerations against an interior-point solver, and the ranges along approaches.
+//! The nearest accelerations against an interior-point solver. The ranges along approaches.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT, SolverStatus};
@@ -18,8 +18,8 @@ impl Random {
     }
 }
 
-/// The least of 1/2 (c - d)' W (c - d) + penalty/2 |s|^2 with lower - s <= normals c <= upper + s, over
-/// the accelerations c and the violations s.
+/// The least of 1/2 (c - d)' W (c - d) + penalty/2 |s|^2 with lower - s <= normals c <= upper + s,
+/// over the accelerations c and the violations s.
 fn by_interior_point(demand: &Accelerations, inverse_weights: &Accelerations, rows: &Rows) -> Accelerations {
     const SIZE: usize = 6 + ROWS;
     let mut hessian = vec![vec![0.0; SIZE]; SIZE];
@@ -34,10 +34,8 @@ fn by_interior_point(demand: &Accelerations, inverse_weights: &Accelerations, ro
     let (mut constraints, mut bounds) = (Vec::new(), Vec::new());
     for row in 0..ROWS {
         for (sign, bound) in [(1.0, rows.upper[row]), (-1.0, -rows.lower[row])] {
-            let mut normal = vec![0.0; SIZE];
-            for k in 0..6 {
-                normal[k] = sign * rows.normals[(row, k)];
-            }
+            let mut normal: Vec<f64> = rows.normals.row(row).iter().map(|value| sign * value).collect();
+            normal.resize(SIZE, 0.0);
             normal[6 + row] = -1.0;
             constraints.push(normal);
             bounds.push(bound);
@@ -88,8 +86,8 @@ fn a_demand_within_its_ranges_is_the_nearest() {
     assert!(!sides.any());
 }
 
-/// At the upper bound of its acceleration a quantity approaches the end of its range as a critically
-/// damped system from there on, and never passes it.
+/// At the upper bound of its acceleration a quantity approaches the end of its range as a
+/// critically damped system from there on, and never passes it.
 #[test]
 fn an_end_is_approached_critically_damped_and_never_passed() {
     const STEP: f64 = 1e-4;

@@ -84,7 +84,8 @@ const NEARLY: f64 = 0.999;
 /// Smallest magnitude of the determinant of the head's axes that is divided by. Only a platform
 /// that is nearly turned on its side has a smaller one.
 const LEAST_DETERMINANT: f64 = 0.1;
-/// Largest heave under the predictive strategy \[m\]. More would take the legs' stroke from surge and sway.
+/// Largest heave under the predictive strategy \[m\]. More would take the legs'
+/// stroke from surge and sway.
 const LARGEST_HEAVE: f64 = 0.1;
 
 impl Coordinated {

@@ -1,15 +1,15 @@
 //! The way home: from where the platform comes to rest, straight to neutral.
 //!
 //! On the way all coordinates are 1 - s times those of its start, s from 0 to 1. Every safety limit
-//! of position holds on it. With D the distance that a joint moves on it at most, W the sum of the
-//! angles' magnitudes and r the farthest joint, the vector g of a leg has |g'| <= D and
+//! of position holds on it. Let D be the distance that a joint moves on it at most, W the sum of
+//! the angles' magnitudes and r the farthest joint. The vector g of a leg has |g'| <= D and
 //! |g''| <= W² r. The leg's length L = |g| therefore has
 //!
 //! (L²)'' <= 2 c with c = D² + L W² r, and L'' >= -W² r.
 //!
-//! Between two points of the way, a and b, a function whose second derivative is at most 2 c lies
-//! above the line between its ends by at least -c (s - a)(b - s). It stays above zero if its values
-//! at the ends add up to c (b - a)² or more.
+//! Take two points of the way, a and b. A function whose second derivative is at most 2 c is no
+//! more than c (s - a)(b - s) below the line between its ends. It stays above zero if its values at
+//! the ends add up to c (b - a)² or more.
 //!
 //! The way is certified if every leg is inside its stroke by at least s times a clearance. From any
 //! point of a certified way the rest of it is certified as well.

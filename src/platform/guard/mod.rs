@@ -103,8 +103,8 @@ impl ActuatorGuard {
     }
 
     /// Advances by `step` seconds. At their end the platform is to move as `demand` says; `motion`
-    /// is the same in the base frame, and `legs` are its legs. `safety` are the limits of surge, sway
-    /// and heave in force. `resting` tells that the input asks for no motion.
+    /// is the same in the base frame, and `legs` are its legs. `safety` are the limits of surge,
+    /// sway and heave in force. `resting` tells that the input asks for no motion.
     #[inline(always)]
     pub fn advance_with_legs(
         &mut self,

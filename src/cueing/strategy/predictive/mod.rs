@@ -313,7 +313,7 @@ impl Predictive {
 
 impl Plan {
     /// Dropped force of an axis after a step of `step` seconds, at whose beginning it is
-    /// `dropped_force`: on the line from there to the next node, and from node to node after it. It
+    /// `dropped_force`: on the line to the next node, then from node to node. It
     /// stays at the last one.
     fn dropped_force_after(&self, axis: usize, dropped_force: f64, step: f64) -> f64 {
         let (controls, end) = (&self.controls[axis], self.age + step);

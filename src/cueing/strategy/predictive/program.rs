@@ -14,8 +14,8 @@
 //!
 //! with g' somewhat below g, the chord of the sine. The nodes' states are linear in the start, the
 //! reference and the variables. The cost is that of the regulator and a weight of the dropped
-//! force's slope: integrals of e^2 and of its slope's square, the trapezoidal rule for the motion,
-//! and the regulator's cost to come at the end.
+//! force's slope. It has the integrals of e^2 and of its slope's square, the trapezoidal rule for
+//! the motion, and the regulator's cost to come at the end.
 
 use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
@@ -26,8 +26,8 @@ use super::horizon::{BLOCKS, Horizon};
 use crate::cueing::strategy::AxisState;
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 
-/// Variables of an axis: dropped forces at the nodes \[m/s2\], then tilt accelerations of the blocks
-/// relative to their limit.
+/// Variables of an axis: dropped forces at the nodes \[m/s2\], then tilt accelerations of the
+/// blocks relative to their limit.
 pub const AXIS_CONTROLS: usize = 2 * BLOCKS;
 /// Variables: those of surge, then those of sway.
 pub const CONTROLS: usize = 2 * AXIS_CONTROLS;
