@@ -82,8 +82,10 @@ fn a_smooth_drive_is_felt_without_jolts_and_peaks() {
             let (forces, outputs) = felt(&parameters, force);
             for axis in 0..3 {
                 let (jolt, peak) = jolt_and_peak(&forces, axis);
-                assert!(jolt < 0.5, "{set}, {drive}, axis {axis}: jolt of {jolt} m/s2");
-                assert!(peak < 0.75, "{set}, {drive}, axis {axis}: peak of {peak} m/s2");
+                // The presets' limits of force and tilt leave more room than the start values alone.
+                let (most_jolt, most_peak) = if set.ends_with("alone") { (0.8, 1.25) } else { (0.5, 0.65) };
+                assert!(jolt < most_jolt, "{set}, {drive}, axis {axis}: jolt of {jolt} m/s2");
+                assert!(peak < most_peak, "{set}, {drive}, axis {axis}: peak of {peak} m/s2");
             }
             let hard = outputs.iter().filter(|output| output.safety_active || output.actuator_limited).count();
             assert_eq!(hard, 0, "{set}, {drive}: steps at a hard limit");

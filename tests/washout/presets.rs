@@ -20,8 +20,8 @@ fn every_set_changes_each_of_its_parameters_once_and_can_be_used() {
     ];
     for (set, strategy) in sets {
         let names: HashSet<_> = set.iter().map(|(name, _)| *name).collect();
-        // A preview's limits are wider than those of the set that it extends.
-        let repeated = if set == PREVIEW { 3 } else { 0 };
+        // A preview's limits are wider than those of the set that it extends, and its soft limits quicker.
+        let repeated = if set == PREVIEW { 4 } else { 0 };
         assert_eq!(names.len() + repeated, set.len(), "{names:?}");
         let parameters = presets::parameters(set);
         assert_eq!(parameters, presets::parameters(&[&[("strategy", strategy)], set].concat()));
@@ -35,6 +35,7 @@ fn a_preview_widens_the_limits_of_the_predictive_set() {
     let [narrow, wide] = [predictive, preview].map(|parameters| parameters.conditioning.force_limit);
     assert!((0..2).all(|axis| wide[axis] > narrow[axis]));
     assert!(preview.tilt.angle_limit > predictive.tilt.angle_limit);
+    assert!(preview.soft_limit.pace > predictive.soft_limit.pace);
     assert_eq!(preview.tilt.rate_limit, predictive.tilt.rate_limit);
     assert_eq!(preview.structure, predictive.structure);
 }

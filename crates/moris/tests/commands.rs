@@ -238,8 +238,8 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     assert!(directory.path().join("moris-report/ride.html").exists());
 }
 
-/// A recording that the platform cannot follow: swings of 8 m/s2 in surge and heave. The actuator
-/// guard stops it at once.
+/// A recording that the platform cannot follow: swings of 8 m/s2 in surge and heave. Without soft
+/// limits, which `hard.toml` switches off, the actuator guard stops it at once.
 fn write_rough_recording(directory: &Path) {
     let mut rough = "time,ax,ay,az,wx,wy,wz\n".to_owned();
     for k in 0..400 {
@@ -247,6 +247,7 @@ fn write_rough_recording(directory: &Path) {
         writeln!(rough, "{t},{},0,{},0,0,0", 8.0 * (3.0 * t).sin(), 9.80665 + 8.0 * (5.0 * t).sin()).unwrap();
     }
     fs::write(directory.join("rough.csv"), rough).unwrap();
+    fs::write(directory.join("hard.toml"), "softLimit.pace = 0.0\n").unwrap();
 }
 
 #[test]
@@ -255,8 +256,8 @@ fn a_felt_jolt_is_found_directly_after_the_limits() {
     write_recording(directory.path(), "ride.csv");
     write_rough_recording(directory.path());
     let narrow = rigs().join("narrow.toml").display().to_string();
-    let output =
-        moris(directory.path(), &["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"]);
+    let arguments = ["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--parameters", "hard.toml"];
+    let output = moris(directory.path(), &[&arguments[..], &["--no-bound", "--json"]].concat());
     let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let findings = |recording: &serde_json::Value| -> Vec<String> {
         let findings = recording["results"][0]["findings"].as_array().unwrap();
@@ -277,8 +278,8 @@ fn the_exit_status_and_the_json_say_whether_a_recording_fits() {
     write_recording(directory.path(), "ride.csv");
     write_rough_recording(directory.path());
     let narrow = rigs().join("narrow.toml").display().to_string();
-    let arguments = ["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"];
-    let output = moris(directory.path(), &arguments);
+    let arguments = ["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--parameters", "hard.toml"];
+    let output = moris(directory.path(), &[&arguments[..], &["--no-bound", "--json"]].concat());
     assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
     let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(all[0]["recording"], "ride");
