@@ -9,7 +9,7 @@
 //!
 //! with the pace p and the margin m, an exponential control barrier function of relative degree
 //! two. A leg's acceleration is affine in the platform's. Where a demand leaves these ranges, it is
-//! replaced by the [`nearest`] accelerations of all six coordinates. The ranges change continuously
+//! replaced by the nearest accelerations of all six coordinates. The ranges change continuously
 //! with the motion, so a smooth demand stays smooth.
 
 pub mod nearest;

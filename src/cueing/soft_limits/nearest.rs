@@ -53,7 +53,7 @@ const RESOLVED: f64 = 1e-9;
 /// The dual is solved by principal pivoting: with the acting rows S, their multipliers solve (A
 /// W^-1 A' + I/penalty)_SS lambda = (A demand - bound)_S. A row of S whose multiplier has the wrong
 /// sign leaves, another that is violated enters. From one step to the next few rows change, so a
-/// trial or two are enough; where this goes round in circles, rows change [`one_by_one`].
+/// trial or two are enough; where this goes round in circles, rows change one by one.
 pub fn nearest(
     demand: &Accelerations,
     inverse_weights: &Accelerations,
