@@ -5,18 +5,7 @@ use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, Nonnegat
 
 use super::nearest::PENALTY;
 use super::*;
-
-/// Numbers from -1 to 1: xorshift64*.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-}
+use crate::cueing::strategy::predictive::dual_active_set::tests::Random;
 
 /// The least of 1/2 (c - d)' W (c - d) + penalty/2 |s|^2 with lower - s <= normals c <= upper + s,
 /// over the accelerations c and the violations s.

@@ -22,7 +22,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 #[cfg(test)]
-pub(super) mod tests;
+pub(crate) mod tests;
 
 /// The rows lower <= C u <= upper of a quadratic program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -28,10 +28,10 @@ impl<const N: usize, const M: usize> Program<N, M> {
 }
 
 /// Numbers from -1 to 1: xorshift64*.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
