@@ -95,7 +95,7 @@ struct PreviousStep {
 }
 
 /// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
-pub const ENGAGE_TIME: f64 = 2.0;
+pub const ENGAGE_TIME: f64 = 4.0;
 
 impl Washout {
     /// The washout at rest at neutral.

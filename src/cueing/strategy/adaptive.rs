@@ -6,13 +6,14 @@
 //! leaves of the reference f,
 //!
 //! ```text
-//!     a = P1 (u + H alpha) - d v - e x,    q' = P2 u within the tilt's limits
+//!     a = P1 (u + H alpha) - d v - e x,    alpha = b (P2 u - q') within the tilt's limits
 //!     J = [(felt - f)^2 + rho_x x^2 + rho_v v^2 + rho_w w^2 + k1 (P1 - P10)^2 + k2 (P2 - P20)^2] / 2
 //!     P1' = -K1 dJ/dP1,    P2' = -K2 dJ/dP2
 //! ```
 //!
-//! The sensitivities dx/dP1, dx/dP2 and dq/dP2 are integrated beside the motion. The weights of
-//! travel and of its velocity, rho_x and rho_v, increase near the ends of the actuators' strokes.
+//! The pace b is that of [`smooth_tilt`](super::smooth_tilt). The sensitivities dx/dP1, dx/dP2 and
+//! dq/dP2 are integrated beside the motion. The weights of travel and of its velocity, rho_x and
+//! rho_v, increase near the ends of the actuators' strokes.
 
 use serde::{Deserialize, Serialize};
 
@@ -36,8 +37,8 @@ struct Adaptation {
     to_travel_gain: [f64; 2],
     /// Of the position and the velocity to P2.
     to_tilt_gain: [f64; 2],
-    /// Of the tilt to P2.
-    tilt: f64,
+    /// Of the tilt and its rate to P2.
+    tilt: [f64; 2],
 }
 
 /// Bound on the sensitivities. They are of no use long before they reach it.
@@ -56,7 +57,7 @@ impl Adaptive {
     /// At rest, with the nominal gains.
     pub fn new(models: &[AxisModel; 2], parameters: &AdaptiveParameters) -> Self {
         let gains = [parameters.nominal1, parameters.nominal2];
-        let axis = Adaptation { gains, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: 0.0 };
+        let axis = Adaptation { gains, to_travel_gain: [0.0; 2], to_tilt_gain: [0.0; 2], tilt: [0.0; 2] };
         Adaptive { models: *models, parameters: *parameters, axes: [axis; 2] }
     }
 
@@ -92,13 +93,15 @@ impl Adaptation {
         dearer: f64,
         step: f64,
     ) -> Decision {
-        let AxisState { position, velocity, tilt, tilt_rate } = *state;
+        let AxisState { position, velocity, tilt, tilt_rate, .. } = *state;
         let (sin, cos) = libm::sincos(tilt);
         let [travel_gain, tilt_gain] = self.gains;
         let left = reference - model.gravity * sin;
         let rate = (tilt_gain * left).clamp(-model.rate_limit, model.rate_limit);
-        let demanded = (rate - tilt_rate) / step;
-        let alpha = demanded.clamp(-model.acceleration_limit, model.acceleration_limit);
+        let limits = model.tilt_limits();
+        let by_rate = limits.by_rate(step);
+        let demanded = by_rate * (rate - tilt_rate);
+        let alpha = limits.nearest_acceleration(state, demanded, step);
         let AdaptiveParameters { omega, zeta, nominal1, nominal2, .. } = *parameters;
         let (damping, stiffness) = (2.0 * zeta * omega, omega * omega);
         let inertial = left + model.head_height * alpha;
@@ -106,10 +109,14 @@ impl Adaptation {
 
         let limited = alpha != demanded || rate != tilt_gain * left || tilt.abs() >= model.angle_limit;
         let gravity = model.gravity * cos;
-        let tilt_change = if limited { -SENSITIVITY_DECAY * self.tilt } else { left - tilt_gain * gravity * self.tilt };
+        let [tilted, turned] = self.tilt;
+        let turning = if limited { 0.0 } else { by_rate * (left - tilt_gain * gravity * tilted - turned) };
+        let turned = if limited { -SENSITIVITY_DECAY * tilted } else { turned + step * turning };
+        // Of what the tilt leaves to travel.
+        let left_to_travel = model.head_height * turning - gravity * tilted;
         let forced = |[x, v]: [f64; 2], by: f64| by - damping * v - stiffness * x;
         let travel_acceleration = forced(self.to_travel_gain, inertial);
-        let tilt_acceleration = forced(self.to_tilt_gain, -travel_gain * gravity * self.tilt);
+        let tilt_acceleration = forced(self.to_tilt_gain, travel_gain * left_to_travel);
 
         let (weight_x, weight_v) =
             (dearer * parameters.weight_position * position, dearer * parameters.weight_velocity * velocity);
@@ -118,10 +125,10 @@ impl Adaptation {
                 + weight_x * self.to_travel_gain[0]
                 + weight_v * self.to_travel_gain[1]
                 + parameters.pull1 * (travel_gain - nominal1),
-            dropped * (tilt_acceleration + gravity * self.tilt)
+            dropped * (tilt_acceleration - left_to_travel)
                 + weight_x * self.to_tilt_gain[0]
                 + weight_v * self.to_tilt_gain[1]
-                + parameters.weight_tilt_rate * tilt_rate * tilt_change
+                + parameters.weight_tilt_rate * tilt_rate * turned
                 + parameters.pull2 * (tilt_gain - nominal2),
         ];
         let laws = [(parameters.gain1, nominal1), (parameters.gain2, nominal2)];
@@ -130,7 +137,7 @@ impl Adaptation {
         }
         self.to_travel_gain = integrated(self.to_travel_gain, travel_acceleration, step);
         self.to_tilt_gain = integrated(self.to_tilt_gain, tilt_acceleration, step);
-        self.tilt = sensitivity(self.tilt + step * tilt_change);
+        self.tilt = [sensitivity(tilted + step * turned), sensitivity(turned)];
         Decision { dropped_force: dropped, tilt_acceleration: alpha }
     }
 }
@@ -185,22 +192,25 @@ mod tests {
     }
 
     impl Axis {
-        fn new(parameters: &AdaptiveParameters) -> Self {
-            let adaptation = adaptive(&FREE, parameters);
+        fn new(model: &AxisModel, parameters: &AdaptiveParameters) -> Self {
+            let adaptation = adaptive(model, parameters);
             Axis { state: AxisState::default(), dropped: 0.0, rate: 0.0, adaptation }
         }
 
-        fn advance(&mut self, parameters: &AdaptiveParameters, time: f64) {
-            let decision = self.adaptation.decide(&FREE, parameters, &self.state, reference(time), 1.0, STEP);
-            let AxisState { position, velocity, tilt, tilt_rate } = self.state;
+        fn advance(&mut self, model: &AxisModel, parameters: &AdaptiveParameters, time: f64) {
+            let decision = self.adaptation.decide(model, parameters, &self.state, reference(time), 1.0, STEP);
+            let AxisState { position, velocity, tilt, tilt_rate, .. } = self.state;
             self.dropped = decision.dropped_force;
             self.rate = tilt_rate + STEP * decision.tilt_acceleration;
-            let acceleration = reference(time) - STANDARD_GRAVITY * tilt.sin() + self.dropped;
+            let acceleration = reference(time) - STANDARD_GRAVITY * tilt.sin()
+                + self.dropped
+                + model.head_height * decision.tilt_acceleration;
             self.state = AxisState {
                 position: position + STEP * velocity,
                 velocity: velocity + STEP * acceleration,
                 tilt: tilt + STEP * self.rate,
                 tilt_rate: self.rate,
+                tilt_acceleration: decision.tilt_acceleration,
             };
         }
     }
@@ -209,10 +219,10 @@ mod tests {
     fn the_decision_is_the_law_of_the_coordinated_filter() {
         let parameters = fixed([0.7, 0.2]);
         let model = AxisModel { head_height: 1.3, ..FREE };
-        let state = AxisState { position: 0.2, velocity: -0.3, tilt: 0.15, tilt_rate: 0.05 };
+        let state = AxisState { position: 0.2, velocity: -0.3, tilt: 0.15, tilt_rate: 0.05, tilt_acceleration: 2.0 };
         let decision = adaptive(&model, &parameters).decide(&model, &parameters, &state, 2.0, 1.0, STEP);
         let left = 2.0 - STANDARD_GRAVITY * 0.15_f64.sin();
-        let alpha = (0.2 * left - 0.05) / STEP;
+        let alpha = 15.0 * (0.2 * left - 0.05) / (1.0 + 15.0 * STEP);
         let AdaptiveParameters { omega, zeta, .. } = parameters;
         let acceleration = 0.7 * (left + 1.3 * alpha) + 2.0 * zeta * omega * 0.3 - omega * omega * 0.2;
         // What is felt: a - H alpha + g sin q.
@@ -224,10 +234,11 @@ mod tests {
     #[test]
     fn sensitivities_and_the_gradient_are_finite_differences() {
         const SHIFT: f64 = 1e-6;
+        const MODEL: AxisModel = AxisModel { head_height: 1.2, ..FREE };
         let base = [0.7, 0.12];
         let shifted = |gain: usize, by: f64| fixed(std::array::from_fn(|k| base[k] + if k == gain { by } else { 0.0 }));
         let sets = [shifted(0, 0.0), shifted(0, SHIFT), shifted(0, -SHIFT), shifted(1, SHIFT), shifted(1, -SHIFT)];
-        let mut axes = sets.map(|set| Axis::new(&set));
+        let mut axes = sets.map(|set| Axis::new(&MODEL, &set));
         // The gains are pulled towards others.
         let towards = AdaptiveParameters { nominal1: 0.5, nominal2: 0.3, gain1: 1e-3, gain2: 1e-3, ..fixed(base) };
         let mut farthest = 0.0_f64;
@@ -235,10 +246,10 @@ mod tests {
             let time = k as f64 * STEP;
             let before = axes[0].state;
             let mut adapting = axes[0].adaptation;
-            adapting.decide(&FREE, &towards, &before, reference(time), 1.0, STEP);
+            adapting.decide(&MODEL, &towards, &before, reference(time), 1.0, STEP);
             let states = axes.each_ref().map(|axis| axis.state);
             for (axis, set) in axes.iter_mut().zip(&sets) {
-                axis.advance(set, time);
+                axis.advance(&MODEL, set, time);
             }
             let slope =
                 |of: fn(&Axis) -> f64, gain: usize| (of(&axes[1 + 2 * gain]) - of(&axes[2 + 2 * gain])) / (2.0 * SHIFT);
@@ -251,14 +262,15 @@ mod tests {
                 (to_travel_gain[1], slope(|axis| axis.state.velocity, 0)),
                 (to_tilt_gain[0], slope(|axis| axis.state.position, 1)),
                 (to_tilt_gain[1], slope(|axis| axis.state.velocity, 1)),
-                (tilt, slope(|axis| axis.state.tilt, 1)),
+                (tilt[0], slope(|axis| axis.state.tilt, 1)),
+                (tilt[1], slope(|axis| axis.state.tilt_rate, 1)),
             ] {
                 assert!(
                     (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
                     "{time} s: {found} beside {expected}"
                 );
             }
-            farthest = farthest.max(tilt.abs());
+            farthest = farthest.max(tilt[0].abs());
             let weights = AdaptiveParameters::default();
             let pulls = [weights.pull1 * (base[0] - 0.5), weights.pull2 * (base[1] - 0.3)];
             for (gain, pull) in pulls.into_iter().enumerate() {
@@ -284,19 +296,20 @@ mod tests {
         let parameters = fixed([0.7, 0.2]);
         let limited = |model: AxisModel, tilt: f64, tilt_rate: f64| {
             let mut axis = adaptive(&model, &parameters);
-            axis.tilt = 0.5;
+            axis.tilt = [0.5, 0.3];
             let state = AxisState { tilt, tilt_rate, ..AxisState::default() };
             let decision = axis.decide(&model, &parameters, &state, 2.0, 1.0, STEP);
-            ((axis.tilt - 0.5 * (1.0 - SENSITIVITY_DECAY * STEP)).abs() < 1e-12, decision.tilt_acceleration)
+            ((axis.tilt[0] - 0.5 * (1.0 - SENSITIVITY_DECAY * STEP)).abs() < 1e-12, decision.tilt_acceleration)
         };
         let gentle = AxisModel { acceleration_limit: 0.2, ..FREE };
         let slow = AxisModel { rate_limit: 0.05, ..FREE };
-        let low = AxisModel { angle_limit: 0.1, ..FREE };
+        let low = AxisModel { angle_limit: 1.0, ..FREE };
         assert!(!limited(FREE, 0.0, 0.0).0);
-        assert_eq!(limited(gentle, 0.0, 0.0), (true, 0.2));
+        let (held, alpha) = limited(gentle, 0.0, 0.0);
+        assert!(held && (alpha - 30.0 * 0.2 * STEP).abs() < 1e-12, "it builds up: {alpha}");
         let (held, alpha) = limited(slow, 0.0, 0.0);
-        assert!(held && (alpha - 0.05 / STEP).abs() < 1e-9, "{alpha}");
-        assert!(limited(low, 0.1, 0.0).0 && limited(low, -0.1, 0.0).0 && !limited(low, 0.09, 0.0).0);
+        assert!(held && (alpha - 15.0 * 0.05 / (1.0 + 15.0 * STEP)).abs() < 1e-9, "{alpha}");
+        assert!(limited(low, 1.0, 0.0).0 && limited(low, -1.0, 0.0).0 && !limited(low, 0.1, 0.0).0);
     }
 
     #[test]

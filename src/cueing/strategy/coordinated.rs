@@ -23,6 +23,7 @@ use super::optimal::Optimal;
 use super::predictive::legs::Surroundings;
 use super::predictive::{Plan, Predictive};
 use super::regulator::AxisModel;
+use super::smooth_tilt::TiltLimits;
 use super::{AxisState, Decision, at_rest_if_tiny};
 use crate::cueing::compensation::{centripetal, tangential};
 use crate::interface::{Parameters, StrategyKind};
@@ -77,6 +78,8 @@ pub struct Circumstances<'a> {
 
 /// Disengaged, travel returns to neutral critically damped at this frequency \[rad/s\].
 const RETURN_FREQUENCY: f64 = 1.0;
+/// Disengaged, the tilt returns to level critically damped at this frequency \[rad/s\].
+const LEVEL_FREQUENCY: f64 = 2.0;
 /// Time over which the return to neutral fades in after a plan's end \[s\].
 const DECISION_FADE: f64 = 1.0;
 /// A tilt within this fraction of its angle's or rate's limit counts as limited.
@@ -158,6 +161,7 @@ impl Coordinated {
             velocity: linear.velocity[k],
             tilt: self.tilt[k].position,
             tilt_rate: self.tilt[k].velocity,
+            tilt_acceleration: self.tilt[k].acceleration,
         });
         let references = circumstances.effective_references();
         let decisions = match &mut self.law {
@@ -184,12 +188,14 @@ impl Coordinated {
         let tilt = &parameters.tilt;
         let longest_step = parameters.structure.max_step;
         let limits = Limits::symmetric(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit, longest_step);
+        let smooth = TiltLimits::new(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit);
         self.limited = false;
         for (k, decision) in decisions.iter().enumerate() {
             let now = self.tilt[k];
-            let level = limits.follow(&now, &Motion::default(), tilt.acceleration_limit, step);
-            let decided = now.velocity + decision.tilt_acceleration * step;
-            let next = limits.at_velocity(&now, fraction * decided + (1.0 - fraction) * level.velocity, step);
+            let returning = -LEVEL_FREQUENCY * (LEVEL_FREQUENCY * now.position + 2.0 * now.velocity);
+            let demanded = fraction * decision.tilt_acceleration + (1.0 - fraction) * returning;
+            let acceleration = smooth.nearest_acceleration(&states[k], demanded, step);
+            let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
             self.limited |= next.position.abs() >= NEARLY * tilt.angle_limit;
             self.limited |= next.velocity.abs() >= NEARLY * tilt.rate_limit;
             self.tilt[k] = flushed(&next);
@@ -444,8 +450,14 @@ mod tests {
                 let decided = [0, 1].map(|i| -(0..6).map(|j| gains[(i, j)] * state[j]).sum::<f64>());
                 let Motion { velocity: rate, .. } = coordinated.tilt[k];
                 assert!((coordinated.dropped_force[k] - decided[0]).abs() < 1e-11, "{decided:?}");
-                let limit = tilt.acceleration_limit;
-                let expected = velocity + STEP * decided[1].clamp(-limit, limit);
+                let state = AxisState {
+                    tilt: position,
+                    tilt_rate: velocity,
+                    tilt_acceleration: before[k].acceleration,
+                    ..AxisState::default()
+                };
+                let limits = TiltLimits::new(tilt.angle_limit, tilt.rate_limit, tilt.acceleration_limit);
+                let expected = velocity + STEP * limits.nearest_acceleration(&state, decided[1], STEP);
                 assert!((rate - expected).abs() < 1e-13, "{rate} beside {expected}");
             }
             let [roll, pitch] = coordinated.tilt();
@@ -457,8 +469,11 @@ mod tests {
 
     #[test]
     fn between_engaged_and_disengaged_the_law_and_the_return_mix() {
-        let parameters = parameters(StrategyKind::Optimal);
-        let before = Motion { position: 0.002, velocity: 0.001, acceleration: 0.0 };
+        let mut parameters = parameters(StrategyKind::Optimal);
+        // The tilt's acceleration builds up within the step, and stays small.
+        parameters.tilt.acceleration_limit = 100.0;
+        parameters.optimal.weight_tilt_acceleration = 1e5;
+        let before = Motion { position: 0.002, velocity: 0.0005, acceleration: 0.0 };
         let after = |engagement: f64| {
             let mut coordinated = Coordinated::new(&parameters).unwrap();
             coordinated.tilt = [before; 2];
@@ -466,7 +481,7 @@ mod tests {
             in_circumstances(&parameters, engagement, |circumstances| {
                 // The same decisions for every engagement, within the limits.
                 let angles = Motion::default();
-                let force = Vector3::new(0.05, -0.03, 9.8);
+                let force = Vector3::new(0.02, -0.015, 9.8);
                 let circumstances = Circumstances { lean: 0.0, angles: &angles, force, ..*circumstances };
                 coordinated.advance_tilt(&circumstances, STEP);
                 let turning = RotationalMotion::new(circumstances.angles);

@@ -17,6 +17,7 @@ pub mod optimal;
 pub mod predictive;
 pub mod regulator;
 pub mod riccati;
+pub mod smooth_tilt;
 
 use serde::{Deserialize, Serialize};
 
@@ -45,6 +46,7 @@ pub struct AxisState {
     pub velocity: f64,
     pub tilt: f64,
     pub tilt_rate: f64,
+    pub tilt_acceleration: f64,
 }
 
 /// A strategy's decision for one axis.

@@ -68,7 +68,7 @@ impl Optimal {
         let fraction = 1.0 - libm::exp(-step / self.tuning.split_time);
         [0, 1].map(|k: usize| {
             self.slow[k] = at_rest_if_tiny(self.slow[k] + fraction * (references[k] - self.slow[k]));
-            let AxisState { position, velocity, tilt, tilt_rate } = states[k];
+            let AxisState { position, velocity, tilt, tilt_rate, .. } = states[k];
             let (slow, fast) = (self.slow[k], references[k] - self.slow[k]);
             let state = State::new(position, velocity, tilt, tilt_rate, slow, fast);
             let [dropped_force, tilt_acceleration] = self.regulators[k].control(&state);
@@ -105,13 +105,14 @@ mod tests {
             velocity: 0.3 * position,
             tilt: -0.4 * position,
             tilt_rate: 0.05 * position,
+            tilt_acceleration: 0.0,
         });
         let mut optimal = after(6, references);
         let decisions = optimal.decide(&states, references, STEP);
         let gains = Regulator::new(&MODEL, &tuning().weights).unwrap().gains;
         for k in 0..2 {
             let slow = references[k] * (1.0 - (-7.0 * STEP / tuning().split_time).exp());
-            let AxisState { position, velocity, tilt, tilt_rate } = states[k];
+            let AxisState { position, velocity, tilt, tilt_rate, .. } = states[k];
             let state = [position, velocity, tilt, tilt_rate, slow, references[k] - slow];
             let expected = [0, 1].map(|i| -(0..6).map(|j| gains[(i, j)] * state[j]).sum::<f64>());
             let Decision { dropped_force, tilt_acceleration } = decisions[k];

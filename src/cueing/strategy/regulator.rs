@@ -5,6 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use super::riccati;
+use super::smooth_tilt::TiltLimits;
 
 /// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast
 /// part of the reference \[m/s2\].
@@ -26,6 +27,13 @@ pub struct AxisModel {
     pub angle_limit: f64,
     pub rate_limit: f64,
     pub acceleration_limit: f64,
+}
+
+impl AxisModel {
+    /// The limits of the tilt.
+    pub fn tilt_limits(&self) -> TiltLimits {
+        TiltLimits::new(self.angle_limit, self.rate_limit, self.acceleration_limit)
+    }
 }
 
 /// Weights of the quantities that a controller uses, relative to 1 for a dropped force of 1 m/s2;

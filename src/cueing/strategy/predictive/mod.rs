@@ -26,7 +26,7 @@ use self::forecast::{Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, SAMPLE};
 use self::legs::{Surroundings, leg_rows};
 use self::preview::Course;
-use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, ROWS};
+use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
 use super::regulator::{AxisModel, Weights};
 use super::{AxisState, Decision};
 use crate::interface::{ForecastKind, PredictiveParameters};
@@ -170,13 +170,13 @@ impl Predictive {
         } else {
             self.proceed(step);
         }
-        let decisions = self.plan.horizon.block_at(self.plan.age).map(|block| {
+        let decisions = self.plan.horizon.block_at(self.plan.age).map(|_| {
             [0, 1].map(|axis: usize| {
-                self.dropped_forces[axis] = self.plan.dropped_force_after(axis, self.dropped_forces[axis], step);
-                Decision {
-                    dropped_force: self.dropped_forces[axis],
-                    tilt_acceleration: self.models[axis].acceleration_limit * self.plan.controls[axis][BLOCKS + block],
-                }
+                let limit = self.models[axis].acceleration_limit;
+                let [dropped_forces, tilting] = self.plan.courses(axis);
+                self.dropped_forces[axis] = self.plan.value_after(dropped_forces, self.dropped_forces[axis], step);
+                let tilting = self.plan.tilting_after(tilting, states[axis].tilt_acceleration / limit, step);
+                Decision { dropped_force: self.dropped_forces[axis], tilt_acceleration: limit * tilting }
             })
         });
         self.plan.age += step;
@@ -246,7 +246,7 @@ impl Predictive {
             } else {
                 forecaster.over(horizon, &self.tables, self.tuning.forecast)
             };
-            let data = program::data(&states[k], self.dropped_forces[k], &forecast);
+            let data = axis.data(&states[k], self.dropped_forces[k], &forecast);
             self.free[k] = axis.free_nodes(&data);
             gradient.fixed_rows_mut::<AXIS_CONTROLS>(k * AXIS_CONTROLS).copy_from(&axis.gradient(&data));
             let free = axis.rows(&self.free[k], &AxisControls::zeros());
@@ -312,18 +312,32 @@ impl Predictive {
 }
 
 impl Plan {
-    /// Dropped force of an axis after a step of `step` seconds, at whose beginning it is
-    /// `dropped_force`: on the line to the next node, then from node to node. It
-    /// stays at the last one.
-    fn dropped_force_after(&self, axis: usize, dropped_force: f64, step: f64) -> f64 {
-        let (controls, end) = (&self.controls[axis], self.age + step);
-        let Some(block) = self.horizon.block_at(end) else { return controls[BLOCKS - 1] };
+    /// Dropped forces of an axis at the nodes, and tilt accelerations relative to their limit.
+    fn courses(&self, axis: usize) -> [&[f64]; 2] {
+        let (dropped_forces, tilting) = self.controls[axis].as_slice().split_at(BLOCKS);
+        [dropped_forces, tilting]
+    }
+
+    /// A quantity after a step of `step` seconds, at whose beginning it has this `value`: on the
+    /// line to the next node, then from node to node. It stays at the last one.
+    fn value_after(&self, nodes: &[f64], value: f64, step: f64) -> f64 {
+        let end = self.age + step;
+        let Some(block) = self.horizon.block_at(end) else { return nodes[BLOCKS - 1] };
         let node = self.horizon.ends()[block];
-        let (mut time, mut from) = (self.age, dropped_force);
+        let (mut time, mut from) = (self.age, value);
         let begin = node - self.horizon.durations()[block];
         if block > 0 && begin > self.age {
-            (time, from) = (begin, controls[block - 1]);
+            (time, from) = (begin, nodes[block - 1]);
         }
-        from + (controls[block] - from) * (end - time) / (node - time)
+        from + (nodes[block] - from) * (end - time) / (node - time)
+    }
+
+    /// The tilt's acceleration after a step of `step` seconds, at whose beginning it has this
+    /// `value`: on the ramp to its block's, and then that.
+    fn tilting_after(&self, blocks: &[f64], value: f64, step: f64) -> f64 {
+        let end = self.age + step;
+        let Some(block) = self.horizon.block_at(self.age) else { return blocks[BLOCKS - 1] };
+        let ramped = self.horizon.ends()[block] - self.horizon.durations()[block] + RAMP;
+        if end >= ramped { blocks[block] } else { value + (blocks[block] - value) * step / (ramped - self.age) }
     }
 }

@@ -2,20 +2,21 @@
 //! the blocks' tilt accelerations alone.
 //!
 //! The nodes are the blocks' ends. The dropped force e is linear between them, from the value in
-//! force at the start. Over a block of duration T, with the reference's mean F, the dropped force e
-//! at its beginning and e' at its end, and the constant tilt acceleration alpha,
+//! force at the start. The tilt's acceleration goes to a block's value alpha' in a ramp of duration
+//! R from the value alpha before. Over a block of duration T, with the reference's mean F and the
+//! dropped force e at its beginning and e' at its end,
 //!
 //! ```text
-//!     u  = F + H alpha
-//!     x' = x + v T + u T^2/2 + (2 e + e') T^2/6 - g' (q T^2/2 + w T^3/6 + alpha T^4/24)
-//!     v' = v + u T + (e + e') T/2 - g' (q T + w T^2/2 + alpha T^3/6)
-//!     q' = q + w T + alpha T^2/2,   w' = w + alpha T
+//!     x' = x + v T + F T^2/2 + (2 e + e') T^2/6 + H A2 - g' (q T^2/2 + w T^3/6 + A4)
+//!     v' = v + F T + (e + e') T/2 + H A1 - g' (q T + w T^2/2 + A3)
+//!     q' = q + w T + A2,   w' = w + A1,   Ak = alpha' T^k/k! + (alpha - alpha') Rk
 //! ```
 //!
-//! with g' somewhat below g, the chord of the sine. The nodes' states are linear in the start, the
-//! reference and the variables. The cost is that of the regulator and a weight of the dropped
-//! force's slope. It has the integrals of e^2 and of its slope's square, the trapezoidal rule for
-//! the motion, and the regulator's cost to come at the end.
+//! with Rk the ramp from 1 to 0, integrated k times over the block, and g' somewhat below g, the
+//! chord of the sine. The nodes' states are linear in the start, the reference and the variables.
+//! The cost is that of the regulator and weights of both variables' slopes. It has the integrals of
+//! their squares and of their slopes' squares, the trapezoidal rule for the motion, and the
+//! regulator's cost to come at the end.
 
 use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
@@ -31,8 +32,9 @@ use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 pub const AXIS_CONTROLS: usize = 2 * BLOCKS;
 /// Variables: those of surge, then those of sway.
 pub const CONTROLS: usize = 2 * AXIS_CONTROLS;
-/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, position in the middle of
-/// the blocks after the first, tilt acceleration, and two for the end.
+/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, the last two as
+/// [`smooth_tilt`](crate::cueing::strategy::smooth_tilt) approaches their limits, position in the
+/// middle of the blocks after the first, tilt acceleration, and two for the end.
 pub const AXIS_ROWS: usize = 6 * BLOCKS + 1;
 /// Rows of the actuators' lengths, six for each node.
 pub const LEG_ROWS: usize = 6 * BLOCKS;
@@ -41,12 +43,15 @@ pub const ROWS: usize = 2 * AXIS_ROWS + LEG_ROWS;
 
 /// Position, velocity, tilt and tilt rate at each node, node by node.
 pub type Nodes = SVector<f64, { 4 * BLOCKS }>;
-/// The start's four and its dropped force, the reference's means, and its slow and fast part at the
-/// end.
+/// The start's four, its dropped force and tilt acceleration, the reference's means, and its slow
+/// and fast part at the end.
 pub type Data = SVector<f64, DATA>;
-const DATA: usize = BLOCKS + 7;
-/// The start's dropped force among the data.
+const DATA: usize = BLOCKS + 8;
+/// The start's dropped force, its tilt acceleration relative to the limit, and the first mean among
+/// the data.
 const DROPPED: usize = 4;
+const TILTING: usize = 5;
+const MEANS: usize = 6;
 /// The variables of an axis.
 pub type AxisControls = SVector<f64, AXIS_CONTROLS>;
 
@@ -63,6 +68,11 @@ pub const CHORD: f64 = 0.985;
 const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
 /// Weight of the dropped force's slope, relative to that of the dropped force \[s2\].
 const SLOPE_WEIGHT: f64 = 3e-2;
+/// Time in which the tilt's acceleration goes from one block's value to the next \[s\].
+pub const RAMP: f64 = 0.04;
+/// Weight of the slope of the tilt's acceleration, relative to that of the dropped force, with the
+/// acceleration relative to its limit \[s2\].
+const TILT_SLOPE_WEIGHT: f64 = 1e-5;
 
 /// The programs over both horizons.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -160,20 +170,29 @@ impl AxisProgram {
         }
         let mut hessian = from_controls.tr_mul(&weighted);
         let mut gradient = weighted.tr_mul(&from_data);
-        for (block, duration) in horizon.durations().iter().enumerate() {
-            // The integrals of e^2 and of the slope's square, by the values at both ends.
-            let same = duration / 3.0 + SLOPE_WEIGHT / duration;
-            let mixed = duration / 6.0 - SLOPE_WEIGHT / duration;
-            hessian[(block, block)] += same;
-            if block == 0 {
-                gradient[(0, DROPPED)] += mixed;
-            } else {
-                hessian[(block - 1, block - 1)] += same;
-                hessian[(block - 1, block)] += mixed;
-                hessian[(block, block - 1)] += mixed;
+        let tilting = weights.tilt_acceleration + LEAST_TILT_ACCELERATION_WEIGHT;
+        let dropped_square = |duration: f64| {
+            let (square, slope) = (duration / 6.0, SLOPE_WEIGHT / duration);
+            [2.0 * square + slope, square - slope, 2.0 * square + slope]
+        };
+        let tilt_square = |duration: f64| {
+            let (square, slope) = (tilting * RAMP / 6.0, TILT_SLOPE_WEIGHT / RAMP);
+            [2.0 * square + slope, square - slope, 2.0 * square + slope + tilting * (duration - RAMP)]
+        };
+        for (block, &duration) in horizon.durations().iter().enumerate() {
+            for (first, start, [before, mixed, after]) in
+                [(0, DROPPED, dropped_square(duration)), (BLOCKS, TILTING, tilt_square(duration))]
+            {
+                let node = first + block;
+                hessian[(node, node)] += after;
+                if block == 0 {
+                    gradient[(node, start)] += mixed;
+                } else {
+                    hessian[(node - 1, node - 1)] += before;
+                    hessian[(node - 1, node)] += mixed;
+                    hessian[(node, node - 1)] += mixed;
+                }
             }
-            hessian[(BLOCKS + block, BLOCKS + block)] +=
-                duration * (weights.tilt_acceleration + LEAST_TILT_ACCELERATION_WEIGHT);
         }
         let end_to_end = regulator.cost.fixed_view::<4, 2>(0, 4);
         let end = from_controls.fixed_rows::<4>(4 * (BLOCKS - 1)).tr_mul(&end_to_end);
@@ -225,17 +244,15 @@ impl AxisProgram {
     pub fn rows(&self, nodes: &Nodes, controls: &AxisControls) -> SVector<f64, AXIS_ROWS> {
         let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = self.model;
         let position = 1.0 / (POSITION_FRACTION * position_limit);
-        let scales = [
-            position,
-            1.0 / (VELOCITY_FRACTION * velocity_limit),
-            1.0 / angle_limit,
-            1.0 / (RATE_FRACTION * rate_limit),
-        ];
+        let tilt_limits = self.model.tilt_limits();
         let mut rows = SVector::zeros();
         for node in 0..BLOCKS {
-            for (state, scale) in scales.iter().enumerate() {
-                rows[4 * node + state] = scale * nodes[4 * node + state];
-            }
+            rows[4 * node] = position * nodes[4 * node];
+            rows[4 * node + 1] = nodes[4 * node + 1] / (VELOCITY_FRACTION * velocity_limit);
+            let alpha = self.model.acceleration_limit * controls[BLOCKS + node];
+            let [tilt, tilt_rate] = tilt_limits.approached(nodes[4 * node + 2], nodes[4 * node + 3], alpha);
+            rows[4 * node + 2] = tilt / angle_limit;
+            rows[4 * node + 3] = tilt_rate / (RATE_FRACTION * rate_limit);
             rows[4 * BLOCKS + node] = controls[BLOCKS + node];
             if node + 1 < BLOCKS {
                 let alpha = self.model.acceleration_limit * controls[BLOCKS + node + 1];
@@ -254,7 +271,7 @@ impl AxisProgram {
     /// Position in the middle of a block after the first.
     ///
     /// It is that of the cubic through the nodes, and by the tilt acceleration a term of fourth
-    /// order less.
+    /// order less. The ramp's part of that is left out.
     pub fn middle(&self, nodes: &Nodes, block: usize, alpha: f64) -> f64 {
         let t = self.horizon.durations()[block];
         let [before, after] = [4 * (block - 1), 4 * block];
@@ -263,14 +280,32 @@ impl AxisProgram {
     }
 }
 
-/// Initial state of the program, with the dropped force in force \[m/s2\].
-pub fn data(state: &AxisState, dropped_force: f64, forecast: &Forecast) -> Data {
-    let start = [state.position, state.velocity, state.tilt, state.tilt_rate, dropped_force];
-    Data::from_fn(|k, _| match k {
-        0..=DROPPED => start[k],
-        k if k < DATA - 2 => forecast.means[k - DROPPED - 1],
-        k => forecast.end[k + 2 - DATA],
-    })
+impl AxisProgram {
+    /// Initial state of the program, with the dropped force in force \[m/s2\].
+    pub fn data(&self, state: &AxisState, dropped_force: f64, forecast: &Forecast) -> Data {
+        let tilting = state.tilt_acceleration / self.model.acceleration_limit;
+        let start = [state.position, state.velocity, state.tilt, state.tilt_rate, dropped_force, tilting];
+        Data::from_fn(|k, _| match k {
+            0..MEANS => start[k],
+            k if k < DATA - 2 => forecast.means[k - MEANS],
+            k => forecast.end[k + 2 - DATA],
+        })
+    }
+}
+
+/// A ramp from 1 to 0 over [`RAMP`], once to four times integrated over a block.
+fn ramp_integrals(duration: f64) -> [f64; 4] {
+    let (ramp, after) = (RAMP, duration - RAMP);
+    let square = ramp * ramp;
+    [
+        ramp / 2.0,
+        square / 3.0 + ramp / 2.0 * after,
+        ramp * square / 8.0 + square / 3.0 * after + ramp / 4.0 * after * after,
+        square * square / 30.0
+            + ramp * square / 8.0 * after
+            + square / 6.0 * after * after
+            + ramp / 12.0 * after.powi(3),
+    ]
 }
 
 /// The nodes' response to one unit of each argument.
@@ -293,21 +328,24 @@ fn responses<const K: usize>(
 fn rolled_out(model: &AxisModel, horizon: Horizon, data: &Data, controls: &AxisControls) -> Nodes {
     let mut nodes = Nodes::zeros();
     let [mut x, mut v, mut q, mut w] = [data[0], data[1], data[2], data[3]];
-    let mut dropped = data[DROPPED];
+    let gravity = CHORD * model.gravity;
+    let (mut dropped, mut alpha) = (data[DROPPED], model.acceleration_limit * data[TILTING]);
     for (block, &t) in horizon.durations().iter().enumerate() {
-        let alpha = model.acceleration_limit * controls[BLOCKS + block];
-        let constant = data[DROPPED + 1 + block] + model.head_height * alpha;
-        let gravity = CHORD * model.gravity;
-        // The tilt's first and second integral over the block, and the dropped force's.
-        let once = t * (q + t * (w / 2.0 + t * alpha / 6.0));
-        let twice = t * t * (q / 2.0 + t * (w / 6.0 + t * alpha / 24.0));
-        let next = controls[block];
-        let dropped_once = t * (dropped + next) / 2.0;
-        let dropped_twice = t * t * (2.0 * dropped + next) / 6.0;
-        x += t * (v + 0.5 * t * constant) + dropped_twice - gravity * twice;
-        v += t * constant + dropped_once - gravity * once;
-        (q, w) = (q + w * t + 0.5 * alpha * t * t, w + alpha * t);
-        dropped = next;
+        let (next_dropped, next_alpha) = (controls[block], model.acceleration_limit * controls[BLOCKS + block]);
+        // The tilt's acceleration, less its value after the ramp, once to four times integrated.
+        let [by1, by2, by3, by4] = ramp_integrals(t).map(|integral| (alpha - next_alpha) * integral);
+        let turned = next_alpha * t + by1;
+        let turned_twice = next_alpha * t * t / 2.0 + by2;
+        // The tilt's first and second integral over the block.
+        let once = t * (q + t * (w / 2.0 + t * next_alpha / 6.0)) + by3;
+        let twice = t * t * (q / 2.0 + t * (w / 6.0 + t * next_alpha / 24.0)) + by4;
+        let mean = data[MEANS + block];
+        let dropped_once = t * (dropped + next_dropped) / 2.0;
+        let dropped_twice = t * t * (2.0 * dropped + next_dropped) / 6.0;
+        x += t * v + t * t * mean / 2.0 + dropped_twice + model.head_height * turned_twice - gravity * twice;
+        v += t * mean + dropped_once + model.head_height * turned - gravity * once;
+        (q, w) = (q + t * w + turned_twice, w + turned);
+        (dropped, alpha) = (next_dropped, next_alpha);
         nodes.fixed_rows_mut::<4>(4 * block).copy_from(&Vector4::new(x, v, q, w));
     }
     nodes
@@ -394,7 +432,7 @@ mod tests {
 
     /// A state, a forecast and controls with a part of everything.
     fn example() -> (AxisState, Forecast, AxisControls) {
-        let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
+        let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01, tilt_acceleration: 0.07 };
         let forecast = Forecast { means: SVector::from_fn(|k, _| 0.5 - 0.3 * k as f64), end: [0.7, -0.4] };
         (state, forecast, AxisControls::from_fn(|k, _| (1.0 + k as f64).sin()))
     }
@@ -408,10 +446,11 @@ mod tests {
                 + WEIGHTS.velocity * (state[1] / model.velocity_limit).powi(2)
                 + WEIGHTS.tilt_rate * (state[3] / model.rate_limit).powi(2)
         };
-        let nodes = axis.nodes(&axis.free_nodes(&data(state, DROPPED_BEFORE, forecast)), controls);
+        let nodes = axis.nodes(&axis.free_nodes(&axis.data(state, DROPPED_BEFORE, forecast)), controls);
         let mut before = vec![state.position, state.velocity, state.tilt, state.tilt_rate];
         let mut cost = 0.0;
-        let mut dropped_before = DROPPED_BEFORE;
+        let (mut dropped_before, mut tilting_before) =
+            (DROPPED_BEFORE, state.tilt_acceleration / model.acceleration_limit);
         for (block, duration) in axis.horizon.durations().into_iter().enumerate() {
             let after = nodes.as_slice()[4 * block..4 * block + 4].to_vec();
             let (dropped, tilting) = (controls[block], controls[BLOCKS + block]);
@@ -419,8 +458,12 @@ mod tests {
             let middle = 0.5 * (dropped_before + dropped);
             cost += duration / 6.0 * (dropped_before.powi(2) + 4.0 * middle * middle + dropped * dropped);
             cost += SLOPE_WEIGHT * (dropped - dropped_before).powi(2) / duration;
-            cost += duration * (WEIGHTS.tilt_acceleration + 1e-5) * tilting * tilting;
-            dropped_before = dropped;
+            // The tilt's acceleration is a line on the ramp and constant after it.
+            let middle = 0.5 * (tilting_before + tilting);
+            let ramp = RAMP / 6.0 * (tilting_before.powi(2) + 4.0 * middle * middle + tilting * tilting);
+            cost += (WEIGHTS.tilt_acceleration + 1e-5) * (ramp + (duration - RAMP) * tilting * tilting);
+            cost += TILT_SLOPE_WEIGHT * (tilting - tilting_before).powi(2) / RAMP;
+            (dropped_before, tilting_before) = (dropped, tilting);
             cost += 0.5 * duration * (running(&before) + running(&after));
             before = after;
         }
@@ -433,10 +476,13 @@ mod tests {
     #[test]
     fn data_are_the_start_the_means_and_the_end() {
         let (state, forecast, _) = example();
-        let AxisState { position, velocity, tilt, tilt_rate } = state;
-        let mut expected = vec![position, velocity, tilt, tilt_rate, DROPPED_BEFORE];
-        expected.extend(forecast.means.iter().chain(&forecast.end));
-        assert_eq!(data(&state, DROPPED_BEFORE, &forecast).as_slice(), expected);
+        let AxisState { position, velocity, tilt, tilt_rate, tilt_acceleration } = state;
+        for (axis, model) in program(Horizon::Near).axes.iter().zip(MODELS) {
+            let tilting = tilt_acceleration / model.acceleration_limit;
+            let mut expected = vec![position, velocity, tilt, tilt_rate, DROPPED_BEFORE, tilting];
+            expected.extend(forecast.means.iter().chain(&forecast.end));
+            assert_eq!(axis.data(&state, DROPPED_BEFORE, &forecast).as_slice(), expected);
+        }
     }
 
     #[test]
@@ -444,7 +490,7 @@ mod tests {
         let (state, forecast, controls) = example();
         for horizon in [Horizon::Near, Horizon::Far] {
             for axis in &program(horizon).axes {
-                let gradient = axis.gradient(&data(&state, DROPPED_BEFORE, &forecast));
+                let gradient = axis.gradient(&axis.data(&state, DROPPED_BEFORE, &forecast));
                 for scale in [0.1, -1.0, 3.0] {
                     let controls = scale * controls;
                     let quadratic = gradient.dot(&controls) + 0.5 * controls.dot(&(axis.hessian() * controls));
@@ -470,6 +516,8 @@ mod tests {
             let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, {expected}");
             for node in 0..BLOCKS {
                 let [x, v, q, w] = state(node);
+                let tilting = acceleration_limit * 0.01 * (BLOCKS + node) as f64;
+                let [q, w] = program.model.tilt_limits().approached(q, w, tilting);
                 let expected = [x / farthest, v / (0.95 * velocity_limit), q / angle_limit, w / (0.999 * rate_limit)];
                 for (k, expected) in expected.into_iter().enumerate() {
                     close(rows[4 * node + k], expected);
@@ -499,7 +547,7 @@ mod tests {
             let rows = rows(&program);
             assert_eq!((rows.normals.len(), rows.lower.min(), rows.upper.max()), (ROWS, -1.0, 1.0));
             for (k, axis) in program.axes.iter().enumerate() {
-                let free = axis.free_nodes(&data(&state, DROPPED_BEFORE, &forecast));
+                let free = axis.free_nodes(&axis.data(&state, DROPPED_BEFORE, &forecast));
                 let expected =
                     axis.rows(&axis.nodes(&free, &controls), &controls) - axis.rows(&free, &AxisControls::zeros());
                 let mut all = SVector::<f64, CONTROLS>::zeros();

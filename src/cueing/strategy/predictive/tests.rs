@@ -103,7 +103,7 @@ fn a_step_of_up_to_1_ms_has_eight_iterations_and_a_longer_one_more_in_proportion
 }
 
 #[test]
-fn a_decision_is_on_the_line_to_the_next_node_and_of_the_block_that_the_plan_has_reached() {
+fn a_decision_is_on_the_line_to_the_next_node_and_on_the_ramp_to_the_block_that_the_plan_has_reached() {
     let mut predictive = predictive();
     passed(&mut predictive, 1500, 5.0);
     // From now on the plan is carried out to its end.
@@ -118,7 +118,11 @@ fn a_decision_is_on_the_line_to_the_next_node_and_of_the_block_that_the_plan_has
             let left = horizon.ends()[block] - age;
             let expected = before[axis] + (controls[axis][block] - before[axis]) * 0.001 / left;
             assert!((decisions[axis].dropped_force - expected).abs() < 1e-9, "{expected} in block {block}");
-            assert_eq!(decisions[axis].tilt_acceleration, MODEL.acceleration_limit * controls[axis][BLOCKS + block]);
+            // The tilt does not move here, so that each step begins a ramp at zero.
+            let ramp_left = RAMP - (horizon.durations()[block] - left);
+            let tilting = MODEL.acceleration_limit * controls[axis][BLOCKS + block];
+            let expected = if ramp_left > 0.001 { tilting * 0.001 / ramp_left } else { tilting };
+            assert!((decisions[axis].tilt_acceleration - expected).abs() < 1e-9, "{expected} in block {block}");
         }
     }
     assert!(blocks[3..].iter().all(|&reached| reached));
@@ -137,9 +141,9 @@ fn a_long_step_goes_from_node_to_node() {
         let (begin, end) = (Horizon::Near.ends()[block - 1], Horizon::Near.ends()[block]);
         let fraction = (age + step - begin) / (end - begin);
         let expected = controls[block - 1] + fraction * (controls[block] - controls[block - 1]);
-        assert!((plan.dropped_force_after(0, from, step) - expected).abs() < 1e-12);
+        assert!((plan.value_after(plan.courses(0)[0], from, step) - expected).abs() < 1e-12);
     }
-    assert_eq!(plan.dropped_force_after(0, 0.2, 5.0), plan.controls[0][BLOCKS - 1]);
+    assert_eq!(plan.value_after(plan.courses(0)[0], 0.2, 5.0), plan.controls[0][BLOCKS - 1]);
 }
 
 #[test]
@@ -348,7 +352,7 @@ fn the_plan_keeps_its_rows() {
 
 /// Surge and sway `step` seconds later, if they move by this decision at this reference.
 fn moved(state: &AxisState, decision: &Decision, reference: f64, step: f64) -> AxisState {
-    let AxisState { position, velocity, tilt, tilt_rate } = *state;
+    let AxisState { position, velocity, tilt, tilt_rate, .. } = *state;
     let Decision { dropped_force, tilt_acceleration } = *decision;
     let acceleration = reference + dropped_force - MODEL.gravity * tilt + MODEL.head_height * tilt_acceleration;
     AxisState {
@@ -356,6 +360,7 @@ fn moved(state: &AxisState, decision: &Decision, reference: f64, step: f64) -> A
         velocity: velocity + acceleration * step,
         tilt: tilt + tilt_rate * step,
         tilt_rate: tilt_rate + tilt_acceleration * step,
+        tilt_acceleration,
     }
 }
 
@@ -413,25 +418,31 @@ fn the_factor_is_that_of_the_hessian() {
 fn condensed_nodes_are_those_of_the_block_equations() {
     let predictive = predictive();
     let controls = AxisControls::from_fn(|k, _| 0.3 * (k as f64).sin());
-    let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01 };
+    let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01, tilt_acceleration: -0.05 };
     let mut forecast = forecast::Forecast::default();
     forecast.means.fill(0.7);
-    let data = program::data(&state, -0.4, &forecast);
     let axis = &predictive.programs.near.axes[0];
+    let data = axis.data(&state, -0.4, &forecast);
     let nodes = axis.nodes(&axis.free_nodes(&data), &controls);
     let (mut x, mut v, mut q, mut w) = (0.1, -0.2, 0.05, 0.01);
-    let mut dropped_before = -0.4;
+    let (mut dropped_before, mut alpha_before) = (-0.4, -0.05);
     for block in 0..BLOCKS {
-        let alpha = MODEL.acceleration_limit * controls[BLOCKS + block];
+        let alpha_after = MODEL.acceleration_limit * controls[BLOCKS + block];
         let steps = 20_000;
-        let step = Horizon::Near.durations()[block] / f64::from(steps);
+        let duration = Horizon::Near.durations()[block];
+        let step = duration / f64::from(steps);
         for k in 0..steps {
             if 2 * k == steps && block > 0 {
-                let found = axis.middle(&nodes, block, alpha);
-                assert!((found - x).abs() < 1e-8, "middle of block {block}: {found}, {x}");
+                let found = axis.middle(&nodes, block, alpha_after);
+                // The ramp's part is left out.
+                let lever = MODEL.head_height + MODEL.gravity * duration * duration;
+                let ramp = lever * RAMP * duration * (alpha_after - alpha_before).abs();
+                assert!((found - x).abs() < 1e-8 + ramp / 16.0, "middle of block {block}: {found}, {x}");
             }
             let fraction = (f64::from(k) + 0.5) / f64::from(steps);
             let dropped = dropped_before + fraction * (controls[block] - dropped_before);
+            let ramped = (duration * fraction / RAMP).min(1.0);
+            let alpha = alpha_before + ramped * (alpha_after - alpha_before);
             let middle = q + 0.5 * step * (w + step * alpha / 3.0);
             let a = 0.7 + MODEL.head_height * alpha - program::CHORD * MODEL.gravity * middle + dropped;
             x += step * (v + 0.5 * step * a);
@@ -439,7 +450,7 @@ fn condensed_nodes_are_those_of_the_block_equations() {
             q += step * (w + 0.5 * step * alpha);
             w += step * alpha;
         }
-        dropped_before = controls[block];
+        (dropped_before, alpha_before) = (controls[block], alpha_after);
         let expected = [x, v, q, w];
         for (k, expected) in expected.iter().enumerate() {
             let found = nodes[4 * block + k];
@@ -452,7 +463,7 @@ fn condensed_nodes_are_those_of_the_block_equations() {
 fn a_solve_of_too_many_iterations_is_abandoned_and_the_plan_before_kept() {
     let geometry = Geometry::from(&Rig::default());
     // Far beyond the limits, where most rows contradict each other.
-    let far = AxisState { position: 0.5, velocity: 0.9, tilt: 0.3, tilt_rate: 0.05 };
+    let far = AxisState { position: 0.5, velocity: 0.9, tilt: 0.3, tilt_rate: 0.05, ..AxisState::default() };
     let mut predictive = predictive();
     predictive.begin(&[far; 2], &narrow(&geometry, 0.1), f64::INFINITY);
     let before = predictive.plan;
