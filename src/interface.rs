@@ -266,7 +266,7 @@ interface! {
         /// Scale of the angular rates (x of roll, y of pitch, z of yaw).
         "scale.angularVelocity.@" rate_scale: Vector3<f64> { -10.0 ..= 10.0 } = Vector3::new(0.25, 0.3, 0.9);
         /// Largest scaled specific force; the limiter is linear up to 80 % of it and smooth above.
-        "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(8.0, 8.0, 8.0);
+        "limit.specificForce.@" force_limit: Vector3<f64> [M_PER_S2] { 1e-3 ..= 1e6 } = Vector3::new(4.5, 5.0, 8.0);
         /// Largest scaled angular rate (x of roll, y of pitch, z of yaw), limited like the specific force.
         "limit.angularVelocity.@" rate_limit: Vector3<f64> [RAD_PER_S] { 1e-3 ..= 1e6 } = Vector3::new(1.0, 1.0, 1.0);
         /// Break frequency of a first-order low-pass on specific force and angular rates; 0 is off.
@@ -287,12 +287,12 @@ interface! {
 interface! {
     /// Block (2): tilt coordination's limits, for roll and pitch each.
     pub struct TiltParameters: Parameter, Tunable {
-        /// Largest rate of tilt coordination (2.6 deg/s: riders hardly perceive it, even where it reverses).
-        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.045;
+        /// Largest rate of tilt coordination (3 deg/s: riders hardly perceive it).
+        "tilt.rateLimit" rate_limit: f64 [RAD_PER_S] { 1e-9 ..= 10.0 } = 0.052_36;
         /// Largest acceleration of tilt coordination.
-        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.11;
+        "tilt.accelerationLimit" acceleration_limit: f64 [RAD_PER_S2] { 1e-9 ..= 1e3 } = 0.4;
         /// Largest angle of tilt coordination.
-        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.24;
+        "tilt.angleLimit" angle_limit: f64 [RAD] { 1e-9 ..= 1.047_197_551_196_597_6 } = 0.257;
     }
 }
 
@@ -301,7 +301,7 @@ interface! {
     /// the neutral position.
     pub struct SafetyParameters: Parameter, Tunable {
         /// Largest displacement of the platform from neutral.
-        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.45, 0.45, 0.33);
+        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.36, 0.36, 0.33);
         /// Largest velocity of the platform.
         "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
         /// Largest acceleration of the platform, for braking too.
@@ -373,7 +373,7 @@ interface! {
         /// Break frequency of the adaptive strategy's high-pass from force to travel.
         "adaptive.omega" omega: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.8;
         /// Damping ratio of the adaptive strategy's high-pass from force to travel.
-        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.34;
+        "adaptive.zeta" zeta: f64 { 1e-3 ..= 100.0 } = 1.1;
         /// Rate at which the gain from force to travel follows the gradient of the cost.
         "adaptive.gain1" gain1: f64 { 1e-9 ..= 1e6 } = 0.18;
         /// Rate at which the gain from force to tilt rate follows the gradient of the cost.
@@ -381,9 +381,9 @@ interface! {
         /// Gain from force to travel to which the adaptation is pulled.
         "adaptive.nominal1" nominal1: f64 { 1e-9 ..= 10.0 } = 0.986;
         /// Gain from force to tilt rate, in (rad/s)/(m/s2), to which the adaptation is pulled.
-        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.17;
+        "adaptive.nominal2" nominal2: f64 { 1e-9 ..= 10.0 } = 0.35;
         /// Weight of travel; the error of the felt force has the weight 1.
-        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 10.6;
+        "adaptive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 8.0;
         /// Weight of the travel's velocity.
         "adaptive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 5.13;
         /// Weight of the tilt rate.

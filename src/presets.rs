@@ -57,6 +57,10 @@ const OF_THE_PAPER: &[(&str, f64)] = &[
     ("tilt.rateLimit", 0.052_359_877_559_829_88),
     ("tilt.accelerationLimit", 0.2),
     ("tilt.angleLimit", 0.38),
+    ("limit.specificForce.x", 8.0),
+    ("limit.specificForce.y", 8.0),
+    ("safety.x.positionLimit", 0.45),
+    ("safety.y.positionLimit", 0.45),
     ("softLimit.pace", 0.0),
 ];
 
@@ -142,25 +146,16 @@ pub const CAR: &[(&str, f64)] = &[
 /// surge act before it comes.
 pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32))];
 
-/// The adaptive strategy, with the limits that its gains were found for.
-pub const ADAPTIVE: &[(&str, f64)] = &within_narrow_limits(StrategyKind::Adaptive);
-/// The optimal strategy, with the limits that its weights were found for.
-pub const OPTIMAL: &[(&str, f64)] = &within_narrow_limits(StrategyKind::Optimal);
-/// The predictive strategy, with the specific force unscaled and the limits that its weights were
-/// found for. The tilt is as fast as the paper's but at most 15 degrees, so that less of it is left
-/// over when a force ends.
-pub const PREDICTIVE: &[(&str, f64)] = &[
-    ("strategy", item(StrategyKind::Predictive as i32)),
-    ("scale.specificForce.x", 1.0),
-    ("scale.specificForce.y", 1.0),
-    ("scale.specificForce.z", 1.0),
-    ("limit.specificForce.x", 4.5),
-    ("limit.specificForce.y", 5.0),
-    ("tilt.rateLimit", 0.052_359_877_559_829_88),
-    ("tilt.accelerationLimit", 0.4),
-    ("tilt.angleLimit", 0.257),
-    ("softLimit.pace", 6.0),
-];
+/// The adaptive strategy, with the specific force unscaled.
+pub const ADAPTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Adaptive);
+/// The optimal strategy, with the specific force unscaled.
+pub const OPTIMAL: &[(&str, f64)] = &unscaled(StrategyKind::Optimal);
+/// The predictive strategy, with the specific force unscaled. It plans within the actuators'
+/// strokes, so it has more room, and soft limits that act later.
+pub const PREDICTIVE: &[(&str, f64)] = &joined::<{ UNSCALED + ROOM.len() + 1 }>(
+    &joined::<{ UNSCALED + ROOM.len() }>(&unscaled(StrategyKind::Predictive), ROOM),
+    &[("softLimit.pace", 6.0)],
+);
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
 /// wider, since what comes after is known.
@@ -171,25 +166,22 @@ const FARTHER: &[(&str, f64)] = &[
     ("limit.specificForce.x", 10.0),
     ("limit.specificForce.y", 10.0),
     ("tilt.angleLimit", 0.38),
-    ("softLimit.pace", 8.0),
+    ("softLimit.pace", 9.0),
 ];
 
-/// A strategy that does not plan within the actuators' strokes. The specific force is unscaled, and
-/// the tilt limits are the paper's. Travel and its acceleration are limited so that surge and sway
-/// come to rest gently, before the actuators do.
-const fn within_narrow_limits(strategy: StrategyKind) -> [(&'static str, f64); 11] {
+/// The travel that a plan within the actuators' strokes may use.
+const ROOM: &[(&str, f64)] = &[("safety.x.positionLimit", 0.42), ("safety.y.positionLimit", 0.42)];
+
+/// Number of values of [`unscaled`].
+const UNSCALED: usize = 4;
+
+/// A strategy with the specific force as the vehicle's.
+const fn unscaled(strategy: StrategyKind) -> [(&'static str, f64); UNSCALED] {
     [
         ("strategy", item(strategy as i32)),
         ("scale.specificForce.x", 1.0),
         ("scale.specificForce.y", 1.0),
         ("scale.specificForce.z", 1.0),
-        ("tilt.rateLimit", 0.052_359_877_559_829_88),
-        ("tilt.accelerationLimit", 0.2),
-        ("tilt.angleLimit", 0.38),
-        ("safety.x.positionLimit", 0.28),
-        ("safety.y.positionLimit", 0.28),
-        ("safety.x.accelerationLimit", 4.0),
-        ("safety.y.accelerationLimit", 4.0),
     ]
 }
 

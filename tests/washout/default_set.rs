@@ -125,7 +125,8 @@ fn no_rider_is_much_worse_off_than_on_a_platform_at_rest() {
                 let most = if ride.name == "b" { 1.6 } else { 1.15 };
                 assert!(error[axis] <= most * at_rest[axis], "{} {host:?}, axis {axis}", ride.name);
             }
-            assert!(error.z <= at_rest.z + 0.15, "{} {host:?}, heave", ride.name);
+            // A tilt of 14.7 degrees takes 0.32 m/s2 of gravity.
+            assert!(error.z <= at_rest.z + 0.2, "{} {host:?}, heave", ride.name);
             assert!(limited <= 0.01, "{} {host:?}: {limited}", ride.name);
         }
     }
