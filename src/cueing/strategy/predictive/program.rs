@@ -32,9 +32,9 @@ use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 pub const AXIS_CONTROLS: usize = 2 * BLOCKS;
 /// Variables: those of surge, then those of sway.
 pub const CONTROLS: usize = 2 * AXIS_CONTROLS;
-/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, the last two as
-/// [`smooth_tilt`](crate::cueing::strategy::smooth_tilt) approaches their limits, position in the
-/// middle of the blocks after the first, tilt acceleration, and two for the end.
+/// Rows of an axis: position, velocity, tilt and tilt rate at the nodes, position in the middle of
+/// the blocks after the first, tilt acceleration, and two for the end. Tilt and tilt rate are those
+/// that [`smooth_tilt`](crate::cueing::strategy::smooth_tilt) approaches.
 pub const AXIS_ROWS: usize = 6 * BLOCKS + 1;
 /// Rows of the actuators' lengths, six for each node.
 pub const LEG_ROWS: usize = 6 * BLOCKS;
