@@ -18,10 +18,11 @@ const REPEATS: usize = 9;
 fn main() -> Result<(), ParameterError> {
     let ride = ride();
     println!("strategy     mean   median     99 %  99.99 %  slowest  [µs]");
-    let sets: [(&str, &[(&str, f64)]); 4] = [
+    let sets: [(&str, &[(&str, f64)]); 5] = [
         ("classical", &[]),
         ("adaptive", presets::ADAPTIVE),
         ("optimal", presets::OPTIMAL),
+        ("robust", presets::ROBUST),
         ("predictive", presets::PREDICTIVE),
     ];
     for (name, set) in sets {

@@ -198,6 +198,8 @@ enumeration! {
         "optimal" Optimal,
         /// A plan of the next seconds within all limits, made anew 50 times a second.
         "predictive" Predictive,
+        /// A regulator that is least for the worst reference.
+        "robust" Robust,
     }
 }
 
@@ -416,6 +418,30 @@ interface! {
 }
 
 interface! {
+    /// The robust strategy, for surge and sway each.
+    pub struct RobustParameters: Parameter, Tunable {
+        /// Bound on the cost of a disturbance, relative to the least possible; near 1 the worst is weighed most.
+        "robust.attenuation" attenuation: f64 { 1.001 ..= 1e3 } = 1.08;
+        /// Disturbance of the force's fast part relative to that of its slow part.
+        "robust.fastDisturbance" fast_disturbance: f64 { 1e-3 ..= 1e6 } = 121.0;
+        /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
+        "robust.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 0.02;
+        /// Weight of the travel's velocity at its limit.
+        "robust.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.0048;
+        /// Weight of the tilt rate at its limit.
+        "robust.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 0.0007;
+        /// Weight of the tilt acceleration at its limit.
+        "robust.weightTiltAcceleration" weight_tilt_acceleration: f64 { 1e-9 ..= 1e6 } = 0.0072;
+        /// Expected rate of decay of the slow part of the force.
+        "robust.slowPole" slow_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 0.115;
+        /// Expected rate of decay of the fast part of the force.
+        "robust.fastPole" fast_pole: f64 [ANGULAR_FREQUENCY] { 1e-6 ..= 1e3 } = 25.5;
+        /// Time constant that splits the force into its slow and its fast part.
+        "robust.splitTime" split_time: f64 [S] { 1e-3 ..= 1e3 } = 0.245;
+    }
+}
+
+interface! {
     /// The predictive strategy, for surge and sway together.
     pub struct PredictiveParameters: Parameter, Tunable {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
@@ -452,6 +478,7 @@ interface_tree! {
         structure: StructureParameters,
         adaptive: AdaptiveParameters,
         optimal: OptimalParameters,
+        robust: RobustParameters,
         predictive: PredictiveParameters,
         soft_limit: SoftLimitParameters,
         rig: Rig,

@@ -150,6 +150,8 @@ pub const PREACTION: &[(&str, f64)] = &[("preaction", item(Preaction::On as i32)
 pub const ADAPTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Adaptive);
 /// The optimal strategy, with the specific force unscaled.
 pub const OPTIMAL: &[(&str, f64)] = &unscaled(StrategyKind::Optimal);
+/// The robust strategy, with the specific force unscaled.
+pub const ROBUST: &[(&str, f64)] = &unscaled(StrategyKind::Robust);
 /// The predictive strategy, with the specific force unscaled. It plans within the actuators'
 /// strokes, so it has more room, and soft limits that act later.
 pub const PREDICTIVE: &[(&str, f64)] = &joined::<{ UNSCALED + ROOM.len() + 1 }>(

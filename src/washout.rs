@@ -527,6 +527,7 @@ fn engaging_after(engaging: f64, engaged: bool, step: f64) -> f64 {
 fn no_regulator(parameters: &Parameters) -> ParameterError {
     let (prefix, weight) = match parameters.structure.strategy {
         StrategyKind::Predictive => ("predictive", parameters.predictive.weight_position),
+        StrategyKind::Robust => ("robust", parameters.robust.weight_position),
         _ => ("optimal", parameters.optimal.weight_position),
     };
     ParameterError {

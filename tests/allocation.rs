@@ -29,7 +29,7 @@ fn the_counter_counts() {
 
 #[test]
 fn a_step_allocates_nothing() {
-    for strategy in [StrategyKind::Classical, StrategyKind::Adaptive, StrategyKind::Optimal, StrategyKind::Predictive] {
+    for &strategy in StrategyKind::ALL {
         for pace in [0.0, 5.0] {
             let mut parameters = with_strategy(strategy);
             parameters.soft_limit.pace = pace;
@@ -65,7 +65,7 @@ fn with_strategy(strategy: StrategyKind) -> Parameters {
 
 #[test]
 fn retuning_with_the_default_rig_allocates_nothing() {
-    for strategy in [StrategyKind::Classical, StrategyKind::Adaptive, StrategyKind::Optimal, StrategyKind::Predictive] {
+    for &strategy in StrategyKind::ALL {
         let mut parameters = with_strategy(strategy);
         let mut washout = Washout::new(&parameters).unwrap();
         parameters.splitter.omega1.x = 1.7;

@@ -199,7 +199,7 @@ def test_a_run_goes_on_where_the_last_one_ended():
 
 
 @pytest.mark.parametrize("duplicate", [copy.copy, copy.deepcopy, lambda w: pickle.loads(pickle.dumps(w)), lambda w: w.copy()])
-@pytest.mark.parametrize("strategy", ["classical", "adaptive", "optimal", "predictive"])
+@pytest.mark.parametrize("strategy", ["classical", "adaptive", "optimal", "robust", "predictive"])
 def test_a_copied_state_goes_on_to_the_bit_and_apart(duplicate, strategy):
     t, force, rate, *_ = samples(500)
     original = moris.Washout(strategy=strategy)

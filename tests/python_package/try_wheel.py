@@ -13,7 +13,7 @@ import numpy as np
 
 import moris
 
-STRATEGIES = ("classical", "adaptive", "optimal", "predictive")
+STRATEGIES = ("classical", "adaptive", "optimal", "robust", "predictive")
 
 
 def few_bits(values):

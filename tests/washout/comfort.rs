@@ -6,15 +6,17 @@ use nalgebra::Vector3;
 use crate::common::{G, accelerating, ride_between};
 
 /// The sets, and each strategy alone.
-const SETS: [(&str, &[(&str, f64)]); 9] = [
+const SETS: [(&str, &[(&str, f64)]); 11] = [
     ("classical", &[]),
     ("motorcycle", presets::MOTORCYCLE),
     ("car", presets::CAR),
     ("adaptive", presets::ADAPTIVE),
     ("optimal", presets::OPTIMAL),
+    ("robust", presets::ROBUST),
     ("predictive", presets::PREDICTIVE),
     ("adaptive alone", &[("strategy", 2.0)]),
     ("optimal alone", &[("strategy", 3.0)]),
+    ("robust alone", &[("strategy", 5.0)]),
     ("predictive alone", &[("strategy", 4.0)]),
 ];
 
@@ -122,7 +124,7 @@ fn engaging_and_disengaging_are_felt_without_a_jerk() {
 /// Limits that are far away change nothing, to the bit.
 #[test]
 fn soft_limits_that_do_not_act_change_no_bit() {
-    for strategy in [1.0, 2.0, 3.0, 4.0] {
+    for strategy in [1.0, 2.0, 3.0, 4.0, 5.0] {
         let calm: Force = |t| [0.4 * (0.9 * t).sin(), 0.3 * (1.3 * t).sin(), 0.2 * (2.0 * t).sin()];
         let with = |pace| presets::parameters(&[("strategy", strategy), ("softLimit.pace", pace)]);
         let (on, off) = (felt(&with(12.0), calm), felt(&with(0.0), calm));

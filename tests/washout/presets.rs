@@ -16,6 +16,7 @@ fn every_set_changes_each_of_its_parameters_once_and_can_be_used() {
         (ADAPTIVE, 2.0),
         (OPTIMAL, 3.0),
         (PREDICTIVE, 4.0),
+        (ROBUST, 5.0),
         (PREVIEW, 4.0),
     ];
     for (set, strategy) in sets {

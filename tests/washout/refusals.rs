@@ -123,7 +123,7 @@ fn less_stroke_at_neutral_than_a_leg_moves_in_half_a_step_is_refused() {
 
 #[test]
 fn weights_without_a_regulator_are_refused_by_the_strategys_name() {
-    for (strategy, prefix) in [(3.0, "optimal"), (4.0, "predictive")] {
+    for (strategy, prefix) in [(3.0, "optimal"), (4.0, "predictive"), (5.0, "robust")] {
         let weight = |name: &str, value: f64| (format!("{prefix}.{name}"), value);
         let extreme = [
             weight("weightPosition", 33.0),

@@ -50,7 +50,10 @@ fn changes() -> Vec<(usize, Vec<f64>)> {
                 _ if ["input.cutoff", "input.rateCutoff"].contains(&identity.variable_name(slot).as_str()) => {
                     vec![1.0, 20.0]
                 }
-                _ => [0.1, 0.5, 1.5, 2.5].map(|factor| factor * start[slot]).to_vec(),
+                _ => {
+                    let (min, max) = identity.row(slot).range.unwrap();
+                    [0.1, 0.5, 1.5, 2.5].map(|factor| (factor * start[slot]).clamp(min, max)).to_vec()
+                }
             };
             (slot, values)
         })
@@ -172,7 +175,7 @@ fn a_change_elsewhere_leaves_the_angular_channel_as_it_is() {
 #[test]
 fn after_retuning_at_rest_the_motion_is_the_new_parameters() {
     let strategy = Washout::IDENTITY.slot("strategy").unwrap();
-    for kind in [1.0, 2.0, 3.0, 4.0] {
+    for kind in [1.0, 2.0, 3.0, 4.0, 5.0] {
         let mut start = start_slots();
         start[strategy] = kind;
         for (slot, values) in changes() {

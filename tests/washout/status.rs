@@ -117,8 +117,7 @@ fn the_flags_tell_of_every_internal_step() {
 /// whatever the strategy.
 #[test]
 fn a_speed_above_a_tightened_limit_shows() {
-    use StrategyKind::{Adaptive, Classical, Optimal, Predictive};
-    for strategy in [Classical, Adaptive, Optimal, Predictive] {
+    for &strategy in StrategyKind::ALL {
         let mut beyond = 0;
         for (change, limit) in (100..1500).step_by(23).zip([0.3, 0.1, 0.01].into_iter().cycle()) {
             let mut parameters = parameters(&[]);

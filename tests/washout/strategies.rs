@@ -15,8 +15,9 @@ const CLASSICAL: f64 = 1.0;
 const ADAPTIVE: f64 = 2.0;
 const OPTIMAL: f64 = 3.0;
 const PREDICTIVE: f64 = 4.0;
+const ROBUST: f64 = 5.0;
 /// All strategies but the classical one.
-const COORDINATED: [f64; 3] = [ADAPTIVE, OPTIMAL, PREDICTIVE];
+const COORDINATED: [f64; 4] = [ADAPTIVE, OPTIMAL, ROBUST, PREDICTIVE];
 
 /// RMS error of the felt force along x and y on a run \[m/s2\], without the vehicle's rates.
 fn errors(strategy: f64, duration: f64, input: impl Fn(f64) -> Input) -> [f64; 2] {

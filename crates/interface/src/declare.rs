@@ -235,6 +235,16 @@ macro_rules! enumeration {
             $( $(#[doc = $item_text])+ #[doc = concat!("\n\nFMI: `", $item_name, "`.")] $item, )+
         }
 
+        impl $name {
+            /// All items, in the order of their numbers.
+            pub const ALL: &[$name] = &[ $( $name::$item, )+ ];
+
+            /// The item's name.
+            pub const fn name(self) -> &'static str {
+                match self { $( $name::$item => $item_name, )+ }
+            }
+        }
+
         impl $crate::Field for $name {
             const KIND: $crate::Kind = $crate::Kind::Enumeration(&$crate::Enumeration {
                 name: stringify!($name),
@@ -242,9 +252,8 @@ macro_rules! enumeration {
                 items: &[ $( $crate::Item { name: $item_name, text: concat!($($item_text),+) }, )+ ],
             });
             fn read(slots: &[f64]) -> Self {
-                const ITEMS: &[$name] = &[ $( $name::$item, )+ ];
-                let last = ITEMS.len() - 1;
-                ITEMS[(slots[0] as usize).saturating_sub(1).min(last)]
+                let last = $name::ALL.len() - 1;
+                $name::ALL[(slots[0] as usize).saturating_sub(1).min(last)]
             }
             fn write(self, slots: &mut [f64]) {
                 slots[0] = f64::from(self as i32 + 1);

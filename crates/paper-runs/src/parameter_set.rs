@@ -20,11 +20,12 @@ pub const SMALL_MOTIONS: ParameterSet = ParameterSet { name: "small-motions", va
 /// The set of the paper's runs, and ahead of a stop.
 pub const PREACTION: ParameterSet = ParameterSet { name: "paper + preaction", values: &PAPER_WITH_PREACTION };
 
-/// The four strategies, each with its own preset.
-pub const STRATEGIES: [ParameterSet; 4] = [
+/// The five strategies, each with its own preset.
+pub const STRATEGIES: [ParameterSet; 5] = [
     ParameterSet { name: "classical", values: &[] },
     ParameterSet { name: "adaptive", values: presets::ADAPTIVE },
     ParameterSet { name: "optimal", values: presets::OPTIMAL },
+    ParameterSet { name: "robust", values: presets::ROBUST },
     ParameterSet { name: "predictive", values: presets::PREDICTIVE },
 ];
 

@@ -1,7 +1,7 @@
 //! The shipped parameter sets, by name.
 
 use moris_washout::presets::{
-    ADAPTIVE, CAR, MOTORCYCLE, OPTIMAL, PAPER, PREACTION, PREDICTIVE, PREVIEW, SMALL_MOTIONS,
+    ADAPTIVE, CAR, MOTORCYCLE, OPTIMAL, PAPER, PREACTION, PREDICTIVE, PREVIEW, ROBUST, SMALL_MOTIONS,
 };
 
 /// A parameter set: names and values of variables.
@@ -17,6 +17,7 @@ pub const SETS: &[(&str, ParameterSet)] = &[
     ("preaction", PREACTION),
     ("adaptive", ADAPTIVE),
     ("optimal", OPTIMAL),
+    ("robust", ROBUST),
     ("predictive", PREDICTIVE),
     ("preview", PREVIEW),
 ];

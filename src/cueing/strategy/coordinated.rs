@@ -1,5 +1,4 @@
-//! Travel and tilt that add up: what the adaptive, the optimal and the predictive
-//! strategy have in common.
+//! Travel and tilt that add up: what all strategies but the classical one have in common.
 //!
 //! On either axis, with a tilt q whose gravity acts along it (surge: nose up; sway:
 //! roll), the rider feels
@@ -19,7 +18,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::adaptive::Adaptive;
-use super::optimal::Optimal;
+use super::optimal::{Optimal, Tuning};
 use super::predictive::legs::Surroundings;
 use super::predictive::{Plan, Predictive};
 use super::regulator::AxisModel;
@@ -101,8 +100,8 @@ impl Coordinated {
             StrategyKind::Predictive => {
                 Law::Predictive(Box::new(Predictive::new(&models, &(&parameters.predictive).into())?))
             }
-            StrategyKind::Optimal | StrategyKind::Classical => {
-                Law::Optimal(Optimal::new(&models, &(&parameters.optimal).into())?)
+            StrategyKind::Optimal | StrategyKind::Robust | StrategyKind::Classical => {
+                Law::Optimal(Optimal::new(&models, &regulated(parameters))?)
             }
         };
         Some(Coordinated {
@@ -124,7 +123,7 @@ impl Coordinated {
                 adaptive.retune(&models, &parameters.adaptive);
                 true
             }
-            Law::Optimal(optimal) => optimal.retune(&models, &(&parameters.optimal).into()),
+            Law::Optimal(optimal) => optimal.retune(&models, &regulated(parameters)),
             Law::Predictive(predictive) => predictive.retune(&models, &(&parameters.predictive).into()),
         }
     }
@@ -286,6 +285,14 @@ impl Circumstances<'_> {
             angle_rates: self.angles.velocity,
             frequencies: Vector3::new(angular.omega1.roll, angular.omega1.pitch, angular.omega1.yaw),
         }
+    }
+}
+
+/// The parameters of the optimal or of the robust strategy.
+fn regulated(parameters: &Parameters) -> Tuning {
+    match parameters.structure.strategy {
+        StrategyKind::Robust => (&parameters.robust).into(),
+        _ => (&parameters.optimal).into(),
     }
 }
 

@@ -5,9 +5,10 @@
 //! | [`classical`] | high-pass to travel, low-pass to tilt (the paper) |
 //! | [`adaptive`] | a filter whose gains follow the gradient of a cost |
 //! | [`optimal`] | a linear-quadratic regulator |
+//! | [`robust`] | a regulator for the worst reference |
 //! | [`predictive`] | a plan of the next seconds within all limits, made anew 50 times a second |
 //!
-//! Heave and the angular channel are the same for all. The last three have
+//! Heave and the angular channel are the same for all. All but the first have
 //! [`coordinated`] in common.
 
 pub mod adaptive;
@@ -17,6 +18,7 @@ pub mod optimal;
 pub mod predictive;
 pub mod regulator;
 pub mod riccati;
+pub mod robust;
 pub mod smooth_tilt;
 
 use serde::{Deserialize, Serialize};
@@ -64,7 +66,7 @@ impl Strategy {
     pub fn new(parameters: &Parameters) -> Option<Self> {
         Some(match parameters.structure.strategy {
             StrategyKind::Classical => Strategy::Classical(Classical::new(parameters)),
-            StrategyKind::Adaptive | StrategyKind::Optimal | StrategyKind::Predictive => {
+            StrategyKind::Adaptive | StrategyKind::Optimal | StrategyKind::Robust | StrategyKind::Predictive => {
                 Strategy::Coordinated(Coordinated::new(parameters)?)
             }
         })

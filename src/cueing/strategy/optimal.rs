@@ -1,4 +1,5 @@
-//! The optimal strategy: a linear-quadratic regulator for each axis.
+//! The optimal strategy: a linear-quadratic regulator for each axis. The [`robust`](super::robust) one
+//! is the same with other gains.
 //!
 //! After Sivan, Ish-Shalom and Huang (1982), Reid and Nahon (1985), and Telban and Cardullo
 //! (NASA/CR-2005-213747), with the dropped force in place of the vestibular error. As feedback of
@@ -7,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::regulator::{AxisModel, Regulator, State, Weights};
+use super::robust::Disturbance;
 use super::{AxisState, Decision, at_rest_if_tiny};
 use crate::interface::OptimalParameters;
 
@@ -26,6 +28,8 @@ pub struct Tuning {
     pub weights: Weights,
     /// Time constant that splits the reference into its slow and its fast part \[s\].
     pub split_time: f64,
+    /// What the robust strategy withstands; none for the optimal one.
+    pub disturbance: Option<Disturbance>,
 }
 
 impl From<&OptimalParameters> for Tuning {
@@ -40,6 +44,7 @@ impl From<&OptimalParameters> for Tuning {
                 fast_pole: parameters.fast_pole,
             },
             split_time: parameters.split_time,
+            disturbance: None,
         }
     }
 }
@@ -47,7 +52,10 @@ impl From<&OptimalParameters> for Tuning {
 impl Optimal {
     /// At rest. None if the weights cannot be used.
     pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
-        let regulator = |axis: usize| Regulator::new(&models[axis], &tuning.weights);
+        let regulator = |axis: usize| match &tuning.disturbance {
+            None => Regulator::new(&models[axis], &tuning.weights),
+            Some(disturbance) => disturbance.regulator(&models[axis], &tuning.weights),
+        };
         let regulators = [regulator(0)?, regulator(1)?];
         Some(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2] })
     }

@@ -63,27 +63,59 @@ const TILT_WEIGHT: f64 = 1e-9;
 /// The same for every scaled state.
 const STATE_WEIGHT: f64 = 1e-10;
 
-impl Regulator {
-    /// The regulator that is least in the mean for these weights. None if the Riccati equation has
-    /// no solution in numbers.
-    pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
+/// The regulator's problem in states and inputs relative to their scales.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    a: SMatrix<f64, 6, 6>,
+    b: SMatrix<f64, 6, 2>,
+    q: SMatrix<f64, 6, 6>,
+    /// R^-1 B'.
+    to_input: SMatrix<f64, 2, 6>,
+    scale: State,
+    input_scale: SVector<f64, 2>,
+}
+
+impl Problem {
+    /// The problem of an axis with these weights.
+    pub fn new(model: &AxisModel, weights: &Weights) -> Self {
         let (a, b) = dynamics(model, weights);
         let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = *model;
         let scale = State::new(position_limit, velocity_limit, angle_limit, rate_limit, 1.0, 1.0);
         let input_scale = SVector::<f64, 2>::new(1.0, acceleration_limit);
-        // In states and inputs relative to their scales.
         let a = SMatrix::from_fn(|i, j| a[(i, j)] * scale[j] / scale[i]);
         let b: SMatrix<f64, 6, 2> = SMatrix::from_fn(|i, j| b[(i, j)] * input_scale[j] / scale[i]);
         let tilt = TILT_WEIGHT * angle_limit * angle_limit;
         let state_weights = State::new(weights.position, weights.velocity, tilt, weights.tilt_rate, 0.0, 0.0);
         let q = SMatrix::from_diagonal(&state_weights.add_scalar(STATE_WEIGHT));
         let to_input = SMatrix::from_fn(|i, j| b[(j, i)] / if i == 0 { 1.0 } else { weights.tilt_acceleration });
-        let cost = riccati::solve(&a, &(b * to_input), &q)?;
-        let gains = to_input * cost;
+        Problem { a, b, q, to_input, scale, input_scale }
+    }
+
+    /// The cost to come of the regulator against a disturbance D D'/gamma^2, in scaled states. None if
+    /// the Riccati equation has no solution in numbers, or none without a disturbance that pays.
+    pub fn cost(&self, disturbance: &SMatrix<f64, 6, 6>) -> Option<SMatrix<f64, 6, 6>> {
+        let cost = riccati::solve(&self.a, &(self.b * self.to_input - disturbance), &self.q)?;
+        // Rounding alone makes the least eigenvalue of a semidefinite matrix negative.
+        (cost.symmetric_eigenvalues().min() >= -1e-9 * cost.amax()).then_some(cost)
+    }
+
+    /// The regulator against a disturbance D D'/gamma^2.
+    pub fn regulator(&self, disturbance: &SMatrix<f64, 6, 6>) -> Option<Regulator> {
+        let Problem { scale, input_scale, .. } = self;
+        let cost = self.cost(disturbance)?;
+        let gains = self.to_input * cost;
         Some(Regulator {
             gains: SMatrix::from_fn(|i, j| gains[(i, j)] * input_scale[i] / scale[j]),
             cost: SMatrix::from_fn(|i, j| cost[(i, j)] / (scale[i] * scale[j])),
         })
+    }
+}
+
+impl Regulator {
+    /// The regulator that is least in the mean for these weights. None if the Riccati equation has
+    /// no solution in numbers.
+    pub fn new(model: &AxisModel, weights: &Weights) -> Option<Self> {
+        Problem::new(model, weights).regulator(&SMatrix::zeros())
     }
 
     /// Dropped force \[m/s2\] and tilt acceleration \[rad/s2\] in a state.

@@ -50,6 +50,9 @@ const SCALES: Range = Range { min: 0.01, max: 1.0 };
 const WEIGHTS: Range = Range { min: 1e-5, max: 1e3 };
 /// Gains of the adaptive strategy: a fraction of the force as travel, and a tilt rate for it.
 const GAINS: Range = Range { min: 1e-3, max: 2.0 };
+const ATTENUATIONS: Range = Range { min: 1.01, max: 10.0 };
+const FAST_POLES: Range = Range { min: 0.05, max: 100.0 };
+const DISTURBANCES: Range = Range { min: 1.0, max: 1e4 };
 const SPLIT_TIMES: Range = Range { min: 0.01, max: 2.0 };
 
 /// Tilt that riders hardly perceive, but not too slow to be of use.
@@ -225,7 +228,7 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
 
 /// Visits the parameters of the strategy in use that are tuned.
 fn visit_strategy(parameters: &mut Parameters, act: &mut impl FnMut(&mut f64, Range)) {
-    let Parameters { structure, adaptive, optimal, predictive, .. } = parameters;
+    let Parameters { structure, adaptive, optimal, robust, predictive, .. } = parameters;
     match structure.strategy {
         StrategyKind::Classical => {}
         StrategyKind::Adaptive => {
@@ -249,6 +252,17 @@ fn visit_strategy(parameters: &mut Parameters, act: &mut impl FnMut(&mut f64, Ra
             act(&mut optimal.slow_pole, FREQUENCIES);
             act(&mut optimal.fast_pole, FREQUENCIES);
             act(&mut optimal.split_time, SPLIT_TIMES);
+        }
+        StrategyKind::Robust => {
+            act(&mut robust.attenuation, ATTENUATIONS);
+            act(&mut robust.fast_disturbance, DISTURBANCES);
+            act(&mut robust.weight_position, WEIGHTS);
+            act(&mut robust.weight_velocity, WEIGHTS);
+            act(&mut robust.weight_tilt_rate, WEIGHTS);
+            act(&mut robust.weight_tilt_acceleration, WEIGHTS);
+            act(&mut robust.slow_pole, FREQUENCIES);
+            act(&mut robust.fast_pole, FAST_POLES);
+            act(&mut robust.split_time, SPLIT_TIMES);
         }
         StrategyKind::Predictive => {
             act(&mut predictive.weight_position, WEIGHTS);
@@ -332,6 +346,7 @@ mod tests {
             (StrategyKind::Classical, "", 0),
             (StrategyKind::Adaptive, "adaptive.", 11),
             (StrategyKind::Optimal, "optimal.", 7),
+            (StrategyKind::Robust, "robust.", 9),
             (StrategyKind::Predictive, "predictive.", 6),
         ] {
             let mut start = Parameters::default();

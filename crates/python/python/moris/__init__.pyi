@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 _Floats = NDArray[np.float64]
 _Rig = Union[str, PathLike[str], Mapping[str, Any]]
 _ParameterSet = Union[str, PathLike[str], Mapping[str, Any], Sequence["_ParameterSet"]]
-_Strategy = Literal["classical", "adaptive", "optimal", "predictive"]
+_Strategy = Literal["classical", "adaptive", "optimal", "robust", "predictive"]
 _Value = Union[float, bool, str]
 _Source = Union["Recording", str, PathLike[str], Mapping[str, ArrayLike], Any]
 _Show = Union[bool, None, Callable[[int, Union[int, None], str], Any]]
