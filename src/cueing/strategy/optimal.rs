@@ -1,5 +1,5 @@
-//! The optimal strategy: a linear-quadratic regulator for each axis. The [`robust`](super::robust) one
-//! is the same with other gains.
+//! The optimal strategy: a linear-quadratic regulator for each axis. The [`robust`](super::robust)
+//! one is the same with other gains.
 //!
 //! After Sivan, Ish-Shalom and Huang (1982), Reid and Nahon (1985), and Telban and Cardullo
 //! (NASA/CR-2005-213747), with the dropped force in place of the vestibular error. As feedback of

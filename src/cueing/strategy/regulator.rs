@@ -91,8 +91,8 @@ impl Problem {
         Problem { a, b, q, to_input, scale, input_scale }
     }
 
-    /// The cost to come of the regulator against a disturbance D D'/gamma^2, in scaled states. None if
-    /// the Riccati equation has no solution in numbers, or none without a disturbance that pays.
+    /// The cost to come of the regulator against a disturbance D D'/gamma^2, in scaled states. None
+    /// if the Riccati equation has no solution in numbers, or none without a disturbance that pays.
     pub fn cost(&self, disturbance: &SMatrix<f64, 6, 6>) -> Option<SMatrix<f64, 6, 6>> {
         let cost = riccati::solve(&self.a, &(self.b * self.to_input - disturbance), &self.q)?;
         // Rounding alone makes the least eigenvalue of a semidefinite matrix negative.

@@ -10,9 +10,9 @@
 //!     0 = A'P + P A + Q - P (B R^-1 B' - gamma^-2 D D') P,    u = -R^-1 B' P x
 //! ```
 //!
-//! (T. Basar and P. Bernhard, *H-infinity Optimal Control*, 1995, section 4.4). D drives the slow part
-//! by 1 and the fast part by `robust.fastDisturbance`. gamma is `robust.attenuation` times the least
-//! one for which P >= 0 exists, found by bisection.
+//! (T. Basar and P. Bernhard, *H-infinity Optimal Control*, 1995, section 4.4). D drives the slow
+//! part by 1 and the fast part by `robust.fastDisturbance`. gamma is `robust.attenuation` times the
+//! least one for which P >= 0 exists, found by bisection.
 
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
@@ -111,8 +111,8 @@ mod tests {
         DISTURBANCE.least_gamma(&Problem::new(&MODEL, &weights())).unwrap()
     }
 
-    /// The values are those of scipy 1.14: `schur(hamiltonian, sort="lhp")` with a bisection of gamma,
-    /// and `solve_continuous_are` with [B D] as input and diag(R, -gamma^2 I) as its weight.
+    /// The values are those of scipy 1.14: `schur(hamiltonian, sort="lhp")` with a bisection of
+    /// gamma, and `solve_continuous_are` with [B D] as input and diag(R, -gamma^2 I) as its weight.
     #[test]
     fn the_least_gamma_and_the_gains_are_those_of_the_hamiltonians_schur_form() {
         let expected = [
@@ -130,8 +130,8 @@ mod tests {
         }
     }
 
-    /// The largest cost of a disturbance of unit energy, by power iteration: the disturbance's response
-    /// in the weighted outputs, and its adjoint, over a minute in steps of 2 ms.
+    /// The largest cost of a disturbance of unit energy, by power iteration: the disturbance's
+    /// response in the weighted outputs, and its adjoint, over a minute in steps of 2 ms.
     fn worst_cost(regulator: &Regulator) -> f64 {
         const STEP: f64 = 0.002;
         const COUNT: usize = 30_000;

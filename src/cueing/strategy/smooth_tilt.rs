@@ -1,16 +1,16 @@
 //! The tilt's acceleration without jumps.
 //!
-//! The rider's head is H above the platform. Where a limit keeps travel from making up for it, a jump
-//! of the tilt's acceleration is felt as a jump of H times its size. The acceleration therefore builds
-//! up to its limit A in no less than the time 1/b, and the limits of rate and angle are approached no
-//! faster than that allows:
+//! The rider's head is H above the platform. Where a limit keeps travel from making up for it, a
+//! jump of the tilt's acceleration is felt as a jump of H times its size. The acceleration
+//! therefore builds up to its limit A in no less than the time 1/b, and the limits of rate and
+//! angle are approached no faster than that allows:
 //!
 //! ```text
 //!     |alpha'| <= b A        alpha <= b (W - w)        alpha <= p^2 (Q - q) - 2 p w
 //! ```
 //!
-//! with the rate w and its limit W, and the angle q and its limit Q; likewise on the other side. From
-//! W the angle's bound takes at most W p/e of acceleration and W p^2 of its slope.
+//! with the rate w and its limit W, and the angle q and its limit Q; likewise on the other side.
+//! From W the angle's bound takes at most W p/e of acceleration and W p^2 of its slope.
 
 use super::AxisState;
 use crate::motion::min_max::{max, min};
@@ -28,8 +28,8 @@ pub struct TiltLimits {
     pace: f64,
 }
 
-/// Slope of the acceleration that is always allowed \[rad/s3\]: with a head 1.2 m above the platform
-/// 7 m/s3 are felt.
+/// Slope of the acceleration that is always allowed \[rad/s3\]: with a head 1.2 m above the
+/// platform 7 m/s3 are felt.
 const SLOPE: f64 = 6.0;
 /// Large accelerations build up in at most the inverse of this \[1/s\].
 const LEAST_BUILD_UP: f64 = 15.0;
@@ -70,8 +70,8 @@ impl TiltLimits {
         max(min(within, tilt_acceleration + change), tilt_acceleration - change)
     }
 
-    /// The angle and the rate that must be within their limits, for this acceleration to be within the
-    /// bounds: q + 2 w/p + alpha/p^2 and w + alpha/b.
+    /// The angle and the rate that must be within their limits, for this acceleration to be within
+    /// the bounds: q + 2 w/p + alpha/p^2 and w + alpha/b.
     pub fn approached(&self, angle: f64, rate: f64, acceleration: f64) -> [f64; 2] {
         let TiltLimits { build_up, pace, .. } = *self;
         [angle + (2.0 * rate + acceleration / pace) / pace, rate + acceleration / build_up]

@@ -66,11 +66,82 @@ impl Course {
     }
 }
 
+/// The latest course, and those given within one of its steps before.
+///
+/// A host that previews a force by its values at points of time, again and again, gives all of it
+/// in the course of one step: each preview's points lie between those of the others. Together they
+/// tell the means of a force that vibrates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Courses {
+    latest: Course,
+    /// A ring, with the oldest at `next`.
+    before: [Course; REMEMBERED],
+    next: u8,
+}
+
+/// Number of courses kept beside the latest.
+const REMEMBERED: usize = 9;
+/// Corners of all of them, and the reference now.
+const CORNERS: usize = (REMEMBERED + 1) * PREVIEW_SAMPLES + 1;
+
+impl Courses {
+    /// Takes a new course. One without values, or with another step, removes those before.
+    pub fn give(&mut self, course: &Course) {
+        if course.step != self.latest.step || course.count == 0 {
+            *self = Courses::default();
+        } else if self.latest.begun && self.is_apart() {
+            let next = usize::from(self.next) % REMEMBERED;
+            self.before[next] = self.latest;
+            self.next = ((next + 1) % REMEMBERED) as u8;
+        }
+        self.latest = *course;
+    }
+
+    /// True if the latest course is far enough from the one kept before for both to be kept.
+    fn is_apart(&self) -> bool {
+        let newest = &self.before[(usize::from(self.next) + REMEMBERED - 1) % REMEMBERED];
+        let spacing = self.latest.step / (REMEMBERED + 1) as f64;
+        newest.count == 0 || newest.age - self.latest.age >= spacing - INSTANT
+    }
+
+    /// Advances by `step` seconds.
+    pub fn advance(&mut self, step: f64) {
+        if self.latest.count > 0 {
+            self.latest.advance(step);
+            for course in &mut self.before {
+                course.age += step;
+            }
+        }
+    }
+
+    /// Delays a course that has just been given by the time for which its reference lags \[s\].
+    pub fn put_off(&mut self, lag: f64) {
+        self.latest.put_off(lag);
+    }
+
+    /// Time from now to the last value; 0 once it is past \[s\].
+    pub fn length(&self) -> f64 {
+        self.latest.length()
+    }
+
+    /// Times and values of all courses' points, by time. Of a course a step old, the latest gives
+    /// the same points anew.
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        let next = usize::from(self.next) % REMEMBERED;
+        let oldest_first = move || self.before[next..].iter().chain(&self.before[..next]).chain([&self.latest]);
+        (0..self.latest.count).flat_map(move |k| {
+            oldest_first()
+                .filter(move |course| k < course.count && course.age < self.latest.step)
+                .filter_map(move |course| Some(((k + 1) as f64 * course.step - course.age, *course.values.get(k)?)))
+        })
+    }
+}
+
 /// The effective reference from now to the end of a course: linear between its corners.
 #[derive(Clone, Copy, Debug)]
 pub struct Ahead {
-    times: [f64; PREVIEW_SAMPLES + 1],
-    values: [f64; PREVIEW_SAMPLES + 1],
+    times: [f64; CORNERS],
+    values: [f64; CORNERS],
     /// Number of corners, two at least.
     count: usize,
 }
@@ -81,11 +152,10 @@ impl Ahead {
     ///
     /// Now the reference is on the line from `low`, what it was about `lag` seconds ago without its
     /// vibration, to the course's next value.
-    pub fn new(course: &Course, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
-        let mut ahead = Ahead { times: [0.0; PREVIEW_SAMPLES + 1], values: [0.0; PREVIEW_SAMPLES + 1], count: 1 };
-        for (k, value) in course.values.iter().take(course.count).enumerate() {
-            let time = (k + 1) as f64 * course.step - course.age;
-            if time > INSTANT {
+    pub fn new(courses: &Courses, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
+        let mut ahead = Ahead { times: [0.0; CORNERS], values: [0.0; CORNERS], count: 1 };
+        for (time, value) in courses.points() {
+            if time > ahead.times[ahead.count - 1] + INSTANT {
                 ahead.times[ahead.count] = time;
                 ahead.values[ahead.count] = value + beside * libm::exp(-time / BESIDE_TIME);
                 ahead.count += 1;
@@ -182,6 +252,8 @@ impl Previewed {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
     /// One and a half seconds of a course that was given 0.1 s ago.
@@ -189,6 +261,10 @@ mod tests {
         let mut values = [0.0; PREVIEW_SAMPLES];
         values[..8].copy_from_slice(&[1.0, 2.0, -1.0, 0.5, 0.5, 3.0, 0.0, -2.0]);
         Course { step: 0.2, count: 8, values, age: 0.1, begun: true }
+    }
+
+    fn alone(course: Course) -> Courses {
+        Courses { latest: course, ..Courses::default() }
     }
 
     /// The reference of [`course`], which is 0.5 now.
@@ -211,7 +287,7 @@ mod tests {
 
     #[test]
     fn a_course_is_linear_between_its_values_and_starts_from_the_present_one() {
-        let ahead = Ahead::new(&course(), (0.0, 0.5), 0.0).unwrap();
+        let ahead = Ahead::new(&alone(course()), (0.0, 0.5), 0.0).unwrap();
         assert!((ahead.length() - 1.5).abs() < 1e-12 && ahead.last() == -2.0);
         let (mut integral, mut low) = (0.0, 0.2);
         let step = 1e-5;
@@ -231,15 +307,15 @@ mod tests {
 
     #[test]
     fn a_course_that_is_over_is_none() {
-        assert!(Ahead::new(&Course { age: 1.6, ..course() }, (0.0, 0.5), 0.0).is_none());
-        assert!(Ahead::new(&Course::default(), (0.0, 0.5), 0.0).is_none());
+        assert!(Ahead::new(&alone(Course { age: 1.6, ..course() }), (0.0, 0.5), 0.0).is_none());
+        assert!(Ahead::new(&Courses::default(), (0.0, 0.5), 0.0).is_none());
         assert_eq!(Course { age: 1.7, ..course() }.length(), 0.0);
     }
 
     #[test]
     fn blocks_hold_the_preview_s_integral_and_then_the_forecast_s() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
-        let ahead = Ahead::new(&course(), (0.0, 0.5), 0.0).unwrap();
+        let ahead = Ahead::new(&alone(course()), (0.0, 0.5), 0.0).unwrap();
         let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
         for horizon in [Horizon::Near, Horizon::Far] {
             let forecast = previewed.over(horizon);
@@ -261,7 +337,7 @@ mod tests {
     fn between_the_preview_s_end_and_the_forecast_s_the_low_pass_follows_the_forecast() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
         for count in [4, 8] {
-            let ahead = Ahead::new(&Course { count, ..course() }, (0.0, 0.5), 0.0).unwrap();
+            let ahead = Ahead::new(&alone(Course { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
             let length = ahead.length();
             let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
             let mut low = ahead.low_pass(0.2, 0.6, length);
@@ -303,5 +379,50 @@ mod tests {
         course.advance(0.15);
         course.put_off(0.3);
         assert!((course.age - 0.1).abs() < 1e-15 && (course.length() - 1.5).abs() < 1e-12);
+    }
+
+    /// A force that vibrates much faster than a preview's points can show.
+    fn vibrating(time: f64) -> f64 {
+        0.4 * time + (TAU * 4.7 * time).sin()
+    }
+
+    /// Courses of 8 points, 0.2 s apart, given every `period` from 0 to `until`.
+    fn given(period: f64, until: f64) -> Courses {
+        let mut courses = Courses::default();
+        let count = (until / period).round() as usize;
+        for k in 0..=count {
+            let now = k as f64 * period;
+            let values = std::array::from_fn(|k| vibrating(now + 0.2 * (k + 1) as f64));
+            courses.give(&Course { step: 0.2, count: 8, values, ..Course::default() });
+            if k < count {
+                courses.advance(period);
+            }
+        }
+        courses
+    }
+
+    #[test]
+    fn previews_given_often_together_tell_the_means_of_a_vibrating_force() {
+        for period in [0.001, 0.005, 0.02] {
+            let ahead = Ahead::new(&given(period, 1.0), (0.0, vibrating(1.0)), 0.0).unwrap();
+            assert!((ahead.length() - 1.6).abs() < 1e-9);
+            for (from, to) in [(0.0, 0.2), (0.1, 0.4), (0.5, 1.4), (1.0, 1.3)] {
+                let exact = |time: f64| 0.2 * time * time - (TAU * 4.7 * time).cos() / (TAU * 4.7);
+                let expected = (exact(1.0 + to) - exact(1.0 + from)) / (to - from);
+                let found = (ahead.integral(to) - ahead.integral(from)) / (to - from);
+                assert!((found - expected).abs() < 0.03, "{period} s: {found} beside {expected}");
+            }
+        }
+        let once = Ahead::new(&given(0.3, 0.9), (0.0, vibrating(0.9)), 0.0).unwrap();
+        assert_eq!(once.count, 9, "points older than a step are given anew");
+    }
+
+    #[test]
+    fn courses_of_another_step_or_without_values_replace_all() {
+        for next in [Course { step: 0.25, ..course() }, Course { count: 0, ..course() }] {
+            let mut courses = given(0.01, 0.5);
+            courses.give(&next);
+            assert_eq!(courses, Courses { latest: next, ..Courses::default() });
+        }
     }
 }

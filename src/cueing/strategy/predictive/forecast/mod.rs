@@ -19,7 +19,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLES, end_samples};
-use super::preview::{Ahead, Course, Previewed};
+use super::preview::{Ahead, Course, Courses, Previewed};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 
@@ -120,7 +120,7 @@ pub struct Forecaster {
     errors: SMatrix<f64, EXPERTS, TARGETS>,
     /// The forecast without the preview.
     forecast: Forecast,
-    course: Course,
+    courses: Courses,
     /// The part of the reference that is the angular channel's \[m/s2\].
     beside: f64,
     /// Mean squared errors of the means forecast without the preview and by it.
@@ -284,7 +284,7 @@ impl Forecaster {
             until_fit: 0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
-            course: Course::default(),
+            courses: Courses::default(),
             beside: 0.0,
             preview_errors: [LEAST_ERROR, UNPROVED].map(SVector::repeat),
         }
@@ -297,7 +297,7 @@ impl Forecaster {
             self.decays = SVector::from(TIME_CONSTANTS).map(|time| 1.0 - libm::exp(-step / time));
         }
         self.value = value;
-        self.course.advance(step);
+        self.courses.advance(step);
         self.low_passes += self.decays.component_mul(&self.low_passes.map(|low| value - low));
         self.low_passes.apply(|low| *low = at_rest_if_tiny(*low));
         self.integral += value * step;
@@ -305,17 +305,17 @@ impl Forecaster {
 
     /// Sets the course that the cue will take. A course without values removes it.
     pub fn preview(&mut self, course: &Course) {
-        self.course = *course;
+        self.courses.give(course);
     }
 
     /// Delays a preview that has just been given by `lag` seconds.
     pub fn put_off_preview(&mut self, lag: f64) {
-        self.course.put_off(lag);
+        self.courses.put_off(lag);
     }
 
     /// Time to the end of the preview \[s\].
     pub fn preview_length(&self) -> f64 {
-        self.course.length()
+        self.courses.length()
     }
 
     /// The part of the reference that is the angular channel's \[m/s2\].
@@ -336,7 +336,7 @@ impl Forecaster {
     /// forecast as of that time.
     fn previewed(&self, tables: &Tables, kind: ForecastKind) -> Option<Previewed> {
         let past = (TIME_CONSTANTS[QUICK], self.low_passes[QUICK]);
-        let ahead = Ahead::new(&self.course, past, self.beside)?;
+        let ahead = Ahead::new(&self.courses, past, self.beside)?;
         let mut end = Sample { value: ahead.last(), ..Sample::default() };
         for (low, (now, time)) in end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)) {
             *low = ahead.low_pass(*now, time, ahead.length());
