@@ -53,6 +53,8 @@ pub struct Washout {
     angular: AngularChannel,
     direct_linear: DirectLinearMotion,
     soft_limits: SoftLimits,
+    /// Time for which the input has been at rest \[s\].
+    resting: f64,
     guard: ActuatorGuard,
     felt: Felt,
     limited: Limited,
@@ -97,6 +99,10 @@ struct PreviousStep {
 /// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
 pub const ENGAGE_TIME: f64 = 4.0;
 
+/// Time for which the soft limits act once the input rests \[s\]. A filter that they hold does not
+/// unwind, and may push against them for ever. Without them it returns in its time constants.
+const SOFT_LIMITS_HOLD: f64 = 30.0;
+
 impl Washout {
     /// The washout at rest at neutral.
     ///
@@ -120,6 +126,7 @@ impl Washout {
             angular: AngularChannel::new(angular, structure.angular_order),
             direct_linear: DirectLinearMotion::new(splitter, structure.splitter_order, structure.max_step),
             soft_limits,
+            resting: 0.0,
             guard,
             felt: at_rest,
             limited: Limited::default(),
@@ -318,7 +325,9 @@ impl Washout {
         let mut demand = PlatformCoordinates { linear: demand, angles };
         let mut motion = PlatformMotion::new(&demand.linear, &turning, rig.neutral_height);
         let mut legs = self.guard.legs_of(&motion);
-        let soft = self.soft_limits.enabled();
+        let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
+        self.resting = if at_rest { self.resting + step } else { 0.0 };
+        let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_HOLD;
         if soft {
             let state = soft_limits::State { coordinates: self.guard.coordinates(), legs: self.guard.legs() };
             if let Some(softened) = self.soft_limits.soften(&demand, &legs, &state, step) {
@@ -335,8 +344,7 @@ impl Washout {
             legs = self.guard.legs_of(&motion);
         }
         self.before = PreviousStep { step, acceleration: self.guard.motion().acceleration, felt: self.felt };
-        let resting = self.guard.limited() && cue_end.asks_for_no_motion() && lean == 0.0;
-        self.guard.advance_with_legs(&demand, &motion, &legs, safety, resting, step);
+        self.guard.advance_with_legs(&demand, &motion, &legs, safety, at_rest, step);
         self.felt = felt(self.guard.motion(), head_at_end, structure.gravity);
         self.limited.tilt |= self.strategy.tilt_limited();
         self.limited.safety |= self.direct_linear.limited();

@@ -139,7 +139,9 @@ impl ActuatorGuard {
         }
         let before = self.legs;
         let (resting, homeward) = self.patience(resting, step);
-        let found = self.nearest(demand, &followed, homeward, safety, step);
+        // A pursuit may swing about its demand for ever. Only a platform at rest begins to go home.
+        let stops = resting > PATIENCE && homeward.is_none();
+        let found = if stops { None } else { self.nearest(demand, &followed, homeward, safety, step) };
         let homeward =
             homeward.map(|fraction| if found.is_some() { min(FASTER * fraction, 1.0) } else { SLOWER * fraction });
         let (next, plan) = found.unwrap_or_else(|| (self.following(&followed, step), followed));
@@ -154,14 +156,14 @@ impl ActuatorGuard {
     }
 
     /// Time for which the input has been at rest, `step` seconds later. Once that is longer than
-    /// [`PATIENCE`] and the platform rests as well, it begins to go straight home, and the fraction
-    /// of its speed is given. It goes on until it joins its demand or the input moves.
+    /// [`PATIENCE`], the platform stops. From rest it goes straight home, and the fraction of its
+    /// speed is given. It goes on until it joins its demand or the input moves.
     fn patience(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
         let Some(Limited { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
             return (0.0, None);
         };
         let at_rest = self.speed == Speed::default();
-        (before + step, homeward.or_else(|| (before >= PATIENCE && at_rest).then_some(1.0)))
+        (before + step, homeward.or_else(|| (before > PATIENCE && at_rest).then_some(1.0)))
     }
 
     /// A certified stop plan from the candidate that keeps each axis's limit of velocity no later
