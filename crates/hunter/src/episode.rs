@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use anyhow::{Context, Result};
 use serde::{Deserialize, Serialize};
 
+use crate::attacker::Attacker;
+use crate::preview::Previews;
 use crate::random::fraction_at;
 use crate::signal::Signal;
 
@@ -33,9 +35,33 @@ pub struct Episode {
     /// signal is not negative. That of `vehicle.specificForce.z` adds to its start value.
     #[serde(default)]
     pub inputs: BTreeMap<String, Signal>,
+    /// The preview that the host gives before each step, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub preview: Option<Previews>,
+    /// An attacker that looks ahead for the worst inputs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub attacker: Option<Attacker>,
+    /// A rest at the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<Rest>,
     /// Events between two steps, in the order of time.
     #[serde(default)]
     pub events: Vec<Event>,
+}
+
+/// Inputs at rest after the last step, within which the platform has to come to neutral.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rest {
+    /// Largest number of steps.
+    pub count: usize,
+    /// Length of a step \[s\].
+    pub step: f64,
+    /// True: the washout is engaged meanwhile.
+    pub engaged: bool,
+    /// Tunable parameters that are set before, so that the filters return in a known time.
+    #[serde(default)]
+    pub parameters: Values,
 }
 
 /// Lengths of the communication steps.
@@ -92,7 +118,12 @@ pub enum Scope {
     Memory,
     /// It goes through bytes, where the washout is driven through the C functions.
     Bytes,
+    /// A trial's own: where an [attacker](crate::attacker) goes back to.
+    Trial,
 }
+
+/// Number of scopes.
+pub const SCOPES: usize = 3;
 
 impl Episode {
     /// The episode as a TOML file.

@@ -7,18 +7,22 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`episode`], [`signal`] | a case of the search as data |
+//! | [`episode`], [`signal`], [`preview`], [`attacker`] | a case of the search as data |
 //! | [`machine`], [`scenario`] | random cases |
 //! | [`target`] | what is driven |
+//! | [`reach`] | how near a sample is to its limits |
 //! | [`oracle`] | what is promised, and how it is judged |
 //! | [`run`], [`shrink`], [`search`] | one episode, its shortest form, many episodes |
 
 #![forbid(unsafe_code)]
 
+pub mod attacker;
 pub mod episode;
 pub mod machine;
 pub mod oracle;
+pub mod preview;
 mod random;
+pub mod reach;
 pub mod run;
 pub mod scenario;
 pub mod search;

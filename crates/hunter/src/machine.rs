@@ -55,13 +55,15 @@ impl<'a> Machines<'a> {
         match random.below(6) {
             0 | 1 => machine = random.pick(&[&self.rigs[1], &self.rigs[2], &self.rigs[3]]).clone(),
             2 => self.scaled_rig(random, &mut machine),
+            3 => self.small_rig(random, &mut machine),
             _ => {}
         }
-        if random.chance(0.8) {
+        let is_small = machine.contains_key("solver.maxStep");
+        if !is_small && random.chance(0.8) {
             machine.insert("actuator.accelerationLimit".into(), random.log_with_tails(LEG_ACCELERATION));
             machine.insert("actuator.velocityLimit".into(), random.log_with_tails(LEG_VELOCITY));
         }
-        if random.chance(0.7) {
+        if !is_small && random.chance(0.7) {
             machine.insert("solver.maxStep".into(), random.log_with_tails(LONGEST_STEP));
         }
         self.draw_structure(random, &mut machine);
@@ -83,6 +85,36 @@ impl<'a> Machines<'a> {
                 let moved = if is_joint { random.between(-disorder, disorder) } else { 0.0 };
                 machine.insert(name, size * (value + moved));
             }
+        }
+    }
+
+    /// The default rig in a small size, its joints displaced, with legs near an end of the stroke
+    /// at neutral, or near both.
+    fn small_rig(&self, random: &mut Random, machine: &mut Values) {
+        let size = random.between(0.3, 0.6);
+        let mut value = |name: &str, displaced: f64| {
+            let start = self.variables.slot(name).map_or(0.0, |slot| self.variables.start(slot));
+            let value = size * (start + random.between(-displaced, displaced));
+            machine.insert(name.to_owned(), value);
+            value
+        };
+        let height = value("rig.neutralHeight", 0.0);
+        let lengths = [1, 2, 3, 4, 5, 6].map(|leg| {
+            let square = ["x", "y", "z"].map(|axis| {
+                let [base, platform] = ["base", "platform"].map(|end| value(&format!("rig.{end}[{leg}].{axis}"), 0.1));
+                (platform + if axis == "z" { height } else { 0.0 } - base).powi(2)
+            });
+            square.iter().sum::<f64>().sqrt()
+        });
+        let [little, much] = [random.log_between(0.01, 0.04), 0.3 * size];
+        let [below, above] = random.pick(&[[little, much], [much, little], [little, little]]);
+        machine.insert("actuator.minLength".into(), lengths.into_iter().fold(f64::INFINITY, f64::min) - below);
+        machine.insert("actuator.maxLength".into(), lengths.into_iter().fold(0.0, f64::max) + above);
+        machine.insert("actuator.accelerationLimit".into(), random.log_between(2.0, 20.0));
+        machine.insert("actuator.velocityLimit".into(), random.log_between(0.2, 1.0));
+        machine.insert("solver.maxStep".into(), random.pick(&[1e-3, 5e-3, 0.01]));
+        for axis in ["x", "y", "z"] {
+            machine.insert(format!("safety.{axis}.positionLimit"), random.log_between(0.01, 0.2));
         }
     }
 

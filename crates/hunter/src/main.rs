@@ -15,8 +15,9 @@ use moris_hunter::variables::Variables;
 
 /// Search for a machine, inputs and parameter changes with which the washout breaks a limit.
 ///
-/// Random machines are driven by hostile inputs, with tunable parameters changed in flight,
-/// irregular steps and states rolled back. The outputs alone are judged. What breaks a limit is
+/// Random machines are driven by hostile inputs and previews, with tunable parameters changed in
+/// flight, irregular steps and states rolled back. Some attackers look ahead for the worst inputs.
+/// The outputs alone are judged. At rest the platform has to come home. What breaks a limit is
 /// shrunk to a short episode and printed. Exit status: 0 without a breach, 1 with one, 2 when the
 /// search cannot be made.
 #[derive(Parser)]

@@ -19,6 +19,7 @@
 //! | 2 (m - v') / h and 2 (v - m) / h | A | weighted means of accelerations, the weights linear in time |
 //! | 2 (m - m') / (h + h') | A | the same, with a trapezoid as weight, whatever h and h' |
 //! | the reported acceleration | A | |
+//! | the derivatives of q and v that the washout gives | V and A | |
 //!
 //! A communication step may span several internal steps. The left sides are then means, and the
 //! bounds still hold. Before the first step the platform rests, so v' = 0.
@@ -42,10 +43,16 @@
 //! - a position beyond the new limit keeps the old one, and once the axis has come to rest
 //!   it only comes nearer.
 //!
-//! The settling time is the remaining time of any stop within the old limits that may have begun
+//! The settling time is what remains of the longest stop within the old limits that may have begun
 //! before the change. After it, velocity and acceleration keep the new limits. A position beyond
 //! its limit may stay there, but never moves away from it: a platform at rest need not move. After
 //! several changes in quick succession, the largest limits count until the last change has settled.
+//!
+//! The guard's stop takes max(s/(0.6 A), |u_k|/A_k). Here s = |v| + W r bounds the speed of the
+//! joints, and W is the sum of the magnitudes of the angles' rates. A and A_k limit the
+//! accelerations of the legs and of surge, sway and heave. In a stop the speeds fall in proportion.
+//! So the time that remains follows from the speeds at a communication point, wherever in the step
+//! the stop began. Where an axis stops sooner, this is the time of the others.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -54,13 +61,14 @@ use serde::{Deserialize, Serialize};
 pub const POSITION_TOLERANCE: f64 = 1e-9;
 /// Tolerance of a velocity or an acceleration beyond its limit, relative to the limit.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
+/// Distance of surge, sway, heave and the legs from neutral within which the platform is at home
+/// \[m\].
+pub const NEUTRAL_TOLERANCE: f64 = 1e-4;
 /// Largest rounding error of a length, a coordinate or a velocity, in units in the
 /// last place of its parts.
 pub const ROUNDINGS: f64 = 8.0;
-/// Number of stopping times that an axis is allowed for a stop.
-const STOPPING_TIMES: f64 = 4.0;
-/// Longest steps by which the settling time is extended.
-const SETTLING_STEPS: f64 = 8.0;
+/// The fraction of the legs' acceleration limit with which the guard stops.
+const STOP_FRACTION: f64 = 0.6;
 
 /// The outputs that the oracle knows. Positions in m from neutral; lengths in m; the
 /// rest in their SI units.
@@ -72,8 +80,21 @@ pub struct Sample {
     pub angular_velocity: [f64; 3],
     pub length: [f64; 6],
     pub leg_velocity: [f64; 6],
+    /// Derivatives of the outputs, as the washout gives them.
+    pub derivative: Derivative,
     /// The sum of all outputs, which is a number if every one of them is.
     pub sum: f64,
+}
+
+/// The output derivatives that the oracle knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Derivative {
+    pub position: [f64; 3],
+    pub velocity: [f64; 3],
+    /// Rates of roll, pitch and yaw.
+    pub orientation: [f64; 3],
+    pub length: [f64; 6],
+    pub leg_velocity: [f64; 6],
 }
 
 /// Limits of the actuators, and size of the machine.
@@ -89,8 +110,6 @@ pub struct Machine {
     pub radius: f64,
     /// |p| + |a| + |b| at neutral, for the farthest joints \[m\].
     pub size: f64,
-    /// Longest internal step \[s\].
-    pub longest_step: f64,
 }
 
 impl Machine {
@@ -98,6 +117,12 @@ impl Machine {
     #[inline(always)]
     fn joint_speed(&self, Sample { velocity, angular_velocity, .. }: &Sample) -> f64 {
         norm(velocity) + norm(angular_velocity) * self.radius
+    }
+
+    /// The time that the legs need for a stop from this sample \[s\].
+    fn stop_of_legs(&self, sample: &Sample) -> f64 {
+        let turning: f64 = sample.derivative.orientation.iter().map(|rate| rate.abs()).sum();
+        (norm(&sample.velocity) + turning * self.radius) / (STOP_FRACTION * self.acceleration)
     }
 }
 
@@ -127,6 +152,10 @@ pub enum Quantity {
     LegPositionAgainstVelocity,
     /// A leg's change of mean velocity.
     LegSecondDifference,
+    /// The derivative of a leg's length.
+    LegLengthDerivative,
+    /// The derivative of a leg's velocity.
+    LegVelocityDerivative,
     /// Surge, sway or heave.
     Position,
     /// A position beyond a tightened limit that moves away from it.
@@ -143,10 +172,16 @@ pub enum Quantity {
     PositionAgainstVelocity,
     /// Change of mean velocity.
     SecondDifference,
+    /// The derivative of a position.
+    PositionDerivative,
+    /// The derivative of a velocity.
+    VelocityDerivative,
+    /// Distance from neutral after a rest. Its ratio is the part of the rest that the way took.
+    NotNeutral,
 }
 
 /// Number of quantities.
-const QUANTITIES: usize = Quantity::SecondDifference as usize + 1;
+const QUANTITIES: usize = Quantity::NotNeutral as usize + 1;
 
 /// A limit that was broken.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -196,6 +231,13 @@ struct Axis {
 }
 
 impl Axis {
+    /// Updates the position limit in force for an axis that has come to rest, and is here now: the
+    /// limit set last. While the axis is beyond it, its own position.
+    #[inline(always)]
+    fn limit_position(&mut self, position: f64) {
+        self.position = self.position_limit.max(self.position.min(position.abs()));
+    }
+
     /// Updates the velocity limit in force for an axis with this velocity: the limit set last.
     /// While the speed is above it, the speed itself, but at most the previous limit in force.
     #[inline(always)]
@@ -240,8 +282,7 @@ impl Oracle {
 
     /// Changes the safety limits.
     pub fn change(&mut self, safety: &Safety) {
-        let steps = SETTLING_STEPS * self.last_step.max(self.machine.longest_step);
-        self.remaining = self.remaining.max(self.stopping + steps);
+        self.remaining = self.remaining.max(self.stopping);
         self.settling = true;
         for (k, axis) in self.axes.iter_mut().enumerate() {
             axis.position_limit = safety.position[k];
@@ -258,13 +299,9 @@ impl Oracle {
 
     /// The longest time that a stop from this state may take, within the limits in force since
     /// the axes settled last.
-    ///
-    /// It is a multiple of the time to stop surge, sway and heave with their accelerations, and the
-    /// joints with the legs' acceleration. The multiple allows for the part of the legs'
-    /// acceleration that their turning needs.
     fn longest_stop(&self, sample: &Sample) -> f64 {
         let axes = (0..3).map(|k| sample.velocity[k].abs() / self.axes[k].slowest);
-        STOPPING_TIMES * axes.fold(self.machine.joint_speed(sample) / self.machine.acceleration, f64::max)
+        axes.fold(self.machine.stop_of_legs(sample), f64::max)
     }
 
     /// Judges the outputs after a step of `step` seconds, and updates the worst ratios.
@@ -320,6 +357,9 @@ impl Oracle {
             each(Quantity::LegPositionAgainstVelocity, i, against - rounding.against, most);
             let second = if last > 0.0 { 2.0 * (mean - self.mean[i]).abs() / (step + last) } else { 0.0 };
             each(Quantity::LegSecondDifference, i, second - rounding.second, most);
+            let Derivative { length, leg_velocity, .. } = &now.derivative;
+            each(Quantity::LegLengthDerivative, i, length[i].abs() - speed_rounding, fastest);
+            each(Quantity::LegVelocityDerivative, i, leg_velocity[i].abs(), most);
         }
         for (k, axis) in self.axes.iter().enumerate() {
             let (position, velocity) = (now.position[k], now.velocity[k]);
@@ -340,6 +380,9 @@ impl Oracle {
             each(Quantity::PositionAgainstVelocity, k, against - rounding.against, most);
             let second = if last > 0.0 { 2.0 * (mean - self.mean[6 + k]).abs() / (step + last) } else { 0.0 };
             each(Quantity::SecondDifference, k, second - rounding.second, most_of_both);
+            let Derivative { position, velocity, .. } = &now.derivative;
+            each(Quantity::PositionDerivative, k, position[k].abs() - speed_rounding, fastest);
+            each(Quantity::VelocityDerivative, k, velocity[k].abs() - rounding.change, most);
         }
     }
 
@@ -378,7 +421,7 @@ impl Oracle {
             // The two updates have no effect unless a limit was tightened.
             axis.stopped |= now.velocity[k] * self.before.velocity[k] <= 0.0 || !self.settling;
             if axis.stopped {
-                axis.position = axis.position_limit.max(axis.position.min(now.position[k].abs()));
+                axis.limit_position(now.position[k]);
             }
             axis.limit_speed(now.velocity[k]);
         }
@@ -394,7 +437,9 @@ impl Oracle {
         // A step that begins within the settling time may still contain the end of a stop.
         if self.remaining <= 0.0 {
             self.settling = false;
-            for axis in &mut self.axes {
+            for (k, axis) in self.axes.iter_mut().enumerate() {
+                axis.stopped = true;
+                axis.limit_position(self.before.position[k]);
                 axis.velocity = axis.velocity_limit;
                 axis.acceleration[0] = axis.acceleration_limit;
                 axis.slowest = axis.acceleration_limit;

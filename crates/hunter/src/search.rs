@@ -77,7 +77,7 @@ pub struct Summary {
 }
 
 /// Episodes on a machine of the default geometry, and on others, which take longer to build.
-const EPISODES: [usize; 2] = [4, 24];
+const EPISODES: [usize; 2] = [4, 16];
 
 /// Number of refused machines after which the search gives up, if none was built before.
 const MOST_REFUSED: u64 = 50;

@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use crate::episode::{Action, Episode, Steps};
-use crate::oracle::Breach;
+use crate::oracle::{Breach, Quantity};
 use crate::run::Runner;
 use crate::signal::Signal;
 use crate::target::Target;
@@ -22,11 +22,14 @@ pub fn shrink<T: Target>(
     episode: &Episode,
     breach: Breach,
 ) -> Result<(Episode, Breach)> {
-    let best = Episode { count: breach.step + 1, ..episode.clone() };
+    let best = cut(episode.clone(), &breach);
     let mut shrinker = Shrinker { runner, target, best, breach, runs: MOST_RUNS };
     shrinker.target_is_best()?;
     loop {
         let before = shrinker.best.clone();
+        shrinker.drop_attacks()?;
+        shrinker.cut_before_rest()?;
+        shrinker.drop_parameters_of_rest()?;
         shrinker.drop_events()?;
         shrinker.drop_inputs()?;
         shrinker.drop_parameters()?;
@@ -65,13 +68,56 @@ impl<T: Target> Shrinker<'_, T> {
         }
         let breach = self.runner.run(&candidate, self.target).ok().and_then(|outcome| outcome.breach);
         if let Some(breach) = breach {
-            self.best = Episode { count: breach.step + 1, ..candidate };
-            self.best.events.retain(|event| event.before <= breach.step);
+            self.best = cut(candidate, &breach);
             self.breach = breach;
         } else if other_machine {
             self.target_is_best()?;
         }
         Ok(breach.is_some())
+    }
+
+    fn drop_attacks(&mut self) -> Result<()> {
+        self.accepts(Episode { attacker: None, ..self.best.clone() })?;
+        self.accepts(Episode { preview: None, ..self.best.clone() })?;
+        self.accepts(Episode { rest: None, ..self.best.clone() })?;
+        for fraction in [0.01, 0.1, 0.5, 0.8] {
+            let mut candidate = self.best.clone();
+            if let Some(rest) = &mut candidate.rest {
+                rest.count = (fraction * rest.count as f64) as usize;
+            }
+            if self.breach.quantity != Quantity::NotNeutral {
+                self.accepts(candidate)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Fewer parameters set before a rest.
+    fn drop_parameters_of_rest(&mut self) -> Result<()> {
+        let mut size = self.best.rest.as_ref().map_or(0, |rest| rest.parameters.len());
+        while size > 0 {
+            let Some(rest) = &self.best.rest else { break };
+            let names: Vec<String> = rest.parameters.keys().cloned().collect();
+            for group in names.chunks(size) {
+                let mut candidate = self.best.clone();
+                let Some(rest) = &mut candidate.rest else { break };
+                rest.parameters.retain(|name, _| !group.contains(name));
+                self.accepts(candidate)?;
+            }
+            size /= 2;
+        }
+        Ok(())
+    }
+
+    /// Fewer steps before a rest. The breach tells their number only if it comes before the rest.
+    fn cut_before_rest(&mut self) -> Result<()> {
+        for fraction in [0.0, 0.1, 0.3, 0.5, 0.7, 0.9] {
+            if self.best.rest.is_some() {
+                let count = (fraction * self.best.count as f64) as usize;
+                self.accepts(Episode { count, ..self.best.clone() })?;
+            }
+        }
+        Ok(())
     }
 
     fn drop_events(&mut self) -> Result<()> {
@@ -201,6 +247,13 @@ impl<T: Target> Shrinker<'_, T> {
     }
 }
 
+/// The episode without what comes after the breach.
+fn cut(mut episode: Episode, breach: &Breach) -> Episode {
+    episode.count = episode.count.min(breach.step + 1);
+    episode.events.retain(|event| event.before <= breach.step);
+    episode
+}
+
 /// True if a parameter belongs to the rig's geometry, which changes as a whole
 /// and is slow to survey.
 pub fn is_geometry(name: &str) -> bool {
@@ -212,6 +265,9 @@ fn numbers(episode: &mut Episode) -> Vec<&mut f64> {
     let parameters = episode.parameters.iter_mut().filter(|(name, _)| !is_geometry(name));
     let mut numbers: Vec<&mut f64> = parameters.map(|(_, value)| value).collect();
     numbers.extend(episode.inputs.values_mut().flat_map(Signal::numbers));
+    numbers.extend(episode.attacker.iter_mut().flat_map(|attacker| attacker.amplitudes.values_mut()));
+    numbers.extend(episode.preview.iter_mut().map(|previews| &mut previews.amplitude));
+    numbers.extend(episode.rest.iter_mut().flat_map(|rest| rest.parameters.values_mut()));
     for event in &mut episode.events {
         if let Action::Set(values) = &mut event.action {
             numbers.extend(values.values_mut());

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::random::{bits_at, fraction_at};
+use crate::reach::Reach;
 
 /// The course of one input over time.
 ///
@@ -35,20 +36,39 @@ pub enum Signal {
     /// `amplitude` with the sign of a velocity of the last output: it always pushes along, or
     /// against with a negative one.
     Pushing { amplitude: f64, velocity: usize },
+    /// `amplitude` while a leg or an axis is nearer to its end than this fraction of half its
+    /// range, and its negative otherwise.
+    AtEnd { amplitude: f64, room: f64 },
+    /// `amplitude` while a leg or an axis is faster than this fraction of its limit, and its
+    /// negative otherwise.
+    AtSpeed { amplitude: f64, fraction: f64 },
 }
 
 /// The velocities that [`Signal::Pushing`] may follow: three of the platform, three
 /// angular, six of the legs.
 pub const VELOCITIES: usize = 12;
 
+/// What a signal may follow of the last output.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    pub velocities: [f64; VELOCITIES],
+    /// Known if a signal asks for it.
+    pub reach: Option<Reach>,
+}
+
 impl Signal {
     /// No signal.
     pub const ZERO: Signal = Signal::Held { value: 0.0 };
 
-    /// The value at step number `step`, which begins at `time` \[s\], after an output
-    /// with these velocities.
+    /// True if the signal follows how near the last output is to its limits.
+    pub fn follows_reach(&self) -> bool {
+        matches!(self, Signal::AtEnd { .. } | Signal::AtSpeed { .. })
+    }
+
+    /// The value at step number `step`, which begins at `time` \[s\], after an output of which
+    /// this is `seen`.
     #[inline]
-    pub fn value(&self, step: usize, time: f64, velocities: &[f64; VELOCITIES]) -> f64 {
+    pub fn value(&self, step: usize, time: f64, seen: &Seen) -> f64 {
         match *self {
             Signal::Held { value } => value,
             Signal::Square { amplitude, frequency, phase } => square(amplitude, frequency * time + phase),
@@ -75,8 +95,22 @@ impl Signal {
             Signal::Ramp { rate } => rate * time,
             Signal::NonFinite { held, seed } => non_finite(bits_at(seed, step / held.max(1))),
             Signal::Pushing { amplitude, velocity } => {
-                let velocity = velocities[velocity % VELOCITIES];
+                let velocity = seen.velocities[velocity % VELOCITIES];
                 if velocity == 0.0 { amplitude } else { amplitude.copysign(amplitude * velocity) }
+            }
+            Signal::AtEnd { amplitude, room } => {
+                if seen.reach.is_some_and(|reach| reach.room < room) {
+                    amplitude
+                } else {
+                    -amplitude
+                }
+            }
+            Signal::AtSpeed { amplitude, fraction } => {
+                if seen.reach.is_some_and(|reach| reach.speed > fraction) {
+                    amplitude
+                } else {
+                    -amplitude
+                }
             }
         }
     }
@@ -93,6 +127,9 @@ impl Signal {
             | Signal::Noise { amplitude, .. }
             | Signal::Flips { amplitude, .. }
             | Signal::Pushing { amplitude, .. } => vec![amplitude],
+            Signal::AtEnd { amplitude, room: threshold } | Signal::AtSpeed { amplitude, fraction: threshold } => {
+                vec![amplitude, threshold]
+            }
             Signal::Ramp { rate } => vec![rate],
             Signal::NonFinite { .. } => vec![],
         }

@@ -10,7 +10,7 @@ use crate::episode::Values;
 
 /// The washout's interface.
 pub const IDENTITY: Identity = Washout::IDENTITY;
-/// Number of real inputs: all but `engaged` and the preview, which a target makes of the others.
+/// Number of real inputs beside the preview.
 pub const REAL_INPUTS: usize = 11;
 
 /// Where a variable is in the model's slots, by its name.

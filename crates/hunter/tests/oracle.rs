@@ -1,9 +1,8 @@
 //! The oracle against motions of which it is known what they keep and break.
 
-use moris_hunter::oracle::{Breach, Machine, Oracle, Quantity, Safety, Sample, Worst};
+use moris_hunter::oracle::{Breach, Derivative, Machine, Oracle, Quantity, Safety, Sample, Worst};
 
-const MACHINE: Machine =
-    Machine { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, longest_step: 0.001 };
+const MACHINE: Machine = Machine { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0 };
 const SAFETY: Safety = Safety { position: [0.45; 3], velocity: [1.0; 3], acceleration: [10.0; 3] };
 const NEUTRAL: f64 = 1.3;
 
@@ -20,11 +19,15 @@ fn sample(mover: Mover, position: f64, velocity: f64, acceleration: f64) -> Samp
         Mover::Leg => {
             sample.length[3] += position;
             sample.leg_velocity[3] = velocity;
+            sample.derivative.length[3] = velocity;
+            sample.derivative.leg_velocity[3] = acceleration;
         }
         Mover::Surge => {
             sample.position[0] = position;
             sample.velocity[0] = velocity;
             sample.acceleration[0] = acceleration;
+            sample.derivative.position[0] = velocity;
+            sample.derivative.velocity[0] = acceleration;
         }
     }
     sample
@@ -168,13 +171,19 @@ fn go_on(oracle: &mut Oracle, mut position: f64, mut velocity: f64, pieces: &[(f
     Ok(())
 }
 
+/// The guard's stop from 0.8 m/s, with 0.6 of the legs' acceleration: its acceleration, its
+/// duration and its length.
+const STOP: f64 = -0.6 * MACHINE.acceleration;
+const STOP_TIME: f64 = -0.8 / STOP;
+const STOP_LENGTH: f64 = 0.5 * 0.8 * STOP_TIME;
+
 #[test]
 fn a_stop_under_the_old_limits_is_accepted_after_a_change() {
     let tight = Safety { position: [0.05; 3], velocity: [0.1; 3], acceleration: [0.2; 3] };
     let mut oracle = changed(0.2, 0.8, &tight);
-    go_on(&mut oracle, 0.2, 0.8, &[(0.1, -8.0), (0.5, 0.0)]).unwrap();
+    go_on(&mut oracle, 0.2, 0.8, &[(STOP_TIME, STOP), (0.5, 0.0)]).unwrap();
     // Back within the new limits.
-    go_on(&mut oracle, 0.24, 0.0, &[(0.4, -0.2), (1.0, 0.0), (0.4, 0.2)]).unwrap();
+    go_on(&mut oracle, 0.2 + STOP_LENGTH, 0.0, &[(0.4, -0.2), (1.0, 0.0), (0.4, 0.2)]).unwrap();
 }
 
 #[test]
@@ -199,14 +208,16 @@ fn after_a_change_a_speed_above_the_new_limit_does_not_grow_in_the_first_step() 
 fn a_position_beyond_a_changed_limit_only_comes_nearer_once_it_rests() {
     let tight = Safety { position: [0.05; 3], ..SAFETY };
     let mut oracle = changed(0.2, 0.8, &tight);
-    go_on(&mut oracle, 0.2, 0.8, &[(0.1, -8.0), (0.1, 0.0)]).unwrap();
-    let outward = go_on(&mut oracle.clone(), 0.24, 0.0, &[(0.01, 1.0)]).unwrap_err();
+    go_on(&mut oracle, 0.2, 0.8, &[(STOP_TIME, STOP), (0.1, 0.0)]).unwrap();
+    let rest = 0.2 + STOP_LENGTH;
+    let outward = go_on(&mut oracle.clone(), rest, 0.0, &[(0.01, 1.0)]).unwrap_err();
     assert_eq!(outward.quantity, Quantity::PositionMovesAway);
-    go_on(&mut oracle, 0.24, 0.0, &[(0.1, -2.0), (0.1, 2.0)]).unwrap();
-    let back = go_on(&mut oracle.clone(), 0.22, 0.0, &[(0.01, 1.0)]).unwrap_err();
+    go_on(&mut oracle, rest, 0.0, &[(0.1, -2.0), (0.1, 2.0)]).unwrap();
+    let nearer = rest - 0.02;
+    let back = go_on(&mut oracle.clone(), nearer, 0.0, &[(0.01, 1.0)]).unwrap_err();
     assert_eq!(back.quantity, Quantity::PositionMovesAway);
     // Inside again, the limit is the new one on the other side, too.
-    let through = go_on(&mut oracle, 0.22, 0.0, &[(0.3, -3.2), (0.3, 3.2)]).unwrap_err();
+    let through = go_on(&mut oracle, nearer, 0.0, &[(0.3, -3.2), (0.3, 3.2)]).unwrap_err();
     assert_eq!(through.quantity, Quantity::Position);
 }
 
@@ -215,23 +226,61 @@ fn a_stop_under_the_old_limits_may_pass_neutral_and_leave_the_new_limits_on_the_
     let tight = Safety { position: [0.05; 3], ..SAFETY };
     // Out, and back with a speed that carries it through.
     let mut oracle = changed(0.1, 0.5, &SAFETY);
-    go_on(&mut oracle, 0.1, 0.5, &[(0.05, -10.0), (0.08, -10.0)]).unwrap();
-    let position = 0.1 + 0.0125 - 0.032;
+    let coast = (0.0805 + 0.03) / 0.8;
+    go_on(&mut oracle, 0.1, 0.5, &[(0.05, -10.0), (0.08, -10.0), (coast, 0.0)]).unwrap();
     oracle.change(&tight);
-    go_on(&mut oracle.clone(), position, -0.8, &[(0.15, 0.0), (0.1, 8.0), (0.5, 0.0)]).unwrap();
+    go_on(&mut oracle.clone(), -0.03, -0.8, &[(STOP_TIME, -STOP), (0.5, 0.0)]).unwrap();
     // Not for longer than a stop takes.
-    go_on(&mut oracle, position, -0.8, &[(0.4, 0.0), (0.1, 8.0)]).unwrap_err();
+    go_on(&mut oracle, -0.03, -0.8, &[(1.1 * STOP_TIME, -STOP / 1.1), (0.1, 0.0)]).unwrap_err();
 }
 
 #[test]
 fn a_stop_that_began_faster_may_go_on() {
     let tight = Safety { velocity: [0.001; 3], ..SAFETY };
     let mut oracle = changed(0.1, 0.8, &SAFETY);
-    go_on(&mut oracle, 0.1, 0.8, &[(0.0875, -8.0)]).unwrap();
+    go_on(&mut oracle, 0.1, 0.8, &[(0.07, -10.0)]).unwrap();
     oracle.change(&tight);
-    let position = 0.1 + 0.5 * (0.8 + 0.1) * 0.0875;
-    go_on(&mut oracle.clone(), position, 0.1, &[(0.2, -0.5)]).unwrap();
-    go_on(&mut oracle, position, 0.1, &[(0.8, -0.1)]).unwrap_err();
+    let (position, left) = (0.1 + 0.5 * (0.8 + 0.1) * 0.07, STOP_TIME - 0.07);
+    // Longer than a stop from the present speed.
+    assert!(left > 1.5 * 0.1 / -STOP);
+    go_on(&mut oracle.clone(), position, 0.1, &[(left, -0.1 / left)]).unwrap();
+    go_on(&mut oracle, position, 0.1, &[(1.2 * left, -0.1 / (1.2 * left))]).unwrap_err();
+}
+
+#[test]
+fn the_legs_stop_counts_the_rates_of_all_angles() {
+    let mut turning = at_rest();
+    turning.derivative.orientation = [0.1, -0.2, 0.1];
+    let settles = |wait: f64| {
+        let mut oracle = Oracle::new(MACHINE, &SAFETY, &at_rest());
+        let mut worst = Worst::default();
+        oracle.check(&turning, 0.01, &mut worst).unwrap();
+        oracle.change(&Safety { acceleration: [0.2; 3], ..SAFETY });
+        oracle.check(&turning, wait, &mut worst).unwrap();
+        // An acceleration that only the old limits allow.
+        let accelerates = Sample { acceleration: [5.0, 0.0, 0.0], ..at_rest() };
+        oracle.check(&accelerates, 1e-4, &mut worst)
+    };
+    let stop = 0.4 * MACHINE.radius / (0.6 * MACHINE.acceleration);
+    settles(0.999 * stop).unwrap();
+    assert_eq!(settles(1.001 * stop).unwrap_err().quantity, Quantity::Acceleration);
+}
+
+#[test]
+fn output_derivatives_keep_the_limits() {
+    let breach = |change: fn(&mut Derivative)| {
+        let mut now = at_rest();
+        change(&mut now.derivative);
+        let judged = Oracle::new(MACHINE, &SAFETY, &at_rest()).check(&now, 0.01, &mut Worst::default());
+        judged.err().map(|breach| (breach.quantity, breach.index))
+    };
+    assert_eq!(breach(|derivative| derivative.leg_velocity[4] = 14.999), None);
+    assert_eq!(breach(|derivative| derivative.leg_velocity[4] = -15.001), Some((Quantity::LegVelocityDerivative, 5)));
+    assert_eq!(breach(|derivative| derivative.length[0] = 0.999), None);
+    assert_eq!(breach(|derivative| derivative.length[0] = 1.001), Some((Quantity::LegLengthDerivative, 1)));
+    assert_eq!(breach(|derivative| derivative.velocity[2] = 10.001), Some((Quantity::VelocityDerivative, 3)));
+    assert_eq!(breach(|derivative| derivative.position[1] = -1.001), Some((Quantity::PositionDerivative, 2)));
+    assert_eq!(breach(|derivative| derivative.position[1] = f64::NAN), Some((Quantity::NotFinite, 0)));
 }
 
 #[test]

@@ -9,6 +9,7 @@ use moris_hunter::oracle::{Quantity, Sample};
 use moris_hunter::run::Runner;
 use moris_hunter::search::{Failure, Plan, search};
 use moris_hunter::target::{CrateTarget, Inputs, Target};
+use moris_washout::Preview;
 
 /// The washout with something added to its outputs.
 struct Broken {
@@ -27,6 +28,10 @@ impl Target for Broken {
 
     fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool {
         self.inner.set(slots, changed)
+    }
+
+    fn preview(&mut self, preview: &Preview) {
+        self.inner.preview(preview);
     }
 
     fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()> {
@@ -110,6 +115,8 @@ impl Target for Refusing {
         false
     }
 
+    fn preview(&mut self, _: &Preview) {}
+
     fn step(&mut self, _: &Inputs, _: Option<&Inputs>, _: f64) -> Result<()> {
         Ok(())
     }
@@ -152,7 +159,8 @@ fn no_known_episode_breaks_a_limit() {
     for (file, episode) in episodes {
         runner.make(&episode.parameters, &mut target).unwrap();
         let outcome = runner.run(&episode, &mut target).unwrap();
-        assert_eq!((outcome.breach, outcome.steps), (None, episode.count), "{file}");
+        assert_eq!(outcome.breach, None, "{file}");
+        assert!(outcome.steps >= episode.count, "{file}");
     }
 }
 
@@ -167,7 +175,7 @@ fn two_million_steps_break_no_limit() {
         let reached = if quantity.contains("Position") && !quantity.contains("Against") || quantity == "LegLength" {
             true // An excess, which is none.
         } else {
-            quantity == "NotFinite" || *worst > 0.99
+            quantity == "NotFinite" || quantity == "NotNeutral" || *worst > 0.99
         };
         assert!(reached, "{quantity} gets to {worst} of its limit only");
     }

@@ -5,8 +5,8 @@ use moris_interface::{Group, Reader, SlotModel};
 use moris_washout::{Input, Output, Preview, Washout};
 
 use super::{Inputs, Target};
-use crate::episode::Scope;
-use crate::oracle::Sample;
+use crate::episode::{SCOPES, Scope};
+use crate::oracle::{Derivative, Sample};
 use crate::variables::REAL_INPUTS;
 
 /// A washout with what a host keeps beside it.
@@ -15,7 +15,7 @@ pub struct CrateTarget {
     fresh: Option<Washout>,
     washout: Option<Washout>,
     /// By scope.
-    saved: [Option<Washout>; 2],
+    saved: [Option<Washout>; SCOPES],
 }
 
 impl CrateTarget {
@@ -33,17 +33,20 @@ impl Target for CrateTarget {
 
     fn rewind(&mut self) {
         self.washout.clone_from(&self.fresh);
-        self.saved = [None, None];
+        self.saved = Default::default();
     }
 
     fn set(&mut self, slots: &[f64], _: &[usize]) -> bool {
         self.washout().retune_from(slots).is_ok()
     }
 
+    fn preview(&mut self, preview: &Preview) {
+        self.washout().preview(preview);
+    }
+
     #[inline]
     fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()> {
         let washout = self.washout();
-        washout.preview(&preview(start));
         match end {
             None => washout.step(&input(start), step),
             Some(end) => washout.step_between(&input(start), &input(end), step),
@@ -53,7 +56,8 @@ impl Target for CrateTarget {
 
     #[inline]
     fn sample(&mut self, neutral_height: f64) -> Sample {
-        sample(&self.washout().output(), neutral_height)
+        let washout = self.washout();
+        sample(&washout.output(), &washout.output_derivative(), neutral_height)
     }
 
     fn save(&mut self, scope: Scope) -> Result<()> {
@@ -78,36 +82,11 @@ fn input(inputs: &Inputs) -> Input {
     Input::read(&mut Reader::new(&slots))
 }
 
-/// A preview that has nothing to do with what comes: the inputs in another order, now and then.
-#[inline]
-fn preview(inputs: &Inputs) -> Preview {
-    let reals = &inputs.reals;
-    let element = |k: usize| reals[k % REAL_INPUTS] * reals[(k / 3) % REAL_INPUTS];
-    Preview {
-        count: reals[0].to_bits() as i32 % 30,
-        step: reals[1],
-        surge: std::array::from_fn(element),
-        sway: std::array::from_fn(|k| element(k + 5)),
-    }
-}
-
 /// The outputs that the oracle knows.
 #[inline]
-fn sample(output: &Output, neutral_height: f64) -> Sample {
+fn sample(output: &Output, derivative: &Output, neutral_height: f64) -> Sample {
     let mut position: [f64; 3] = output.position.into();
     position[2] -= neutral_height;
-    let rest = [
-        output.felt_specific_force,
-        output.felt_angular_velocity,
-        output.orientation.to_vector(),
-        [output.tilt_roll, output.tilt_pitch, output.stroke_margin].into(),
-        [output.tilt_roll_rate, output.tilt_pitch_rate, 0.0].into(),
-        output.position,
-        output.velocity,
-        output.acceleration,
-        output.angular_velocity,
-    ];
-    let legs = output.length.iter().chain(&output.leg_velocity);
     Sample {
         position,
         velocity: output.velocity.into(),
@@ -115,6 +94,31 @@ fn sample(output: &Output, neutral_height: f64) -> Sample {
         angular_velocity: output.angular_velocity.into(),
         length: output.length,
         leg_velocity: output.leg_velocity,
-        sum: rest.iter().flatten().chain(legs).sum(),
+        derivative: Derivative {
+            position: derivative.position.into(),
+            velocity: derivative.velocity.into(),
+            orientation: derivative.orientation.to_vector().into(),
+            length: derivative.length,
+            leg_velocity: derivative.leg_velocity,
+        },
+        sum: sum(output) + sum(derivative),
     }
+}
+
+/// The sum of all real outputs.
+#[inline]
+fn sum(output: &Output) -> f64 {
+    let vectors = [
+        output.felt_specific_force,
+        output.felt_angular_velocity,
+        output.orientation.to_vector(),
+        [output.tilt_roll, output.tilt_pitch, output.stroke_margin].into(),
+        [output.tilt_roll_rate, output.tilt_pitch_rate, output.plan_age].into(),
+        output.position,
+        output.velocity,
+        output.acceleration,
+        output.angular_velocity,
+    ];
+    let legs = output.length.iter().chain(&output.leg_velocity);
+    vectors.iter().flatten().chain(legs).sum()
 }

@@ -5,11 +5,12 @@ use std::path::Path;
 use anyhow::{Result, ensure};
 use moris_fmu_host::{Fmu, Instance, State, Status, variables_of};
 use moris_interface::{Causality, Kind, Variability};
-use moris_washout::Washout;
+use moris_washout::interface::PREVIEW_SAMPLES;
+use moris_washout::{Preview, Washout};
 
 use super::{Inputs, Target};
 use crate::episode::Scope;
-use crate::oracle::Sample;
+use crate::oracle::{Derivative, Sample};
 use crate::variables::{IDENTITY, REAL_INPUTS, Variables};
 
 /// An instance with what a host keeps beside it. Fields are dropped in their order.
@@ -19,11 +20,16 @@ pub struct FmuTarget {
     time: f64,
     fresh: Option<State>,
     saved: Option<(State, f64)>,
+    /// The state to which a trial goes back.
+    trial: Option<(State, f64)>,
     bytes: Option<(Vec<u8>, f64)>,
     inputs: Vec<u32>,
     engaged: u32,
+    preview_count: u32,
+    preview: Vec<u32>,
     outputs: Vec<u32>,
     values: Vec<f64>,
+    derivatives: Vec<f64>,
     /// Where the outputs that the oracle knows begin among the real outputs.
     places: Places,
 }
@@ -33,6 +39,7 @@ struct Places {
     position: usize,
     velocity: usize,
     acceleration: usize,
+    orientation: usize,
     angular_velocity: usize,
     length: usize,
     leg_velocity: usize,
@@ -66,20 +73,31 @@ impl FmuTarget {
             position: place("platform.position.x")?,
             velocity: place("platform.velocity.x")?,
             acceleration: place("platform.acceleration.x")?,
+            orientation: place("platform.orientation.roll")?,
             angular_velocity: place("platform.angularVelocity.x")?,
             length: place("actuator[1].length")?,
             leg_velocity: place("actuator[1].velocity")?,
         };
+        let mut preview = vec![reference("vehicle.preview.step")?];
+        for axis in ["x", "y"] {
+            for k in 1..=PREVIEW_SAMPLES {
+                preview.push(reference(&format!("vehicle.preview.specificForce.{axis}[{k}]"))?);
+            }
+        }
         Ok(FmuTarget {
             instance: None,
             fmu,
             time: 0.0,
             fresh: None,
             saved: None,
+            trial: None,
             bytes: None,
             inputs: inputs[..REAL_INPUTS].iter().map(|(name, _)| reference(name)).collect::<Result<_>>()?,
             engaged: reference(&inputs[REAL_INPUTS].0)?,
+            preview_count: reference("vehicle.preview.count")?,
+            preview,
             values: vec![0.0; outputs.len()],
+            derivatives: vec![0.0; outputs.len()],
             outputs,
             places,
         })
@@ -91,7 +109,8 @@ impl FmuTarget {
 
     fn free_states(&mut self) {
         if let Some(instance) = &mut self.instance {
-            for state in self.fresh.take().into_iter().chain(self.saved.take().map(|(state, _)| state)) {
+            let saved = [self.saved.take(), self.trial.take()].into_iter().flatten().map(|(state, _)| state);
+            for state in self.fresh.take().into_iter().chain(saved) {
                 instance.free_state(state);
             }
         }
@@ -128,7 +147,7 @@ impl Target for FmuTarget {
     }
 
     fn rewind(&mut self) {
-        if let Some((state, _)) = self.saved.take() {
+        for (state, _) in [self.saved.take(), self.trial.take()].into_iter().flatten() {
             self.instance().free_state(state);
         }
         self.bytes = None;
@@ -147,6 +166,19 @@ impl Target for FmuTarget {
         let references: Vec<u32> = others.iter().map(|&&slot| slot as u32).collect();
         let values: Vec<i32> = others.iter().map(|&&slot| slots[slot] as i32).collect();
         set && (references.is_empty() || self.instance().set_integer(&references, &values) == Status::Ok)
+    }
+
+    fn preview(&mut self, preview: &Preview) {
+        let references = std::mem::take(&mut self.preview);
+        let count = self.preview_count;
+        let values: Vec<f64> = [preview.step].iter().chain(&preview.surge).chain(&preview.sway).copied().collect();
+        let instance = self.instance();
+        instance.set_integer(&[count], &[preview.count]);
+        // What is not a number is refused, and the preview stays as it was.
+        if instance.set_real(&references, &values) != Status::Ok {
+            instance.take_messages();
+        }
+        self.preview = references;
     }
 
     fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()> {
@@ -171,55 +203,62 @@ impl Target for FmuTarget {
     }
 
     fn sample(&mut self, neutral_height: f64) -> Sample {
-        let mut values = std::mem::take(&mut self.values);
-        let outputs = std::mem::take(&mut self.outputs);
-        let status = self.instance().get_real(&outputs, &mut values);
-        let read = |place: usize| [values[place], values[place + 1], values[place + 2]];
-        let legs = |place: usize| std::array::from_fn(|i| values[place + i]);
-        let places = &self.places;
+        let FmuTarget { instance, outputs, values, derivatives, places, .. } = self;
+        let instance = instance.as_mut().expect("a machine is made before it is driven");
+        let read = instance.get_real(outputs, values);
+        let derived = instance.get_real_output_derivatives(outputs, derivatives);
         let mut sample = Sample {
-            position: read(places.position),
-            velocity: read(places.velocity),
-            acceleration: read(places.acceleration),
-            angular_velocity: read(places.angular_velocity),
-            length: legs(places.length),
-            leg_velocity: legs(places.leg_velocity),
-            sum: values.iter().sum(),
+            position: part(values, places.position),
+            velocity: part(values, places.velocity),
+            acceleration: part(values, places.acceleration),
+            angular_velocity: part(values, places.angular_velocity),
+            length: part(values, places.length),
+            leg_velocity: part(values, places.leg_velocity),
+            derivative: Derivative {
+                position: part(derivatives, places.position),
+                velocity: part(derivatives, places.velocity),
+                orientation: part(derivatives, places.orientation),
+                length: part(derivatives, places.length),
+                leg_velocity: part(derivatives, places.leg_velocity),
+            },
+            sum: values.iter().chain(&*derivatives).sum(),
         };
         sample.position[2] -= neutral_height;
-        if status != Status::Ok {
+        if (read, derived) != (Status::Ok, Status::Ok) {
             sample.sum = f64::NAN;
         }
-        (self.values, self.outputs) = (values, outputs);
         sample
     }
 
     fn save(&mut self, scope: Scope) -> Result<()> {
-        let time = self.time;
-        let instance = self.instance.as_mut().expect("a machine is made before it is driven");
-        match scope {
-            Scope::Memory => {
-                let (mut state, _) = match self.saved.take() {
-                    Some(saved) => saved,
-                    None => (instance.get_state()?, time),
-                };
-                let status = instance.get_state_into(&mut state);
-                self.saved = Some((state, time));
-                ensure!(status == Status::Ok, "fmi2GetFMUstate: {status:?}");
-            }
+        let FmuTarget { instance, saved, trial, bytes, time, .. } = self;
+        let instance = instance.as_mut().expect("a machine is made before it is driven");
+        let place = match scope {
+            Scope::Memory => saved,
+            Scope::Trial => trial,
             Scope::Bytes => {
                 let state = instance.get_state()?;
-                self.bytes = Some((instance.serialize(&state)?, time));
+                *bytes = Some((instance.serialize(&state)?, *time));
                 instance.free_state(state);
+                return Ok(());
             }
-        }
+        };
+        let (mut state, _) = match place.take() {
+            Some(saved) => saved,
+            None => (instance.get_state()?, *time),
+        };
+        let status = instance.get_state_into(&mut state);
+        *place = Some((state, *time));
+        ensure!(status == Status::Ok, "fmi2GetFMUstate: {status:?}");
         Ok(())
     }
 
     fn restore(&mut self, scope: Scope) -> Result<()> {
-        let instance = self.instance.as_mut().expect("a machine is made before it is driven");
-        let (status, time) = match (scope, &self.saved, &self.bytes) {
-            (Scope::Memory, Some((state, time)), _) => (instance.set_state(state), *time),
+        let FmuTarget { instance, saved, trial, bytes, .. } = self;
+        let instance = instance.as_mut().expect("a machine is made before it is driven");
+        let in_memory = if scope == Scope::Trial { trial } else { saved };
+        let (status, time) = match (scope, in_memory, bytes) {
+            (Scope::Memory | Scope::Trial, Some((state, time)), _) => (instance.set_state(state), *time),
             (Scope::Bytes, _, Some((bytes, time))) => {
                 let state = instance.deserialize(bytes)?;
                 let status = instance.set_state(&state);
@@ -232,4 +271,9 @@ impl Target for FmuTarget {
         self.time = time;
         Ok(())
     }
+}
+
+/// Some values from this place on.
+fn part<const COUNT: usize>(values: &[f64], place: usize) -> [f64; COUNT] {
+    std::array::from_fn(|k| values[place + k])
 }

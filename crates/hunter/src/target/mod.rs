@@ -5,6 +5,7 @@ mod fmu_target;
 mod traced;
 
 use anyhow::Result;
+use moris_washout::Preview;
 
 pub use crate_target::CrateTarget;
 pub use fmu_target::FmuTarget;
@@ -35,6 +36,9 @@ pub trait Target {
     /// Sets the tunable parameters among these values of all variables. `changed` are the slots
     /// that differ. Returns false if the values are refused; then nothing has changed.
     fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool;
+
+    /// Gives a preview, as of the next step's start. It holds until the next one.
+    fn preview(&mut self, preview: &Preview);
 
     /// Advances by `step` \[s\]. The inputs are held at `start`, or change linearly
     /// from `start` to `end`.

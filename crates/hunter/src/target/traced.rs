@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use anyhow::Result;
+use moris_washout::Preview;
 
 use super::{Inputs, Target};
 use crate::episode::Scope;
@@ -47,6 +48,10 @@ impl<T: Target, W: Write> Target for Traced<T, W> {
 
     fn set(&mut self, slots: &[f64], changed: &[usize]) -> bool {
         self.inner.set(slots, changed)
+    }
+
+    fn preview(&mut self, preview: &Preview) {
+        self.inner.preview(preview);
     }
 
     fn step(&mut self, start: &Inputs, end: Option<&Inputs>, step: f64) -> Result<()> {
