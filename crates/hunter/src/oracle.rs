@@ -52,7 +52,9 @@
 //! joints, and W is the sum of the magnitudes of the angles' rates. A and A_k limit the
 //! accelerations of the legs and of surge, sway and heave. In a stop the speeds fall in proportion.
 //! So the time that remains follows from the speeds at a communication point, wherever in the step
-//! the stop began. Where an axis stops sooner, this is the time of the others.
+//! the stop began. Only an axis that stopped sooner, within the step, may have set the time for the
+//! others unseen. Its speed was at most its limit, and at most what its acceleration stops in the
+//! step.
 
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
@@ -110,6 +112,8 @@ pub struct Machine {
     pub radius: f64,
     /// |p| + |a| + |b| at neutral, for the farthest joints \[m\].
     pub size: f64,
+    /// Longest internal step \[s\].
+    pub longest_step: f64,
 }
 
 impl Machine {
@@ -119,10 +123,11 @@ impl Machine {
         norm(velocity) + norm(angular_velocity) * self.radius
     }
 
-    /// The time that the legs need for a stop from this sample \[s\].
-    fn stop_of_legs(&self, sample: &Sample) -> f64 {
+    /// The time that the legs need for a stop from this velocity of the platform, turning as in
+    /// this sample \[s\].
+    fn stop_of_legs(&self, velocity: &[f64; 3], sample: &Sample) -> f64 {
         let turning: f64 = sample.derivative.orientation.iter().map(|rate| rate.abs()).sum();
-        (norm(&sample.velocity) + turning * self.radius) / (STOP_FRACTION * self.acceleration)
+        (norm(velocity) + turning * self.radius) / (STOP_FRACTION * self.acceleration)
     }
 }
 
@@ -299,9 +304,19 @@ impl Oracle {
 
     /// The longest time that a stop from this state may take, within the limits in force since
     /// the axes settled last.
-    fn longest_stop(&self, sample: &Sample) -> f64 {
+    ///
+    /// A step of several internal ones may contain the stop of an axis from a speed that no sample
+    /// shows.
+    fn longest_stop(&self, sample: &Sample, step: f64) -> f64 {
+        const ROUNDING: f64 = 1e-9;
+        let divided = step > self.machine.longest_step * (1.0 + ROUNDING);
+        let velocity = std::array::from_fn(|k| {
+            let (axis, velocity) = (&self.axes[k], sample.velocity[k]);
+            let unseen = divided && velocity == 0.0;
+            if unseen { axis.velocity.min(axis.acceleration[0] * step) } else { velocity }
+        });
         let axes = (0..3).map(|k| sample.velocity[k].abs() / self.axes[k].slowest);
-        axes.fold(self.machine.stop_of_legs(sample), f64::max)
+        axes.fold(self.machine.stop_of_legs(&velocity, sample), f64::max)
     }
 
     /// Judges the outputs after a step of `step` seconds, and updates the worst ratios.
@@ -426,7 +441,7 @@ impl Oracle {
             axis.limit_speed(now.velocity[k]);
         }
         // A stop that began earlier, from a faster state, may still be in progress.
-        self.stopping = self.longest_stop(now).max(self.stopping - step);
+        self.stopping = self.longest_stop(now, step).max(self.stopping - step);
         self.last_step = step;
         self.before = *now;
     }
