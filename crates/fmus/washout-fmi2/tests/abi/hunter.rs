@@ -56,7 +56,7 @@ fn previews_and_attackers_work_as_they_do_on_the_crate() {
     let attacker = attacker.replace('\n', "");
     let preview = |forces: &str| {
         format!(
-            "preview = {{ forces = \"{forces}\", amplitude = 4.0, count = [-2, 25], step = [0.01, 3.0], held = 3, seed = 2 }}"
+            "preview = {{ forces = \"{forces}\", amplitude = 4.0, count = [0, 20], step = [0.01, 3.0], held = 3, seed = 2 }}"
         )
     };
     let mut ends = vec![];
