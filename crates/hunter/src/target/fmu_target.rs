@@ -173,9 +173,9 @@ impl Target for FmuTarget {
         let count = self.preview_count;
         let values: Vec<f64> = [preview.step].iter().chain(&preview.surge).chain(&preview.sway).copied().collect();
         let instance = self.instance();
-        instance.set_integer(&[count], &[preview.count]);
-        // What is not a number is refused, and the preview stays as it was.
-        if instance.set_real(&references, &values) != Status::Ok {
+        // A count out of its range and what is not a number are refused. Then the preview stays as it was.
+        let counted = instance.set_integer(&[count], &[preview.count]);
+        if (counted, instance.set_real(&references, &values)) != (Status::Ok, Status::Ok) {
             instance.take_messages();
         }
         self.preview = references;
