@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fmt;
-use std::fs;
+use std::fs::{self, File};
 use std::process::Command;
 
 use crate::{Error, FmiVersion, FmuModel, Platform, Start, macos_stub, tools, workspace};
@@ -75,6 +75,11 @@ const START_VALUES: &str = "FMU_START_VALUES";
 /// # Errors
 /// The compiler cannot be run or fails, or its result cannot be read.
 pub fn compile(model: &FmuModel, start: &Start, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
+    // Another build with other start values would replace the library before it is read.
+    let lock = workspace::target_directory().join("build-fmu.lock");
+    let create = || fs::create_dir_all(workspace::target_directory()).and_then(|()| File::create(&lock));
+    let held = create().and_then(|file| file.lock().map(|()| file));
+    let _held = held.map_err(|reason| Error::Write { file: lock.clone(), reason })?;
     run_cargo(&[(model, fmi)], start.text().as_deref(), plan)?;
     let built = plan.platform.built_library(model.library(fmi));
     let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);

@@ -11,9 +11,9 @@ pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("this crate is a directory of the workspace")
 }
 
-/// Directory of FMUs by default.
+/// Directory of FMUs by default: the environment's `MORIS_FMUS`, or `target/fmu`.
 pub fn default_output() -> PathBuf {
-    root().join("target").join("fmu")
+    env::var_os("MORIS_FMUS").map_or_else(|| root().join("target").join("fmu"), PathBuf::from)
 }
 
 /// Directory in which cargo compiles.
