@@ -13,7 +13,7 @@ opening fence is its language:
 
     target/venv/bin/python tests/python/test_docs.py --update [PAGE ...]
 
-runs the pages and replaces the output that they show.
+runs the pages and replaces the output that they show. The FMUs of target/fmu stay as they are: each page has its own.
 """
 
 import json
@@ -23,7 +23,6 @@ import re
 import shutil
 import subprocess
 import sys
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -31,17 +30,16 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# The commands of the examples' page build the FMUs with their own start values, those of the others with embedded ones.
 EXAMPLES = ROOT / "examples" / "README.md"
-PAGES = [EXAMPLES, ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [EXAMPLES, ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # Its scripts are one script in parts, which tests/python_package/test_docs.py runs.
 PYTHON_PAGE = ROOT / "docs" / "python.md"
 FENCE = re.compile(r"^```(?P<language>\w*) ?(?P<information>[^\n]*)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 FILES = ("toml", "csv")
 # The command that runs these tests.
 ALL_TESTS = "python3 tests/run.py"
-COPIED = ("docs", "examples")
-LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "src", "target", "tests")
+COPIED = ("docs", "examples", "target/fmu")
+LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "src", "tests")
 
 
 @dataclass
@@ -68,9 +66,14 @@ def blocks(page):
         yield Block(page, line, match["language"], match["information"], match["text"])
 
 
+def page_directory(page):
+    """Never within another page's: pages run at the same time."""
+    return ROOT / "target" / "docs" / name(page).removesuffix(".md").replace("/", "-")
+
+
 def scratch_directory(page):
     """A directory for the page's commands: links to the repository's directories, copies of those that they write to."""
-    directory = ROOT / "target" / "docs" / page.relative_to(ROOT).with_suffix("")
+    directory = page_directory(page)
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)
     for entry in COPIED:
@@ -82,7 +85,11 @@ def scratch_directory(page):
 
 def run(block, directory):
     """Runs the block in the directory and returns its standard output."""
-    environment = os.environ | {"MPLBACKEND": "Agg", "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}"}
+    environment = os.environ | {
+        "MPLBACKEND": "Agg",
+        "PATH": f"{Path(sys.executable).parent}:{os.environ['PATH']}",
+        "MORIS_FMUS": str(directory / "target" / "fmu"),
+    }
     text = "\n".join(line for line in block.text.splitlines() if not line.startswith(ALL_TESTS))
     command = ["bash", "-euo", "pipefail", "-c", text] if block.language == "sh" else [sys.executable, "-c", text]
     done = subprocess.run(command, cwd=directory, env=environment, capture_output=True, text=True)
@@ -99,19 +106,20 @@ def run_page(page):
         elif block.language in ("sh", "python") and not block.information:
             output = run(block, directory)
         elif block.information == "output":
-            shown.append((block, plain(output)))
+            shown.append((block, plain(output, directory)))
     return shown
 
 
-def plain(output):
+def plain(output, directory=ROOT):
     """Output without spaces at line ends, empty lines around it and paths of this machine."""
-    lines = output.replace(f"{ROOT}/", "").splitlines()
+    lines = output.replace(f"{directory}/", "").replace(f"{ROOT}/", "").splitlines()
     return "\n".join(line.rstrip() for line in lines).strip("\n") + "\n"
 
 
 def pictures():
-    """The examples' pictures: each as it is in the repository, and as an example has drawn it last."""
-    return [(file, ROOT / "target" / "examples" / file.name) for file in sorted(EXAMPLES.parent.glob("*.svg"))]
+    """The examples' pictures: each as it is in the repository, and as an example of the page has drawn it."""
+    drawn = page_directory(EXAMPLES) / "target" / "examples"
+    return [(file, drawn / file.name) for file in sorted(EXAMPLES.parent.glob("*.svg"))]
 
 
 def assert_same_picture(expected, drawn):
@@ -124,24 +132,6 @@ def assert_same_picture(expected, drawn):
         numbers = [[float(n) for n in re.findall(r"-?\d+\.?\d*", " ".join(curve))] for curve in curves]
         assert len(numbers[0]) == len(numbers[1]) > 100, name(expected)
         assert max(abs(a - b) for a, b in zip(*numbers)) < 1.0, f"{name(expected)} is stale"
-
-
-@contextmanager
-def fmus_kept():
-    """Puts the FMUs back that the pages' commands replace."""
-    fmus, kept = ROOT / "target" / "fmu", ROOT / "target" / "docs" / "fmu"
-    shutil.rmtree(kept, ignore_errors=True)
-    shutil.copytree(fmus, kept)
-    try:
-        yield
-    finally:
-        shutil.copytree(kept, fmus, dirs_exist_ok=True)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def other_tests_fmus():
-    with fmus_kept():
-        yield
 
 
 def with_commands(page):
@@ -191,7 +181,7 @@ def anchors(page):
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", [*PAGES, ROOT / "ARCHITECTURE.md"], ids=name)
+@pytest.mark.parametrize("page", [*PAGES, ROOT / "ARCHITECTURE.md", ROOT / "SECURITY.md"], ids=name)
 def test_every_link_within_the_repository_leads_somewhere(page):
     for target in re.findall(r"\]\(([^)\s]+)\)", FENCE.sub("", page.read_text())):
         if ":" in target or "releases" in target:
@@ -240,7 +230,6 @@ def update(page):
 
 if __name__ == "__main__":
     assert sys.argv[1:2] == ["--update"], __doc__
-    with fmus_kept():
-        for page in [Path(argument).resolve() for argument in sys.argv[2:]] or filter(with_commands, PAGES):
-            print(name(page), flush=True)
-            update(page)
+    for page in [Path(argument).resolve() for argument in sys.argv[2:]] or filter(with_commands, PAGES):
+        print(name(page), flush=True)
+        update(page)
