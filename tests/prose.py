@@ -5,7 +5,7 @@
 
 - Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
   counts once. At most 2 % of them.
-- Sentences: their length in words, in the pages (README.md, ARCHITECTURE.md, CHANGELOG.md, docs/, and the documentation packed
+- Sentences: their length in words, in the pages (README.md, ARCHITECTURE.md, CONTRIBUTING.md, CHANGELOG.md, docs/, and the documentation packed
   into the FMUs) and in doc comments, without code, tables and headings. A list's item ends a sentence; a link counts as its
   text, a piece of code as one word. A mean of at most 16 words a page, none above 30.
 - Lines: at most 100 columns of prose, in the pages and in doc comments. Tables, code, pictures,

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Runs every test: the FMUs are built, Rust's tests run, then Python's in a virtual environment made for them; then the FMU
-goes through other people's importers and, where there are Wine and qemu, through the libraries for other platforms; where
-there is Chromium, the report's pages are opened in it.
+"""Runs the tests, part by part, and prints how long each part took.
 
-    python3 tests/run.py [--install] [--require]
+    python3 tests/run.py [--all] [--only PART ...] [-k EXPRESSION] [--install] [--require]
+
+The default is what a change can break, in few cases where a test is a search. --all adds importers, other platforms and
+pages, all cases, and the optimised builds that users get.
 
 With --install what other platforms and the pages need is installed first; with --require it is an error where it is missing.
 """
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import time
 import venv
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -21,13 +23,15 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 VENV = TARGET / "venv"
 REQUIREMENTS = ROOT / "tests" / "python" / "requirements.txt"
 PROGRAM = ".exe" if os.name == "nt" else ""
+NO_TESTS = 5
+"""pytest's exit status if an expression selects none."""
 
 
-def run(*command):
+def run(*command, allowed=(0,), **environment):
     print("$", *command, flush=True)
-    start = time.monotonic()
-    subprocess.run([str(part) for part in command], cwd=ROOT, check=True)
-    print(f"{time.monotonic() - start:.0f} s", flush=True)
+    status = subprocess.run([str(part) for part in command], cwd=ROOT, env=os.environ | environment).returncode
+    if status not in allowed:
+        sys.exit(f"failed: {' '.join(map(str, command))}")
 
 
 def python():
@@ -41,33 +45,121 @@ def python():
     return interpreter
 
 
-def main():
-    parser = argparse.ArgumentParser(description="Runs every test.")
-    parser.add_argument("--require", action="store_true", help="what other platforms and the pages need must be there")
-    parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
-    arguments = parser.parse_args()
-    passed_on = [f"--{name}" for name in ("install", "require") if getattr(arguments, name)]
+def pytest(options, *arguments):
+    """Two processes, which keep two cores busy: more of them would compete for memory and for cargo's lock."""
+    chosen = ["-k", options.k] if options.k else []
+    allowed = (0, NO_TESTS) if options.k else (0,)
+    command = [python(), "-m", "pytest", "--quiet", "--numprocesses", "2", *chosen, *arguments]
+    # As fast as the tools are compiled for the tests; with --all as the pages' commands compile them.
+    cheap = {} if options.all else {"CARGO_ALIAS_MORIS": "run --package moris --", "CARGO_ALIAS_HUNTER": "run --package moris-hunter --"}
+    run(*command, allowed=allowed, **cheap)
+
+
+def fmu(options):
+    """builds the FMUs of both versions and the packages of the simulator"""
     run("cargo", "build-fmu", "--fmi", "2,3")
     run("cargo", "build-fmu", "--fmi", "3", "--arrays")
-    run("cargo", "build-ssp")
-    run("cargo", "build-ssp", "--flat")
-    run("cargo", "build-ssp", "--system", "MotorcycleLap")
-    run("cargo", "build-ssp", "--system", "MotorcycleLap", "--flat")
-    run("cargo", "test", "--workspace", "--", "--quiet")
-    # These examples are compiled by now.
+    for system in ("MotorcycleSimulator", "MotorcycleLap"):
+        run("cargo", "build-ssp", "--system", system)
+        run("cargo", "build-ssp", "--system", system, "--flat")
+
+
+def rust(options):
+    """all tests in Rust"""
+    chosen = [options.k] if options.k else []
+    # PROPTEST_CASES holds where a test takes proptest's own number of cases, 256.
+    cases = {"MORIS_ALL_CASES": "1"} if options.all else {"PROPTEST_CASES": "64"}
+    run("cargo", "test", "--workspace", *chosen, "--", "--quiet", **cases)
+    if options.all:
+        # The only tests of this library that the command above leaves out: a search of minutes.
+        run("cargo", "test", "--package", "moris-washout", "--lib", *chosen, "--", "--quiet", "--ignored")
+
+
+@cache
+def examples():
+    """Programs that the tests in Python call: the best possible ride, and reports."""
+    run("cargo", "build", "--workspace", "--example", "bound", "--example", "pages")
     for example in ("bound", "pages"):
         os.environ[f"MORIS_{example.upper()}"] = str(TARGET / "debug" / "examples" / (example + PROGRAM))
-    run(python(), "-m", "pip", "install", "--verbose", "--disable-pip-version-check", ".")
-    run(python(), "-m", "pytest", "--quiet", "tests/python")
-    run(python(), "-m", "pytest", "--quiet", "tests/python_package")
-    run(sys.executable, "tests/importers/run.py", *(["--require"] if arguments.require else []))
-    run(sys.executable, "tests/platforms/run.py", *passed_on)
-    run(sys.executable, "tests/report/run.py", *passed_on)
+
+
+def python_tests(options):
+    """tests of the FMUs by FMPy, of their libraries and of the prose"""
+    examples()
+    pytest(options, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
+
+
+def docs(options):
+    """commands of the pages, run as they are printed"""
+    install_package(options.all)
+    pytest(options, "--dist", "load", "--maxschedchunk", "1", "tests/python/test_docs.py")
+
+
+@cache
+def install_package(optimised):
+    """Optimised as users get it, or compiled as the tests are."""
+    profile = {} if optimised else {"MATURIN_PEP517_ARGS": "--profile dev"}
+    run(python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".", **profile)
+
+
+def package(options):
+    """the Python package: built, installed and tested"""
+    install_package(options.all)
+    pytest(options, "--dist", "loadfile", "tests/python_package")
+
+
+def passed_on(options, *names):
+    return [f"--{name}" for name in names if getattr(options, name)]
+
+
+def importers(options):
+    """the FMUs in other people's simulation tools"""
+    run(sys.executable, "tests/importers/run.py", *passed_on(options, "require"))
+
+
+def platforms(options):
+    """the libraries for Windows and Arm, under Wine and qemu"""
+    run(sys.executable, "tests/platforms/run.py", *passed_on(options, "install", "require"))
+
+
+def pages(options):
+    """the reports in Chromium"""
+    examples()
+    run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
+
+
+DEFAULT = {"fmu": fmu, "rust": rust, "python": python_tests, "package": package, "docs": docs}
+PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "pages": pages}
+
+
+def processor_time():
+    """Of the processes that have ended, in seconds; none where the system does not tell."""
+    if os.name == "nt":
+        return 0.0
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+def main():
+    described = "\n".join(f"  {name:10} {part.__doc__}{'' if name in DEFAULT else ' (--all)'}" for name, part in PARTS.items())
+    parser = argparse.ArgumentParser(
+        description=f"Runs the tests. The parts:\n{described}", formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--all", action="store_true", help="every part, in all cases, with optimised builds")
+    parser.add_argument("--only", action="append", choices=PARTS, metavar="PART", help="this part, with the FMUs as they are")
+    parser.add_argument("-k", metavar="EXPRESSION", help="the tests that match, as pytest and cargo test understand it")
+    parser.add_argument("--require", action="store_true", help="what other platforms and the pages need must be there")
+    parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
+    options = parser.parse_args()
+    chosen = options.only or (PARTS if options.all else DEFAULT)
+    took = []
+    for name in [name for name in PARTS if name in chosen]:
+        start, used = time.monotonic(), processor_time()
+        PARTS[name](options)
+        took.append(f"{name:10}{time.monotonic() - start:8.0f}{processor_time() - used:16.0f}")
+    print("part      seconds  processor time", *took, sep="\n")
     print("No test has failed. What is missing above has not been run.")
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except subprocess.CalledProcessError as error:
-        sys.exit(f"failed: {' '.join(map(str, error.cmd))}")
+    main()

@@ -14,13 +14,14 @@ fn calls(counts: &CallCounts) -> u64 {
     counts.values().sum()
 }
 
-/// Makes a quarter of a million calls for each seed, always the same; returns how they ended.
+/// Makes a quarter of a million calls for each seed, always the same, and a fifth of them unless
+/// all are wanted; returns how they ended.
 fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> CallCounts {
-    const EACH: u64 = 250_000;
+    let each = if std::env::var_os("MORIS_ALL_CASES").is_some() { 250_000 } else { 50_000 };
     let mut total = CallCounts::new();
     for seed in seeds {
-        let counts = run(functions, Choices::Seed(seed), EACH);
-        assert!(calls(&counts) >= EACH);
+        let counts = run(functions, Choices::Seed(seed), each);
+        assert!(calls(&counts) >= each);
         counts.into_iter().for_each(|(key, count)| *total.entry(key).or_default() += count);
     }
     total
@@ -47,7 +48,7 @@ struct Exceptions {
 }
 
 #[test]
-fn a_million_calls_of_fmi_2_do_no_harm() {
+fn many_calls_of_fmi_2_do_no_harm() {
     let fmu = Fmu::from_library(&library(), "").unwrap();
     let exceptions = Exceptions {
         only_discard: &["fmi2GetStatus", "fmi2GetIntegerStatus", "fmi2GetStringStatus"],
@@ -60,7 +61,7 @@ fn a_million_calls_of_fmi_2_do_no_harm() {
 }
 
 #[test]
-fn half_a_million_calls_of_fmi_3_do_no_harm() {
+fn many_calls_of_fmi_3_do_no_harm() {
     let library = fmi3::Library::open(&library()).unwrap();
     let exceptions = Exceptions {
         only_discard: &[],
