@@ -142,7 +142,7 @@ def with_commands(page):
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the commands are for bash")
-@pytest.mark.parametrize("page", filter(with_commands, PAGES), ids=name)
+@pytest.mark.parametrize("page", [*filter(with_commands, PAGES)], ids=name)
 def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
     shown = run_page(page)
     # Elsewhere the last digits of a search may differ.
