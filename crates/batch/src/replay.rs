@@ -82,6 +82,7 @@ impl<'a> Replay<'a> {
                 prepare(washout, start + k as f64 * step);
                 output = self.advance(washout, &at(k), &at(k + 1), step, &mut feel);
                 output.tilt_limited |= before.tilt_limited;
+                output.soft_limited |= before.soft_limited;
                 output.safety_active |= before.safety_active;
                 output.actuator_limited |= before.actuator_limited;
             }
@@ -112,16 +113,16 @@ mod tests {
 
     use super::*;
 
-    fn swing() -> Manoeuvre {
+    fn swing(size: f64) -> Manoeuvre {
         Manoeuvre::sampled(0.01, 1.0, |time| {
             let mut input = Input::default();
-            input.specific_force.x = (5.0 * time).sin();
+            input.specific_force.x = size * (5.0 * time).sin();
             input
         })
     }
 
-    fn outputs(replay: &Replay) -> Vec<Output> {
-        let mut washout = Washout::new(&Parameters::default()).unwrap();
+    fn outputs(replay: &Replay, parameters: &Parameters) -> Vec<Output> {
+        let mut washout = Washout::new(parameters).unwrap();
         let mut outputs = Vec::new();
         replay.run(&mut washout, |_, output| outputs.push(*output));
         outputs
@@ -129,23 +130,38 @@ mod tests {
 
     #[test]
     fn steps_that_fit_are_taken_and_others_rejected() {
-        let manoeuvre = swing();
-        assert_eq!(outputs(&Replay::in_steps(&manoeuvre, 0.002, true).unwrap()).len(), 100);
-        assert_eq!(outputs(&Replay::in_steps(&manoeuvre, 0.05, true).unwrap()).len(), 20);
+        let manoeuvre = swing(1.0);
+        assert_eq!(outputs(&Replay::in_steps(&manoeuvre, 0.002, true).unwrap(), &Parameters::default()).len(), 100);
+        assert_eq!(outputs(&Replay::in_steps(&manoeuvre, 0.05, true).unwrap(), &Parameters::default()).len(), 20);
         assert!(Replay::in_steps(&manoeuvre, 0.007, true).is_none());
     }
 
     #[test]
     fn divided_steps_with_slopes_end_where_whole_ones_do() {
-        let manoeuvre = swing();
-        let whole = outputs(&Replay::new(&manoeuvre));
-        let divided = outputs(&Replay::in_steps(&manoeuvre, 0.001, true).unwrap());
+        let manoeuvre = swing(1.0);
+        let whole = outputs(&Replay::new(&manoeuvre), &Parameters::default());
+        let divided = outputs(&Replay::in_steps(&manoeuvre, 0.001, true).unwrap(), &Parameters::default());
         for (whole, divided) in whole.iter().zip(&divided) {
             // The internal steps are the same, so that only the inputs' rounding differs.
             assert!((whole.position - divided.position).norm() < 1e-12);
         }
-        let held = outputs(&Replay::in_steps(&manoeuvre, 0.001, false).unwrap());
+        let held = outputs(&Replay::in_steps(&manoeuvre, 0.001, false).unwrap(), &Parameters::default());
         let lag = (held[99].felt_specific_force - divided[99].felt_specific_force).norm();
         assert!(1e-6 < lag && lag < 0.1, "{lag}");
+    }
+
+    #[test]
+    fn flags_of_divided_steps_are_those_of_any_of_them() {
+        let manoeuvre = swing(9.0);
+        let mut parameters = Parameters::default();
+        parameters.safety.position_limit /= 10.0;
+        let flags = |replay: &Replay| -> Vec<[bool; 4]> {
+            let flags = |o: &Output| [o.tilt_limited, o.soft_limited, o.safety_active, o.actuator_limited];
+            outputs(replay, &parameters).iter().map(flags).collect()
+        };
+        let whole = flags(&Replay::new(&manoeuvre));
+        assert_eq!(whole, flags(&Replay::in_steps(&manoeuvre, 0.001, true).unwrap()));
+        let soft = whole.iter().filter(|flags| flags[1]).count();
+        assert!(0 < soft && soft < whole.len(), "{soft}");
     }
 }

@@ -16,6 +16,8 @@ pub struct Effort {
     pub smallest_margin: f64,
     /// Fraction of the steps in which tilt coordination was limited, 0 to 1.
     pub tilt_limited: f64,
+    /// Fraction of the steps in which the soft limits changed the motion, 0 to 1.
+    pub soft_limited: f64,
     /// Fraction of the steps in which a safety unit was active, 0 to 1.
     pub safety_active: f64,
     /// Fraction of the steps in which the actuator guard was active, 0 to 1.
@@ -38,6 +40,7 @@ pub fn effort(platform: &Platform) -> Effort {
         stroke_used: (longest_leg - shortest_leg) / (longest - shortest),
         smallest_margin: (shortest_leg - shortest).min(longest - longest_leg),
         tilt_limited: fraction(platform.limited, |limited| limited.tilt),
+        soft_limited: fraction(platform.limited, |limited| limited.soft),
         safety_active: fraction(platform.limited, |limited| limited.safety),
         actuator_limited: fraction(platform.limited, |limited| limited.actuator),
         largest_tilt_rate: platform.tilt_rate.iter().flatten().fold(0.0, |largest, rate| rate.abs().max(largest)),
@@ -60,7 +63,7 @@ mod tests {
 
     #[test]
     fn the_effort_is_counted_over_the_steps() {
-        let limited = |tilt, safety, actuator| Limited { tilt, safety, actuator };
+        let limited = |tilt, soft, safety, actuator| Limited { tilt, soft, safety, actuator };
         let mut legs = [[1.3; 6]; 5];
         legs[2][2] = 1.1;
         legs[3][0] = 1.5;
@@ -70,18 +73,19 @@ mod tests {
             displacement: &[[0.0; 3], [0.0; 3], [0.0; 3], [0.0; 3], [0.03, -0.04, 0.12]],
             tilt_rate: &[[0.0; 2], [0.01, -0.05], [0.0; 2], [0.0; 2], [0.0; 2]],
             limited: &[
-                limited(true, true, true),
-                limited(true, false, false),
-                limited(true, true, false),
-                limited(true, false, false),
-                limited(false, false, false),
+                limited(true, true, true, true),
+                limited(true, true, false, false),
+                limited(true, false, true, false),
+                limited(true, true, false, false),
+                limited(false, false, false, false),
             ],
         };
         let effort = effort(&platform);
         assert_eq!((effort.shortest_leg, effort.longest_leg), (1.1, 1.5));
         assert!((effort.stroke_used - 0.4 / 0.6).abs() < 1e-12);
         assert!((effort.smallest_margin - 0.1).abs() < 1e-12);
-        assert_eq!((effort.tilt_limited, effort.safety_active, effort.actuator_limited), (0.75, 0.25, 0.0));
+        assert_eq!((effort.tilt_limited, effort.soft_limited), (0.75, 0.5));
+        assert_eq!((effort.safety_active, effort.actuator_limited), (0.25, 0.0));
         assert_eq!(effort.largest_tilt_rate, 0.05);
         assert!((effort.final_distance - 0.13).abs() < 1e-12);
     }

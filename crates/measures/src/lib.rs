@@ -29,6 +29,6 @@ mod measures;
 mod run;
 pub mod vestibular;
 
-pub use listing::{Row, bound_rows};
+pub use listing::{Row, all_rows, bound_rows};
 pub use measures::{Axes, Measures};
 pub use run::{Limited, Platform, Run, RunError};

@@ -6,6 +6,7 @@ use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
 use crate::measures::{Axes, Measures};
+use crate::run::{Limited, Platform, Run};
 
 /// One measure.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +59,30 @@ impl Measures {
         rows.extend(effort_rows(&self.effort));
         rows
     }
+}
+
+/// The rows that a run with motion on every axis has: those of any other run are among them, in the
+/// same order. Their values mean nothing.
+pub fn all_rows() -> Vec<Row> {
+    let count = 8;
+    let moving: Vec<[f64; 3]> = (0..count).map(|k| [f64::from(k); 3]).collect();
+    let still = vec![[0.0; 3]; moving.len()];
+    let run = Run {
+        step: 0.1,
+        desired_force: &moving,
+        felt_force: &still,
+        felt_force_within_steps: &still,
+        desired_rate: &moving,
+        felt_rate: &still,
+        platform: Platform {
+            legs: &vec![[1.0; 6]; moving.len()],
+            stroke: [0.5, 1.5],
+            displacement: &still,
+            tilt_rate: &vec![[0.0; 2]; moving.len()],
+            limited: &vec![Limited::default(); moving.len()],
+        },
+    };
+    Measures::of(&run).expect("the run has equal series of numbers").rows()
 }
 
 /// A signal that is compared: how its errors are written.
@@ -131,14 +156,14 @@ fn comfort_rows(axis: &str, comfort: &Comfort) -> [Row; 3] {
         row(
             "shake",
             comfort.shake,
-            "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run; undefined \
-             where less than 16 samples a second are known.",
+            "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
+             undefined up to 16 samples a second and for runs of 15 samples or less.",
         ),
         row(
             "jolt",
             comfort.jolt,
-            "Largest change of the felt force within 20 ms beyond any such change of the desired force in the 60 ms around it; \
-             undefined where less than 50 samples a second are known.",
+            "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
+             desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.",
         ),
         row(
             "peak",
@@ -215,7 +240,7 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
     ]
 }
 
-fn effort_rows(effort: &Effort) -> [Row; 7] {
+fn effort_rows(effort: &Effort) -> [Row; 8] {
     let row = |name, value, unit, definition| Row {
         subject: "platform".to_string(),
         name,
@@ -250,6 +275,12 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
             "Fraction of the steps in which tilt coordination lagged behind its target because of a limit.",
         ),
         row(
+            "soft limits active",
+            100.0 * effort.soft_limited,
+            "%",
+            "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.",
+        ),
+        row(
             "safety units active",
             100.0 * effort.safety_active,
             "%",
@@ -273,7 +304,6 @@ fn effort_rows(effort: &Effort) -> [Row; 7] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{Limited, Platform, Run};
 
     const COUNT: usize = 500;
 
@@ -314,6 +344,17 @@ mod tests {
         let rms = ((0..COUNT).map(|k| (0.02 * k as f64).sin().powi(2)).sum::<f64>() / COUNT as f64).sqrt();
         assert!((value("RMS error").unwrap() - 0.5 * rms).abs() < 1e-12);
         assert!((value("correlation").unwrap() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_rows_of_any_run_are_among_all_rows_in_their_order() {
+        let all = all_rows();
+        assert_eq!(all.len(), 3 * (4 + 3 + 4 + 3) + 3 * (4 + 4 + 3) + 8);
+        let mut rest = all.iter();
+        for row in rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]) {
+            let same = |other: &&Row| (&other.subject, other.name, other.unit) == (&row.subject, row.name, row.unit);
+            assert!(rest.any(|other| same(&other)), "{}, {}", row.subject, row.name);
+        }
     }
 
     #[test]

@@ -43,6 +43,8 @@ pub struct Platform<'a> {
 pub struct Limited {
     /// Tilt coordination.
     pub tilt: bool,
+    /// The soft limits in front of the safety units and the actuator guard.
+    pub soft: bool,
     /// The safety units.
     pub safety: bool,
     /// The actuator guard.

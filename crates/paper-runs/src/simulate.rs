@@ -39,7 +39,7 @@ const OUTPUTS: [&str; 17] = [
     "tilt.pitchRate",
 ];
 
-const FLAGS: [&str; 3] = ["status.tiltLimited", "status.safetyActive", "status.actuatorLimited"];
+const FLAGS: [&str; 4] = ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
 
 /// Simulates one run with one set of parameters, in communication steps of `step` seconds.
 ///
@@ -109,7 +109,7 @@ impl References {
         check(instance, status)?;
 
         let [fx, fy, fz, wx, wy, wz, l1, l2, l3, l4, l5, l6, px, py, pz, roll_rate, pitch_rate] = values;
-        let [tilt, safety, actuator] = flags.map(|flag| flag != 0);
+        let [tilt, soft, safety, actuator] = flags.map(|flag| flag != 0);
         let motion = run.motion(time);
         Ok(Sample {
             time,
@@ -120,7 +120,7 @@ impl References {
             legs: [l1, l2, l3, l4, l5, l6],
             position: [px, py, pz],
             tilt_rate: [roll_rate, pitch_rate],
-            limited: Limited { tilt, safety, actuator },
+            limited: Limited { tilt, soft, safety, actuator },
         })
     }
 }

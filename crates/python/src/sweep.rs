@@ -5,7 +5,6 @@ use std::sync::{Arc, LazyLock};
 use moris::measure::host::Host;
 use moris::recording::Recording;
 use moris::simulate::measured;
-use moris_measures::{Limited, Measures, Platform, Run};
 use moris_setup::Setup;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
@@ -16,29 +15,8 @@ use crate::setup;
 use crate::simulation::host;
 
 /// All measures of a sweep, on every axis: subject, name and unit.
-static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> = LazyLock::new(|| {
-    // Any run with desired motion on every axis has all measures.
-    let count = 8;
-    let force: Vec<[f64; 3]> = (0..count).map(|k| [f64::from(k); 3]).collect();
-    let still = vec![[0.0; 3]; force.len()];
-    let run = Run {
-        step: 0.1,
-        desired_force: &force,
-        felt_force: &still,
-        felt_force_within_steps: &still,
-        desired_rate: &force,
-        felt_rate: &still,
-        platform: Platform {
-            legs: &vec![[1.0; 6]; force.len()],
-            stroke: [0.5, 1.5],
-            displacement: &still,
-            tilt_rate: &vec![[0.0; 2]; force.len()],
-            limited: &vec![Limited::default(); force.len()],
-        },
-    };
-    let measures = Measures::of(&run).expect("the run has equal series of numbers");
-    measures.rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect()
-});
+static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> =
+    LazyLock::new(|| moris_measures::all_rows().into_iter().map(|row| (row.subject, row.name, row.unit)).collect());
 
 /// The measures of a sweep: subject, name and unit.
 #[pyfunction]

@@ -14,6 +14,7 @@ pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
     let outputs = |value: fn(&Output) -> [f64; 3]| simulation.outputs.iter().map(value).collect::<Vec<_>>();
     let limited = |output: &Output| Limited {
         tilt: output.tilt_limited,
+        soft: output.soft_limited,
         safety: output.safety_active,
         actuator: output.actuator_limited,
     };
