@@ -29,9 +29,9 @@ pub struct Comfort {
     /// desired force. None where the sampling is too coarse for that frequency, or the run too
     /// short for the filter.
     pub shake: Option<Excess>,
-    /// Change of the felt force within [`JOLT_TIME`], less the largest such change of the desired
-    /// force from [`JOLT_TIME`] before to [`JOLT_TIME`] after it. None where the sampling is too
-    /// coarse for that time.
+    /// Largest difference between two values of the felt force within [`JOLT_TIME`], less the
+    /// largest such difference of the desired force from [`JOLT_TIME`] before to [`JOLT_TIME`]
+    /// after it. None where the sampling is too coarse for that time.
     pub jolt: Option<Excess>,
     /// Largest absolute value of the felt force, less that of the desired force at any time.
     pub peak: Excess,
@@ -48,13 +48,65 @@ impl Comfort {
 /// `step` seconds and linear between its samples. `felt` has a whole number of samples to a step,
 /// and begins and ends with `desired`.
 pub fn comfort(desired: &[f64], felt: &[f64], rest: f64, step: f64) -> Comfort {
-    let divisions = (felt.len().max(2) - 1) / (desired.len().max(2) - 1);
-    let step = step / divisions as f64;
-    let desired = interpolated(desired, divisions);
-    Comfort {
-        shake: shake(&desired, felt, step),
-        jolt: jolt(&desired, felt, step),
-        peak: peak(&desired, felt, rest, step),
+    Reference::new(desired, divisions(desired.len(), felt.len()), rest, step).comfort(felt)
+}
+
+/// Samples of the felt force to one of the desired force, of series of these lengths.
+pub fn divisions(desired: usize, felt: usize) -> usize {
+    (felt.max(2) - 1) / (desired.max(2) - 1)
+}
+
+/// The desired force on an axis, prepared for comparisons with several felt ones.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    rest: f64,
+    /// Time between samples of the felt force \[s\].
+    step: f64,
+    /// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample.
+    rms: Option<Vec<f64>>,
+    /// Largest change within [`JOLT_TIME`], from [`JOLT_TIME`] before to [`JOLT_TIME`] after the
+    /// one from each sample.
+    changes: Option<Vec<f64>>,
+    /// Largest absolute value.
+    peak: f64,
+}
+
+impl Reference {
+    /// The desired force, sampled every `step` seconds, for felt forces of `divisions` samples to a
+    /// step. The force at rest is `rest`.
+    pub fn new(desired: &[f64], divisions: usize, rest: f64, step: f64) -> Self {
+        let desired = interpolated(desired, divisions);
+        let step = step / divisions as f64;
+        Reference {
+            rest,
+            step,
+            rms: shake_rms(&desired, step),
+            changes: jolt_samples(desired.len(), step)
+                .map(|count| sliding_max(&changes(&desired, count), count, count)),
+            peak: desired.iter().map(|value| (value - rest).abs()).fold(0.0, f64::max),
+        }
+    }
+
+    /// Compares a felt force, which begins and ends with the desired one.
+    pub fn comfort(&self, felt: &[f64]) -> Comfort {
+        Comfort { shake: self.shake(felt), jolt: self.jolt(felt), peak: self.peak(felt) }
+    }
+
+    fn shake(&self, felt: &[f64]) -> Option<Excess> {
+        let excess =
+            shake_rms(felt, self.step)?.into_iter().zip(self.rms.as_ref()?).map(|(felt, desired)| felt - desired);
+        Some(largest(excess, |index| index as f64 * self.step))
+    }
+
+    fn jolt(&self, felt: &[f64]) -> Option<Excess> {
+        let count = jolt_samples(felt.len(), self.step)?;
+        let excess = changes(felt, count).into_iter().zip(self.changes.as_ref()?).map(|(felt, desired)| felt - desired);
+        Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * self.step))
+    }
+
+    fn peak(&self, felt: &[f64]) -> Excess {
+        let excess = felt.iter().map(|value| (value - self.rest).abs() - self.peak);
+        largest(excess, |index| index as f64 * self.step)
     }
 }
 
@@ -75,21 +127,11 @@ fn largest(values: impl Iterator<Item = f64>, time: impl Fn(usize) -> f64) -> Ex
     Excess { value, time: time(index) }
 }
 
-fn peak(desired: &[f64], felt: &[f64], rest: f64, step: f64) -> Excess {
-    let deviation = |value: &f64| (value - rest).abs();
-    let most = desired.iter().map(deviation).fold(0.0, f64::max);
-    largest(felt.iter().map(|value| deviation(value) - most), |index| index as f64 * step)
-}
-
-fn jolt(desired: &[f64], felt: &[f64], step: f64) -> Option<Excess> {
+/// Samples in [`JOLT_TIME`]; none where the sampling is too coarse or the signal too short.
+fn jolt_samples(length: usize, step: f64) -> Option<usize> {
     // Rounding must not make the time a sample shorter.
     let count = (JOLT_TIME / step * (1.0 + 1e-9)).floor() as usize;
-    if count == 0 || felt.len() <= count {
-        return None;
-    }
-    let around = sliding_max(&changes(desired, count), count, count);
-    let excess = changes(felt, count).into_iter().zip(around).map(|(felt, desired)| felt - desired);
-    Some(largest(excess, |index| (index as f64 + 0.5 * count as f64) * step))
+    (count > 0 && length > count).then_some(count)
 }
 
 /// Largest difference between any two of `count + 1` samples in succession, from each sample that
@@ -120,11 +162,10 @@ fn sliding_max(values: &[f64], before: usize, after: usize) -> Vec<f64> {
     (0..values.len()).map(max_at).collect()
 }
 
-fn shake(desired: &[f64], felt: &[f64], step: f64) -> Option<Excess> {
+/// RMS above [`SHAKE_FREQUENCY`] over [`SHAKE_TIME`] around each sample.
+fn shake_rms(signal: &[f64], step: f64) -> Option<Vec<f64>> {
     let window = (SHAKE_TIME / step).round() as usize;
-    let rms = |signal| Some(sliding_rms(&above_shake_frequency(signal, step)?, window));
-    let excess = rms(felt)?.into_iter().zip(rms(desired)?).map(|(felt, desired)| felt - desired);
-    Some(largest(excess, |index| index as f64 * step))
+    Some(sliding_rms(&above_shake_frequency(signal, step)?, window))
 }
 
 /// RMS over a window of so many samples around each. Outside of the signal there is rest.
@@ -315,6 +356,18 @@ mod tests {
         let less = sampled(100, 4, |t| G + 0.3 * (TAU * t).sin());
         assert_near(comfort(&desired, &more, G, 0.01).peak.value, 2.0, 1e-12);
         assert_eq!(comfort(&desired, &less, G, 0.01).values(), [0.0; 3]);
+    }
+
+    #[test]
+    fn a_reference_serves_several_felt_forces() {
+        let desired = sampled(100, 4, vibrating);
+        let reference = Reference::new(&desired, divisions(400, 3991), 0.5, 0.01);
+        for size in [0.2, 1.0, 3.0] {
+            let felt: Vec<f64> = (0..=3990).map(|k| size * rough(0.001 * f64::from(k))).collect();
+            let found = reference.comfort(&felt);
+            assert_eq!(found, comfort(&desired, &felt, 0.5, 0.01));
+            assert!(size < 1.0 || found.values().iter().all(|value| *value > 0.1), "{found:?}");
+        }
     }
 
     #[test]

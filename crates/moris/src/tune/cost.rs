@@ -13,7 +13,7 @@
 
 use std::sync::OnceLock;
 
-use moris_measures::comfort::comfort;
+use moris_measures::comfort::{Reference, divisions};
 use moris_measures::cues::{FORCE_THRESHOLDS, RATE_THRESHOLDS};
 use moris_measures::vestibular::{CANALS, OTOLITHS, sensed};
 use moris_washout::interface::STANDARD_GRAVITY;
@@ -74,6 +74,17 @@ pub struct Objective {
     /// Shake, jolt and peak with the start's parameters, in the search's long steps and in those
     /// that the parameters will be used with.
     start_comfort: [OnceLock<[f64; 3]>; 2],
+    /// The desired force in the same steps, with what its comparison with a felt one needs: it is
+    /// the same for all parameters.
+    references: [OnceLock<References>; 2],
+}
+
+/// The desired force on the three axes.
+#[derive(Clone, Debug)]
+struct References {
+    /// Samples of the felt force to one of the recording.
+    divisions: usize,
+    axes: [Reference; 3],
 }
 
 /// Default bounds of shake, jolt and peak \[m/s2\].
@@ -127,6 +138,7 @@ impl Objective {
             start,
             comfort_bounds: COMFORT_BOUNDS,
             start_comfort: Default::default(),
+            references: Default::default(),
         };
         objective.coarse(&parameters)?;
         Ok(objective)
@@ -169,8 +181,8 @@ impl Objective {
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
         let (mut accumulator, felt) = self.coarse_run(parameters)?;
-        accumulator.comfort = self.comfort(&felt);
-        let start = || self.coarse_run(&self.start).map(|(_, felt)| self.comfort(&felt));
+        accumulator.comfort = self.comfort(&felt, Steps::Coarse);
+        let start = || self.coarse_run(&self.start).map(|(_, felt)| self.comfort(&felt, Steps::Coarse));
         accumulator.excess = self.excess(&accumulator.comfort, Steps::Coarse, start)?;
         Ok(accumulator.cost())
     }
@@ -211,24 +223,35 @@ impl Objective {
     pub fn cost(&self, simulation: &Simulation) -> Result<Cost, ParameterError> {
         let mut accumulator = CostAccumulator::new(self);
         simulation.outputs.iter().for_each(|output| accumulator.add(output));
-        accumulator.comfort = self.comfort(&simulation.felt_within_steps);
+        accumulator.comfort = self.comfort(&simulation.felt_within_steps, Steps::Full);
         let start = || {
             let parameters = self.recording.parameters(&self.start);
             let simulation = Simulation::of(&self.recording.replay(), &parameters, || ())?;
-            Ok(self.comfort(&simulation.felt_within_steps))
+            Ok(self.comfort(&simulation.felt_within_steps, Steps::Full))
         };
         accumulator.excess = self.excess(&accumulator.comfort, Steps::Full, start)?;
         Ok(accumulator.cost())
     }
 
     /// Shake, jolt and peak of a felt specific force, the largest of the axes.
-    fn comfort(&self, felt: &[Vector3<f64>]) -> [f64; 3] {
+    fn comfort(&self, felt: &[Vector3<f64>], steps: Steps) -> [f64; 3] {
+        let divisions = divisions(self.desired[0].len(), felt.len());
+        let kept = self.references[steps as usize].get_or_init(|| self.references(divisions));
+        // Parameters with other internal steps have references of their own.
+        let own = (kept.divisions != divisions).then(|| self.references(divisions));
+        let References { axes, .. } = own.as_ref().unwrap_or(kept);
         let of_axis = |k: usize| {
             let felt: Vec<f64> = felt.iter().map(|felt| (felt - rest())[k]).collect();
-            comfort(&self.desired[k], &felt, 0.0, self.recording.step()).values()
+            axes[k].comfort(&felt).values()
         };
         let axes: [[f64; 3]; 3] = std::array::from_fn(of_axis);
         std::array::from_fn(|k| axes.iter().map(|values| values[k]).fold(0.0, f64::max))
+    }
+
+    /// The desired force for so many samples of the felt one to one of the recording.
+    fn references(&self, divisions: usize) -> References {
+        let axis = |k: usize| Reference::new(&self.desired[k], divisions, 0.0, self.recording.step());
+        References { divisions, axes: std::array::from_fn(axis) }
     }
 
     /// Relative amounts, added, by which shake, jolt and peak exceed both their bounds and those of
