@@ -34,13 +34,24 @@ pub use fit::Fit;
 pub use manoeuvre::Manoeuvre;
 pub use replay::Replay;
 
+use std::cell::RefCell;
+
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Observer of a simulation, step by step.
 pub trait Observer {
+    /// Receives the felt specific force before the first step and after each internal step
+    /// \[m/s2\].
+    fn feel(&mut self, _felt: &Vector3<f64>) {}
+
     /// Receives one step: the input and the output at its end.
     fn observe(&mut self, input: &Input, output: &Output);
+
+    /// Receives the manoeuvre after the last step. What is kept for this moment is best dropped
+    /// here: a batch may keep all observers.
+    fn finish(&mut self, _manoeuvre: &Manoeuvre) {}
 }
 
 /// A parameter set and its result.
@@ -62,7 +73,16 @@ pub fn simulate<O: Observer>(
     mut observer: O,
 ) -> Result<O, ParameterError> {
     let mut washout = Washout::new(parameters)?;
-    Replay::new(manoeuvre).run(&mut washout, |input, output| observer.observe(input, output));
+    observer.feel(&washout.output().felt_specific_force);
+    let shared = RefCell::new(observer);
+    Replay::new(manoeuvre).run_prepared(
+        &mut washout,
+        |_, _| (),
+        |felt| shared.borrow_mut().feel(felt),
+        |input, output| shared.borrow_mut().observe(input, output),
+    );
+    let mut observer = shared.into_inner();
+    observer.finish(manoeuvre);
     Ok(observer)
 }
 
