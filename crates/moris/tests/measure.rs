@@ -94,6 +94,42 @@ fn errors_are_those_of_the_washout_in_the_host_s_steps() {
     }
 }
 
+/// The comfort of a force is that of the washout, stepped here; a rate has none.
+#[test]
+fn comfort_is_that_of_the_felt_force_within_the_steps() {
+    let directory = tempfile::tempdir().unwrap();
+    // A stop at once in surge: more than tilt and travel can follow.
+    let stop = |k: usize| if (100..150).contains(&k) { 8.0 } else { 0.0 };
+    let rows: String = (0..=400).map(|k| format!("{},{},0,{G},0,0.01,0\n", k as f64 * STEP, stop(k))).collect();
+    fs::write(directory.path().join("stop.csv"), format!("time,ax,ay,az,wx,wy,wz\n{rows}")).unwrap();
+    let (output, text) = measure(directory.path(), &["stop.csv", "--fade-in", "0"]);
+    assert!(output.status.success(), "{text}");
+
+    let mut parameters = Parameters::default();
+    parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;
+    let inputs: Vec<Input> = (0..=400)
+        .map(|k| {
+            let mut input = Input::default();
+            input.specific_force.x = stop(k);
+            input.angular_velocity.y = 0.01;
+            input
+        })
+        .collect();
+    let mut washout = Washout::new(&parameters).unwrap().starting_with(&inputs[0]);
+    let mut felt = vec![washout.output().felt_specific_force.x];
+    for pair in inputs.windows(2) {
+        washout.step_between_observed(&pair[0], &pair[1], STEP, |force| felt.push(force.x));
+    }
+    let desired: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
+    let [shake, jolt, peak] = moris_measures::comfort::comfort(&desired, &felt, 0.0, STEP).values();
+    let largest = felt.iter().fold(0.0, |most: f64, force| most.max(force.abs()));
+    assert!((peak - (largest - 8.0).max(0.0)).abs() < 1e-9 && jolt > 0.0);
+    let expected = format!("{shake:.2}/{jolt:.1}/{peak:.1}");
+    assert!(text.contains("shake/jolt/peak"), "{text}");
+    assert_eq!(cells(&text, "surge").last(), Some(&expected.as_str()), "{text}");
+    assert_eq!(cells(&text, "pitch rate").last(), Some(&"–"), "{text}");
+}
+
 #[test]
 fn targets_that_are_missed_are_named_and_fail_a_check() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,5 +1,6 @@
 //! One channel of a recording: desired and felt signals, and errors.
 
+use moris_measures::comfort::Comfort;
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::rms_error;
 use moris_measures::{Axes, Measures};
@@ -50,6 +51,8 @@ pub struct Channel {
     pub error: f64,
     /// RMS error of the vestibular model's response.
     pub sensed_error: f64,
+    /// Shake, jolt and peak of a force; none of a rate.
+    pub comfort: Option<Comfort>,
     /// Fractions of the time with a cue in the vehicle, a false one and a
     /// missing one on the platform.
     pub cues: Cues,
@@ -71,16 +74,18 @@ pub fn channels(simulation: &Simulation, measures: &Measures, bounds: &Axes<Opti
         rms_error(&vec![0.0; desired.len()], &desired.iter().map(|sample| sample[axis]).collect::<Vec<_>>())
     };
     let channel = |quantity| {
-        let (desired, raw, sensed, cues, bound, axis) = match quantity {
-            Quantity::Force(k) => (&forces, measures.force, measures.sensed_force, measures.force_cues, &bounds[k], k),
-            Quantity::Rate(k) => (&rates, measures.rate, measures.sensed_rate, measures.rate_cues, &None, k),
+        let (desired, raw, sensed, cues, axis) = match quantity {
+            Quantity::Force(k) => (&forces, measures.force, measures.sensed_force, measures.force_cues, k),
+            Quantity::Rate(k) => (&rates, measures.rate, measures.sensed_rate, measures.rate_cues, k),
         };
+        let is_force = matches!(quantity, Quantity::Force(_));
         Some(Channel {
             quantity,
             at_rest: rms(desired, axis),
-            bound: bound.as_ref().map(|bound| bound.bound.rms_error),
+            bound: bounds[axis].as_ref().filter(|_| is_force).map(|bound| bound.bound.rms_error),
             error: raw[axis]?.rms_error,
             sensed_error: sensed[axis].map_or(0.0, |sensed| sensed.rms_error),
+            comfort: measures.comfort[axis].filter(|_| is_force),
             cues: cues[axis],
         })
     };

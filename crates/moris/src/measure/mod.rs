@@ -29,7 +29,8 @@ use targets::Targets;
 ///
 /// Prints a line for each recording and channel. The columns are the error of a platform at rest,
 /// the bound (with --bound), the RMS error and the RMS error as sensed. Then come the fractions of
-/// the time with a cue in the vehicle, with a false cue and with a missing cue on the platform.
+/// the time with a cue in the vehicle, with a false cue and with a missing cue on the platform. The
+/// last is comfort: shake, jolt and peak of the felt force beyond the desired one, in m/s².
 /// Below the table are the limits that were active on each recording, and the targets. Recordings
 /// fade in from rest over 1 s; --fade-in changes it.
 #[derive(Clone, Debug, clap::Args)]
@@ -79,9 +80,9 @@ pub struct MeasuredRecording {
     pub duration: f64,
     /// The channels on which something is desired or felt.
     pub channels: Vec<Channel>,
-    /// Fractions of the steps in which tilt coordination, a safety unit and the
-    /// actuator guard were limited.
-    pub limits: [f64; 3],
+    /// Fractions of the steps in which tilt coordination was limited, and in which the soft limits,
+    /// a safety unit and the actuator guard were active.
+    pub limits: [f64; 4],
     /// Fraction of the steps in which a safety unit or the actuator guard limited the platform.
     pub limited: f64,
     /// Fraction of the stroke used.
@@ -104,7 +105,7 @@ impl MeasuredRecording {
             name: recording.name.clone(),
             duration: recording.manoeuvre.duration(),
             channels: channels(&simulation, &measures, &bounds),
-            limits: [effort.tilt_limited, effort.safety_active, effort.actuator_limited],
+            limits: [effort.tilt_limited, effort.soft_limited, effort.safety_active, effort.actuator_limited],
             limited: limited.count() as f64 / steps as f64,
             stroke_used: effort.stroke_used,
         })

@@ -1,5 +1,6 @@
 //! The tables that `moris measure` prints.
 
+use moris_measures::comfort::{Comfort, Excess};
 use moris_setup::Setup;
 
 use super::MeasuredRecording;
@@ -45,6 +46,7 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
         "cues %",
         "false %",
         "missing %",
+        "shake/jolt/peak",
     ]);
     for recording in recordings {
         for (index, channel) in recording.channels.iter().enumerate() {
@@ -55,7 +57,7 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
     table
 }
 
-fn row(channel: &Channel) -> [String; 10] {
+fn row(channel: &Channel) -> [String; 11] {
     let (unit, factor) = match channel.quantity {
         Quantity::Force(_) => ("m/s²", 1.0),
         Quantity::Rate(_) => ("°/s", 1f64.to_degrees()),
@@ -75,13 +77,23 @@ fn row(channel: &Channel) -> [String; 10] {
         percent(channel.cues.desired),
         percent(channel.cues.false_cues),
         percent(channel.cues.missing_cues),
+        channel.comfort.as_ref().map_or_else(|| NONE.to_owned(), comfort_cell),
     ]
+}
+
+/// Shake, jolt and peak \[m/s2\] in a cell.
+fn comfort_cell(comfort: &Comfort) -> String {
+    let number = |excess: Option<Excess>, decimals: usize| {
+        excess.map_or_else(|| NONE.to_owned(), |excess| format!("{:.decimals$}", excess.value))
+    };
+    [number(comfort.shake, 2), number(comfort.jolt, 1), number(Some(comfort.peak), 1)].join("/")
 }
 
 fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
     let mut table = TextTable::new([
         "limited, % of the steps",
         "tilt",
+        "soft limits",
         "safety units",
         "actuator guard",
         "units or guard",
@@ -89,10 +101,11 @@ fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
     ]);
     for recording in recordings {
         let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
-        let [tilt, safety, guard] = recording.limits.map(percent);
+        let [tilt, soft, safety, guard] = recording.limits.map(percent);
         table.push(vec![
             recording.name.clone(),
             tilt,
+            soft,
             safety,
             guard,
             percent(recording.limited),
