@@ -1,7 +1,7 @@
 //! Where the washout location is on the platform: the rider's head with the rider's lean, eq.
 //! (4), or another point.
 
-use moris_interface::{ParameterError, refuse};
+use moris_interface::{ParameterError, refuse, shown};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
@@ -83,7 +83,9 @@ pub fn check_torso(torso_length: f64, head_height: f64, ground: &str) -> Result<
     refuse(
         "head.torsoLength",
         format!(
-            "is {torso_length} m, which puts the seat below the {ground}; it must not exceed head.height, {head_height} m"
+            "is {} m, which puts the seat below the {ground}; it must not exceed head.height, {} m",
+            shown(torso_length),
+            shown(head_height)
         ),
     )
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::shown::shown;
 use crate::{Field, ParameterError, Unit};
 
 /// Who sets a variable (FMI 2.0, 2.2.7).
@@ -128,10 +129,12 @@ impl Row {
                 format!("one of {}", items.join(", "))
             }
             (_, None) => "a finite number".to_owned(),
-            (_, Some((min, max))) if value.is_finite() => format!("from {min} to {max}"),
-            (_, Some((min, max))) => format!("a finite number from {min} to {max}"),
+            (_, Some((min, max))) => {
+                let finite = if value.is_finite() { "" } else { "a finite number " };
+                format!("{finite}from {} to {}", shown(min), shown(max))
+            }
         };
-        format!("is {value}, but must be {expected}")
+        format!("is {}, but must be {expected}", shown(value))
     }
 
     /// The error about the first scalar variable of a field that is outside the row's range.

@@ -32,6 +32,7 @@
 //! given. The safety units' positions then follow from the rig: 95 % of what it reaches along each
 //! axis alone.
 
+use moris_interface::shown;
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{ParameterError, Rig, check};
@@ -162,6 +163,10 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
             otherwise: "docs/workbench.md lists the keys of a rig file",
         });
     }
+    if let Some((name, value)) = not_finite(&table) {
+        let reason = format!("is {value}, but must be a finite number");
+        return Err(Error::WrongValue { source_name: source_name.to_owned(), name, reason });
+    }
     let file: RigFile = toml::from_str(text).map_err(toml_error)?;
     file.check_joints(source_name)?;
     Ok(file)
@@ -173,6 +178,26 @@ fn keys(table: &toml::Table) -> impl Iterator<Item = String> {
         toml::Value::Table(inner) => inner.keys().map(|inner| format!("{key}.{inner}")).collect(),
         _ => vec![key.clone()],
     })
+}
+
+/// The first number of a table that is not finite, with its key. A place in a
+/// list is counted from 1.
+fn not_finite(table: &toml::Table) -> Option<(String, f64)> {
+    table.iter().find_map(|(key, value)| not_finite_in(key, value))
+}
+
+fn not_finite_in(name: &str, value: &toml::Value) -> Option<(String, f64)> {
+    match value {
+        toml::Value::Float(number) => (!number.is_finite()).then(|| (name.to_owned(), *number)),
+        toml::Value::Array(items) => {
+            let mut items = items.iter().zip(1..);
+            items.find_map(|(item, place)| not_finite_in(&format!("{name}[{place}]"), item))
+        }
+        toml::Value::Table(inner) => {
+            inner.iter().find_map(|(key, value)| not_finite_in(&format!("{name}.{key}"), value))
+        }
+        _ => None,
+    }
 }
 
 impl Joints {
@@ -202,7 +227,8 @@ impl RigFile {
                 .coordinates()
                 .ok_or_else(|| wrong("needs either radius and degrees, or joints; not both".to_owned()))?;
             let farthest = joints.iter().map(Vector3::amax).fold(0.0, f64::max);
-            if farthest.is_nan() || farthest > LARGEST {
+            if farthest > LARGEST {
+                let farthest = shown(farthest);
                 return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
             }
         }

@@ -96,6 +96,47 @@ fn millimetres_are_recognised() {
 }
 
 #[test]
+fn a_number_that_is_not_finite_is_named_with_its_field() {
+    let table: toml::Table = default_text().parse().unwrap();
+    let with = |value: &toml::Value, number: f64| match value {
+        toml::Value::Array(items) => {
+            let mut items = items.clone();
+            items[1] = number.into();
+            items.into()
+        }
+        _ => toml::Value::from(number),
+    };
+    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = |changed: toml::Table, name: &str| {
+            let message = refusal(&changed.to_string());
+            assert!(message.starts_with(&format!("my.toml: {name}")), "{name}: {message}");
+            assert!(message.ends_with("must be a finite number"), "{name}: {message}");
+        };
+        let mut changed = table.clone();
+        changed["neutralHeight"] = number.into();
+        refused(changed, "neutralHeight is");
+        for (section, keys) in table.iter().filter_map(|(name, value)| Some((name, value.as_table()?))) {
+            for (key, value) in keys {
+                let mut changed = table.clone();
+                changed[section][key] = with(value, number);
+                refused(changed, &format!("{section}.{key}{} is", if value.is_array() { "[2]" } else { "" }));
+            }
+        }
+    }
+}
+
+#[test]
+fn numbers_of_hundreds_of_digits_are_shown_in_few() {
+    let message = refusal(&default_text().replace("radius = 1.0", "radius = 1e308"));
+    assert!(message.len() < 120 && message.contains("e307"), "{message}");
+    for value in ["1e308", "-1e308", "1e-308"] {
+        let text = default_text().replace("neutralHeight = 1.091", &format!("neutralHeight = {value}"));
+        let message = read(&text, "my.toml").unwrap().check().unwrap_err().to_string();
+        assert_eq!(message, format!("rig.neutralHeight: is {value}, but must be from 0.001 to 100"));
+    }
+}
+
+#[test]
 fn similar_hexagons_are_read_but_do_not_pass() {
     let text =
         default_text().replace("[-52, 52, 68, 172, 188, 292]", "[-8, 8, 112, 128, 232, 248]").replace("1.091", "1.29");

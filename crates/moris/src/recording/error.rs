@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use moris_interface::shown;
+
 /// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
@@ -13,7 +15,7 @@ pub enum RecordingError {
     #[error("{}: {reason}", file.display())]
     Conventions { file: PathBuf, reason: String },
     /// An option has a value out of its range.
-    #[error("{name} is {value}, but must be from {min} to {max} {unit}")]
+    #[error("{name} is {}, but must be from {min} to {max} {unit}", shown(*value))]
     Option { name: &'static str, value: f64, min: f64, max: f64, unit: &'static str },
     /// A line or a value in it cannot be used.
     #[error("{}, line {line}{}: {reason}", file.display(), column.as_ref().map(|name| format!(", column {name}")).unwrap_or_default())]

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use moris_interface::shown;
+
 use super::RecordingError;
 use super::conventions::Quantity;
 use super::header::{Column, Term, UnitSource};
@@ -107,7 +109,7 @@ impl Part {
             file: self.file.clone(),
             line: self.lines[wrong],
             column: None,
-            reason: format!("time {what}: {after} s comes after {before} s"),
+            reason: format!("time {what}: {} s comes after {} s", shown(after), shown(before)),
         })
     }
 

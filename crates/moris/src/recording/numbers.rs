@@ -2,6 +2,9 @@
 
 use super::header::quoted;
 
+/// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
+const LARGEST: f64 = 1e30;
+
 /// Parses numbers that all have the same decimal mark.
 #[derive(Default)]
 pub struct Numbers {
@@ -30,7 +33,10 @@ impl Numbers {
             }
         };
         match number {
-            Ok(number) if number.is_finite() => Ok(number),
+            Ok(number) if number.abs() <= LARGEST => Ok(number),
+            Ok(number) if number.is_finite() => {
+                Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)))
+            }
             Ok(_) => Err(format!("is {}; cut this part off, or fill the gap with plausible values", quoted(text))),
             Err(_) if text.is_empty() => Err(
                 "is empty; cut this part off, fill the gap with plausible values, or use --empty-fields interpolate"

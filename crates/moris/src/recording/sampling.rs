@@ -1,5 +1,7 @@
 //! Resampling at equal steps. Measures and comparisons need them, the washout's filters do not.
 
+use moris_interface::shown;
+
 use super::conventions::{Conventions, Quantity};
 use super::join::GAP;
 use super::table::Table;
@@ -40,7 +42,11 @@ fn check_order(table: &Table) -> Result<(), RecordingError> {
         let [before, after] = [pair[0], pair[1]];
         if after <= before {
             let what = if after < before { "goes back" } else { "stands still" };
-            return Err(line_error(table, k + 1, format!("time {what}: {after} s comes after {before} s")));
+            return Err(line_error(
+                table,
+                k + 1,
+                format!("time {what}: {} s comes after {} s", shown(after), shown(before)),
+            ));
         }
     }
     Ok(())

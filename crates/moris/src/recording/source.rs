@@ -1,7 +1,7 @@
 //! The bytes of a recording: from a file or standard input, decompressed, and recognised as text.
 
-use std::fs;
-use std::io::{Read, stdin};
+use std::fs::{self, File};
+use std::io::{self, Read, stdin};
 use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
@@ -89,27 +89,49 @@ fn is_standard_input(file: &Path) -> bool {
 pub fn text(file: &Path) -> Result<String, RecordingError> {
     let unreadable = |reason| RecordingError::Read { file: shown(file), reason };
     let refused = |reason: &str| RecordingError::Whole { file: shown(file), reason: reason.to_owned() };
-    let mut bytes = if is_standard_input(file) {
-        let mut bytes = Vec::new();
-        stdin().lock().take(LARGEST + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-        bytes
-    } else {
-        fs::read(file).map_err(unreadable)?
+    let content = |read: io::Result<Content>| match read.map_err(unreadable)? {
+        Content::Bytes(bytes) => Ok(bytes),
+        Content::Other(reason) => Err(refused(reason)),
+        Content::TooLarge => Err(refused("is larger than 2 GB; cut it into parts")),
     };
-    if bytes.starts_with(&[0x1f, 0x8b]) {
-        let mut unpacked = Vec::new();
-        let mut decoder = MultiGzDecoder::new(&bytes[..]).take(LARGEST + 1);
-        decoder.read_to_end(&mut unpacked).map_err(unreadable)?;
-        bytes = unpacked;
-    }
-    if bytes.len() as u64 > LARGEST {
-        return Err(refused("is larger than 2 GB; cut it into parts"));
-    }
-    if let Some(reason) = other_format(&bytes) {
-        return Err(refused(reason));
+    let mut bytes = content(if is_standard_input(file) {
+        read_up_to(stdin().lock(), LARGEST)
+    } else {
+        File::open(file).and_then(|file| read_up_to(file, LARGEST))
+    })?;
+    if bytes.starts_with(GZIP) {
+        bytes = content(read_up_to(MultiGzDecoder::new(&bytes[..]), LARGEST))?;
+        if let Some(reason) = other_format(&bytes) {
+            return Err(refused(reason));
+        }
     }
     // Loggers that do not write UTF-8 write Latin-1, of which headers use ° and ².
     Ok(String::from_utf8(bytes).unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect()))
+}
+
+/// What a source holds.
+#[derive(Debug, PartialEq)]
+enum Content {
+    Bytes(Vec<u8>),
+    /// The first bytes are those of a format that is not CSV; the reason says what to do.
+    Other(&'static str),
+    TooLarge,
+}
+
+/// First bytes of a file that is compressed with gzip.
+const GZIP: &[u8] = &[0x1f, 0x8b];
+
+/// Reads to the end, unless the first bytes or the size rule the source out. So a source without
+/// an end fails.
+fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Content> {
+    let mut bytes = Vec::new();
+    source.by_ref().take(HEAD as u64).read_to_end(&mut bytes)?;
+    // A packed file is judged by what is in it.
+    if let Some(reason) = other_format(&bytes).filter(|_| !bytes.starts_with(GZIP)) {
+        return Ok(Content::Other(reason));
+    }
+    source.take((largest + 1).saturating_sub(bytes.len() as u64)).read_to_end(&mut bytes)?;
+    Ok(if bytes.len() as u64 > largest { Content::TooLarge } else { Content::Bytes(bytes) })
 }
 
 /// The remedy for a file that its first bytes show not to be CSV.
@@ -157,4 +179,20 @@ fn is_utf_16(head: &[u8]) -> bool {
         && [(zeros(0), zeros(1)), (zeros(1), zeros(0))]
             .iter()
             .any(|&(many, none)| none == 0 && many * 10 >= head.len() / 2 * 9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_source_without_an_end_fails_at_a_size() {
+        assert_eq!(read_up_to(io::repeat(b'1'), 1_000_000).unwrap(), Content::TooLarge);
+        assert!(matches!(read_up_to(io::repeat(0), u64::MAX - 1).unwrap(), Content::Other(_)));
+        for size in [0, HEAD - 1, HEAD, HEAD + 1, 10_000] {
+            let text = vec![b'1'; size];
+            assert_eq!(read_up_to(&text[..], 10_000).unwrap(), Content::Bytes(text));
+        }
+        assert_eq!(read_up_to(&[b'1'; 10_001][..], 10_000).unwrap(), Content::TooLarge);
+    }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use moris_interface::Group;
 use moris_setup::ranges::{Axis, Range, single_axis_range, stroke_margin};
 use moris_setup::rig_file::RigFile;
 use moris_washout::interface::Parameters;
@@ -61,6 +62,7 @@ impl Survey {
     /// rigs are surveyed, too.
     pub fn of(file: &RigFile, samples: u32) -> Result<Self, ParameterError> {
         let parameters = file.parameters();
+        parameters.check_ranges()?;
         let rig = &parameters.rig;
         let singularities = match (file.check(), platform::survey(rig)) {
             (Ok(()), Ok(survey)) => Singularities::None(survey),
