@@ -1,5 +1,5 @@
-//! `moris schema`: JSON schemas of the workbench's files, with which editors
-//! check and complete them.
+//! `moris schema`: JSON schemas of the workbench's files, with which editors check and complete
+//! them, and of its JSON.
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -12,6 +12,7 @@ use schemars::schema_for;
 use serde_json::{Map, Value, json};
 
 use crate::recording::ConventionOptions;
+use crate::simulate::json::SimulatedRecording;
 
 /// Print the JSON schema of a kind of file
 ///
@@ -33,6 +34,8 @@ pub enum FileKind {
     Parameters,
     /// Conventions of recordings
     Conventions,
+    /// The JSON of `simulate --json`: every measure with its unit and definition
+    Simulation,
 }
 
 /// Prints the schema.
@@ -53,6 +56,7 @@ pub fn schema(kind: FileKind) -> Result<Value> {
         FileKind::Rig => serde_json::to_value(schema_for!(RigFile))?,
         FileKind::Conventions => serde_json::to_value(schema_for!(ConventionOptions))?,
         FileKind::Parameters => parameters(),
+        FileKind::Simulation => serde_json::to_value(schema_for!(Vec<SimulatedRecording>))?,
     })
 }
 

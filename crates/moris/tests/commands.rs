@@ -238,6 +238,33 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     assert!(directory.path().join("moris-report/ride.html").exists());
 }
 
+#[test]
+fn a_rig_with_numbers_that_cannot_be_fails_the_check_with_field_and_file() {
+    let directory = tempfile::tempdir().unwrap();
+    let rig = fs::read_to_string(rigs().join("default.toml")).unwrap();
+    for (field, changed, expected) in [
+        ("neutralHeight = 1.091", "neutralHeight = nan", "neutralHeight is NaN, but must be a finite number"),
+        ("radius = 0.85", "radius = inf", "platform.radius is inf, but must be a finite number"),
+        // Infinite legs reach neutral: the check must not go on to look for singularities.
+        ("maxLength = 1.6", "maxLength = 1e308", "actuator.maxLength: is 1e308, but must be from 0.001 to 100"),
+    ] {
+        fs::write(directory.path().join("mine.toml"), rig.replace(field, changed)).unwrap();
+        let output = moris(directory.path(), &["rig", "check", "mine.toml"]);
+        let message = text(&output.stderr);
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(1), 0), "{changed}");
+        assert!(message.contains("mine.toml: ") && message.contains(expected), "{changed}: {message}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_source_that_is_no_recording_and_has_no_end_is_an_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = moris(directory.path(), &["simulate", "/dev/zero"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(text(&output.stderr).contains("/dev/zero: is no text but a binary file"), "{}", text(&output.stderr));
+}
+
 /// A recording that the platform cannot follow: swings of 8 m/s2 in surge and heave. Without soft
 /// limits, which `hard.toml` switches off, the actuator guard stops it at once.
 fn write_rough_recording(directory: &Path) {
@@ -275,6 +302,44 @@ fn a_felt_jolt_is_found_directly_after_the_limits() {
     assert!(rough.iter().any(|text| text.contains(" jolts by ")), "{rough:?}");
     let count = rough.iter().filter(comfort).count();
     assert!(rough[1..=count].iter().all(|text| comfort(&text)), "{rough:?}");
+}
+
+/// Soft limits keep the hard ones from acting. The finding's times are those of the table.
+#[test]
+fn soft_limits_are_named_with_their_times_and_their_cost() {
+    let directory = tempfile::tempdir().unwrap();
+    write_recording(directory.path(), "ride.csv");
+    write_rough_recording(directory.path());
+    let narrow = rigs().join("narrow.toml").display().to_string();
+    let output =
+        moris(directory.path(), &["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let result = |recording: usize| &all[recording]["results"][0];
+    assert_eq!((&result(0)["fits"], &result(1)["fits"]), (&true.into(), &true.into()));
+    let smooth = result(0)["findings"][0].as_str().unwrap();
+    assert!(smooth.starts_with("The recording fits the rig: ") && !smooth.contains("oft limits"), "{smooth}");
+
+    let table = directory.path().join("moris-report/rough.outputs.csv");
+    let mut table = csv::Reader::from_path(table).unwrap();
+    let column = table.headers().unwrap().iter().position(|name| name == "status.softLimited").unwrap();
+    let flags: Vec<bool> = table.records().map(|row| &row.unwrap()[column] == "1").collect();
+    let (first, steps) = (flags.iter().position(|flag| *flag).unwrap(), flags.len() - 1);
+    let count = flags.iter().filter(|flag| **flag).count();
+    let fraction = 100.0 * count as f64 / steps as f64;
+    assert!((1.0..99.0).contains(&fraction), "{fraction}");
+    let rough = result(1)["findings"][0].as_str().unwrap();
+    for part in [
+        "The recording stays within the rig by its soft limits alone. ",
+        &format!(" for {:.2} s in all ({fraction:.1} %), ", 0.01 * count as f64),
+        &format!(" {:.2} ", 0.01 * (first - 1) as f64),
+        "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.",
+    ] {
+        assert!(rough.contains(part), "{part}: {rough}");
+    }
+    let measures = result(1)["measures"].as_array().unwrap();
+    let soft = measures.iter().find(|row| row["name"] == "soft limits active").unwrap();
+    assert!((soft["value"].as_f64().unwrap() - fraction).abs() < 1e-9 && soft["unit"] == "%", "{soft}");
 }
 
 #[test]
@@ -440,6 +505,36 @@ fn schemas_describe_the_files() {
         assert!(required.contains(&key), "{key}");
     }
     assert_eq!(rig["additionalProperties"], false);
+
+    // The JSON of a simulation has the keys of its schema, and measures of the same units.
+    write_recording(directory.path(), "ride.csv");
+    let printed = moris(directory.path(), &["simulate", "ride.csv", "--no-bound", "--json"]).stdout;
+    let simulated: serde_json::Value = serde_json::from_slice(&printed).unwrap();
+    let schema_of_results = schema("simulation");
+    let keys = |object: &serde_json::Value| -> Vec<String> { object.as_object().unwrap().keys().cloned().collect() };
+    let definition = |name: &str| &schema_of_results["$defs"][name];
+    for (name, object) in [("SimulatedRecording", &simulated[0]), ("SetResult", &simulated[0]["results"][0])] {
+        assert_eq!(keys(&definition(name)["properties"]), keys(object));
+        assert_eq!(definition(name)["required"].as_array().unwrap().len(), keys(object).len(), "{name}");
+    }
+    let known = definition("SetResult")["properties"]["measures"]["items"]["oneOf"].as_array().unwrap();
+    let measures = simulated[0]["results"][0]["measures"].as_array().unwrap();
+    for measure in measures {
+        let fits = |known: &&serde_json::Value| {
+            ["subject", "name", "unit"].iter().all(|key| known["properties"][key]["const"] == measure[key])
+        };
+        assert_eq!(known.iter().filter(fits).count(), 1, "{measure}");
+    }
+    for name in ["shake", "jolt", "peak"] {
+        let described = known.iter().filter(|known| known["properties"]["name"]["const"] == name);
+        let units = described.map(|known| known["properties"]["unit"]["const"].as_str().unwrap());
+        assert_eq!(units.collect::<Vec<_>>(), ["m/s²"; 3], "{name}");
+        assert!(measures.iter().any(|measure| measure["name"] == name), "{name}");
+    }
+    let jolt = known.iter().find(|known| known["properties"]["name"]["const"] == "jolt").unwrap();
+    assert!(
+        jolt["description"].as_str().unwrap().contains("difference between two values of the felt force within 20 ms")
+    );
 
     let conventions = schema("conventions");
     for key in ["format", "columns", "force-unit", "mounting", "empty-fields", "resample", "fade-in"] {

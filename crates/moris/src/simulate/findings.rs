@@ -4,8 +4,10 @@ use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::fidelity::Fidelity;
 use moris_report::{Finding, Weight};
 
-use super::{Outcome, Simulation};
 use moris_washout::Output;
+
+use super::spans::Spans;
+use super::{Outcome, Simulation, fits_the_rig};
 
 /// Less than this of a signal is not worth a sentence: RMS of the desired specific force
 /// without its mean \[m/s2\].
@@ -20,6 +22,12 @@ const USELESS: f64 = 1.0;
 const LEAST_SHAKE: f64 = 0.1;
 const LEAST_JOLT: f64 = 1.0;
 const LEAST_PEAK: f64 = 1.0;
+
+/// Largest fraction of the time with soft limits at which a recording fits the rig.
+const SELDOM: f64 = 0.01;
+/// The cost of soft limits.
+const GIVEN_UP: &str =
+    "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
 
 const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 
@@ -37,36 +45,62 @@ fn finding(weight: Weight, text: String) -> Finding {
     Finding { weight, text }
 }
 
-/// Fit of the recording to the rig: active limits, their durations and first times.
+/// Fit of the recording to the rig: active limits, their durations and times.
 fn fits(outcome: &Outcome) -> Finding {
     let effort = &outcome.measures.effort;
     let simulation = &outcome.simulation;
-    let sentences: Vec<String> = [
+    let hard: Vec<String> = [
         limited_time("The actuators' limits", simulation, |output| output.actuator_limited),
         limited_time("The safety units", simulation, |output| output.safety_active),
     ]
     .into_iter()
     .flatten()
     .collect();
+    let soft = soft_limited_time(simulation);
     let used = format!(
         "{:.0} % of the stroke is used, and {:.0} mm are left at the least",
         100.0 * effort.stroke_used,
         1000.0 * effort.smallest_margin
     );
-    match sentences.as_slice() {
-        [] => finding(Weight::Good, format!("The recording fits the rig: {used}.")),
-        sentences => {
-            finding(Weight::Warning, format!("The recording does not fit the rig. {} ({used}.)", sentences.join(" ")))
+    match (hard.as_slice(), soft) {
+        ([], None) => finding(Weight::Good, format!("The recording fits the rig: {used}.")),
+        ([], Some(soft)) if fits_freely(outcome) => {
+            finding(Weight::Good, format!("The recording fits the rig: {used}. {soft}"))
+        }
+        ([], Some(soft)) => finding(
+            Weight::Warning,
+            format!("The recording stays within the rig by its soft limits alone. {soft} {GIVEN_UP} ({used}.)"),
+        ),
+        (hard, soft) => {
+            let soft = soft.map_or_else(String::new, |soft| format!(" {soft} {GIVEN_UP}"));
+            finding(Weight::Warning, format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" ")))
         }
     }
 }
 
+/// True if neither a safety unit nor an actuator's limit was active, and soft limits hardly ever.
+pub fn fits_freely(outcome: &Outcome) -> bool {
+    fits_the_rig(outcome) && outcome.measures.effort.soft_limited <= SELDOM
+}
+
 /// Active limits with total duration and first time; none without any.
 fn limited_time(what: &str, simulation: &Simulation, is_active: impl Fn(&Output) -> bool) -> Option<String> {
-    let time = |samples: usize| samples as f64 * simulation.step;
-    let first = simulation.outputs.iter().position(&is_active)?;
-    let all = simulation.outputs.iter().filter(|output| is_active(output)).count();
-    Some(format!("{what} limited the platform for {:.2} s in all, first at {:.2} s.", time(all), time(first)))
+    let spans = Spans::of(simulation, is_active);
+    let first = spans.first()?;
+    Some(format!("{what} limited the platform for {:.2} s in all, first at {:.2} s.", spans.total, first[0]))
+}
+
+/// The same of the soft limits, with the longest span; they act for longer, and more often.
+fn soft_limited_time(simulation: &Simulation) -> Option<String> {
+    let spans = Spans::of(simulation, |output| output.soft_limited);
+    let ([first, _], [from, to]) = (spans.first()?, spans.longest()?);
+    let duration = simulation.step * (simulation.outputs.len().max(2) - 1) as f64;
+    let fraction = 100.0 * spans.total / duration;
+    let all = format!("Soft limits acted for {:.2} s in all ({fraction:.1} %)", spans.total);
+    Some(match spans.count() {
+        1 => format!("{all}, from {from:.2} to {to:.2} s."),
+        _ => format!("{all}, first at {first:.2} s, for longest from {from:.2} to {to:.2} s."),
+    })
 }
 
 /// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use moris_report::{IndexRow, index_html};
 
-use super::Outcome;
+use super::{Outcome, findings};
 use crate::recording::Recording;
 
 /// A recording in the list.
@@ -18,9 +18,10 @@ pub struct Entry {
     error: f64,
 }
 
-const HEADS: [&str; 10] = [
+const HEADS: [&str; 11] = [
     "duration s",
     "limits active %",
+    "soft limits active %",
     "stroke used %",
     "shake m/s²",
     "jolt m/s²",
@@ -43,6 +44,7 @@ impl Entry {
         let first = [
             format!("{:.1}", recording.manoeuvre.duration()),
             format!("{:.1}", 100.0 * limited),
+            format!("{:.1}", 100.0 * effort.soft_limited),
             format!("{:.0}", 100.0 * effort.stroke_used),
         ];
         // The largest of the axes.
@@ -51,7 +53,7 @@ impl Entry {
         let row = IndexRow {
             name: recording.name.clone(),
             file: page.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            is_good: limited == 0.0,
+            is_good: findings::fits_freely(outcome),
             cells: first.into_iter().chain(comfort).chain(errors.map(figure)).chain([figure(Some(error))]).collect(),
         };
         Entry { row, limited, error }

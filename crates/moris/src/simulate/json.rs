@@ -1,39 +1,97 @@
 //! Measures and findings for other programs, as JSON.
 
+use std::path::PathBuf;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{Outcome, findings, fits_the_rig};
 use crate::recording::Recording;
 
-/// A recording with one or several parameter sets.
+/// A recording, simulated with one or several sets of parameters.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
+pub struct SimulatedRecording {
+    /// Name of the recording.
+    recording: String,
+    /// Duration, in s.
+    duration: f64,
+    /// Time between samples, in s.
+    step: f64,
+    /// Conspicuous properties of the recording.
+    warnings: Vec<String>,
+    /// Results with each set of parameters, in the order of the command line.
+    results: Vec<SetResult>,
+    /// Files written: tables of outputs, and the report.
+    files: Vec<String>,
+}
+
+/// Results with one set of parameters.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[serde(rename_all = "camelCase")]
+#[schemars(deny_unknown_fields)]
+struct SetResult {
+    /// Name of the rig.
+    rig: String,
+    /// Name of the parameters.
+    parameters: String,
+    /// False if a safety unit or the actuator guard was active. Soft limits may have been.
+    fits: bool,
+    /// Findings in sentences, the most important first.
+    findings: Vec<String>,
+    /// Least RMS error of the specific force along x, y and z that any controller could reach, in
+    /// m/s²; null without a desired signal, and with --no-bound.
+    force_bounds: [Option<f64>; 3],
+    /// Measures; those of axes on which nothing is desired and nothing felt are left out.
+    #[schemars(schema_with = "measures_schema")]
+    measures: Vec<Value>,
+}
+
+/// Each measure with its unit and definition.
+fn measures_schema(_: &mut SchemaGenerator) -> Schema {
+    let measure = |row: moris_measures::Row| {
+        json!({
+            "description": row.definition,
+            "properties": {
+                "subject": { "const": row.subject },
+                "name": { "const": row.name },
+                "value": { "type": ["number", "null"] },
+                "unit": { "const": row.unit },
+            },
+            "required": ["subject", "name", "value", "unit"],
+            "additionalProperties": false,
+        })
+    };
+    let measures: Vec<Value> = moris_measures::all_rows().into_iter().map(measure).collect();
+    json_schema!({ "type": "array", "items": { "type": "object", "oneOf": measures } })
+}
+
+/// A recording with one or several parameter sets, and the files written.
 ///
 /// Each measure has the subject, name, value and unit of the report's table; an
 /// undefined value is `null`.
-pub fn recording(recording: &Recording, outcomes: &[Outcome]) -> Value {
-    json!({
-        "recording": recording.name,
-        "duration": recording.manoeuvre.duration(),
-        "step": recording.step(),
-        "warnings": recording.warnings,
-        "results": outcomes.iter().map(result).collect::<Vec<Value>>(),
-    })
+pub fn recording(recording: &Recording, outcomes: &[Outcome], files: &[PathBuf]) -> SimulatedRecording {
+    SimulatedRecording {
+        recording: recording.name.clone(),
+        duration: recording.manoeuvre.duration(),
+        step: recording.step(),
+        warnings: recording.warnings.clone(),
+        results: outcomes.iter().map(result).collect(),
+        files: files.iter().map(|file| file.display().to_string()).collect(),
+    }
 }
 
-fn result(outcome: &Outcome) -> Value {
-    let bounds: Vec<Option<f64>> =
-        outcome.bounds.iter().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error)).collect();
-    let measures: Vec<Value> = outcome
-        .measures
-        .rows()
-        .into_iter()
-        .map(|row| json!({ "subject": row.subject, "name": row.name, "value": row.value, "unit": row.unit }))
-        .collect();
-    json!({
-        "rig": outcome.setup.rig_name,
-        "parameters": outcome.setup.parameters_name,
-        "fits": fits_the_rig(outcome),
-        "findings": findings::of(outcome).into_iter().map(|finding| finding.text).collect::<Vec<String>>(),
-        "forceBounds": bounds,
-        "measures": measures,
-    })
+fn result(outcome: &Outcome) -> SetResult {
+    let measures = outcome.measures.rows().into_iter();
+    let measure = |row: moris_measures::Row| json!({ "subject": row.subject, "name": row.name, "value": row.value, "unit": row.unit });
+    SetResult {
+        rig: outcome.setup.rig_name.clone(),
+        parameters: outcome.setup.parameters_name.clone(),
+        fits: fits_the_rig(outcome),
+        findings: findings::of(outcome).into_iter().map(|finding| finding.text).collect(),
+        force_bounds: outcome.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error)),
+        measures: measures.map(measure).collect(),
+    }
 }

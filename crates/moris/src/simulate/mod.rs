@@ -15,6 +15,7 @@ pub mod measured;
 pub mod output_table;
 pub mod page;
 pub mod simulation;
+mod spans;
 pub mod summary;
 
 use std::collections::BTreeMap;
@@ -46,8 +47,9 @@ const DOES_NOT_FIT: u8 = 3;
 /// the worst first. If a recording cannot be used, the others are still simulated. Recordings fade
 /// in from rest over 1 s; --fade-in changes it.
 ///
-/// The exit status is 0 if every recording fits the rig, and 1 if one could not be simulated. It is
-/// 3 if a safety unit or the actuator guard was active on one, with the first parameters.
+/// The exit status is 0 if every recording stays within the rig, and 1 if one could not
+/// be simulated. It is 3 if a safety unit or the actuator guard was active on one, with
+/// the first parameters.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings: CSV, also .csv.gz; - is standard input. The columns are time, the specific force
@@ -78,7 +80,8 @@ pub struct Options {
     #[arg(long)]
     no_bound: bool,
 
-    /// Print the measures as JSON, an array with an object for each recording
+    /// Print the measures as JSON, an array with an object for each recording; `moris schema
+    /// simulation` describes it
     #[arg(long)]
     json: bool,
 
@@ -192,7 +195,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         }
     }
     if options.json {
-        writeln!(out, "{:#}", serde_json::Value::Array(objects))?;
+        writeln!(out, "{:#}", serde_json::to_value(objects)?)?;
     }
     Ok(match (any_failed, all_fit) {
         (true, _) => ExitCode::FAILURE,
@@ -238,7 +241,7 @@ struct Simulated {
     /// No safety unit and no actuator's limit was active with the first parameters.
     fits: bool,
     text: String,
-    json: serde_json::Value,
+    json: json::SimulatedRecording,
     files: Vec<PathBuf>,
     entry: index::Entry,
 }
@@ -253,8 +256,7 @@ fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conven
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
     let files = write_files(&options.report, &recording, &outcomes)?;
     progress.finish();
-    let mut json = json::recording(&recording, &outcomes);
-    json["files"] = files.iter().map(|file| file.display().to_string()).collect();
+    let json = json::recording(&recording, &outcomes, &files);
     let page = files.last().map(PathBuf::as_path).unwrap_or(file);
     let entry = index::Entry::new(&recording, &outcomes[0], page);
     Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&recording, &outcomes), json, files, entry })
