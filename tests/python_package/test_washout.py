@@ -347,11 +347,41 @@ def test_any_input_is_safe():
     washout = moris.Washout()
     for force in ([float("nan")] * 3, (1e300, -1e300, float("inf")), [0, 0, 0]):
         for _ in range(200):
-            lengths = washout.step(0.01, force, (1e9, float("nan"), 0.0))["actuator.length"]
+            lengths = washout.step(0.01, force, (1e9, float("nan"), 0.0), nan="rest")["actuator.length"]
             assert all(1.0 <= length <= 1.6 for length in lengths)
     for force in ((1.0, 2.0), "abc", ("a", "b", "c"), 1.0):
         with pytest.raises(TypeError, match="specific_force is .* three numbers"):
             washout.step(0.01, force)
+
+
+def test_nan_is_an_error_that_names_the_sample_unless_it_is_rest():
+    time = np.arange(200) * 0.01
+    force = np.tile([1.0, 0.5, 9.80665], (200, 1))
+    gap = force.copy()
+    gap[120, 1] = np.nan
+    washout = moris.Washout()
+    before = washout.copy()
+    with pytest.raises(moris.RecordingError, match=r"specific_force\[120, 1\] is NaN.*nan=\"rest\""):
+        washout.run(time, gap)
+    lean = np.where(np.arange(200) == 7, np.nan, 0.0)
+    with pytest.raises(moris.RecordingError, match=r"lean\[7\] is NaN"):
+        washout.run(time, force, lean=lean)
+    for inputs, name in (
+        ({"specific_force": (0.0, 0.0, np.nan)}, r"specific_force\[2\]"),
+        ({"angular_velocity": (np.nan, 0.0, 0.0)}, r"angular_velocity\[0\]"),
+        ({"orientation": (0.0, np.nan, 0.0)}, r"orientation\[1\]"),
+        ({"speed": np.nan}, "speed"),
+        ({"lean": np.nan}, "lean"),
+    ):
+        with pytest.raises(ValueError, match=f"^{name} is NaN"):
+            washout.step(0.01, **inputs)
+    with pytest.raises(ValueError, match="nan is \"skip\""):
+        washout.step(0.01, nan="skip")
+    assert washout == before, "nothing was stepped"
+    at_rest = force.copy()
+    at_rest[120, 1] = 0.0
+    lengths = [moris.Washout().run(time, forces, nan="rest")["actuator.length"] for forces in (gap, at_rest)]
+    assert np.array_equal(*lengths)
 
 
 def test_other_threads_run_during_a_run():

@@ -59,19 +59,25 @@ pub struct Arrays<'a, 'py> {
     pub engaged: Option<&'a Bound<'py, PyAny>>,
 }
 
+/// End of the message of an input that is NaN.
+pub const NAN_REMEDY: &str = "; fill the gap, or take NaN as rest with nan=\"rest\"";
+
 /// The samples' times and inputs.
 ///
 /// # Errors
-/// `RecordingError`: an array has another shape, or time does not increase.
-pub fn samples(time: &Bound<PyAny>, arrays: &Arrays) -> PyResult<(Vec<f64>, Time, Vec<Input>)> {
+/// `RecordingError`: an array has another shape or holds NaN that does not count as rest, or time
+/// does not increase.
+pub fn samples(time: &Bound<PyAny>, arrays: &Arrays, nan_is_rest: bool) -> PyResult<(Vec<f64>, Time, Vec<Input>)> {
     let times = values(time, "time", None, None)?;
     let steps = Time::of(time.py(), &times)?;
     let count = times.len();
-    let vectors =
-        |array: Option<&Bound<PyAny>>, name| array.map(|array| values(array, name, Some(count), Some(3))).transpose();
-    let scalars =
-        |array: Option<&Bound<PyAny>>, name| array.map(|array| values(array, name, Some(count), None)).transpose();
-    let force = values(arrays.specific_force, "specific_force", Some(count), Some(3))?;
+    let inputs = |array: &Bound<PyAny>, name, columns| {
+        let values = values(array, name, Some(count), columns)?;
+        if nan_is_rest { Ok(values) } else { without_nan(array.py(), values, name, columns) }
+    };
+    let vectors = |array: Option<&Bound<PyAny>>, name| array.map(|array| inputs(array, name, Some(3))).transpose();
+    let scalars = |array: Option<&Bound<PyAny>>, name| array.map(|array| inputs(array, name, None)).transpose();
+    let force = inputs(arrays.specific_force, "specific_force", Some(3))?;
     let rate = vectors(arrays.angular_velocity, "angular_velocity")?;
     let angles = vectors(arrays.orientation, "orientation")?;
     let speed = scalars(arrays.speed, "speed")?;
@@ -92,6 +98,13 @@ pub fn samples(time: &Bound<PyAny>, arrays: &Arrays) -> PyResult<(Vec<f64>, Time
         input.engaged = engaged.as_ref().map_or(input.engaged, |engaged| engaged[k] != 0.0);
     }
     Ok((times, steps, inputs))
+}
+
+/// The values, of which none is NaN.
+fn without_nan(py: Python, values: Vec<f64>, name: &str, columns: Option<usize>) -> PyResult<Vec<f64>> {
+    let Some(place) = values.iter().position(|value| value.is_nan()) else { return Ok(values) };
+    let place = columns.map_or_else(|| place.to_string(), |count| format!("{}, {}", place / count, place % count));
+    Err(error::recording(py, format!("{name}[{place}] is NaN{NAN_REMEDY}")))
 }
 
 /// The values of an array of shape (`rows`,) or (`rows`, `columns`), row by row.

@@ -10,7 +10,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
-use crate::arrays::{Arrays, samples};
+use crate::arrays::{Arrays, NAN_REMEDY, samples};
 use crate::output::{COUNT, PyOutput, VARIABLES};
 use crate::preview::{self, Previews};
 use crate::variables::Variables;
@@ -69,10 +69,12 @@ impl PyWashout {
     /// - preview_step: time between the elements of the preview, from 0.01 to 10 [s], by default
     ///   0.2.
     ///
+    /// - nan: "error" raises ValueError where an input is NaN, before the step. "rest" takes NaN as
+    ///   the value at rest.
+    ///
     /// Within the step the input is interpolated from the last one to this one, or held, as
-    /// `input.reconstruction` specifies. Any input is safe: NaN counts as the value at rest, and a
-    /// value outside its range as the range's end.
-    #[pyo3(signature = (dt, specific_force=None, angular_velocity=None, orientation=None, speed=0.0, lean=0.0, engaged=true, *, preview=None, preview_step=None))]
+    /// `input.reconstruction` specifies. A value outside its range counts as the range's end.
+    #[pyo3(signature = (dt, specific_force=None, angular_velocity=None, orientation=None, speed=0.0, lean=0.0, engaged=true, *, preview=None, preview_step=None, nan="error"))]
     #[allow(clippy::too_many_arguments)]
     fn step(
         &mut self,
@@ -85,8 +87,10 @@ impl PyWashout {
         engaged: bool,
         preview: Option<&Bound<PyAny>>,
         preview_step: Option<f64>,
+        nan: &str,
     ) -> PyResult<PyOutput> {
         self.check_step(dt)?;
+        let nan_is_rest = nan_is_rest(nan)?;
         let force = vector(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?;
         let rate = vector(angular_velocity, "angular_velocity", [0.0; 3])?;
         let angles = vector(orientation, "orientation", [0.0; 3])?;
@@ -98,6 +102,9 @@ impl PyWashout {
             lean,
             engaged,
         };
+        if !nan_is_rest {
+            check_numbers(&input)?;
+        }
         let preview = preview.map(|array| Previews::of(array, None, preview_step)).transpose()?;
         self.start(&input);
         self.washout.preview(&preview.map_or(preview::NONE, |preview| preview.at(0)));
@@ -119,11 +126,13 @@ impl PyWashout {
     /// - preview_step: time between the elements of the preview [s], by default 0.2.
     /// - inputs: "slopes" interpolates linearly between samples, as a host that sets input
     ///   derivatives. "values" sets each sample at the start of its step, as a host that sets none.
+    /// - nan: "error" raises RecordingError with the first sample that is NaN, before any step.
+    ///   "rest" takes NaN as the value at rest.
     ///
     /// The first row is the output before the first step. A further call continues from there; its
     /// first sample is the last one of the previous call. Other Python threads can run meanwhile.
     /// Raises RecordingError for arrays whose shapes do not match.
-    #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, preview=None, preview_step=None, inputs="slopes"))]
+    #[pyo3(signature = (time, specific_force, angular_velocity=None, orientation=None, speed=None, lean=None, engaged=None, *, preview=None, preview_step=None, inputs="slopes", nan="error"))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &mut self,
@@ -138,6 +147,7 @@ impl PyWashout {
         preview: Option<&Bound<'py, PyAny>>,
         preview_step: Option<f64>,
         inputs: &str,
+        nan: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let slopes = match inputs {
             "slopes" => true,
@@ -149,7 +159,7 @@ impl PyWashout {
             }
         };
         let arrays = Arrays { specific_force, angular_velocity, orientation, speed, lean, engaged };
-        let (times, time, samples) = samples(time, &arrays)?;
+        let (times, time, samples) = samples(time, &arrays, nan_is_rest(nan)?)?;
         let previews = preview.map(|array| Previews::of(array, Some(samples.len()), preview_step)).transpose()?;
         for k in 1..samples.len() {
             self.check_step(time.step(k - 1))?;
@@ -261,6 +271,34 @@ impl PyWashout {
             return Ok(());
         }
         Err(PyValueError::new_err(format!("dt is {dt} s, but must be above 0 and not above {longest} s")))
+    }
+}
+
+/// The meaning of the argument `nan`.
+fn nan_is_rest(nan: &str) -> PyResult<bool> {
+    match nan {
+        "error" => Ok(false),
+        "rest" => Ok(true),
+        _ => Err(PyValueError::new_err(format!("nan is {nan:?}, but must be \"error\" or \"rest\""))),
+    }
+}
+
+/// Checks that no number of an input is NaN.
+fn check_numbers(input: &Input) -> PyResult<()> {
+    let angles = input.orientation.to_vector();
+    let vectors = [
+        ("specific_force", &input.specific_force),
+        ("angular_velocity", &input.angular_velocity),
+        ("orientation", &angles),
+    ];
+    let elements = vectors.into_iter().flat_map(|(name, vector)| (0..3).map(move |k| (name, Some(k), vector[k])));
+    let scalars = [("speed", None, input.speed), ("lean", None, input.lean)];
+    match elements.chain(scalars).find(|(_, _, value)| value.is_nan()) {
+        None => Ok(()),
+        Some((name, place, _)) => {
+            let place = place.map_or_else(String::new, |k: usize| format!("[{k}]"));
+            Err(PyValueError::new_err(format!("{name}{place} is NaN{NAN_REMEDY}")))
+        }
     }
 }
 

@@ -98,6 +98,7 @@ class Washout:
         *,
         preview: ArrayLike | None = None,
         preview_step: float | None = None,
+        nan: Literal["error", "rest"] = "error",
     ) -> Output: ...
     def run(
         self,
@@ -112,6 +113,7 @@ class Washout:
         preview: ArrayLike | None = None,
         preview_step: float | None = None,
         inputs: Literal["slopes", "values"] = "slopes",
+        nan: Literal["error", "rest"] = "error",
     ) -> Outputs: ...
     def retune(self, parameters: _ParameterSet) -> None: ...
     def copy(self) -> Washout: ...
