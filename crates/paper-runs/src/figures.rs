@@ -102,7 +102,9 @@ fn felt_against_desired(
     felt: impl Fn(&Sample) -> f64,
 ) -> Vec<Curve> {
     let mut curves = vec![curve("desired", GREY, Stroke::Broad, runs[0], desired)];
-    for (run, colour) in runs.iter().zip([BLUE, VERMILION, GREEN, PURPLE]) {
+    let colours = [BLUE, VERMILION, GREEN, PURPLE, BLACK];
+    assert!(runs.len() <= colours.len(), "no colour for each of {} curves", runs.len());
+    for (run, colour) in runs.iter().zip(colours) {
         let label = match runs.len() {
             1 => "felt".into(),
             2 => format!("felt, parameters “{}”", run.parameters),
