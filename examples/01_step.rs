@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     picture.fill(&WHITE)?;
     let panels = picture.split_evenly((3, 1));
     let (grey, blue) = (RGBColor(150, 150, 150), RGBColor(31, 119, 180));
-    draw(&panels[0], "felt surge, desired grey [m/s²]", -0.4..1.2, &[(grey, &desired), (blue, &felt)])?;
+    draw(&panels[0], "felt surge, desired grey [m/s²]", -0.4..1.6, &[(grey, &desired), (blue, &felt)])?;
     draw(&panels[1], "platform's position, x [m]", -0.02..0.05, &[(blue, &surge)])?;
     draw(&panels[2], "platform's pitch, nose up [°]", -1.0..7.0, &[(blue, &pitch)])?;
     picture.present()?;
