@@ -303,7 +303,7 @@ interface! {
     /// the neutral position.
     pub struct SafetyParameters: Parameter, Tunable {
         /// Largest displacement of the platform from neutral.
-        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.36, 0.36, 0.33);
+        "safety.@.positionLimit" position_limit: Vector3<f64> [M] { 1e-9 ..= 1e9 } = Vector3::new(0.37, 0.37, 0.33);
         /// Largest velocity of the platform.
         "safety.@.velocityLimit" velocity_limit: Vector3<f64> [M_PER_S] { 1e-9 ..= 1e9 } = Vector3::new(1.0, 1.0, 1.0);
         /// Largest acceleration of the platform, for braking too.

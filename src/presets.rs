@@ -59,8 +59,6 @@ const OF_THE_PAPER: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.38),
     ("limit.specificForce.x", 8.0),
     ("limit.specificForce.y", 8.0),
-    ("safety.x.positionLimit", 0.45),
-    ("safety.y.positionLimit", 0.45),
     ("softLimit.pace", 0.0),
 ];
 
@@ -152,12 +150,10 @@ pub const ADAPTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Adaptive);
 pub const OPTIMAL: &[(&str, f64)] = &unscaled(StrategyKind::Optimal);
 /// The robust strategy, with the specific force unscaled.
 pub const ROBUST: &[(&str, f64)] = &unscaled(StrategyKind::Robust);
-/// The predictive strategy, with the specific force unscaled. It plans within the actuators'
-/// strokes, so it has more room, and soft limits that act later.
-pub const PREDICTIVE: &[(&str, f64)] = &joined::<{ UNSCALED + ROOM.len() + 1 }>(
-    &joined::<{ UNSCALED + ROOM.len() }>(&unscaled(StrategyKind::Predictive), ROOM),
-    &[("softLimit.pace", 6.0)],
-);
+/// The predictive strategy, with the specific force unscaled. It plans within the actuators' strokes,
+/// so its soft limits act later.
+pub const PREDICTIVE: &[(&str, f64)] =
+    &joined::<{ UNSCALED + 1 }>(&unscaled(StrategyKind::Predictive), &[("softLimit.pace", 6.0)]);
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
 /// wider, since what comes after is known.
@@ -170,9 +166,6 @@ const FARTHER: &[(&str, f64)] = &[
     ("tilt.angleLimit", 0.38),
     ("softLimit.pace", 9.0),
 ];
-
-/// The travel that a plan within the actuators' strokes may use.
-const ROOM: &[(&str, f64)] = &[("safety.x.positionLimit", 0.42), ("safety.y.positionLimit", 0.42)];
 
 /// Number of values of [`unscaled`].
 const UNSCALED: usize = 4;

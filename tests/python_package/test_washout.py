@@ -232,7 +232,7 @@ def test_unequal_steps_are_taken_as_they_are():
     # The platform's velocity is the derivative of its position, whatever the steps.
     position, velocity = run["platform.position"], run["platform.velocity"]
     mean = 0.5 * (velocity[1:] + velocity[:-1])
-    assert np.abs(np.diff(position, axis=0) / np.diff(run.time)[:, None] - mean).max() < 5e-3 * np.abs(velocity).max()
+    assert np.abs(np.diff(position, axis=0) / np.diff(run.time)[:, None] - mean).max() < 1e-2 * np.abs(velocity).max()
 
 
 def test_outputs_have_the_fmus_names_shapes_and_kinds(ride):

@@ -29,5 +29,8 @@ pub const STRATEGIES: [ParameterSet; 5] = [
     ParameterSet { name: "predictive", values: presets::PREDICTIVE },
 ];
 
-const PAPER_WITH_PREACTION: [(&str, f64); presets::PAPER.len() + presets::PREACTION.len()] =
-    presets::joined(presets::PAPER, presets::PREACTION);
+/// Of the stroke, ahead of the stop, as much as the paper's rig has.
+const STROKE_OF_THE_PAPER: &[(&str, f64)] = &[("safety.x.positionLimit", 0.45), presets::PREACTION[0]];
+
+const PAPER_WITH_PREACTION: [(&str, f64); presets::PAPER.len() + STROKE_OF_THE_PAPER.len()] =
+    presets::joined(presets::PAPER, STROKE_OF_THE_PAPER);

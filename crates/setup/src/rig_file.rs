@@ -22,7 +22,7 @@
 //! torsoLength = 0.75
 //!
 //! [safety]                           # optional: the safety units' limits, for x, y, z
-//! positionLimit = [0.45, 0.45, 0.33] # m from neutral
+//! positionLimit = [0.37, 0.37, 0.33] # m from neutral
 //! velocityLimit = [1.0, 1.0, 1.0]    # m/s
 //! accelerationLimit = [10.0, 10.0, 10.0] # m/s2
 //! ```

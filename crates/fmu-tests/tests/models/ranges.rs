@@ -1,6 +1,6 @@
 //! The libraries keep the ranges that the rows state.
 
-use moris_interface::{Causality, Kind, Row, Variability};
+use moris_interface::{Causality, Kind, Row, Variability, shown};
 
 use crate::library::*;
 
@@ -58,7 +58,7 @@ fn parameters_take_the_ends_of_their_ranges_and_nothing_beyond() {
                         messages.borrow_mut().clear();
                         assert_eq!(instance.set(slot, value), DISCARD, "{name} = {value}");
                         let message = &messages.borrow()[0];
-                        let parts = [format!("'{name}'"), format!("{value}"), format!("{min}"), format!("{max}")];
+                        let parts = [format!("'{name}'"), shown(value), shown(min), shown(max)];
                         let named = if matches!(row.kind, Kind::Enumeration(_)) { &parts[..2] } else { &parts[..] };
                         assert!(named.iter().all(|part| message.contains(part)), "{message}");
                     }
