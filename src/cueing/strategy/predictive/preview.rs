@@ -68,8 +68,8 @@ impl Course {
 
 /// The latest course, and those given within one of its steps before.
 ///
-/// Each preview's points lie between those of the others, so that within a step a host tells all of a
-/// force that it knows at points of time. Together they have the means of a force that vibrates.
+/// Each preview's points lie between those of the others, so that within a step a host tells all of
+/// a force that it knows at points of time. Together they have the means of a force that vibrates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Courses {
     latest: Course,
