@@ -31,7 +31,8 @@ use crate::{error, setup};
 #[pyclass(module = "moris", name = "Washout", eq)]
 #[derive(Clone, PartialEq)]
 pub struct PyWashout {
-    washout: Washout,
+    /// In a box, as Python aligns its objects to 16 bytes and a vector of four numbers needs 32.
+    washout: Box<Washout>,
     /// False before the first step. There the input's lean and engagement apply at once.
     started: bool,
 }
@@ -49,7 +50,7 @@ impl PyWashout {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let washout =
             Washout::new(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
-        Ok(PyWashout { washout, started: false })
+        Ok(PyWashout { washout: Box::new(washout), started: false })
     }
 
     /// Advances by `dt` seconds with one sample of input, and returns the outputs
@@ -260,7 +261,7 @@ impl PyWashout {
     fn start(&mut self, input: &Input) {
         if !self.started {
             // The washout is cloned once: it is built anew from itself.
-            self.washout = self.washout.clone().starting_with(input);
+            *self.washout = self.washout.as_ref().clone().starting_with(input);
             self.started = true;
         }
     }
