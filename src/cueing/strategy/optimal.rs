@@ -34,18 +34,7 @@ pub struct Tuning {
 
 impl From<&OptimalParameters> for Tuning {
     fn from(parameters: &OptimalParameters) -> Self {
-        Tuning {
-            weights: Weights {
-                position: parameters.weight_position,
-                velocity: parameters.weight_velocity,
-                tilt_rate: parameters.weight_tilt_rate,
-                tilt_acceleration: parameters.weight_tilt_acceleration,
-                slow_pole: parameters.slow_pole,
-                fast_pole: parameters.fast_pole,
-            },
-            split_time: parameters.split_time,
-            disturbance: None,
-        }
+        Tuning { weights: parameters.into(), split_time: parameters.split_time, disturbance: None }
     }
 }
 

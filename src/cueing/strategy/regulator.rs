@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::riccati;
 use super::smooth_tilt::TiltLimits;
+use crate::interface::{OptimalParameters, PredictiveParameters, RobustParameters};
 
 /// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast
 /// part of the reference \[m/s2\].
@@ -48,6 +49,26 @@ pub struct Weights {
     pub slow_pole: f64,
     pub fast_pole: f64,
 }
+
+/// The weights among a strategy's parameters, which have the same names in each.
+macro_rules! weights_from {
+    ($($parameters:ty),+) => { $(
+        impl From<&$parameters> for Weights {
+            fn from(parameters: &$parameters) -> Self {
+                Weights {
+                    position: parameters.weight_position,
+                    velocity: parameters.weight_velocity,
+                    tilt_rate: parameters.weight_tilt_rate,
+                    tilt_acceleration: parameters.weight_tilt_acceleration,
+                    slow_pole: parameters.slow_pole,
+                    fast_pole: parameters.fast_pole,
+                }
+            }
+        }
+    )+ };
+}
+
+weights_from!(OptimalParameters, RobustParameters, PredictiveParameters);
 
 /// A regulator: (dropped force, tilt acceleration) = -gains * state, at a cost to come
 /// of state' cost state.

@@ -39,14 +39,7 @@ const BISECTIONS: usize = 21;
 impl From<&RobustParameters> for Tuning {
     fn from(parameters: &RobustParameters) -> Self {
         Tuning {
-            weights: Weights {
-                position: parameters.weight_position,
-                velocity: parameters.weight_velocity,
-                tilt_rate: parameters.weight_tilt_rate,
-                tilt_acceleration: parameters.weight_tilt_acceleration,
-                slow_pole: parameters.slow_pole,
-                fast_pole: parameters.fast_pole,
-            },
+            weights: parameters.into(),
             split_time: parameters.split_time,
             disturbance: Some(Disturbance { attenuation: parameters.attenuation, fast: parameters.fast_disturbance }),
         }
@@ -58,7 +51,8 @@ impl Disturbance {
     pub fn regulator(&self, model: &AxisModel, weights: &Weights) -> Option<Regulator> {
         let problem = Problem::new(model, weights);
         let least = self.least_gamma(&problem)?;
-        problem.regulator(&self.of_gamma(self.attenuation * least))
+        let gamma = self.attenuation * least;
+        problem.regulator(&(self.square() / (gamma * gamma)))
     }
 
     /// The least gamma at which the worst disturbance costs a bounded amount.
@@ -76,11 +70,6 @@ impl Disturbance {
             *if bounded(middle) { &mut least } else { &mut most } = middle;
         }
         Some(least.sqrt().recip())
-    }
-
-    /// D D' / gamma^2.
-    fn of_gamma(&self, gamma: f64) -> SMatrix<f64, 6, 6> {
-        self.square() / (gamma * gamma)
     }
 
     /// D D'.

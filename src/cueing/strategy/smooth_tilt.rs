@@ -85,7 +85,7 @@ mod tests {
     const LIMITS: [[f64; 3]; 4] = [[0.257, 0.05236, 0.4], [0.38, 0.052, 0.2], [0.2, 0.045, 0.11], [0.5, 2.0, 5.0]];
 
     /// A tilt that follows random demands, and what it does at most.
-    fn ridden([angle, rate, acceleration]: [f64; 3], step: f64) -> [f64; 4] {
+    fn driven([angle, rate, acceleration]: [f64; 3], step: f64) -> [f64; 4] {
         let limits = TiltLimits::new(angle, rate, acceleration);
         let mut state = AxisState::default();
         let (mut largest, mut demand) = ([0.0_f64; 4], 0.0);
@@ -111,7 +111,7 @@ mod tests {
     fn all_limits_are_kept_and_reached_under_any_demand() {
         for limits in LIMITS {
             for step in [0.0005, 0.002, 0.01] {
-                let largest = ridden(limits, step);
+                let largest = driven(limits, step);
                 for (value, over) in largest.into_iter().zip([1e-3, 1e-3, 1e-12, 1e-9]) {
                     assert!((0.7..1.0 + over).contains(&value), "{largest:?} of {limits:?}, {step} s");
                 }

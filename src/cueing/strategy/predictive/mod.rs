@@ -89,14 +89,7 @@ pub struct Plan {
 impl From<&PredictiveParameters> for Tuning {
     fn from(parameters: &PredictiveParameters) -> Self {
         Tuning {
-            weights: Weights {
-                position: parameters.weight_position,
-                velocity: parameters.weight_velocity,
-                tilt_rate: parameters.weight_tilt_rate,
-                tilt_acceleration: parameters.weight_tilt_acceleration,
-                slow_pole: parameters.slow_pole,
-                fast_pole: parameters.fast_pole,
-            },
+            weights: parameters.into(),
             forecast: parameters.forecast,
             memory: Memory { fit: parameters.memory, selection: parameters.selection },
         }
