@@ -150,10 +150,8 @@ pub const ADAPTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Adaptive);
 pub const OPTIMAL: &[(&str, f64)] = &unscaled(StrategyKind::Optimal);
 /// The robust strategy, with the specific force unscaled.
 pub const ROBUST: &[(&str, f64)] = &unscaled(StrategyKind::Robust);
-/// The predictive strategy, with the specific force unscaled. It plans within the actuators'
-/// strokes, so its soft limits act later.
-pub const PREDICTIVE: &[(&str, f64)] =
-    &joined::<{ UNSCALED + 1 }>(&unscaled(StrategyKind::Predictive), &[("softLimit.pace", 6.0)]);
+/// The predictive strategy, with the specific force unscaled.
+pub const PREDICTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Predictive);
 
 /// The predictive strategy for a vehicle whose force is previewed. Its limits of force and tilt are
 /// wider, since what comes after is known.

@@ -11,8 +11,11 @@ use crate::common::random::Random;
 use crate::common::{cases, displacement, parameters};
 
 const STEP: f64 = 0.001;
+/// The travel of the paper's rig, which this braking takes.
+const TRAVEL: &[(&str, f64)] = &[("safety.x.positionLimit", 0.45)];
+
 fn preaction(on: bool) -> Parameters {
-    parameters(if on { presets::PREACTION } else { &[] })
+    parameters(&[TRAVEL, if on { presets::PREACTION } else { &[] }].concat())
 }
 
 /// Motion of a vehicle: acceleration \[m/s2\] and speed \[m/s\] at a time \[s\].

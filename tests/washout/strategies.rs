@@ -24,6 +24,8 @@ fn errors(strategy: f64, duration: f64, input: impl Fn(f64) -> Input) -> [f64; 2
     const STEP: f64 = 0.01;
     let mut washout = washout(&[
         ("strategy", strategy),
+        ("safety.x.positionLimit", 0.45),
+        ("safety.y.positionLimit", 0.45),
         ("scale.angularVelocity.x", 0.0),
         ("scale.angularVelocity.y", 0.0),
         ("scale.angularVelocity.z", 0.0),
