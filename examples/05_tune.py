@@ -16,7 +16,7 @@ from picture import BLUE, GREY, ORANGE, draw
 from recording import main as write_recording
 
 DIRECTORY = Path("target/examples/05_tune")
-RIG = ["--rig", "crates/moris/rigs/narrow.toml"]
+RIG = ["--rig", "examples/rigs/narrow.toml"]
 
 
 def moris(*arguments):

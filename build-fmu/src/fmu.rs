@@ -46,7 +46,10 @@ pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], platforms: &[Plat
 }
 
 /// Builds a model's FMU and returns its bytes; otherwise as [`build`].
-pub(crate) fn fmu(
+///
+/// # Errors
+/// As [`build`], but for the file.
+pub fn fmu(
     model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,
@@ -67,7 +70,10 @@ pub(crate) fn fmu(
 }
 
 /// Writes a file that others never see half written.
-pub(crate) fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Error> {
+///
+/// # Errors
+/// The directory or the file cannot be written.
+pub fn write_whole(file: &Path, bytes: &[u8]) -> Result<(), Error> {
     let part = file.with_extension(format!("part.{}", std::process::id()));
     let write = || {
         fs::create_dir_all(file.parent().unwrap_or(Path::new(".")))?;

@@ -8,7 +8,6 @@
 //! | [`model`] | the models |
 //! | [`platform`] | the platforms |
 //! | [`fmi_version`] | the versions of FMI |
-//! | [`ssp`] | systems: packages of several FMUs |
 //! | [`tables`] | tables of the pages in `docs/` that follow from the models |
 
 pub mod archive;
@@ -24,7 +23,6 @@ mod macos_stub;
 pub mod model;
 pub mod platform;
 pub mod reference;
-pub mod ssp;
 mod start_values;
 pub mod tables;
 pub mod terminals;
@@ -33,7 +31,7 @@ pub mod workspace;
 
 pub use error::Error;
 pub use fmi_version::FmiVersion;
-pub use fmu::{Built, build, compile_together};
+pub use fmu::{Built, build, compile_together, fmu, write_whole};
 pub use model::{FmuModel, MODELS};
 pub use platform::Platform;
 pub use start_values::Start;

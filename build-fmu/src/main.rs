@@ -168,7 +168,7 @@ mod tests {
 
     #[test]
     fn a_path_becomes_start_values_of_the_motorcycle_alone() {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/motorcycle/paths/hairpin.csv");
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/simulator/motorcycle/paths/hairpin.csv");
         let arguments = Arguments::parse_from(["build-fmu", "--path", file]);
         let values = start_values(&arguments, &MOTORCYCLE).unwrap();
         let value = |name: &str| values.iter().find(|(known, _)| known == name).unwrap().1;

@@ -7,7 +7,6 @@ use clap::ValueEnum;
 use moris_build_fmu::archive::{Contents, pack};
 use moris_build_fmu::contents::contents;
 use moris_build_fmu::model::WASHOUT;
-use moris_build_fmu::ssp::{self, Form, MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR};
 use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Platform, Start, workspace};
 use moris_model_description::fmi2::scalar_variable::{ScalarVariable, Values};
 use moris_model_description::fmi3::Layout;
@@ -283,20 +282,4 @@ fn the_washouts_reference_ride_is_as_expected() {
     // The vehicle accelerates for two seconds and more: by then the platform is tilted nose up, which is negative.
     let two_seconds = rows.iter().find(|row| row[0] == 2.0).unwrap();
     assert!(two_seconds[column("tilt.pitch")] < -0.03);
-}
-
-#[test]
-fn a_systems_description_is_the_same_every_time() {
-    for (form, parameters) in [(Form::Whole, "MotorcycleSimulator"), (Form::Flat, "washout")] {
-        let contents = ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap();
-        let paths: Vec<&str> = contents.keys().map(String::as_str).collect();
-        let parameters = format!("resources/{parameters}.ssv");
-        assert_eq!(paths, ["SystemStructure.ssd", "documentation/licenses/license.txt", &*parameters]);
-        assert!(pack(&contents).unwrap() == pack(&ssp::description(&MOTORCYCLE_SIMULATOR, form).unwrap()).unwrap());
-    }
-    // Its parameters are start values of its FMUs.
-    for form in [Form::Whole, Form::Flat] {
-        let contents = ssp::description(&MOTORCYCLE_LAP, form).unwrap();
-        assert!(contents.keys().eq(["SystemStructure.ssd", "documentation/licenses/license.txt"]));
-    }
 }

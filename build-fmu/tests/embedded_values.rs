@@ -11,7 +11,7 @@ use moris_washout::{Input, Parameters, Washout};
 
 #[test]
 fn the_fmu_starts_with_the_values_and_runs_as_the_crate_does_with_them() {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/moris/rigs/narrow.toml");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/rigs/narrow.toml");
     let mut values = load_rig(&file).unwrap().values();
     values.extend(load_set("small-motions", WASHOUT.functions.identity.rows).unwrap());
     let start = Start::with(&WASHOUT, &values).unwrap();

@@ -11,7 +11,7 @@ use moris_setup::rig_file::RigFile;
 use moris_setup::{NamedValues, load_rig, load_set};
 
 fn rig(name: &str) -> RigFile {
-    let file: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/moris/rigs").join(name);
+    let file: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/rigs").join(name);
     load_rig(&file).unwrap()
 }
 

@@ -9,7 +9,7 @@ from fmpy.validation import validate_fmu
 
 from conftest import ROOT
 
-RIG = ROOT / "crates" / "moris" / "rigs" / "narrow.toml"
+RIG = ROOT / "examples" / "rigs" / "narrow.toml"
 LEGS = [f"actuator[{i}].length" for i in range(1, 7)]
 
 

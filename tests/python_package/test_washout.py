@@ -292,7 +292,7 @@ def test_parameters_come_from_presets_dicts_files_and_lists(tmp_path):
 def test_a_rig_comes_from_a_file_or_a_dict():
     from conftest import ROOT
 
-    rig = ROOT / "crates" / "moris" / "rigs" / "compact.toml"
+    rig = ROOT / "examples" / "rigs" / "compact.toml"
     try:
         import tomllib
     except ImportError:

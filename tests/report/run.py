@@ -3,7 +3,7 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/moris/report/examples/pages.rs. Without Chromium or Playwright nothing is run, and that is said; with --require it
+The pages are those of crates/workbench/report/examples/pages.rs. Without Chromium or Playwright nothing is run, and that is said; with --require it
 is an error. With --install both are installed first (apt and pip; for Debian and Ubuntu). Pictures are left in target/report/.
 """
 

@@ -1,6 +1,6 @@
 """Builds wheels of the Python package for several platforms into target/wheels.
 
-    python3 crates/python/wheels.py [PLATFORM...]
+    python3 crates/workbench/python/wheels.py [PLATFORM...]
 
 Needs maturin and zig (`pip install maturin ziglang`), mingw for Windows (`apt install gcc-mingw-w64-x86-64`), and the targets
 that it names where one is missing (`rustup target add TARGET`). For macOS, SDKROOT names Apple's development kit.
@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 ZIG = ["--zig", "--compatibility", "manylinux2014"]
 PLATFORMS = {
     "linux-x86_64": ["--target", "x86_64-unknown-linux-gnu", *ZIG],

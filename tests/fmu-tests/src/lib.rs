@@ -2,9 +2,9 @@
 
 pub mod hostile;
 /// The calling sequence of FMI 2.0.
-#[path = "../../fmi/tests/fmi2/standard.rs"]
+#[path = "../../../crates/fmi/tests/fmi2/standard.rs"]
 pub mod standard2;
 /// The calling sequence of FMI 3.0.
-#[path = "../../fmi/tests/fmi3/standard.rs"]
+#[path = "../../../crates/fmi/tests/fmi3/standard.rs"]
 pub mod standard3;
 pub mod swing;

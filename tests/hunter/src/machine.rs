@@ -10,10 +10,10 @@ use crate::variables::Variables;
 
 /// The rigs shipped with the workbench.
 const RIGS: [&str; 4] = [
-    include_str!("../../moris/rigs/default.toml"),
-    include_str!("../../moris/rigs/compact.toml"),
-    include_str!("../../moris/rigs/long-stroke.toml"),
-    include_str!("../../moris/rigs/narrow.toml"),
+    include_str!("../../../examples/rigs/default.toml"),
+    include_str!("../../../examples/rigs/compact.toml"),
+    include_str!("../../../examples/rigs/long-stroke.toml"),
+    include_str!("../../../examples/rigs/narrow.toml"),
 ];
 
 /// Values of log-uniform draws with tails: lowest, low, high, highest.

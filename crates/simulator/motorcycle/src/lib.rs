@@ -46,5 +46,5 @@ pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle, STRONGEST_WIND};
 
 // The snippets of `docs/motorcycle.md` as doc tests.
 #[cfg(doctest)]
-#[doc = include_str!("../../../docs/motorcycle.md")]
+#[doc = include_str!("../../../../docs/motorcycle.md")]
 mod page {}

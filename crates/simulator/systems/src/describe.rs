@@ -5,10 +5,10 @@ use moris_model_description::fmi2::ModelDescription;
 use quick_xml::se::Serializer;
 use serde::Serialize;
 
-use super::parameter_set::ByComponent;
-use super::schema;
-use super::system::{Component, Connection, Port, System};
-use super::{Form, fmu_path, parameters_path};
+use crate::parameter_set::ByComponent;
+use crate::schema;
+use crate::system::{Component, Connection, Port, System};
+use crate::{Form, fmu_path, parameters_path};
 
 const SSD: &str = "http://ssp-standard.org/SSP1/SystemStructureDescription";
 const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";

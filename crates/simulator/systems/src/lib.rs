@@ -13,10 +13,9 @@ pub mod system;
 
 use std::path::Path;
 
-use crate::archive::{self, Contents};
-use crate::contents::LICENCES;
-use crate::fmu::{fmu, write_whole};
-use crate::{Built, Error, FmiVersion, Platform, compile_together};
+use moris_build_fmu::archive::{self, Contents};
+use moris_build_fmu::contents::LICENCES;
+use moris_build_fmu::{Built, Error, FmiVersion, Platform, compile_together, fmu, write_whole};
 pub use start_values::read as start_values;
 use system::Place;
 pub use system::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR, SYSTEMS, System};

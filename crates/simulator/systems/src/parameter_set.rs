@@ -3,10 +3,10 @@
 use moris_interface::{Causality, Identity, Kind};
 use toml::{Table, Value};
 
-use super::describe::unit_name;
-use super::schema;
-use super::system::{Component, System};
-use crate::Error;
+use crate::describe::unit_name;
+use crate::schema;
+use crate::system::{Component, System};
+use moris_build_fmu::Error;
 
 /// Parameters by the name of their component.
 pub type ByComponent = Vec<(String, Vec<schema::Parameter>)>;
@@ -64,7 +64,7 @@ fn typed(identity: &Identity, variable: &str, value: &Value) -> Result<schema::V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ssp::MOTORCYCLE_SIMULATOR;
+    use crate::MOTORCYCLE_SIMULATOR;
 
     fn reason(parameters: &'static str) -> String {
         read(&System { parameters, ..MOTORCYCLE_SIMULATOR }).unwrap_err().to_string()

@@ -2,8 +2,8 @@
 
 use moris_setup::{NamedValues, parameter_file};
 
-use super::system::{Component, Place, System};
-use crate::{Error, Start};
+use crate::system::{Component, Place, System};
+use moris_build_fmu::{Error, Start};
 
 /// The start values of each component's FMU, in the components' order.
 ///
@@ -28,8 +28,8 @@ pub fn read(system: &System) -> Result<Vec<Start>, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{MOTORCYCLE, WASHOUT};
-    use crate::ssp::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR};
+    use crate::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR};
+    use moris_build_fmu::model::{MOTORCYCLE, WASHOUT};
     use moris_setup::load_set;
 
     #[test]

@@ -3,8 +3,8 @@
 use moris_interface::{Causality, Identity};
 use toml::{Table, Value};
 
-use crate::Error;
-use crate::model::{FmuModel, MOTORCYCLE, STEWART_PLATFORM, WASHOUT};
+use moris_build_fmu::Error;
+use moris_build_fmu::model::{FmuModel, MOTORCYCLE, STEWART_PLATFORM, WASHOUT};
 
 /// FMUs and how they are connected.
 pub struct System {
@@ -84,7 +84,7 @@ pub const MOTORCYCLE_SIMULATOR: System = System {
         port("lean", "motorcycle", "command.lean"),
     ],
     outputs: OUTPUTS,
-    parameters: include_str!("../../ssp/MotorcycleSimulator.toml"),
+    parameters: include_str!("../MotorcycleSimulator.toml"),
     place: Place::Sets,
     stop_time: 45.0,
     step_size: 0.001,
@@ -103,7 +103,7 @@ pub const MOTORCYCLE_LAP: System = System {
     connections: || simulator_connections(Preview::Connected),
     inputs: &[],
     outputs: OUTPUTS,
-    parameters: include_str!("../../ssp/MotorcycleLap.toml"),
+    parameters: include_str!("../MotorcycleLap.toml"),
     place: Place::StartValues,
     stop_time: 100.0,
     step_size: 0.001,

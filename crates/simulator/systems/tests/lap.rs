@@ -1,10 +1,10 @@
 //! The lap of MotorcycleLap.ssp: the models of its FMUs, with its start values and connections.
 //! They are stepped as by a co-simulation tool, with one step of delay for each connection.
 
-use moris_build_fmu::ssp::{self, MOTORCYCLE_LAP, system::Connection};
 use moris_interface::SlotModel;
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
+use moris_systems::{MOTORCYCLE_LAP, system::Connection};
 use moris_washout::Washout;
 
 /// Least RMS errors of surge and sway that any controller could reach on this lap \[m/s²\]. They
@@ -44,7 +44,7 @@ fn place((component, variable): (&str, &str)) -> (usize, usize) {
 
 #[test]
 fn surge_and_sway_of_the_lap_are_near_the_bound() {
-    let starts = ssp::start_values(&MOTORCYCLE_LAP).unwrap();
+    let starts = moris_systems::start_values(&MOTORCYCLE_LAP).unwrap();
     let [motorcycle, washout, platform] = starts.as_slice() else { panic!("three components") };
     let mut parts = [
         part::<Motorcycle>(motorcycle.slots()),

@@ -18,7 +18,7 @@ fn text(bytes: &[u8]) -> String {
 }
 
 fn rigs() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/rigs"))
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../examples/rigs"))
 }
 
 /// The rig file of similar hexagons: the platform can turn about its axis freely.

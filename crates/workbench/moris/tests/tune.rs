@@ -322,7 +322,7 @@ fn a_rig_s_values_are_not_written_into_the_parameter_file() {
     let directory = tempfile::tempdir().unwrap();
     let here = directory.path();
     write_recording(here, &brisk());
-    let rig = concat!(env!("CARGO_MANIFEST_DIR"), "/rigs/long-stroke.toml");
+    let rig = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../examples/rigs/long-stroke.toml");
     let output =
         moris(here, &["tune", "brisk.csv", "--evaluations", "60", "--rig", rig, "--parameters", "small-motions"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

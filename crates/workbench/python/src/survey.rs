@@ -10,7 +10,7 @@ use crate::error;
 use crate::setup::rig_of;
 
 /// The washout's default rig.
-const DEFAULT_RIG: &str = include_str!("../../moris/rigs/default.toml");
+const DEFAULT_RIG: &str = include_str!("../../../../examples/rigs/default.toml");
 
 /// An axis: name, reach [m or rad], speed [m/s or rad/s], acceleration [m/s2 or rad/s2].
 type AxisAlone = (&'static str, f64, f64, Option<f64>, Option<f64>);

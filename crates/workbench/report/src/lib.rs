@@ -4,7 +4,7 @@
 //! were active, and a table of measures. Beside them the platform moves in 3D.
 //!
 //! The input is a [`Report`]; [`html`] returns the page's text. The page needs no network and no
-//! other file. It contains its data, and the scripts and styles of `crates/moris/report/page/`.
+//! other file. It contains its data, and the scripts and styles of `crates/workbench/report/page/`.
 
 #![forbid(unsafe_code)]
 

@@ -9,7 +9,7 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::{Parameters, Rig};
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../moris/rigs").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../examples/rigs").join(name)
 }
 
 fn default_text() -> String {

@@ -17,7 +17,7 @@ fn arithmetic() -> u64 {
     u64::from(sse & !0x3f) << 16 | u64::from(x87)
 }
 
-/// Any calls at all leave the setting. The tests of all models set other ones: `crates/fmu-tests`.
+/// Any calls at all leave the setting. The tests of all models set other ones: `tests/fmu-tests`.
 #[test]
 fn arithmetic_is_left_as_it_was() {
     std::thread::spawn(|| {

@@ -85,7 +85,7 @@ fn previews_and_attackers_work_as_they_do_on_the_crate() {
 #[test]
 fn no_known_episode_breaks_a_limit() {
     let (runner, mut target) = (Runner::new().unwrap(), target());
-    let episodes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../hunter/episodes");
+    let episodes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../tests/hunter/episodes");
     let mut count = 0;
     for file in fs::read_dir(episodes).unwrap() {
         let file = file.unwrap().path();

@@ -40,7 +40,7 @@ pub enum Command {
 /// The rig to check.
 #[derive(Clone, Debug, clap::Args)]
 pub struct CheckOptions {
-    /// Rig file; crates/moris/rigs has examples
+    /// Rig file; examples/rigs has examples
     rig: PathBuf,
 
     /// Directory for the picture
