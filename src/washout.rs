@@ -13,10 +13,9 @@ use crate::cueing::gravitational::Tilt;
 use crate::cueing::preaction::StopPreaction;
 use crate::cueing::soft_limits::{self, SoftLimits};
 use crate::cueing::strategy::Strategy;
-use crate::cueing::strategy::coordinated::Circumstances;
+use crate::cueing::strategy::law::Circumstances;
 use crate::cueing::strategy::predictive::preview::Course;
-use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction, StrategyKind};
-use crate::motion::Motion;
+use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction};
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
@@ -112,7 +111,7 @@ impl Washout {
         check(parameters)?;
         let Parameters { splitter, angular, structure, rig, .. } = parameters;
         let guard = ActuatorGuard::new(rig, structure.max_step);
-        let strategy = Strategy::new(parameters).ok_or_else(|| no_regulator(parameters))?;
+        let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
         let last = Sample::new(Input::default(), parameters);
         let at_rest = felt(guard.motion(), &last.head, structure.gravity);
@@ -168,8 +167,8 @@ impl Washout {
     pub fn preview(&mut self, preview: &Preview) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let Sample { input, head, .. } = &self.last;
-        if let Some(predictive) = self.strategy.predictive_mut() {
-            predictive.preview(&Course::of(preview, |[surge, sway]| {
+        if let Some(law) = self.strategy.previewed() {
+            law.preview(&Course::of(preview, |[surge, sway]| {
                 let force = Vector3::new(surge, sway, input.specific_force.z);
                 let cue =
                     engagement(self.engaging) * cue_force(force, input, conditioning, structure.gravity, head.lean);
@@ -214,8 +213,8 @@ impl Washout {
             self.last = Sample::new(start, &self.parameters);
         }
         self.last.input.engaged = end.engaged;
-        if let Some(predictive) = self.strategy.predictive_mut() {
-            predictive.put_off_preview(step);
+        if let Some(law) = self.strategy.previewed() {
+            law.put_off_preview(step);
         }
         self.step_to(&end, step, observe);
     }
@@ -288,7 +287,7 @@ impl Washout {
         let beside_tilt = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * engagement(self.engaging);
-        let circumstances = || Circumstances {
+        let circumstances = Circumstances {
             parameters: &self.parameters,
             guard: &self.guard,
             head: head_at_end,
@@ -298,13 +297,7 @@ impl Washout {
             engagement: engagement(self.engaging),
             time_to_stop: self.preaction.time_left(),
         };
-        match &mut self.strategy {
-            Strategy::Classical(classical) => {
-                let forces = [force_start, force_end];
-                classical.advance_tilt(forces, &rotation_at_end, head_at_end, lean, &self.parameters, step);
-            }
-            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(&circumstances(), step),
-        }
+        self.strategy.advance_tilt([force_start, force_end], &rotation_at_end, &circumstances, step);
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
         let mut angles = beside_tilt;
         angles.add_to_axis(0, &tilt_roll);
@@ -313,16 +306,9 @@ impl Washout {
         let arm = turning.orientation.rotation * head_at_end.point;
         let tilt = Tilt { roll: tilt_roll.position, pitch: tilt_pitch.position };
         let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
-        let mut demand = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
-        match &self.strategy {
-            Strategy::Classical(_) => demand.add_to_axis(0, self.preaction.surge()),
-            Strategy::Coordinated(coordinated) => {
-                let heave = demand.axis(2);
-                let [surge, sway] = coordinated.travel(&circumstances(), &turning, &heave, step);
-                demand = Motion::from_axes(|k| [surge, sway, heave][k]);
-            }
-        }
-        let mut demand = PlatformCoordinates { linear: demand, angles };
+        let filtered = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
+        let linear = self.strategy.demand(filtered, self.preaction.surge(), &circumstances, &turning, step);
+        let mut demand = PlatformCoordinates { linear, angles };
         let mut motion = PlatformMotion::new(&demand.linear, &turning, rig.neutral_height);
         let mut legs = self.guard.legs_of(&motion);
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
@@ -355,11 +341,7 @@ impl Washout {
             }
         } else if self.guard.limited() {
             let real = &self.guard.coordinates().linear;
-            match &self.strategy {
-                Strategy::Classical(_) => self.direct_linear.stay_within(safety, real),
-                // These strategies decide from the real motion: there is nothing to catch up with.
-                Strategy::Coordinated(_) => self.direct_linear.continue_from(real),
-            }
+            self.strategy.resume(&mut self.direct_linear, &self.parameters, real);
         }
     }
 
@@ -372,7 +354,7 @@ impl Washout {
             self.direct_linear.continue_from(linear);
         }
         let mut linear = *linear;
-        if matches!(self.strategy, Strategy::Classical(_)) {
+        if self.strategy.takes_preaction() {
             let surge = self.preaction.surge();
             linear.position.x -= surge.position;
             linear.velocity.x -= surge.velocity;
@@ -402,8 +384,7 @@ impl Washout {
             let acceleration = engagement(self.engaging) * forward_acceleration(input, conditioning, structure.gravity);
             let braking = [end.force.x, acceleration, input.speed];
             self.preaction.advance(braking, structure.gravity, tilt, safety, step);
-            // The predictive strategy plans for the stop itself.
-            if matches!(self.strategy, Strategy::Classical(_)) {
+            if self.strategy.takes_preaction() {
                 start.force.x = self.preaction.tilted_force(start.force.x);
                 end.force.x = self.preaction.tilted_force(end.force.x);
             }
@@ -418,9 +399,7 @@ impl Washout {
     /// Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
-        if !self.strategy.retune(parameters) {
-            return Err(no_regulator(parameters));
-        }
+        self.strategy.retune(parameters)?;
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
         self.soft_limits = SoftLimits::new(parameters, self.strategy.largest_heave());
@@ -529,20 +508,4 @@ fn engagement(engaging: f64) -> f64 {
 fn engaging_after(engaging: f64, engaged: bool, step: f64) -> f64 {
     let change = step / ENGAGE_TIME;
     if engaged { min(engaging + change, 1.0) } else { max(engaging - change, 0.0) }
-}
-
-/// The error for a strategy's weights without a numerical solution of the Riccati equation.
-fn no_regulator(parameters: &Parameters) -> ParameterError {
-    let (prefix, weight) = match parameters.structure.strategy {
-        StrategyKind::Predictive => ("predictive", parameters.predictive.weight_position),
-        StrategyKind::Robust => ("robust", parameters.robust.weight_position),
-        _ => ("optimal", parameters.optimal.weight_position),
-    };
-    ParameterError {
-        variable: format!("{prefix}.weightPosition"),
-        reason: format!(
-            "is {weight}, and with the strategy's other weights and poles the Riccati equation has no numerical solution; \
-             choose them nearer to their start values"
-        ),
-    }
 }

@@ -17,9 +17,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::at_rest_if_tiny;
+use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
 use super::regulator::AxisModel;
-use super::{AxisState, Decision, at_rest_if_tiny};
-use crate::interface::AdaptiveParameters;
+use crate::interface::{AdaptiveParameters, Parameters};
 
 /// The strategy with its state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -52,6 +53,22 @@ const SENSITIVITY_DECAY: f64 = 0.2;
 const NEAR_END: f64 = 0.1;
 /// ... by up to this many times their value, at its end.
 const DEARER: f64 = 10.0;
+
+impl Law for Adaptive {
+    fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
+        Ok(Adaptive::new(models, &parameters.adaptive))
+    }
+
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        self.retune(models, &parameters.adaptive);
+        Ok(())
+    }
+
+    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
+        let stroke_margin = situation.circumstances.guard.stroke_margin();
+        Some(self.decide(&situation.states, situation.references, stroke_margin, step))
+    }
+}
 
 impl Adaptive {
     /// At rest, with the nominal gains.

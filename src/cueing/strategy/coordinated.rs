@@ -17,26 +17,22 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::adaptive::Adaptive;
-use super::optimal::{Optimal, Tuning};
-use super::predictive::legs::Surroundings;
+use super::at_rest_if_tiny;
+use super::law::{AnyLaw, AxisState, Circumstances, Decision, Situation, Unsolvable};
 use super::predictive::{Plan, Predictive};
 use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
-use super::{AxisState, Decision, at_rest_if_tiny};
 use crate::cueing::compensation::{centripetal, tangential};
-use crate::interface::{Parameters, StrategyKind};
+use crate::interface::Parameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
-use crate::platform::{ActuatorGuard, Geometry};
 
 /// Travel and tilt of surge and sway, and the law that decides on them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coordinated {
-    geometry: Geometry,
-    law: Law,
+    law: AnyLaw,
     /// The tilts q of surge and sway.
     tilt: [Motion; 2],
     /// True if a limit stops either tilt.
@@ -47,32 +43,6 @@ pub struct Coordinated {
     /// 1: the law decides, 0: it has nothing to decide by, as after the end of a plan; between
     /// them: on the way.
     decided: f64,
-}
-
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(clippy::large_enum_variant, reason = "a law is chosen once, and a box would allocate when a state is copied")]
-enum Law {
-    Adaptive(Adaptive),
-    Optimal(Optimal),
-    Predictive(Box<Predictive>),
-}
-
-/// State at a step's beginning, and the known part of its end.
-#[derive(Clone, Copy, Debug)]
-pub struct Circumstances<'a> {
-    pub parameters: &'a Parameters,
-    pub guard: &'a ActuatorGuard,
-    pub head: &'a LocationFrame,
-    /// The cue at the step's end, in head axes \[m/s2\].
-    pub force: Vector3<f64>,
-    /// Roll, pitch and yaw beside the tilt, at the step's end.
-    pub angles: &'a Motion<Vector3<f64>>,
-    /// The rider's lean as far as the platform makes up for it \[rad\].
-    pub lean: f64,
-    /// 1: engaged, 0: disengaged; between them: being engaged or disengaged.
-    pub engagement: f64,
-    /// Time until the vehicle stands, infinite while no stop is foreseen \[s\].
-    pub time_to_stop: f64,
 }
 
 /// Disengaged, travel returns to neutral critically damped at this frequency \[rad/s\].
@@ -86,46 +56,31 @@ const NEARLY: f64 = 0.999;
 /// Smallest magnitude of the determinant of the head's axes that is divided by. Only a platform
 /// that is nearly turned on its side has a smaller one.
 const LEAST_DETERMINANT: f64 = 0.1;
-/// Largest heave under the predictive strategy \[m\]. More would take the legs'
-/// stroke from surge and sway.
-const LARGEST_HEAVE: f64 = 0.1;
 
 impl Coordinated {
-    /// At rest at neutral, by the strategy that the parameters choose. None if its
-    /// parameters cannot be used.
-    pub fn new(parameters: &Parameters) -> Option<Self> {
-        let models = models(parameters);
-        let law = match parameters.structure.strategy {
-            StrategyKind::Adaptive => Law::Adaptive(Adaptive::new(&models, &parameters.adaptive)),
-            StrategyKind::Predictive => {
-                Law::Predictive(Box::new(Predictive::new(&models, &(&parameters.predictive).into())?))
-            }
-            StrategyKind::Optimal | StrategyKind::Robust | StrategyKind::Classical => {
-                Law::Optimal(Optimal::new(&models, &regulated(parameters))?)
-            }
-        };
-        Some(Coordinated {
-            geometry: Geometry::from(&parameters.rig),
+    /// At rest at neutral, by the strategy that the parameters choose. None if that
+    /// is the classical one.
+    ///
+    /// # Errors
+    /// The strategy's weights cannot be used.
+    pub fn new(parameters: &Parameters) -> Result<Option<Self>, Unsolvable> {
+        let law = AnyLaw::of(&models(parameters), parameters)?;
+        Ok(law.map(|law| Coordinated {
             law,
             tilt: [Motion::default(); 2],
             limited: false,
             dropped_force: [0.0; 2],
             fraction: 1.0,
             decided: 1.0,
-        })
+        }))
     }
 
-    /// Takes other parameters. False, and nothing changes, if they cannot be used.
-    pub fn retune(&mut self, parameters: &Parameters) -> bool {
-        let models = models(parameters);
-        match &mut self.law {
-            Law::Adaptive(adaptive) => {
-                adaptive.retune(&models, &parameters.adaptive);
-                true
-            }
-            Law::Optimal(optimal) => optimal.retune(&models, &regulated(parameters)),
-            Law::Predictive(predictive) => predictive.retune(&models, &(&parameters.predictive).into()),
-        }
+    /// Takes other parameters.
+    ///
+    /// # Errors
+    /// The strategy's weights cannot be used. Nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
+        self.law.set_parameters(&models(parameters), parameters)
     }
 
     /// Roll and pitch of the tilt.
@@ -135,20 +90,19 @@ impl Coordinated {
         [sway, pitch]
     }
 
-    /// The plan of the predictive strategy.
+    /// The plan that is carried out, of a law that plans.
     pub fn plan(&self) -> Option<&Plan> {
-        match &self.law {
-            Law::Predictive(predictive) => Some(predictive.plan()),
-            Law::Adaptive(_) | Law::Optimal(_) => None,
-        }
+        self.law.plan()
     }
 
-    /// The predictive strategy, which alone makes use of a preview.
-    pub fn predictive_mut(&mut self) -> Option<&mut Predictive> {
-        match &mut self.law {
-            Law::Predictive(predictive) => Some(predictive),
-            Law::Adaptive(_) | Law::Optimal(_) => None,
-        }
+    /// The law that makes use of a preview, if this one does.
+    pub fn previewed(&mut self) -> Option<&mut Predictive> {
+        self.law.previewed()
+    }
+
+    /// The largest heave that is left to the heave channel \[m\].
+    pub fn largest_heave(&self) -> f64 {
+        self.law.largest_heave()
     }
 
     /// Advances the tilt by `step` seconds, and decides on the dropped force.
@@ -162,22 +116,8 @@ impl Coordinated {
             tilt_rate: self.tilt[k].velocity,
             tilt_acceleration: self.tilt[k].acceleration,
         });
-        let references = circumstances.effective_references();
-        let decisions = match &mut self.law {
-            Law::Adaptive(adaptive) => Some(adaptive.decide(&states, references, guard.stroke_margin(), step)),
-            Law::Optimal(optimal) => Some(optimal.decide(&states, references, step)),
-            Law::Predictive(predictive) => {
-                let decisions = predictive.decide(
-                    &states,
-                    &circumstances.surroundings(&self.geometry),
-                    circumstances.time_to_stop,
-                    step,
-                );
-                let beside = [0, 1].map(|k: usize| references[k] - circumstances.force[k]);
-                predictive.observe(references, beside, step);
-                decisions
-            }
-        };
+        let situation = Situation { states, references: circumstances.effective_references(), circumstances };
+        let decisions = self.law.decisions(&situation, step);
         // Where a law has nothing to decide by, the dropped force stays while the return fades in.
         let change = step / DECISION_FADE;
         self.decided = (self.decided + if decisions.is_some() { change } else { -change }).clamp(0.0, 1.0);
@@ -193,7 +133,7 @@ impl Coordinated {
             let now = self.tilt[k];
             let returning = -LEVEL_FREQUENCY * (LEVEL_FREQUENCY * now.position + 2.0 * now.velocity);
             let demanded = fraction * decision.tilt_acceleration + (1.0 - fraction) * returning;
-            let acceleration = smooth.nearest_acceleration(&states[k], demanded, step);
+            let acceleration = smooth.nearest_acceleration(&situation.states[k], demanded, step);
             let next = limits.at_velocity(&now, now.velocity + acceleration * step, step);
             self.limited |= next.position.abs() >= NEARLY * tilt.angle_limit;
             self.limited |= next.velocity.abs() >= NEARLY * tilt.rate_limit;
@@ -240,14 +180,6 @@ impl Coordinated {
             flushed(&limits.at_velocity(&now, now.velocity + accelerations[k] * step, step))
         })
     }
-
-    /// The largest heave that the strategy leaves to the heave channel \[m\].
-    pub fn largest_heave(&self) -> f64 {
-        match &self.law {
-            Law::Predictive(_) => LARGEST_HEAVE,
-            Law::Adaptive(_) | Law::Optimal(_) => f64::INFINITY,
-        }
-    }
 }
 
 /// The motion, with components that are too small to matter set to zero.
@@ -267,32 +199,6 @@ impl Circumstances<'_> {
         let turned = [-angles.position.y, angles.position.x + lean];
         let turning = [-angles.acceleration.y, angles.acceleration.x];
         [0, 1].map(|k: usize| force[k] - gravity * libm::sin(turned[k]) + head.point.z * turning[k])
-    }
-
-    fn surroundings<'a>(&'a self, geometry: &'a Geometry) -> Surroundings<'a> {
-        let Parameters { rig, predictive, angular, splitter, .. } = self.parameters;
-        let linear = &self.guard.coordinates().linear;
-        Surroundings {
-            geometry,
-            neutral_height: rig.neutral_height,
-            stroke: [rig.min_length, rig.max_length],
-            margin: predictive.leg_margin,
-            heave: linear.position.z,
-            heave_velocity: linear.velocity.z,
-            heave_bound: LARGEST_HEAVE,
-            heave_frequency: splitter.omega1.z,
-            angles: self.angles.position,
-            angle_rates: self.angles.velocity,
-            frequencies: Vector3::new(angular.omega1.roll, angular.omega1.pitch, angular.omega1.yaw),
-        }
-    }
-}
-
-/// The parameters of the optimal or of the robust strategy.
-fn regulated(parameters: &Parameters) -> Tuning {
-    match parameters.structure.strategy {
-        StrategyKind::Robust => (&parameters.robust).into(),
-        _ => (&parameters.optimal).into(),
     }
 }
 
@@ -315,14 +221,20 @@ fn models(parameters: &Parameters) -> [AxisModel; 2] {
 mod tests {
     use super::*;
     use crate::cueing::evaluator::felt;
+    use crate::cueing::strategy::predictive::legs::Surroundings;
     use crate::cueing::strategy::regulator::Regulator;
-    use crate::platform::{PlatformCoordinates, PlatformMotion};
+    use crate::interface::StrategyKind;
+    use crate::platform::{ActuatorGuard, PlatformCoordinates, PlatformMotion};
     use crate::presets;
 
     const STEP: f64 = 0.004;
 
     fn parameters(strategy: StrategyKind) -> Parameters {
         presets::parameters(&[("strategy", 1.0 + strategy as i32 as f64), ("solver.maxStep", STEP)])
+    }
+
+    fn coordinated(parameters: &Parameters) -> Coordinated {
+        Coordinated::new(parameters).unwrap().expect("the strategy is not the classical one")
     }
 
     /// A turn that has a part of everything.
@@ -384,13 +296,13 @@ mod tests {
         for strategy in [StrategyKind::Adaptive, StrategyKind::Optimal] {
             let parameters = parameters(strategy);
             in_circumstances(&parameters, 1.0, |circumstances| {
-                let mut coordinated = Coordinated::new(&parameters).unwrap();
-                coordinated.advance_tilt(circumstances, STEP);
+                let mut strategy = coordinated(&parameters);
+                strategy.advance_tilt(circumstances, STEP);
                 let turning = RotationalMotion::new(circumstances.angles);
-                let travel = coordinated.travel(circumstances, &turning, &HEAVE, STEP);
+                let travel = strategy.travel(circumstances, &turning, &HEAVE, STEP);
                 let felt = felt_force(circumstances, &turning, travel, &HEAVE);
                 for k in 0..2 {
-                    let dropped = coordinated.dropped_force[k];
+                    let dropped = strategy.dropped_force[k];
                     assert!(dropped.abs() > 1e-3, "{dropped}");
                     assert!((felt[k] - circumstances.force[k] - dropped).abs() < 1e-11, "{felt:?}, dropped {dropped}");
                     let now = circumstances.guard.coordinates().linear.axis(k);
@@ -410,11 +322,11 @@ mod tests {
                 let head = LocationFrame::new(&parameters.structure, 0.0);
                 let angles = Motion { position: Vector3::new(roll, 0.0, 0.0), ..Motion::default() };
                 let circumstances = Circumstances { head: &head, angles: &angles, ..*circumstances };
-                let coordinated = Coordinated::new(&parameters).unwrap();
+                let strategy = coordinated(&parameters);
                 let turning = RotationalMotion::new(&angles);
                 // Heave falls with the gravity: only the cue in sway is left.
                 let heave = Motion { acceleration: -parameters.structure.gravity, ..HEAVE };
-                let travel = coordinated.travel(&circumstances, &turning, &heave, STEP);
+                let travel = strategy.travel(&circumstances, &turning, &heave, STEP);
                 let [_, felt] = felt_force(&circumstances, &turning, travel, &heave);
                 let expected = -0.7 * roll.cos().abs() / LEAST_DETERMINANT;
                 assert!((felt - expected).abs() < 1e-11, "{felt} beside {expected}");
@@ -427,10 +339,10 @@ mod tests {
         let parameters = parameters(StrategyKind::Optimal);
         let Parameters { optimal, tilt, safety, structure, .. } = parameters;
         in_circumstances(&parameters, 1.0, |circumstances| {
-            let mut coordinated = Coordinated::new(&parameters).unwrap();
+            let mut strategy = coordinated(&parameters);
             let before = [0.01, -0.02].map(|position| Motion { position, velocity: 0.5 * position, acceleration: 0.0 });
-            coordinated.tilt = before;
-            coordinated.advance_tilt(circumstances, STEP);
+            strategy.tilt = before;
+            strategy.advance_tilt(circumstances, STEP);
             let turn = turn();
             let height = circumstances.head.point.z;
             let (gravity, lean) = (structure.gravity, 0.1);
@@ -455,8 +367,8 @@ mod tests {
                 let Motion { position, velocity, .. } = before[k];
                 let state = [now.position, now.velocity, position, velocity, slow, references[k] - slow];
                 let decided = [0, 1].map(|i| -(0..6).map(|j| gains[(i, j)] * state[j]).sum::<f64>());
-                let Motion { velocity: rate, .. } = coordinated.tilt[k];
-                assert!((coordinated.dropped_force[k] - decided[0]).abs() < 1e-11, "{decided:?}");
+                let Motion { velocity: rate, .. } = strategy.tilt[k];
+                assert!((strategy.dropped_force[k] - decided[0]).abs() < 1e-11, "{decided:?}");
                 let state = AxisState {
                     tilt: position,
                     tilt_rate: velocity,
@@ -467,8 +379,8 @@ mod tests {
                 let expected = velocity + STEP * limits.nearest_acceleration(&state, decided[1], STEP);
                 assert!((rate - expected).abs() < 1e-13, "{rate} beside {expected}");
             }
-            let [roll, pitch] = coordinated.tilt();
-            let [surge, sway] = coordinated.tilt;
+            let [roll, pitch] = strategy.tilt();
+            let [surge, sway] = strategy.tilt;
             let reversed = [-pitch.position, -pitch.velocity, -pitch.acceleration];
             assert_eq!((roll, reversed), (sway, [surge.position, surge.velocity, surge.acceleration]));
         });
@@ -482,19 +394,19 @@ mod tests {
         parameters.optimal.weight_tilt_acceleration = 1e5;
         let before = Motion { position: 0.002, velocity: 0.0005, acceleration: 0.0 };
         let after = |engagement: f64| {
-            let mut coordinated = Coordinated::new(&parameters).unwrap();
-            coordinated.tilt = [before; 2];
+            let mut strategy = coordinated(&parameters);
+            strategy.tilt = [before; 2];
             let mut travel = [Motion::default(); 2];
             in_circumstances(&parameters, engagement, |circumstances| {
                 // The same decisions for every engagement, within the limits.
                 let angles = Motion::default();
                 let force = Vector3::new(0.02, -0.015, 9.8);
                 let circumstances = Circumstances { lean: 0.0, angles: &angles, force, ..*circumstances };
-                coordinated.advance_tilt(&circumstances, STEP);
+                strategy.advance_tilt(&circumstances, STEP);
                 let turning = RotationalMotion::new(circumstances.angles);
-                travel = coordinated.travel(&circumstances, &turning, &HEAVE, STEP);
+                travel = strategy.travel(&circumstances, &turning, &HEAVE, STEP);
             });
-            (coordinated.tilt.map(|tilt| tilt.velocity), travel.map(|axis| axis.acceleration))
+            (strategy.tilt.map(|tilt| tilt.velocity), travel.map(|axis| axis.acceleration))
         };
         let (engaged, mixed, disengaged) = (after(1.0), after(0.25), after(0.0));
         for k in 0..2 {
@@ -515,15 +427,15 @@ mod tests {
     fn a_tilt_near_its_limit_of_angle_or_rate_is_limited() {
         let parameters = parameters(StrategyKind::Optimal);
         let limited = |axis: usize, angle: f64, rate: f64| {
-            let mut coordinated = Coordinated::new(&parameters).unwrap();
-            coordinated.limited = true;
-            coordinated.tilt[axis].position = angle * parameters.tilt.angle_limit;
-            coordinated.tilt[axis].velocity = rate * parameters.tilt.rate_limit;
+            let mut strategy = coordinated(&parameters);
+            strategy.limited = true;
+            strategy.tilt[axis].position = angle * parameters.tilt.angle_limit;
+            strategy.tilt[axis].velocity = rate * parameters.tilt.rate_limit;
             in_circumstances(&parameters, 1.0, |circumstances| {
                 // So short a step hardly changes the tilt.
-                coordinated.advance_tilt(circumstances, 1e-6);
+                strategy.advance_tilt(circumstances, 1e-6);
             });
-            coordinated.limited
+            strategy.limited
         };
         for axis in 0..2 {
             for sign in [1.0, -1.0] {
@@ -535,7 +447,7 @@ mod tests {
 
     #[test]
     fn only_the_predictive_strategy_bounds_heave() {
-        let largest = |strategy| Coordinated::new(&parameters(strategy)).unwrap().largest_heave();
+        let largest = |strategy| coordinated(&parameters(strategy)).largest_heave();
         assert_eq!(largest(StrategyKind::Predictive), 0.1);
         assert_eq!([StrategyKind::Adaptive, StrategyKind::Optimal].map(largest), [f64::INFINITY; 2]);
     }
@@ -547,26 +459,26 @@ mod tests {
             let angles = Motion::default();
             let circumstances =
                 &Circumstances { force: Vector3::new(4.0, 2.0, 9.8), angles: &angles, lean: 0.0, ..*circumstances };
-            let mut coordinated = Coordinated::new(&parameters).unwrap();
+            let mut strategy = coordinated(&parameters);
             for _ in 0..250 {
-                coordinated.advance_tilt(circumstances, STEP);
+                strategy.advance_tilt(circumstances, STEP);
             }
             // Nothing can be planned for what is not a number.
             let force = Vector3::new(f64::NAN, f64::NAN, 9.8);
             let unknown = Circumstances { force, ..*circumstances };
-            let mut before = coordinated.clone();
+            let mut before = strategy.clone();
             let (mut fading, mut largest) = (0, 0.0_f64);
             for _ in 0..1100 {
-                coordinated.advance_tilt(&unknown, STEP);
-                assert!((coordinated.fraction - before.fraction).abs() < 1.001 * STEP);
-                if coordinated.fraction < 1.0 {
+                strategy.advance_tilt(&unknown, STEP);
+                assert!((strategy.fraction - before.fraction).abs() < 1.001 * STEP);
+                if strategy.fraction < 1.0 {
                     fading += 1;
-                    assert_eq!(coordinated.dropped_force, before.dropped_force);
-                    largest = largest.max(coordinated.dropped_force[0].abs());
+                    assert_eq!(strategy.dropped_force, before.dropped_force);
+                    largest = largest.max(strategy.dropped_force[0].abs());
                 }
-                before = coordinated.clone();
+                before = strategy.clone();
             }
-            assert!(coordinated.fraction == 0.0 && fading > 250 && largest > 0.01, "{fading} steps, {largest} m/s2");
+            assert!(strategy.fraction == 0.0 && fading > 250 && largest > 0.01, "{fading} steps, {largest} m/s2");
         });
     }
 
@@ -579,8 +491,7 @@ mod tests {
         for (margin, kept, rounding) in [(0.02, 0.02, 1e-12), (10.0, 0.15, 2e-5)] {
             parameters.predictive.leg_margin = margin;
             in_circumstances(&parameters, 1.0, |circumstances| {
-                let geometry = Geometry::from(&parameters.rig);
-                let surroundings = circumstances.surroundings(&geometry);
+                let surroundings = Surroundings::of(circumstances);
                 for (found, expected) in surroundings.planned_stroke().into_iter().zip([1.0 + kept, 1.6 - kept]) {
                     assert!((found - expected).abs() < rounding, "{found} m beside {expected}");
                 }

@@ -9,11 +9,12 @@
 //! | [`predictive`] | a plan of the next seconds within all limits, made anew 50 times a second |
 //!
 //! Heave and the angular channel are the same for all. All but the first have
-//! [`coordinated`] in common.
+//! [`coordinated`] in common, and differ by their [`law`].
 
 pub mod adaptive;
 pub mod classical;
 pub mod coordinated;
+pub mod law;
 pub mod optimal;
 pub mod predictive;
 pub mod regulator;
@@ -21,66 +22,107 @@ pub mod riccati;
 pub mod robust;
 pub mod smooth_tilt;
 
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 use self::classical::Classical;
 use self::coordinated::Coordinated;
+use self::law::Circumstances;
+pub use self::law::{AxisState, Decision, Unsolvable};
 use self::predictive::{Plan, Predictive};
+use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::gravitational::Tilt;
-use crate::interface::{Parameters, StrategyKind};
+use crate::interface::Parameters;
 use crate::motion::Motion;
+use crate::motion::orientation::RotationalMotion;
 
 /// The strategy in use, with its state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a strategy is chosen once, and a box would allocate when a state is copied"
-)]
 pub enum Strategy {
     Classical(Classical),
     Coordinated(Coordinated),
 }
 
-/// One axis: travel x \[m\] and the tilt q \[rad\] whose gravity acts along it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct AxisState {
-    pub position: f64,
-    pub velocity: f64,
-    pub tilt: f64,
-    pub tilt_rate: f64,
-    pub tilt_acceleration: f64,
-}
-
-/// A strategy's decision for one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Decision {
-    /// Felt force less the cue \[m/s2\].
-    pub dropped_force: f64,
-    /// Acceleration of the tilt \[rad/s2\].
-    pub tilt_acceleration: f64,
-}
-
 impl Strategy {
-    /// The strategy that the parameters choose, at rest at neutral. None if its
-    /// parameters cannot be used.
-    pub fn new(parameters: &Parameters) -> Option<Self> {
-        Some(match parameters.structure.strategy {
-            StrategyKind::Classical => Strategy::Classical(Classical::new(parameters)),
-            StrategyKind::Adaptive | StrategyKind::Optimal | StrategyKind::Robust | StrategyKind::Predictive => {
-                Strategy::Coordinated(Coordinated::new(parameters)?)
-            }
+    /// The strategy that the parameters choose, at rest at neutral.
+    ///
+    /// # Errors
+    /// Its weights cannot be used.
+    pub fn new(parameters: &Parameters) -> Result<Self, Unsolvable> {
+        Ok(match Coordinated::new(parameters)? {
+            Some(coordinated) => Strategy::Coordinated(coordinated),
+            None => Strategy::Classical(Classical::new(parameters)),
         })
     }
 
-    /// Takes other parameters. False, and nothing changes, if they cannot be used.
-    pub fn retune(&mut self, parameters: &Parameters) -> bool {
+    /// Takes other parameters.
+    ///
+    /// # Errors
+    /// Its weights cannot be used. Nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
         match self {
             Strategy::Classical(classical) => {
                 classical.retune(parameters);
-                true
+                Ok(())
             }
             Strategy::Coordinated(coordinated) => coordinated.retune(parameters),
         }
+    }
+
+    /// Advances the tilt by `step` seconds, in which the force in the base frame goes linearly
+    /// between these two. `rotation` is the platform's, as predicted for the step's end.
+    #[inline(always)]
+    pub fn advance_tilt(
+        &mut self,
+        forces: [Vector3<f64>; 2],
+        rotation: &Matrix3<f64>,
+        circumstances: &Circumstances,
+        step: f64,
+    ) {
+        match self {
+            Strategy::Classical(classical) => {
+                let Circumstances { parameters, head, lean, .. } = *circumstances;
+                classical.advance_tilt(forces, rotation, head, lean, parameters, step);
+            }
+            Strategy::Coordinated(coordinated) => coordinated.advance_tilt(circumstances, step),
+        }
+    }
+
+    /// The demanded linear motion at a step's end. `filtered` is that of the linear channel,
+    /// `preaction` the surge of preaction, and `turning` the platform's rotation.
+    #[inline(always)]
+    pub fn demand(
+        &self,
+        mut filtered: Motion<Vector3<f64>>,
+        preaction: &Motion,
+        circumstances: &Circumstances,
+        turning: &RotationalMotion,
+        step: f64,
+    ) -> Motion<Vector3<f64>> {
+        match self {
+            Strategy::Classical(_) => filtered.add_to_axis(0, preaction),
+            Strategy::Coordinated(coordinated) => {
+                let heave = filtered.axis(2);
+                let [surge, sway] = coordinated.travel(circumstances, turning, &heave, step);
+                filtered = Motion::from_axes(|k| [surge, sway, heave][k]);
+            }
+        }
+        filtered
+    }
+
+    /// Continues the linear channel from the real motion, without soft limits, where the actuators
+    /// have changed it.
+    pub fn resume(&self, linear: &mut DirectLinearMotion, parameters: &Parameters, real: &Motion<Vector3<f64>>) {
+        match self {
+            Strategy::Classical(_) => linear.stay_within(&parameters.safety, real),
+            // These strategies decide from the real motion: there is nothing to catch up with.
+            Strategy::Coordinated(_) => linear.continue_from(real),
+        }
+    }
+
+    /// True if preaction moves and tilts the platform. The other strategies see the stop itself.
+    pub fn takes_preaction(&self) -> bool {
+        matches!(self, Strategy::Classical(_))
     }
 
     /// Roll and pitch of the tilt.
@@ -97,7 +139,7 @@ impl Strategy {
         Tilt { roll: roll.position, pitch: pitch.position }
     }
 
-    /// The plan of the predictive strategy.
+    /// The plan that is carried out, of a strategy that plans.
     pub fn plan(&self) -> Option<&Plan> {
         match self {
             Strategy::Classical(_) => None,
@@ -105,11 +147,11 @@ impl Strategy {
         }
     }
 
-    /// The predictive strategy, which alone makes use of a preview.
-    pub fn predictive_mut(&mut self) -> Option<&mut Predictive> {
+    /// What makes use of a preview, if the strategy does.
+    pub fn previewed(&mut self) -> Option<&mut Predictive> {
         match self {
             Strategy::Classical(_) => None,
-            Strategy::Coordinated(coordinated) => coordinated.predictive_mut(),
+            Strategy::Coordinated(coordinated) => coordinated.previewed(),
         }
     }
 

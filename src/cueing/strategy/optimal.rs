@@ -7,10 +7,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::at_rest_if_tiny;
+use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
 use super::regulator::{AxisModel, Regulator, State, Weights};
 use super::robust::Disturbance;
-use super::{AxisState, Decision, at_rest_if_tiny};
-use crate::interface::OptimalParameters;
+use crate::interface::{OptimalParameters, Parameters};
 
 /// The strategy with its state.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +37,25 @@ impl From<&OptimalParameters> for Tuning {
     fn from(parameters: &OptimalParameters) -> Self {
         Tuning { weights: parameters.into(), split_time: parameters.split_time, disturbance: None }
     }
+}
+
+impl Law for Optimal {
+    fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
+        Optimal::new(models, &(&parameters.optimal).into()).ok_or_else(|| unsolvable(parameters))
+    }
+
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        let retuned = self.retune(models, &(&parameters.optimal).into());
+        retuned.then_some(()).ok_or_else(|| unsolvable(parameters))
+    }
+
+    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
+        Some(self.decide(&situation.states, situation.references, step))
+    }
+}
+
+fn unsolvable(parameters: &Parameters) -> Unsolvable {
+    Unsolvable { strategy: "optimal", weight_position: parameters.optimal.weight_position }
 }
 
 impl Optimal {

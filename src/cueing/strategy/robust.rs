@@ -17,9 +17,14 @@
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
 
-use super::optimal::Tuning;
+use super::law::{Decision, Law, Situation, Unsolvable};
+use super::optimal::{Optimal, Tuning};
 use super::regulator::{AxisModel, Problem, Regulator, Weights};
-use crate::interface::RobustParameters;
+use crate::interface::{Parameters, RobustParameters};
+
+/// The strategy: the optimal one with the gains of this regulator.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Robust(Optimal);
 
 /// The disturbance that a regulator withstands.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +40,26 @@ const BRACKET: f64 = 16.0;
 const MOST_BRACKETS: usize = 40;
 /// Bisections of the bracket: gamma is then known to 1e-6 of itself.
 const BISECTIONS: usize = 21;
+
+impl Law for Robust {
+    fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
+        let optimal = Optimal::new(models, &(&parameters.robust).into());
+        optimal.map(Robust).ok_or_else(|| unsolvable(parameters))
+    }
+
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        let retuned = self.0.retune(models, &(&parameters.robust).into());
+        retuned.then_some(()).ok_or_else(|| unsolvable(parameters))
+    }
+
+    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
+        self.0.decisions(situation, step)
+    }
+}
+
+fn unsolvable(parameters: &Parameters) -> Unsolvable {
+    Unsolvable { strategy: "robust", weight_position: parameters.robust.weight_position }
+}
 
 impl From<&RobustParameters> for Tuning {
     fn from(parameters: &RobustParameters) -> Self {

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 pub use self::certificate::stroke_reserve;
 use self::certificate::{Candidate, Machine, Speed, State};
 use super::stop_plan::{StopDurations, StopPlan};
-use super::{Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
+use super::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE, WITH_ROUNDING};
 use crate::motion::min_max::{max, min};
@@ -80,6 +80,11 @@ impl ActuatorGuard {
             plan: StopPlan::rest(),
             limited: None,
         }
+    }
+
+    /// Joints of the legs.
+    pub fn geometry(&self) -> &Geometry {
+        &self.machine.geometry
     }
 
     /// The legs of a motion of the platform.

@@ -4,6 +4,8 @@ use nalgebra::Vector3;
 
 use super::horizon::{BLOCKS, Horizon};
 use super::program::Nodes;
+use crate::cueing::strategy::law::Circumstances;
+use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
 use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
 
@@ -46,7 +48,30 @@ pub struct LegRow {
 /// returns more slowly than by itself, since what moves it lasts for a time.
 const HEAVE_RETURN: f64 = 0.4;
 
-impl Surroundings<'_> {
+/// Largest heave beside a plan \[m\]. More would take the legs' stroke from surge and sway.
+pub const LARGEST_HEAVE: f64 = 0.1;
+
+impl<'a> Surroundings<'a> {
+    /// Those of a step.
+    pub fn of(circumstances: &Circumstances<'a>) -> Self {
+        let Circumstances { parameters, guard, angles, .. } = *circumstances;
+        let Parameters { rig, predictive, angular, splitter, .. } = parameters;
+        let linear = &guard.coordinates().linear;
+        Surroundings {
+            geometry: guard.geometry(),
+            neutral_height: rig.neutral_height,
+            stroke: [rig.min_length, rig.max_length],
+            margin: predictive.leg_margin,
+            heave: linear.position.z,
+            heave_velocity: linear.velocity.z,
+            heave_bound: LARGEST_HEAVE,
+            heave_frequency: splitter.omega1.z,
+            angles: angles.position,
+            angle_rates: angles.velocity,
+            frequencies: Vector3::new(angular.omega1.roll, angular.omega1.pitch, angular.omega1.yaw),
+        }
+    }
+
     /// Shortest and longest length of an actuator in a plan \[m\].
     ///
     /// The margin at an end takes at most half the room that the actuators have there at neutral.
@@ -134,7 +159,7 @@ pub(super) mod tests {
             margin: 0.0,
             heave: 0.0,
             heave_velocity: 0.0,
-            heave_bound: 0.1,
+            heave_bound: LARGEST_HEAVE,
             heave_frequency: 5.0,
             angles: Vector3::zeros(),
             angle_rates: Vector3::zeros(),

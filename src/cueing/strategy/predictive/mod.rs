@@ -24,12 +24,12 @@ use serde::{Deserialize, Serialize};
 use self::dual_active_set::{DualActiveSet, Rows, Status};
 use self::forecast::{Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, SAMPLE};
-use self::legs::{Surroundings, leg_rows};
+use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::Course;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
+use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
 use super::regulator::{AxisModel, Weights};
-use super::{AxisState, Decision};
-use crate::interface::{ForecastKind, PredictiveParameters};
+use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
 
 /// Iterations of an internal step of up to [`PACE`] seconds; longer steps do more in proportion.
 const ITERATIONS_PER_STEP: f64 = 8.0;
@@ -94,6 +94,42 @@ impl From<&PredictiveParameters> for Tuning {
             memory: Memory { fit: parameters.memory, selection: parameters.selection },
         }
     }
+}
+
+impl Law for Box<Predictive> {
+    fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
+        let predictive = Predictive::new(models, &(&parameters.predictive).into());
+        predictive.map(Box::new).ok_or_else(|| unsolvable(parameters))
+    }
+
+    fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
+        let retuned = self.retune(models, &(&parameters.predictive).into());
+        retuned.then_some(()).ok_or_else(|| unsolvable(parameters))
+    }
+
+    fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
+        let Situation { states, references, circumstances } = situation;
+        let decisions = self.decide(states, &Surroundings::of(circumstances), circumstances.time_to_stop, step);
+        let beside = [0, 1].map(|k: usize| references[k] - circumstances.force[k]);
+        self.observe(*references, beside, step);
+        decisions
+    }
+
+    fn largest_heave(&self) -> f64 {
+        LARGEST_HEAVE
+    }
+
+    fn plan(&self) -> Option<&Plan> {
+        Some(Predictive::plan(self))
+    }
+
+    fn previewed(&mut self) -> Option<&mut Predictive> {
+        Some(self)
+    }
+}
+
+fn unsolvable(parameters: &Parameters) -> Unsolvable {
+    Unsolvable { strategy: "predictive", weight_position: parameters.predictive.weight_position }
 }
 
 impl Predictive {
