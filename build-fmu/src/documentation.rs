@@ -3,15 +3,6 @@
 use crate::model::Wording;
 use crate::{FmiVersion, FmuModel, Start};
 
-/// A part of the documentation.
-pub struct Section {
-    /// Fragment of a link to the section.
-    pub anchor: &'static str,
-    pub heading: &'static str,
-    /// Text under the heading, with placeholders in double braces: see [`FmuModel::wording`].
-    pub html: &'static str,
-}
-
 /// The page, with places in double braces.
 const PAGE: &str = include_str!("../documentation/page.html");
 const STYLE: &str = include_str!("../documentation/style.css");

@@ -8,6 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 
@@ -27,6 +28,12 @@ impl Limits {
     /// The same limits on both sides of zero.
     pub fn symmetric(position: f64, velocity: f64, acceleration: f64, longest_step: f64) -> Self {
         Limits { min: -position, max: position, velocity, acceleration, longest_step }
+    }
+
+    /// The platform's limits of one axis about neutral.
+    pub fn safety(parameters: &SafetyParameters, axis: usize, longest_step: f64) -> Self {
+        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = parameters;
+        Limits::symmetric(position_limit[axis], velocity_limit[axis], acceleration_limit[axis], longest_step)
     }
 
     /// The motion after one step towards a target. At the step's end the target is at

@@ -11,7 +11,6 @@ use moris_model_description::{fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
 
-use crate::documentation::Section;
 use crate::reference::{self, Stimuli};
 use crate::terminals::Terminal;
 use crate::{FmiVersion, Start};
@@ -22,6 +21,15 @@ pub use washout::WASHOUT;
 
 /// Every model, in the order in which they are built.
 pub const MODELS: &[FmuModel] = &[WASHOUT, MOTORCYCLE, STEWART_PLATFORM];
+
+/// A part of the documentation.
+pub struct Section {
+    /// Fragment of a link to the section.
+    pub anchor: &'static str,
+    pub heading: &'static str,
+    /// Text under the heading, with placeholders in double braces: see [`FmuModel::wording`].
+    pub html: &'static str,
+}
 
 /// Data of a model for the build.
 pub struct FmuModel {
@@ -81,7 +89,7 @@ impl Wording {
 /// A section of a model's documentation; its text is in the file named as the anchor.
 macro_rules! section {
     ($model:literal, $anchor:literal, $heading:literal) => {
-        $crate::documentation::Section {
+        $crate::model::Section {
             anchor: $anchor,
             heading: $heading,
             html: include_str!(concat!("../../documentation/", $model, "/", $anchor, ".html")),

@@ -14,6 +14,8 @@ extern crate self as moris_interface; // the macros name this crate so
 mod declare;
 mod field;
 mod guid;
+mod layout;
+mod log_categories;
 mod model;
 mod row;
 mod shown;
@@ -27,6 +29,8 @@ pub use serde;
 
 pub use field::Field;
 pub use guid::{guid, guid_of};
+pub use layout::Layout;
+pub use log_categories::{LOG_CATEGORIES, LOG_CATEGORIES_OF_FMI3, LogCategory};
 pub use model::{Identity, MOST_INTERNAL_STEPS, Model, ParameterError, SHORTEST_STEP, Time, refuse};
 pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, concat_rows, row_count, with_tunable};
 pub use shown::shown;

@@ -1,7 +1,6 @@
 //! From a model's rows to its description.
 
-use moris_fmi::LOG_CATEGORIES;
-use moris_interface::{Causality, Identity, Kind, Model, guid_of, start_values};
+use moris_interface::{Causality, Identity, Kind, LOG_CATEGORIES, Model, guid_of, start_values};
 
 use super::model_description::{CoSimulation, ModelDescription, ModelVariables, TypeDefinitions};
 use super::model_structure::{ModelStructure, Unknowns};

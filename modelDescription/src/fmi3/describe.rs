@@ -1,7 +1,6 @@
 //! From a model's rows to its description.
 
-use moris_fmi::fmi3::{LOG_CATEGORIES, Layout};
-use moris_interface::{Causality, Identity, Kind, Model, Row, guid_of, start_values};
+use moris_interface::{Causality, Identity, Kind, LOG_CATEGORIES_OF_FMI3, Layout, Model, Row, guid_of, start_values};
 
 use super::model_description::{CoSimulation, ModelDescription, ModelVariables};
 use super::model_structure::{ModelStructure, Unknown};
@@ -40,7 +39,9 @@ pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> ModelDescriptio
         co_simulation: co_simulation(&identity),
         unit_definitions: UnitDefinitions::of(&identity),
         type_definitions: type_definitions(&identity),
-        log_categories: LogCategories::of(LOG_CATEGORIES.iter().map(|(category, text)| (category.name(), *text))),
+        log_categories: LogCategories::of(
+            LOG_CATEGORIES_OF_FMI3.iter().map(|(category, text)| (category.name(), *text)),
+        ),
         default_experiment: (&identity).into(),
         model_variables: ModelVariables { variables: variables(&identity, start, layout) },
         model_structure: model_structure(&identity, layout),

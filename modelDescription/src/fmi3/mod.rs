@@ -12,5 +12,5 @@ mod variables_html;
 
 pub use describe::{describe, describe_with};
 pub use model_description::ModelDescription;
-pub use moris_fmi::fmi3::Layout;
+pub use moris_interface::Layout;
 pub use variables_html::variables_html;

@@ -25,14 +25,6 @@ pub struct SafetyUnits {
     active: [bool; 3],
 }
 
-impl Limits {
-    /// The limits of one axis about neutral.
-    pub fn safety(parameters: &SafetyParameters, axis: usize, longest_step: f64) -> Self {
-        let SafetyParameters { position_limit, velocity_limit, acceleration_limit } = parameters;
-        Limits::symmetric(position_limit[axis], velocity_limit[axis], acceleration_limit[axis], longest_step)
-    }
-}
-
 impl SafetyUnits {
     /// At rest at neutral, not active.
     pub fn new(longest_step: f64) -> Self {

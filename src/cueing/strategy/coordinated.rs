@@ -18,8 +18,8 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AnyLaw, AxisState, Circumstances, Decision, Situation, Unsolvable};
-use super::predictive::{Plan, Predictive};
+use super::law::{AxisState, Circumstances, Decision, PlanStatus, Previewed, Situation, Unsolvable};
+use super::laws::AnyLaw;
 use super::regulator::AxisModel;
 use super::smooth_tilt::TiltLimits;
 use crate::cueing::compensation::{centripetal, tangential};
@@ -91,12 +91,12 @@ impl Coordinated {
     }
 
     /// The plan that is carried out, of a law that plans.
-    pub fn plan(&self) -> Option<&Plan> {
+    pub fn plan(&self) -> Option<PlanStatus> {
         self.law.plan()
     }
 
     /// The law that makes use of a preview, if this one does.
-    pub fn previewed(&mut self) -> Option<&mut Predictive> {
+    pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
         self.law.previewed()
     }
 

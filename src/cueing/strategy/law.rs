@@ -1,17 +1,14 @@
 //! The law of a coordinated strategy: what decides on the dropped force and on the tilt.
 //!
-//! A new strategy is a file beside this one that implements [`Law`], a row of the list at the end
-//! of this file, its item of [`StrategyKind`] with its parameters, and its preset.
+//! A new strategy is a file beside this one that implements [`Law`], a row of the list in
+//! [`laws`](super::laws), its item of `StrategyKind` with its parameters, and its preset.
 
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::adaptive::Adaptive;
-use super::optimal::Optimal;
-use super::predictive::{Plan, Predictive};
+use super::predictive::preview::Course;
 use super::regulator::AxisModel;
-use super::robust::Robust;
-use crate::interface::{Parameters, StrategyKind};
+use crate::interface::Parameters;
 use crate::motion::Motion;
 use crate::platform::{ActuatorGuard, LocationFrame};
 use moris_interface::ParameterError;
@@ -86,14 +83,34 @@ pub trait Law: Sized {
     }
 
     /// The plan that is carried out, of a law that plans.
-    fn plan(&self) -> Option<&Plan> {
+    fn plan(&self) -> Option<PlanStatus> {
         None
     }
 
-    /// The law that makes use of a preview, if this one does.
-    fn previewed(&mut self) -> Option<&mut Predictive> {
+    /// The law as one that makes use of a preview, if it does.
+    fn previewed(&mut self) -> Option<&mut dyn Previewed> {
         None
     }
+}
+
+/// A law that makes use of a preview.
+pub trait Previewed {
+    /// Sets the specific force of surge and sway that is to come.
+    fn preview(&mut self, courses: &[Course; 2]);
+
+    /// Lets the preview begin `lag` seconds later.
+    fn put_off_preview(&mut self, lag: f64);
+}
+
+/// The plan of a law that plans.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlanStatus {
+    /// Time since the plan was begun \[s\].
+    pub age: f64,
+    /// Iterations that it took.
+    pub iterations: u32,
+    /// True if the last attempt at a newer plan failed.
+    pub kept: bool,
 }
 
 /// The error for weights with which the Riccati equation has no numerical solution.
@@ -114,71 +131,4 @@ impl From<Unsolvable> for ParameterError {
             ),
         }
     }
-}
-
-/// Makes [`AnyLaw`] of the laws, each with the item of [`StrategyKind`] that chooses it.
-macro_rules! laws {
-    ($($item:ident: $law:ty),+ $(,)?) => {
-        /// The law of the strategy in use.
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-        pub enum AnyLaw {
-            $($item($law)),+
-        }
-
-        impl AnyLaw {
-            /// The law that the parameters choose, at rest. None for the classical strategy, which
-            /// has none.
-            ///
-            /// # Errors
-            /// The weights cannot be used.
-            pub fn of(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Option<Self>, Unsolvable> {
-                Ok(match parameters.structure.strategy {
-                    StrategyKind::Classical => None,
-                    $(StrategyKind::$item => Some(AnyLaw::$item(Law::at_rest(models, parameters)?))),+
-                })
-            }
-
-            /// As [`Law::set_parameters`].
-            pub fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
-                match self {
-                    $(AnyLaw::$item(law) => law.set_parameters(models, parameters)),+
-                }
-            }
-
-            /// As [`Law::decisions`].
-            pub fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
-                match self {
-                    $(AnyLaw::$item(law) => law.decisions(situation, step)),+
-                }
-            }
-
-            /// As [`Law::largest_heave`].
-            pub fn largest_heave(&self) -> f64 {
-                match self {
-                    $(AnyLaw::$item(law) => law.largest_heave()),+
-                }
-            }
-
-            /// As [`Law::plan`].
-            pub fn plan(&self) -> Option<&Plan> {
-                match self {
-                    $(AnyLaw::$item(law) => law.plan()),+
-                }
-            }
-
-            /// As [`Law::previewed`].
-            pub fn previewed(&mut self) -> Option<&mut Predictive> {
-                match self {
-                    $(AnyLaw::$item(law) => law.previewed()),+
-                }
-            }
-        }
-    };
-}
-
-laws! {
-    Adaptive: Adaptive,
-    Optimal: Optimal,
-    Robust: Robust,
-    Predictive: Box<Predictive>,
 }

@@ -15,6 +15,8 @@ pub mod adaptive;
 pub mod classical;
 pub mod coordinated;
 pub mod law;
+pub mod laws;
+pub mod minimax;
 pub mod optimal;
 pub mod predictive;
 pub mod regulator;
@@ -27,9 +29,8 @@ use serde::{Deserialize, Serialize};
 
 use self::classical::Classical;
 use self::coordinated::Coordinated;
-use self::law::Circumstances;
 pub use self::law::{AxisState, Decision, Unsolvable};
-use self::predictive::{Plan, Predictive};
+use self::law::{Circumstances, PlanStatus, Previewed};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::gravitational::Tilt;
 use crate::interface::Parameters;
@@ -140,7 +141,7 @@ impl Strategy {
     }
 
     /// The plan that is carried out, of a strategy that plans.
-    pub fn plan(&self) -> Option<&Plan> {
+    pub fn plan(&self) -> Option<PlanStatus> {
         match self {
             Strategy::Classical(_) => None,
             Strategy::Coordinated(coordinated) => coordinated.plan(),
@@ -148,7 +149,7 @@ impl Strategy {
     }
 
     /// What makes use of a preview, if the strategy does.
-    pub fn previewed(&mut self) -> Option<&mut Predictive> {
+    pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
         match self {
             Strategy::Classical(_) => None,
             Strategy::Coordinated(coordinated) => coordinated.previewed(),

@@ -9,8 +9,8 @@ use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
 use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
+use super::minimax::Disturbance;
 use super::regulator::{AxisModel, Regulator, State, Weights};
-use super::robust::Disturbance;
 use crate::interface::{OptimalParameters, Parameters};
 
 /// The strategy with its state.

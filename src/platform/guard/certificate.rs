@@ -8,118 +8,24 @@
 //! velocities at the steps' ends.
 
 use nalgebra::Vector3;
-use serde::{Deserialize, Serialize};
 
 use super::bounds::JointBounds;
-use super::home::Home;
-use crate::interface::{Rig, SafetyParameters};
+use super::machine::{Candidate, Machine, STOP_FRACTION, Speed, State, sum_of_magnitudes};
+use crate::interface::SafetyParameters;
 use crate::motion::Motion;
-use crate::motion::braking_law::{Limits, ROUNDING, WITH_ROUNDING};
+use crate::motion::braking_law::{ROUNDING, WITH_ROUNDING};
 use crate::motion::min_max::{max, min};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
-use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, leg_lengths};
+use crate::platform::{PlatformCoordinates, PlatformMotion};
 
-/// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
-/// accelerations that the legs' rotation causes.
-const STOP_FRACTION: f64 = 0.6;
 /// Stop plans are divided into cells. The bound on what happens between two points is about this
 /// fraction of the acceleration limit.
 const MARGIN: f64 = 0.05;
 /// The largest number of cells into which the longest piece of a stop plan is divided.
 const MOST_CELLS: f64 = 12.0;
 
-/// The legs with their limits, as the certificate needs them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Machine {
-    pub geometry: Geometry,
-    pub neutral_height: f64,
-    /// The farthest joint from the platform's origin \[m\].
-    pub(super) radius: f64,
-    /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke
-    /// by [`stroke_reserve`].
-    pub limits: Limits,
-    /// Duration of a stop for each m/s of a leg \[s2/m\].
-    stop_time_per_speed: f64,
-    /// What the straight way to neutral needs.
-    pub(super) home: Home,
-}
-
-/// A state that the platform may have next: its coordinates, the same as a motion in the
-/// base frame, and its legs.
-#[derive(Clone, Copy)]
-pub struct Candidate<'a> {
-    pub coordinates: &'a PlatformCoordinates,
-    pub motion: &'a PlatformMotion,
-    pub legs: &'a Legs,
-}
-
-/// The state that the platform has.
-#[derive(Clone, Copy)]
-pub struct State<'a> {
-    pub coordinates: &'a PlatformCoordinates,
-    pub motion: &'a PlatformMotion,
-    pub speed: Speed,
-}
-
-/// Speed of the platform's origin \[m/s\] and the sum of the angles' rates' magnitudes \[rad/s\].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Speed {
-    pub(super) linear: f64,
-    pub(super) angular: f64,
-}
-
-impl Speed {
-    #[inline(always)]
-    pub fn of(coordinates: &PlatformCoordinates) -> Self {
-        Speed { linear: coordinates.linear.velocity.norm(), angular: sum_of_magnitudes(&coordinates.angles.velocity) }
-    }
-
-    /// A bound on the speed of any joint.
-    #[inline(always)]
-    pub(super) fn of_joints(self, radius: f64) -> f64 {
-        self.linear + self.angular * radius
-    }
-}
-
-/// The reserve of a stroke at either end for what happens between the ends of a step \[m\].
-///
-/// It is what a leg can move beyond both ends of a transition: A h²/8 for the longest step h, or V
-/// h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
-pub fn stroke_reserve(rig: &Rig, longest_step: f64) -> f64 {
-    (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
-}
-
 impl Machine {
-    /// The machine of a rig; no step will be longer than `longest_step` \[s\].
-    pub fn new(rig: &Rig, longest_step: f64) -> Self {
-        let reserve = stroke_reserve(rig, longest_step);
-        let geometry = Geometry::from(rig);
-        let limits = Limits {
-            min: rig.min_length + reserve,
-            max: rig.max_length - reserve,
-            velocity: rig.velocity_limit,
-            acceleration: rig.acceleration_limit,
-            longest_step,
-        };
-        Machine {
-            home: Home::new(&leg_lengths(&geometry, &Pose::neutral(rig)), &limits),
-            geometry,
-            neutral_height: rig.neutral_height,
-            radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
-            limits,
-            stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
-        }
-    }
-
-    /// The limits within which each leg pursues a demand: a little inside the certified stroke. A
-    /// leg at the end of the stroke is then drawn back and does not keep the others from moving.
-    pub fn pursuit_limits(&self) -> Limits {
-        const INSET: f64 = 1e-5;
-        let inset = INSET * (self.limits.max - self.limits.min);
-        Limits { min: self.limits.min + inset, max: self.limits.max - inset, ..self.limits }
-    }
-
     /// Duration of a certified stop from the candidate, if bounds on the whole way there and to
     /// rest are enough to certify it. No point of the way is evaluated.
     ///
@@ -403,11 +309,6 @@ fn change_and_gap(now: &Motion<Vector3<f64>>, next: &Motion<Vector3<f64>>, step:
 /// A difference of positions without what rounding may have added.
 fn without_rounding(gap: f64) -> f64 {
     if gap.is_nan() { gap } else { (gap.abs() - ROUNDING).max(0.0).copysign(gap) }
-}
-
-#[inline(always)]
-pub(super) fn sum_of_magnitudes(vector: &Vector3<f64>) -> f64 {
-    vector.x.abs() + vector.y.abs() + vector.z.abs()
 }
 
 #[cfg(test)]

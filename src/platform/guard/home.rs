@@ -14,50 +14,17 @@
 //! The way is certified if every leg is inside its stroke by at least s times a clearance. From any
 //! point of a certified way the rest of it is certified as well.
 
-use serde::{Deserialize, Serialize};
-
-use super::certificate::{Candidate, Machine, Speed, sum_of_magnitudes};
+use super::machine::{Candidate, Home, Machine, Speed, sum_of_magnitudes};
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::motion::min_max::{max, min};
 use crate::platform::{PlatformCoordinates, inverse_kinematics};
 
-/// The clearance at neutral, as a fraction of the room that the legs have there.
-const CLEARANCE: f64 = 1.0 / 16.0;
 /// The largest number of points of a way that are looked at, and the largest number of parts into
 /// which it is divided.
 const MOST_POINTS: usize = 16;
 const MOST_PARTS: f64 = 32.0;
-
-/// The legs at neutral.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Home {
-    length: [f64; 6],
-    longest: f64,
-    /// The clearances at neutral from the shortest and the longest length \[m\].
-    clearance: [f64; 2],
-    /// How far beyond their clearances the legs are at least at neutral \[m\].
-    beyond_clearance: [f64; 2],
-    /// 1/(2 times the shortest length) \[1/m\].
-    per_two_lengths: f64,
-}
-
-impl Home {
-    /// For legs that have these lengths at neutral.
-    pub fn new(length: &[f64; 6], limits: &Limits) -> Self {
-        let shortest = length.iter().fold(f64::INFINITY, |least, &length| min(length, least));
-        let longest = length.iter().fold(0.0, |most, &length| max(length, most));
-        let room = [shortest - limits.min, limits.max - longest];
-        Home {
-            length: *length,
-            longest,
-            clearance: room.map(|room| CLEARANCE * room),
-            beyond_clearance: room.map(|room| (1.0 - CLEARANCE) * room),
-            per_two_lengths: 0.5 / limits.min,
-        }
-    }
-}
 
 /// Distances on the straight way to neutral.
 #[derive(Clone, Copy)]

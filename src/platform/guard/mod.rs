@@ -15,14 +15,15 @@
 mod bounds;
 mod certificate;
 mod home;
+mod machine;
 mod pursuit;
 #[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};
 
-pub use self::certificate::stroke_reserve;
-use self::certificate::{Candidate, Machine, Speed, State};
+pub use self::machine::stroke_reserve;
+use self::machine::{Candidate, Machine, Speed, State};
 use super::stop_plan::{StopDurations, StopPlan};
 use super::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};

@@ -4,7 +4,7 @@
 use nalgebra::{Vector3, Vector6};
 
 use super::ActuatorGuard;
-use super::certificate::Candidate;
+use super::machine::Candidate;
 use crate::interface::SafetyParameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::{CATCH_UP_FRACTION, Limits};

@@ -2,8 +2,8 @@
 
 use moris_interface::Identity;
 
+use super::LOG_CATEGORIES;
 use super::Layout;
-use super::log_categories::LOG_CATEGORIES;
 use super::types::{fmi3InstanceEnvironment, fmi3LogMessageCallback, fmi3Status};
 use crate::abi::Host;
 use crate::abi::pointers::c_string;

@@ -12,17 +12,14 @@
 mod arrays;
 pub mod calling_sequence;
 mod export;
-mod layout;
 pub mod lifecycle;
-mod log_categories;
 mod logger;
 pub mod steps;
 pub mod types;
 pub mod variables;
 
-pub use layout::Layout;
-pub use log_categories::LOG_CATEGORIES;
 pub use logger::Logger;
+pub use moris_interface::{LOG_CATEGORIES_OF_FMI3 as LOG_CATEGORIES, Layout};
 
 /// An instance of FMI 3.0.
 type Component<M> = crate::abi::Component<M, Logger>;

@@ -5,10 +5,9 @@ use moris_washout::platform::check_torso;
 
 use nalgebra::{Complex, SVector};
 
-use crate::interface::Parameters;
+use crate::interface::{LARGEST_SPEED, Parameters, STRONGEST_WIND};
 use crate::lateral::{Design, Lateral, static_loads};
 use crate::longitudinal::Longitudinal;
-use crate::motorcycle::STRONGEST_WIND;
 use crate::rider::Rider;
 use crate::suspension::Suspension;
 
@@ -143,8 +142,6 @@ fn check_pole(parameters: &Parameters, pole: f64) -> Result<(), ParameterError> 
 
 /// Least fraction of the weight on either wheel.
 const LEAST_LOAD: f64 = 0.02;
-/// Largest speed for which the rider is designed \[m/s\].
-pub const LARGEST_SPEED: f64 = 150.0;
 /// The Runge-Kutta rule is stable for poles in the left half-plane up to 2.6 divided by the step;
 /// with a margin.
 const LARGEST_POLE: f64 = 2.0;

@@ -12,8 +12,11 @@ use moris_interface::{enumeration, interface, interface_tree};
 use moris_washout::interface::{AngularVelocityFrame, PREVIEW_SAMPLES, RollPitchYaw, STANDARD_GRAVITY};
 use nalgebra::{ArrayStorage, RowSVector, Vector3};
 
-use crate::check::LARGEST_SPEED;
-use crate::motorcycle::STRONGEST_WIND;
+/// Limit of the wind force along each axis \[N\]: about that of 30 m/s from the side.
+pub const STRONGEST_WIND: f64 = 600.0;
+
+/// Largest speed for which the rider is designed \[m/s\].
+pub const LARGEST_SPEED: f64 = 150.0;
 
 interface! {
     /// Commands to the rider, and the wind.

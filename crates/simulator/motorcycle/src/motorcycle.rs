@@ -17,14 +17,11 @@ use crate::path::forerun::{Forerun, PREVIEW_STEP, Record};
 use crate::path::grip::{self, Friction};
 use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
-use crate::state::{Place, State};
+use crate::state::{Place, RunState, Stage, State};
 use crate::suspension::{self, Suspension};
 
 /// Largest number of internal steps in a communication step.
 pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
-
-/// Limit of the wind force along each axis \[N\]: about that of 30 m/s from the side.
-pub const STRONGEST_WIND: f64 = 600.0;
 
 /// Limit of the rider's torque on the bars on a path \[N m\].
 const STRONGEST_TORQUE: f64 = 120.0;
@@ -46,25 +43,6 @@ pub struct Motorcycle {
     /// The simulation of the next seconds. None without a path, or after the
     /// path was left or a fall.
     forerun: Option<Box<Forerun>>,
-}
-
-/// The state, and the stage on a path.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RunState {
-    state: State,
-    stage: Stage,
-    /// True if friction limited a tyre's lateral force in the last internal step.
-    grip_limited: bool,
-}
-
-/// Stage on a path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-enum Stage {
-    /// On the path, or without one.
-    Riding,
-    /// The motorcycle has left the path.
-    OffPath,
-    Fallen,
 }
 
 /// A state's derivative with intermediate results.

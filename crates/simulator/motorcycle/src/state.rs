@@ -37,6 +37,25 @@ pub struct Place {
     pub heading: f64,
 }
 
+/// The state, and the stage on a path.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RunState {
+    pub state: State,
+    pub stage: Stage,
+    /// True if friction limited a tyre's lateral force in the last internal step.
+    pub grip_limited: bool,
+}
+
+/// Stage on a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Stage {
+    /// On the path, or without one.
+    Riding,
+    /// The motorcycle has left the path.
+    OffPath,
+    Fallen,
+}
+
 impl State {
     /// This state and `factor` times a derivative.
     pub fn plus(&self, derivative: &State, factor: f64) -> State {

@@ -177,16 +177,11 @@ fn component(
 fn connector(identity: &Identity, name: &str, kind: schema::ConnectorKind) -> schema::Connector {
     let slot = identity.slot(name).unwrap_or_else(|| panic!("{} has no variable {name}", identity.name));
     let type_ = match identity.row(slot).kind {
-        Kind::Real(unit) => schema::Type::Real { unit: unit_name(unit) },
+        Kind::Real(unit) => schema::Type::Real { unit: schema::unit_name(unit) },
         Kind::Boolean => schema::Type::Boolean {},
         Kind::Integer | Kind::Enumeration(_) => schema::Type::Integer {},
     };
     schema::Connector { name: name.to_owned(), kind, type_ }
-}
-
-/// A unit's name; none for what has none.
-pub fn unit_name(unit: &moris_interface::Unit) -> Option<String> {
-    (!unit.name.is_empty()).then(|| unit.name.to_owned())
 }
 
 /// All connections: from the system's inputs, between components, to the system's outputs.

@@ -3,7 +3,6 @@
 use moris_interface::{Causality, Identity, Kind};
 use toml::{Table, Value};
 
-use crate::describe::unit_name;
 use crate::schema;
 use crate::system::{Component, System};
 use moris_build_fmu::Error;
@@ -45,7 +44,9 @@ fn typed(identity: &Identity, variable: &str, value: &Value) -> Result<schema::V
         return Err("cannot be set".to_owned());
     }
     match (row.kind, value) {
-        (Kind::Real(unit), Value::Float(value)) => Ok(schema::Value::Real { value: *value, unit: unit_name(unit) }),
+        (Kind::Real(unit), Value::Float(value)) => {
+            Ok(schema::Value::Real { value: *value, unit: schema::unit_name(unit) })
+        }
         (Kind::Integer, Value::Integer(value)) => Ok(schema::Value::Integer { value: *value }),
         (Kind::Boolean, Value::Boolean(value)) => Ok(schema::Value::Boolean { value: *value }),
         (Kind::Enumeration(kind), Value::String(item)) if kind.items.iter().any(|known| known.name == item) => {

@@ -316,3 +316,8 @@ pub enum Value {
         value: String,
     },
 }
+
+/// A unit's name; none for what has none.
+pub fn unit_name(unit: &moris_interface::Unit) -> Option<String> {
+    (!unit.name.is_empty()).then(|| unit.name.to_owned())
+}

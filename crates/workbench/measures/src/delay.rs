@@ -6,7 +6,7 @@
 
 use realfft::RealFftPlanner;
 
-use crate::fidelity::{CONSTANT, correlation, mean};
+use crate::statistics::{CONSTANT, correlation, mean};
 
 /// Longest delay considered, of either sign \[s\].
 const LONGEST_DELAY: f64 = 2.0;

@@ -1,10 +1,7 @@
 //! Fidelity with which one signal follows another: errors, correlation and delay.
 
 use crate::delay::delay;
-
-/// A signal whose values differ by less than this is constant: far below what anybody
-/// feels \[m/s2 or rad/s\].
-pub(crate) const CONSTANT: f64 = 1e-9;
+use crate::statistics::{CONSTANT, correlation, is_constant};
 
 /// Fidelity of a felt signal to the desired one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,32 +40,6 @@ pub fn rms_error(desired: &[f64], felt: &[f64]) -> f64 {
 /// Largest difference.
 pub fn peak_error(desired: &[f64], felt: &[f64]) -> f64 {
     desired.iter().zip(felt).map(|(d, f)| (f - d).abs()).fold(0.0, f64::max)
-}
-
-/// Pearson's correlation coefficient; none where one of the signals is constant.
-pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
-    if is_constant(a) || is_constant(b) {
-        return None;
-    }
-    let (mean_a, mean_b) = (mean(a), mean(b));
-    let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
-    for (a, b) in a.iter().zip(b) {
-        let (a, b) = (a - mean_a, b - mean_b);
-        aa += a * a;
-        ab += a * b;
-        bb += b * b;
-    }
-    Some(ab / (aa * bb).sqrt())
-}
-
-pub(crate) fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
-}
-
-fn is_constant(values: &[f64]) -> bool {
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    values.is_empty() || most - least < CONSTANT
 }
 
 #[cfg(test)]

@@ -27,6 +27,7 @@ pub mod fidelity;
 mod listing;
 mod measures;
 mod run;
+pub mod statistics;
 pub mod vestibular;
 
 pub use listing::{Row, all_rows, bound_rows};

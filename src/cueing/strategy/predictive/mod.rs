@@ -10,6 +10,7 @@
 //! without delay: see [`coordinated`](super::coordinated).
 
 pub mod dual_active_set;
+pub mod expected;
 pub mod forecast;
 pub mod horizon;
 pub mod legs;
@@ -27,7 +28,7 @@ use self::horizon::{BLOCKS, Horizon, SAMPLE};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::Course;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
-use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
+use super::law::{AxisState, Decision, Law, PlanStatus, Previewed, Situation, Unsolvable};
 use super::regulator::{AxisModel, Weights};
 use crate::interface::{ForecastKind, Parameters, PredictiveParameters};
 
@@ -119,12 +120,29 @@ impl Law for Box<Predictive> {
         LARGEST_HEAVE
     }
 
-    fn plan(&self) -> Option<&Plan> {
-        Some(Predictive::plan(self))
+    fn plan(&self) -> Option<PlanStatus> {
+        let Plan { age, iterations, kept, .. } = self.plan;
+        Some(PlanStatus { age, iterations, kept })
     }
 
-    fn previewed(&mut self) -> Option<&mut Predictive> {
-        Some(self)
+    fn previewed(&mut self) -> Option<&mut dyn Previewed> {
+        Some(&mut **self)
+    }
+}
+
+impl Previewed for Predictive {
+    /// Sets the courses that the cue will take in surge and sway.
+    fn preview(&mut self, courses: &[Course; 2]) {
+        for (forecaster, course) in self.forecasters.iter_mut().zip(courses) {
+            forecaster.preview(course);
+        }
+    }
+
+    /// Delays courses that have just been given by `lag` seconds.
+    fn put_off_preview(&mut self, lag: f64) {
+        for forecaster in &mut self.forecasters {
+            forecaster.put_off_preview(lag);
+        }
     }
 }
 
@@ -211,20 +229,6 @@ impl Predictive {
         self.plan.age += step;
         self.begun += step;
         decisions
-    }
-
-    /// Sets the courses that the cue will take in surge and sway.
-    pub fn preview(&mut self, courses: &[Course; 2]) {
-        for (forecaster, course) in self.forecasters.iter_mut().zip(courses) {
-            forecaster.preview(course);
-        }
-    }
-
-    /// Delays courses that have just been given by `lag` seconds.
-    pub fn put_off_preview(&mut self, lag: f64) {
-        for forecaster in &mut self.forecasters {
-            forecaster.put_off_preview(lag);
-        }
     }
 
     /// Advances by `step` seconds with these references of surge and sway; `beside` is the angular

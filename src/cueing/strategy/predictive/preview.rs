@@ -4,7 +4,7 @@ use moris_interface::Group;
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
-use super::forecast::{FADE_DECAY, Forecast};
+use super::expected::{FADE_DECAY, Forecast};
 use super::horizon::{BLOCKS, FORECAST, Horizon};
 use crate::interface::{PREVIEW_SAMPLES, Preview};
 

@@ -22,7 +22,7 @@ use nalgebra::{Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
 
 use super::dual_active_set::Rows;
-use super::forecast::Forecast;
+use super::expected::Forecast;
 use super::horizon::{BLOCKS, Horizon};
 use crate::cueing::strategy::AxisState;
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};

@@ -419,7 +419,7 @@ fn condensed_nodes_are_those_of_the_block_equations() {
     let predictive = predictive();
     let controls = AxisControls::from_fn(|k, _| 0.3 * (k as f64).sin());
     let state = AxisState { position: 0.1, velocity: -0.2, tilt: 0.05, tilt_rate: 0.01, tilt_acceleration: -0.05 };
-    let mut forecast = forecast::Forecast::default();
+    let mut forecast = expected::Forecast::default();
     forecast.means.fill(0.7);
     let axis = &predictive.programs.near.axes[0];
     let data = axis.data(&state, -0.4, &forecast);

@@ -12,7 +12,7 @@ use super::{JointBounds, search, sum, vector};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
 use crate::motion::braking_law;
-use crate::platform::guard::certificate::{Candidate, Machine, Speed, State, stroke_reserve};
+use crate::platform::guard::machine::{Candidate, Machine, Speed, State, stroke_reserve};
 use crate::platform::inverse::{LegMotion, leg_motion};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates, inverse_kinematics};

@@ -12,7 +12,8 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 
 use super::bounds::JointBounds;
-use super::certificate::{Candidate, Machine, Speed, State};
+use super::certificate;
+use super::machine::{Candidate, Machine, Speed, State};
 use super::*;
 use crate::interface::Rig;
 use crate::motion::Motion;

@@ -11,8 +11,7 @@ use moris_washout::interface::PREVIEW_SAMPLES;
 use nalgebra::SVector;
 use serde::{Deserialize, Serialize};
 
-use crate::motorcycle::RunState;
-use crate::state::State;
+use crate::state::{RunState, State};
 
 /// Time between two elements of the preview \[s\].
 pub const PREVIEW_STEP: f64 = 0.2;

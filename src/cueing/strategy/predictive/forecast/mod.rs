@@ -18,6 +18,7 @@ mod tests;
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
+use super::expected::{FADE_DECAY, Forecast};
 use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLES, end_samples};
 use super::preview::{Ahead, Course, Courses, Previewed};
 use crate::cueing::strategy::at_rest_if_tiny;
@@ -45,8 +46,6 @@ const MEMORY: usize = FORECAST_SAMPLES + 1;
 
 /// Decay of the expert that holds the reference \[1/s\].
 const HOLD_DECAY: f64 = 0.02;
-/// Decay of the slow and the fast part for the expert that lets them fade \[1/s\].
-pub(super) const FADE_DECAY: [f64; 2] = [0.1, 3.0];
 /// Time constant with which a trend fades \[s\].
 const TREND_TIME: f64 = 1.5;
 /// The prior of the fit has the weight of samples over this time \[s\].
@@ -79,15 +78,6 @@ type Targets = SVector<f64, TARGETS>;
 /// A forecast that is linear in the features.
 type Linear = SMatrix<f64, TARGETS, FEATURES>;
 type Covariance = SMatrix<f64, FEATURES, FEATURES>;
-
-/// The expected reference.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Forecast {
-    /// Its mean over each block \[m/s2\].
-    pub means: SVector<f64, BLOCKS>,
-    /// Its slow and its fast part at the horizon's end \[m/s2\].
-    pub end: [f64; 2],
-}
 
 /// Forgetting time of the forecaster \[s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -137,39 +127,6 @@ struct Sample {
     fitted: Targets,
     /// The means that were forecast without the preview and by it, if there was one.
     expected: Option<[SVector<f64, BLOCKS>; 2]>,
-}
-
-impl Forecast {
-    /// The forecast over the blocks of another horizon. Beyond its own, its slow
-    /// and its fast part fade.
-    pub fn over(&self, horizon: Horizon) -> Self {
-        let (ends, durations) = (horizon.ends(), horizon.durations());
-        let means =
-            SVector::from_fn(|k, _| (self.integral(ends[k]) - self.integral(ends[k] - durations[k])) / durations[k]);
-        let faded = |part: usize| libm::exp(-FADE_DECAY[part] * (ends[BLOCKS - 1] - FORECAST).max(0.0));
-        Forecast { means, end: [0, 1].map(|part: usize| self.end[part] * faded(part)) }
-    }
-
-    /// Integral of the reference from now to a time \[m/s\]. Beyond the forecast's end, its slow
-    /// and its fast part fade.
-    pub fn integral(&self, time: f64) -> f64 {
-        let blocks = Horizon::Near.ends().into_iter().zip(Horizon::Near.durations());
-        let within = |(end, duration): (f64, f64)| (time - (end - duration)).clamp(0.0, duration);
-        let inside: f64 = self.means.iter().zip(blocks).map(|(mean, block)| mean * within(block)).sum();
-        let beyond = (time - FORECAST).max(0.0);
-        let tail = |part: usize| self.end[part] * (1.0 - libm::exp(-FADE_DECAY[part] * beyond)) / FADE_DECAY[part];
-        inside + tail(0) + tail(1)
-    }
-
-    /// Between this forecast and another one: `trust` is the weight of the other's means, and that
-    /// of the last of them also the weight of its end.
-    fn towards(&self, other: &Forecast, trust: &SVector<f64, BLOCKS>) -> Self {
-        let last = trust[BLOCKS - 1];
-        Forecast {
-            means: self.means + trust.component_mul(&(other.means - self.means)),
-            end: [0, 1].map(|part: usize| self.end[part] + last * (other.end[part] - self.end[part])),
-        }
-    }
 }
 
 impl Sample {

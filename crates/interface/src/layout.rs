@@ -1,8 +1,6 @@
 //! Two ways in which a model description of FMI 3.0 presents the interface's rows.
 
-use moris_interface::Identity;
-
-use crate::Guid;
+use crate::Identity;
 
 /// Presentation of a row of several values in a model description. One library serves both: the
 /// instantiation token says which description the host has read.
@@ -28,8 +26,8 @@ impl Layout {
 
     /// Layout of the description with this token; `None` if the description is not of the
     /// model with this GUID.
-    pub(super) fn of_token(token: &[u8], guid: &Guid) -> Option<Self> {
-        match token.strip_prefix(&guid[..])? {
+    pub fn of_token(token: &[u8], guid: &[u8]) -> Option<Self> {
+        match token.strip_prefix(guid)? {
             b"" => Some(Layout::Scalars),
             end if end == ARRAYS.as_bytes() => Some(Layout::Arrays),
             _ => None,
@@ -37,7 +35,7 @@ impl Layout {
     }
 
     /// Name of the variable that a slot belongs to.
-    pub(super) fn variable_name(self, identity: &Identity, slot: usize) -> String {
+    pub fn variable_name(self, identity: &Identity, slot: usize) -> String {
         match self {
             Layout::Scalars => identity.variable_name(slot),
             Layout::Arrays => identity.row(slot).array_name(),
@@ -46,7 +44,7 @@ impl Layout {
 
     /// Replaces names of scalars by names of the description's variables: `rig.base[2].x`
     /// becomes `rig.base[2,1]`.
-    pub(super) fn rename(self, identity: &Identity, text: String) -> String {
+    pub fn rename(self, identity: &Identity, text: String) -> String {
         match self {
             Layout::Scalars => text,
             Layout::Arrays => with_names_of_elements(identity, &text),

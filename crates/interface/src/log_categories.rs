@@ -28,6 +28,13 @@ pub const LOG_CATEGORIES: &[(&str, &str)] = &[
     ("logAll", "All messages"),
 ];
 
+/// The categories of FMI 3.0 with their descriptions: a message's status is told beside it.
+pub const LOG_CATEGORIES_OF_FMI3: &[(LogCategory, &str)] = &[
+    (LogCategory::Events, "Stages of the instance's life: instantiated, initialized, terminated, reset"),
+    (LogCategory::Discard, "Values that were not taken"),
+    (LogCategory::Error, "Calls that failed; sent unless this category is switched off by its name"),
+];
+
 impl LogCategory {
     /// The name that the host sees.
     pub fn name(self) -> &'static str {

@@ -1,0 +1,31 @@
+//! Mean and correlation of signals.
+
+/// A signal whose values differ by less than this is constant: far below what anybody
+/// feels \[m/s2 or rad/s\].
+pub(crate) const CONSTANT: f64 = 1e-9;
+
+/// Pearson's correlation coefficient; none where one of the signals is constant.
+pub fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
+    if is_constant(a) || is_constant(b) {
+        return None;
+    }
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mut aa, mut ab, mut bb) = (0.0, 0.0, 0.0);
+    for (a, b) in a.iter().zip(b) {
+        let (a, b) = (a - mean_a, b - mean_b);
+        aa += a * a;
+        ab += a * b;
+        bb += b * b;
+    }
+    Some(ab / (aa * bb).sqrt())
+}
+
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+pub(crate) fn is_constant(values: &[f64]) -> bool {
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    values.is_empty() || most - least < CONSTANT
+}

@@ -1,0 +1,141 @@
+//! The machine whose limits are certified, and the states that it has and may have.
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::interface::Rig;
+use crate::motion::braking_law::Limits;
+use crate::motion::min_max::{max, min};
+use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, leg_lengths};
+
+/// The fraction of the legs' acceleration limit that stopping uses. The rest is for the
+/// accelerations that the legs' rotation causes.
+pub(super) const STOP_FRACTION: f64 = 0.6;
+/// The clearance at neutral, as a fraction of the room that the legs have there.
+pub(super) const CLEARANCE: f64 = 1.0 / 16.0;
+
+/// The legs with their limits, as the certificate needs them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Machine {
+    pub geometry: Geometry,
+    pub neutral_height: f64,
+    /// The farthest joint from the platform's origin \[m\].
+    pub(super) radius: f64,
+    /// A leg's limits. The lengths are those between which it may come to rest: inside the stroke
+    /// by [`stroke_reserve`].
+    pub limits: Limits,
+    /// Duration of a stop for each m/s of a leg \[s2/m\].
+    pub(super) stop_time_per_speed: f64,
+    /// What the straight way to neutral needs.
+    pub(super) home: Home,
+}
+
+/// A state that the platform may have next: its coordinates, the same as a motion in the
+/// base frame, and its legs.
+#[derive(Clone, Copy)]
+pub struct Candidate<'a> {
+    pub coordinates: &'a PlatformCoordinates,
+    pub motion: &'a PlatformMotion,
+    pub legs: &'a Legs,
+}
+
+/// The state that the platform has.
+#[derive(Clone, Copy)]
+pub struct State<'a> {
+    pub coordinates: &'a PlatformCoordinates,
+    pub motion: &'a PlatformMotion,
+    pub speed: Speed,
+}
+
+/// Speed of the platform's origin \[m/s\] and the sum of the angles' rates' magnitudes \[rad/s\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Speed {
+    pub(super) linear: f64,
+    pub(super) angular: f64,
+}
+
+impl Speed {
+    #[inline(always)]
+    pub fn of(coordinates: &PlatformCoordinates) -> Self {
+        Speed { linear: coordinates.linear.velocity.norm(), angular: sum_of_magnitudes(&coordinates.angles.velocity) }
+    }
+
+    /// A bound on the speed of any joint.
+    #[inline(always)]
+    pub(super) fn of_joints(self, radius: f64) -> f64 {
+        self.linear + self.angular * radius
+    }
+}
+
+/// The legs at neutral, for the way home.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Home {
+    pub(super) length: [f64; 6],
+    pub(super) longest: f64,
+    /// The clearances at neutral from the shortest and the longest length \[m\].
+    pub(super) clearance: [f64; 2],
+    /// How far beyond their clearances the legs are at least at neutral \[m\].
+    pub(super) beyond_clearance: [f64; 2],
+    /// 1/(2 times the shortest length) \[1/m\].
+    pub(super) per_two_lengths: f64,
+}
+
+impl Home {
+    /// For legs that have these lengths at neutral.
+    pub fn new(length: &[f64; 6], limits: &Limits) -> Self {
+        let shortest = length.iter().fold(f64::INFINITY, |least, &length| min(length, least));
+        let longest = length.iter().fold(0.0, |most, &length| max(length, most));
+        let room = [shortest - limits.min, limits.max - longest];
+        Home {
+            length: *length,
+            longest,
+            clearance: room.map(|room| CLEARANCE * room),
+            beyond_clearance: room.map(|room| (1.0 - CLEARANCE) * room),
+            per_two_lengths: 0.5 / limits.min,
+        }
+    }
+}
+
+/// The reserve of a stroke at either end for what happens between the ends of a step \[m\].
+///
+/// It is what a leg can move beyond both ends of a transition: A h²/8 for the longest step h, or V
+/// h/2 if that is less. A and V are the leg's limits of acceleration and velocity.
+pub fn stroke_reserve(rig: &Rig, longest_step: f64) -> f64 {
+    (0.125 * rig.acceleration_limit * longest_step * longest_step).min(0.5 * rig.velocity_limit * longest_step)
+}
+
+impl Machine {
+    /// The machine of a rig; no step will be longer than `longest_step` \[s\].
+    pub fn new(rig: &Rig, longest_step: f64) -> Self {
+        let reserve = stroke_reserve(rig, longest_step);
+        let geometry = Geometry::from(rig);
+        let limits = Limits {
+            min: rig.min_length + reserve,
+            max: rig.max_length - reserve,
+            velocity: rig.velocity_limit,
+            acceleration: rig.acceleration_limit,
+            longest_step,
+        };
+        Machine {
+            home: Home::new(&leg_lengths(&geometry, &Pose::neutral(rig)), &limits),
+            geometry,
+            neutral_height: rig.neutral_height,
+            radius: rig.platform.iter().fold(0.0, |radius, joint| joint.norm().max(radius)),
+            limits,
+            stop_time_per_speed: 1.0 / (STOP_FRACTION * rig.acceleration_limit),
+        }
+    }
+
+    /// The limits within which each leg pursues a demand: a little inside the certified stroke. A
+    /// leg at the end of the stroke is then drawn back and does not keep the others from moving.
+    pub fn pursuit_limits(&self) -> Limits {
+        const INSET: f64 = 1e-5;
+        let inset = INSET * (self.limits.max - self.limits.min);
+        Limits { min: self.limits.min + inset, max: self.limits.max - inset, ..self.limits }
+    }
+}
+
+#[inline(always)]
+pub(super) fn sum_of_magnitudes(vector: &Vector3<f64>) -> f64 {
+    vector.x.abs() + vector.y.abs() + vector.z.abs()
+}
