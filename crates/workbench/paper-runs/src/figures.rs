@@ -22,7 +22,7 @@ const GREY: RGBColor = RGBColor(170, 170, 170);
 const FORCE: &str = "specific force [m/s²]";
 const RATE: &str = "angular velocity [deg/s]";
 const PANEL_HEIGHT: u32 = 560;
-const README_PANEL_HEIGHT: u32 = 400;
+const RIDE_PANEL_HEIGHT: u32 = 360;
 
 /// Writes `figure-5.svg` to `figure-9.svg` into the directory and returns their paths.
 ///
@@ -57,15 +57,19 @@ pub fn write_strategies(path: &Path, recordings: &[Recording]) -> Result<()> {
     draw(path, &panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
-/// Writes one compact picture of run a, for the top of a page.
+/// Writes a figure of the ride through town: surge and sway, and the legs.
 ///
 /// # Errors
-/// Run a is missing from the recordings, or the file cannot be written.
-pub fn write_readme_picture(path: &Path, recordings: &[Recording]) -> Result<()> {
-    let a = runs(recordings, A.name)?;
-    let surge = Panel { title: "Accelerate, then brake: what the rider feels along x".into(), ..force("", &a, 0) };
-    let legs = Panel { title: "What the six legs do for it".into(), ..legs("", a[0]) };
-    draw(path, &[surge, legs], README_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
+/// The ride is missing from the recordings, or the file cannot be written.
+pub fn write_ride(path: &Path, recordings: &[Recording]) -> Result<()> {
+    let ride = runs(recordings, TOWN.name)?;
+    let title = |text: &str| text.to_owned();
+    let panels = [
+        Panel { title: title("Surge: what the vehicle asks for, and what the rider feels"), ..force("", &ride, 0) },
+        Panel { title: title("Sway"), ..force("", &ride, 1) },
+        Panel { title: title("What the six legs do for it"), ..legs("", ride[0]) },
+    ];
+    draw(path, &panels, RIDE_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// The recordings of one run, at least one.

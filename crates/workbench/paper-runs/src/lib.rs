@@ -1,9 +1,11 @@
 //! The paper's runs on the FMU: inputs, outputs and measures, and the paper's figures 5 to 9.
 //!
-//! The command is in `main.rs`. This library holds its parts for tests and other programs.
+//! The commands are in `main.rs` and `bin/first-ride.rs`. This library holds its parts for
+//! tests and other programs.
 
 mod chart;
 pub mod figures;
+pub mod fmu;
 pub mod manoeuvres;
 pub mod parameter_set;
 pub mod recording;

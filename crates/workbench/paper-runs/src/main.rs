@@ -6,9 +6,10 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use clap::Parser;
-use moris_build_fmu::{FmiVersion, Start, model, workspace};
+use moris_build_fmu::workspace;
 use moris_fmu_host::Fmu;
-use moris_paper_runs::figures::{write_figures, write_readme_picture, write_strategies};
+use moris_paper_runs::figures::{write_figures, write_strategies};
+use moris_paper_runs::fmu::{built, open};
 use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre, TOWN};
 use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTIONS, STRATEGIES};
 use moris_paper_runs::recording::Recording;
@@ -31,16 +32,11 @@ struct Options {
     /// Use the existing target/fmu/MorisWashout.fmu without building it
     #[arg(long)]
     no_build: bool,
-
-    /// Also write a compact figure of run a to this file
-    #[arg(long, value_name = "FILE")]
-    readme_picture: Option<PathBuf>,
 }
 
 fn main() -> Result<()> {
     let options = Options::parse();
-    let path = if options.no_build { workspace::default_output().join("MorisWashout.fmu") } else { build_fmu()? };
-    let fmu = Fmu::open(&path).with_context(|| format!("cannot open {}", path.display()))?;
+    let fmu = if options.no_build { open(&workspace::default_output().join("MorisWashout.fmu"))? } else { built()? };
     let recordings = make_runs(&fmu, &paper_runs(), options.step)?;
     let compared = make_runs(&fmu, &strategy_runs(), options.step)?;
     println!("{}", force_table(&recordings));
@@ -58,20 +54,7 @@ fn main() -> Result<()> {
     let strategies = output.join("strategies.svg");
     write_strategies(&strategies, &compared)?;
     println!("{}", strategies.display());
-    if let Some(path) = &options.readme_picture {
-        write_readme_picture(path, &recordings)?;
-        println!("{}", path.display());
-    }
     Ok(())
-}
-
-/// Builds the FMU for this machine, as `cargo build-fmu` does, with progress on standard error.
-fn build_fmu() -> Result<PathBuf> {
-    let (model, output) = (&model::WASHOUT, workspace::default_output());
-    let report = |line: &str| eprintln!("{line}");
-    let built = moris_build_fmu::build(model, &Start::own(model), FmiVersion::Fmi2, &[], &output, report)?;
-    eprintln!("{}\n", built.file.display());
-    Ok(built.file)
 }
 
 /// The four runs with the paper's set, run b with the one made for it, and run c with preaction.

@@ -1,5 +1,6 @@
 //! Sets of FMU parameters that the runs are made with.
 
+use moris_washout::interface::StrategyKind;
 use moris_washout::presets;
 
 /// A name and the parameters that differ from their start values.
@@ -19,6 +20,10 @@ pub const SMALL_MOTIONS: ParameterSet = ParameterSet { name: "small-motions", va
 
 /// The set of the paper's runs, and ahead of a stop.
 pub const PREACTION: ParameterSet = ParameterSet { name: "paper + preaction", values: &PAPER_WITH_PREACTION };
+
+/// The start values, with the strategy that feels best.
+pub const RIDE: ParameterSet =
+    ParameterSet { name: "predictive", values: &[("strategy", StrategyKind::Predictive as i32 as f64 + 1.0)] };
 
 /// The five strategies, each with its own preset.
 pub const STRATEGIES: [ParameterSet; 5] = [

@@ -1,0 +1,28 @@
+//! `cargo first-ride`: builds the FMU, simulates a ride through town with it, and draws what the
+//! rider feels.
+
+use std::fs;
+
+use anyhow::{Context, Result};
+use moris_build_fmu::workspace;
+use moris_paper_runs::figures::write_ride;
+use moris_paper_runs::fmu::built;
+use moris_paper_runs::manoeuvres::TOWN;
+use moris_paper_runs::parameter_set::RIDE;
+use moris_paper_runs::simulate::simulate;
+use moris_paper_runs::table::{force_table, platform_table};
+
+/// Communication step \[s\].
+const STEP: f64 = 0.001;
+
+fn main() -> Result<()> {
+    let ride = [simulate(&built()?, &TOWN, &RIDE, STEP)?];
+    println!("{}", force_table(&ride));
+    println!("{}", platform_table(&ride));
+    let directory = workspace::root().join("target/first-ride");
+    fs::create_dir_all(&directory).with_context(|| format!("cannot make {}", directory.display()))?;
+    let file = directory.join("ride.svg");
+    write_ride(&file, &ride)?;
+    println!("{}", file.display());
+    Ok(())
+}
