@@ -141,7 +141,7 @@ pub struct ConventionOptions {
     pub axes: Option<Axes>,
 
     /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
-    /// gravity and the first acceleration, or from the speed where there is one
+    /// gravity, bends and accelerations, and from the speed where there is one
     #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
     #[schemars(with = "Option<super::mounting::Written>")]
     pub mounting: Option<Mounting>,

@@ -137,7 +137,10 @@ fn of_files(
         first_place += width;
     }
     let base = layout.iter().find(|column| column.quantity == Quantity::Force(0)).map_or(0, |c| c.terms[0].place);
-    let joined = join::by_time(&name, parts, base)?;
+    let is_required = |place: usize| {
+        layout.iter().any(|c| c.quantity.is_required() && c.terms.iter().any(|term| term.place == place))
+    };
+    let joined = join::by_time(&name, parts, base, is_required)?;
     Ok(Table::new(name, layout, (joined.time, joined.lines), &joined.values, joined.warnings))
 }
 
