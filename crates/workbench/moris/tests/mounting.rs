@@ -142,8 +142,8 @@ fn standing_does_not_show_forward() {
     }
 }
 
-/// Without bends and speed the first acceleration is taken as forward after a stop, and a braking as
-/// backward before it.
+/// Without bends and speed the first acceleration is taken as forward after a stop, and a braking
+/// as backward before it.
 #[test]
 fn the_first_stop_shows_the_sign() {
     let to_a_stop = |t: f64| 20.0 - 20.0 * ramp(t, 8.0, 14.0);

@@ -154,6 +154,10 @@ pub struct ConventionOptions {
     #[arg(long, value_name = "EMPTY")]
     pub empty_fields: Option<EmptyFields>,
 
+    /// Interpolate over a logger's error values and isolated spikes
+    #[arg(long)]
+    pub repair: bool,
+
     /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
     #[arg(long, value_name = "HERTZ")]
     pub resample: Option<f64>,
@@ -184,6 +188,8 @@ pub struct Conventions {
     pub mounting: Option<Mounting>,
     pub rate_frame: RateFrame,
     pub empty_fields: EmptyFields,
+    /// Interpolates over error values and spikes.
+    pub repair: bool,
     /// Samples a second to interpolate at \[1/s\].
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
@@ -253,6 +259,7 @@ impl ConventionOptions {
             mounting: self.mounting.or(under.mounting),
             rate_frame: self.rate_frame.or(under.rate_frame),
             empty_fields: self.empty_fields.or(under.empty_fields),
+            repair: self.repair || under.repair,
             resample: self.resample.or(under.resample),
             fade_in: self.fade_in.or(under.fade_in),
             conventions: self.conventions.clone(),
@@ -289,6 +296,7 @@ impl ConventionOptions {
             mounting: self.mounting,
             rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
             empty_fields: self.empty_fields.unwrap_or(EmptyFields::Error),
+            repair: self.repair,
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
         }

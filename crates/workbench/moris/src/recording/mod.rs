@@ -6,6 +6,7 @@
 //! - `source` reads the text and `sheet` its lines.
 //! - [`header`] finds the columns and their [`units`].
 //! - [`table`] collects the numbers, and `join` those of several files.
+//! - `outliers` finds samples that no vehicle causes.
 //! - [`sampling`] makes the time steps equal.
 //! - `convert` rotates the axes by the [`mounting`].
 //! - [`plausibility`] detects wrong units and axes.
@@ -33,6 +34,7 @@ pub mod header;
 mod join;
 pub mod mounting;
 mod numbers;
+mod outliers;
 pub mod plausibility;
 pub mod preview;
 pub mod quantity;
@@ -79,6 +81,7 @@ impl Recording {
     /// - The file cannot be read or is not CSV.
     /// - A column is missing or occurs twice, or a field is not a number.
     /// - The time steps are unequal.
+    /// - There are a logger's error values, and they are not to be repaired.
     /// - A unit in the header contradicts an option.
     /// - The units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
@@ -97,8 +100,10 @@ impl Recording {
         Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
     }
 
-    fn of_table(name: String, table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+    fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+        let outliers = outliers::check(&mut table, conventions.repair)?;
         let (table, mut warnings) = sampling::at_equal_steps(table, conventions)?;
+        warnings.extend(outliers);
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);

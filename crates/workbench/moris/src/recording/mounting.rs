@@ -93,8 +93,8 @@ pub struct Found {
 /// Largest standard error of the forward direction \[rad\].
 const LARGEST_ERROR: f64 = 15f64.to_radians();
 
-/// Finds the mounting. Up is the direction of the specific force at rest, and the module `forward` finds
-/// forward.
+/// Finds the mounting. Up is the direction of the specific force at rest, and the module
+/// `forward` finds forward.
 ///
 /// # Errors
 /// The recording contains no gravity, or forward is unknown, uncertain or contradictory. The

@@ -23,9 +23,13 @@ OPTIONS = (
     "mounting",
     "rate_frame",
     "empty_fields",
+    "repair",
     "resample",
     "fade_in",
 )
+
+# Options that are true or false.
+FLAGS = ("repair",)
 
 
 class Recording:
@@ -44,7 +48,7 @@ class Recording:
     gravity: "included" as an accelerometer reads it, or "removed".
     axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
-    empty_fields: of a file, "error" or "interpolate".
+    empty_fields: of a file, "error" or "interpolate". repair: True to interpolate over a logger's error values and spikes.
     resample: samples a second, to interpolate a recording whose steps are unequal.
     fade_in: seconds over which the recording is faded in from rest: 1 by default, 0 to take it as it is.
 
@@ -228,6 +232,8 @@ def _in_python(message):
         word = match[2]
         if match[1] not in names:
             return match[0]
+        if match[1] in FLAGS:
+            return f"{names[match[1]]}=True"
         if not word:
             return names[match[1]]
         return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'

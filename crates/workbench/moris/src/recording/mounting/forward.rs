@@ -17,16 +17,18 @@ use super::blocks::{BLOCK, Blocks};
 /// Least change of speed that determines the forward direction, as a standard deviation
 /// of its rate \[m/s2\].
 const SPEED_CHANGE: f64 = 0.2;
-/// Lateral force of bends by their yaw rate: the speed. Below it a vehicle leans, or bends are those of
-/// parking; above it there are no vehicles \[m/s\].
+/// Lateral force of bends by their yaw rate: the speed. Below it a vehicle leans, or bends are
+/// those of parking; above it there are no vehicles \[m/s\].
 const BEND_SPEED: [f64; 2] = [3.0, 100.0];
 /// Least yaw rate of bends, as a root mean square \[rad/s\].
 const BEND_RATE: f64 = 0.002;
-/// Least change of the rate about the lateral axis with the yaw rate: the sine of 6 degrees of lean.
+/// Least change of the rate about the lateral axis with the yaw rate: the sine
+/// of 6 degrees of lean.
 const LEAN: f64 = 0.1;
 /// Horizontal specific force of an acceleration \[m/s2\].
 const ACCELERATION: f64 = 0.5;
-/// Blocks over which forces and rates are averaged before straight accelerations are searched: 0.5 s.
+/// Blocks over which forces and rates are averaged before straight accelerations are searched: 0.5
+/// s.
 const SMOOTHING: usize = 5;
 /// Shortest acceleration, in blocks: 0.5 s.
 const SHORTEST: usize = 5;
@@ -210,8 +212,8 @@ impl Level {
         Some(Estimate { direction, error: (0.5 * line.error).max(LEAST_ERROR), evidence: "straight accelerations" })
     }
 
-    /// The block of the first straight acceleration after the first rest, and its sign along a line.
-    /// Without one, that of the braking before that rest.
+    /// The block of the first straight acceleration after the first rest, and its sign along a
+    /// line. Without one, that of the braking before that rest.
     fn first_acceleration(&self, rest: Option<[usize; 2]>, line: &Vector3<f64>) -> (usize, f64) {
         let along: Vec<f64> = self.straight().iter().map(|force| force.dot(line)).collect();
         let [start, end] = rest.unwrap_or([0, 0]);
@@ -253,7 +255,8 @@ struct Regression {
 impl Level {
     /// None where the signal's root mean square is below `least`, or nothing goes with it.
     ///
-    /// `disturbance` is the error of a bend, of its products of signal and vector across the direction.
+    /// `disturbance` is the error of a bend, of its products of signal and vector
+    /// across the direction.
     fn regression(
         &self,
         signal: &[f64],
