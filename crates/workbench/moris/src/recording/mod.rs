@@ -9,7 +9,8 @@
 //! - `outliers` finds samples that no vehicle causes.
 //! - [`sampling`] makes the time steps equal.
 //! - `convert` rotates the axes by the [`mounting`].
-//! - [`plausibility`] detects wrong units and axes.
+//! - [`plausibility`] detects wrong units and axes, and `consistency` channels that contradict each
+//!   other.
 //!
 //! [`conventions`] are the names, units and axes given by options, or by one of the [`formats`].
 //!
@@ -26,6 +27,7 @@
 //! Orientation columns are used if the recording has them. Gravity is then removed as the parameter
 //! `gravityRemoval` specifies.
 
+mod consistency;
 pub mod conventions;
 mod convert;
 mod error;
@@ -108,6 +110,7 @@ impl Recording {
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);
         plausibility::check(&table, &inputs, conventions)?;
+        warnings.extend(consistency::warnings(&table, &inputs, conventions));
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
         warnings.extend(plausibility::warnings(&table, &inputs));
         Ok(Recording {

@@ -1,5 +1,5 @@
-//! Samples that no vehicle causes: error values of loggers, isolated spikes, and flat tops of a sensor
-//! that is at the end of its range.
+//! Samples that no vehicle causes: error values of loggers, isolated spikes, and flat tops of a
+//! sensor that is at the end of its range.
 
 use moris_interface::shown;
 
@@ -174,7 +174,8 @@ fn times(table: &Table, samples: &[usize]) -> String {
     format!("at {}{more}", shown.join(", "))
 }
 
-/// The values with those at the ascending indices `wrong` on straight lines between their neighbours.
+/// The values with those at the ascending indices `wrong` on straight lines
+/// between their neighbours.
 fn interpolated(values: &[f64], wrong: &[usize]) -> Vec<f64> {
     let mut repaired = values.to_vec();
     for part in wrong.chunk_by(|a, b| a + 1 == *b) {

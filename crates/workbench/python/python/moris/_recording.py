@@ -239,7 +239,7 @@ def _in_python(message):
         return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'
 
     message = re.sub(r"--mounting[= ](-?[\d.]+(?:,-?[\d.]+){2})", r"mounting=[\1]", message)
-    message = re.sub(r"--columns ((?:\w+=\w+)(?:,\w+=\w+)*)", columns, message)
+    message = re.sub(r"--columns ((?:\w+=-?\w+)(?:,\w+=-?\w+)*)", columns, message)
     formats = "phyphox|sensor-logger(?:-ios)?|sensorlog|androsensor|racechrono|aim|motec|iracing|px4"
     words = (
         "included|removed|forward-[a-z-]+|auto|interpolate|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|"
