@@ -9,7 +9,7 @@ use super::conventions::Quantity;
 use super::header::{Column, Term, UnitSource};
 use super::sheet::{Samples, Sheet};
 use super::units::Unit;
-use super::{RecordingError, median};
+use super::{RecordingError, median, sampling};
 
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const GAP: f64 = 0.2;
@@ -53,7 +53,7 @@ impl Part {
             time: samples.time.into_iter().map(|time| time * unit.in_si).collect(),
             columns: samples.columns,
             lines: samples.lines,
-            warnings: Vec::new(),
+            warnings: samples.warnings,
         }
     }
 
@@ -111,7 +111,12 @@ impl Part {
             file: self.file.clone(),
             line: self.lines[wrong],
             column: None,
-            reason: format!("time {what}: {} s comes after {} s", shown(after), shown(before)),
+            reason: format!(
+                "time {what}: {} s comes after {} s{}",
+                shown(after),
+                shown(before),
+                sampling::remedy_for_equal_times(&self.time, wrong)
+            ),
         })
     }
 
@@ -139,11 +144,15 @@ impl Part {
 /// Time does not increase in a file, or the files have no time in common.
 pub fn by_time(
     name: &Path,
-    parts: Vec<(Vec<usize>, Part)>,
+    mut parts: Vec<(Vec<usize>, Part)>,
     base: usize,
+    spreads_equal_times: bool,
     is_required: impl Fn(usize) -> bool,
 ) -> Result<Joined, RecordingError> {
-    for (_, part) in &parts {
+    for (_, part) in &mut parts {
+        if spreads_equal_times {
+            part.warnings.extend(sampling::spread_equal_times(&mut part.time));
+        }
         part.check_order()?;
     }
     let common = |parts: &mut dyn Iterator<Item = &Part>| {

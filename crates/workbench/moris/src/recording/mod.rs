@@ -6,6 +6,7 @@
 //! - `source` reads the text and `sheet` its lines.
 //! - [`header`] finds the columns and their [`units`].
 //! - [`table`] collects the numbers, and `join` those of several files.
+//! - `laps` chooses one of several.
 //! - `outliers` finds samples that no vehicle causes.
 //! - [`sampling`] makes the time steps equal.
 //! - `convert` rotates the axes by the [`mounting`].
@@ -34,6 +35,7 @@ mod error;
 pub mod formats;
 pub mod header;
 mod join;
+mod laps;
 pub mod mounting;
 mod numbers;
 mod outliers;
@@ -46,6 +48,7 @@ pub(crate) mod source;
 pub mod table;
 mod time;
 pub mod units;
+mod vbox;
 
 use std::path::Path;
 
@@ -103,6 +106,7 @@ impl Recording {
     }
 
     fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+        laps::choose(&mut table, conventions)?;
         let outliers = outliers::check(&mut table, conventions.repair)?;
         let (table, mut warnings) = sampling::at_equal_steps(table, conventions)?;
         warnings.extend(outliers);

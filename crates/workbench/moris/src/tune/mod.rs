@@ -29,7 +29,7 @@ use moris_setup::{NamedValues, Setup, all, parameter_file};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::recording::{FADE_IN, Recording};
+use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
 use cost::Objective;
 pub use options::Options;
@@ -46,7 +46,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let before = options.setup.load()?;
     let tuned_on = objectives(options, &options.recordings, &before)?;
     let held_out = objectives(options, &options.hold_out, &before)?;
-    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(options.recordings.len()));
+    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(tuned_on.len()));
 
     let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
     bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
@@ -85,7 +85,7 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
         let objective = Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?;
         Ok(objective.with_comfort_bounds(options.comfort.0))
     };
-    files.par_iter().map(objective).collect()
+    table::recordings(files, &conventions).par_iter().map(objective).collect()
 }
 
 /// True after Ctrl-C; a second one ends the program.
