@@ -6,8 +6,8 @@
 
 use super::units::any_spelled;
 
-/// Names of channels in the loggers' spellings without spaces and signs, and as the format `vbox` has
-/// them. The first that a file has counts: an inertial unit's before a satellite receiver's.
+/// Names of channels in the loggers' spellings without spaces and signs, and as the format `vbox`
+/// has them. The first that a file has counts: an inertial unit's before a satellite receiver's.
 const NAMES: [(&str, &[&str]); 7] = [
     (
         "longitudinal accel",
