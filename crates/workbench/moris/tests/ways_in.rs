@@ -1,4 +1,4 @@
-//! Recordings that are not plain CSV at equal steps: each is read, or refused with the option that
+//! Recordings that are not plain CSV at equal steps. Each is read, or refused with the option that
 //! helps.
 
 use std::f64::consts::TAU;
