@@ -280,7 +280,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
         first.starts_with("WORSE than before") || first.starts_with("Not worse than before on any of 2"),
         "{printed}"
     );
-    let status = if first.starts_with("WORSE") { 2 } else { 0 };
+    let status = if first.starts_with("WORSE") { 4 } else { 0 };
     assert_eq!(output.status.code(), Some(status), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(fs::read_to_string(here.join("tuned.toml")).unwrap().starts_with(&format!("# {first}")));
     assert!(printed.contains("On recordings that it was not tuned on, the mean error goes from"), "{printed}");

@@ -33,11 +33,9 @@ use crate::progress::Progress;
 use crate::recording::preview::{Previewer, parse_seconds};
 use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
 use crate::setup_options::SetupOptions;
+use crate::status::DOES_NOT_FIT;
 pub use bounds::AxisBound;
 pub use simulation::Simulation;
-
-/// Exit status where a recording does not fit the rig.
-const DOES_NOT_FIT: u8 = 3;
 
 /// Simulate recordings on a rig and report how well they are felt
 ///

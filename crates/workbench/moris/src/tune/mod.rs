@@ -31,6 +31,7 @@ use rayon::prelude::*;
 
 use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
+use crate::status::WORSE;
 use cost::Objective;
 pub use options::Options;
 use space::Space;
@@ -73,10 +74,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     Ok(if summary::is_worse(&results) { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
-
-/// Exit status where the tuned parameters are written and are worse than before on some recording;
-/// see [`summary::is_worse`].
-const WORSE: u8 = 2;
 
 fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
