@@ -1,4 +1,5 @@
-//! Exit statuses beyond success and failure, the same in every command. 2 is clap's, for unknown options.
+//! Exit statuses beyond success and failure, the same in every command. 2 is
+//! clap's, for unknown options.
 
 /// A recording does not fit the rig.
 pub const DOES_NOT_FIT: u8 = 3;

@@ -72,6 +72,21 @@ impl<S: Fn(f64) -> f64, Y: Fn(f64) -> f64> Vehicle<S, Y> {
         recording.warnings.join(" ")
     }
 
+    /// The same with a gyroscope that is off by so much about each axis \[rad/s\].
+    fn biased(&self, bias: f64) -> Result<Recording, String> {
+        let biased = |(k, line): (usize, &str)| {
+            let fields = line.split(',').enumerate();
+            let fields: Vec<String> = fields
+                .map(|(column, field)| match field.parse::<f64>() {
+                    Ok(value) if column >= 4 && k > 0 => (value + bias).to_string(),
+                    _ => field.to_owned(),
+                })
+                .collect();
+            fields.join(",") + "\n"
+        };
+        read(&self.file(PHONE, &[]).lines().enumerate().map(biased).collect::<String>())
+    }
+
     fn refusal(&self, more: &[(&str, &dyn Fn(f64) -> f64)]) -> String {
         read(&self.file(PHONE, more)).map(|recording| recording.warnings).expect_err("forward must be unknown")
     }
@@ -197,6 +212,18 @@ fn steady_bends_and_shaking_are_no_rest() {
             + 1.5 * (1.0 - (TAU * 0.3 * (t - 6.0).max(0.0)).cos())
     };
     Vehicle { speed, yaw_rate: |_| 0.0, leans: false, vibration: 0.0 }.assert_found(PHONE, &[]);
+}
+
+/// The bias of a gyroscope is that at rest. Taken as a yaw rate, it makes of every
+/// acceleration one in a bend.
+#[test]
+fn a_biased_gyroscope_does_not_mislead() {
+    let speed = |t: f64| 12.0 * ramp(t, 5.0, 12.0) - 8.0 * ramp(t, 25.0, 30.0);
+    let yaw_rate = |t: f64| 0.1 * bump(t, 14.0, 20.0);
+    let recording = Vehicle { speed, yaw_rate, leans: false, vibration: 0.0 }.biased(0.025).unwrap();
+    assert!((recording.inputs()[850].specific_force - Vector3::new(18.0 / 7.0, 0.0, GRAVITY)).norm() < 0.02);
+    let evidence = "straight accelerations and the lateral force of bends";
+    assert!(recording.warnings.iter().any(|warning| warning.contains(evidence)), "{:?}", recording.warnings);
 }
 
 /// phyphox writes the speed at 1 Hz into a file of its own, which begins late.

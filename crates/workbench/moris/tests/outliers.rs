@@ -135,6 +135,12 @@ fn flat_tops_are_named() {
     assert_eq!(tops.len(), 2, "{warnings:?}");
     assert!(tops[0].contains("extreme -1.5") && tops[1].contains("extreme 1.2"), "{warnings:?}");
     assert!(tops[1].contains("at 1.00 s (line 102)") && tops[1].contains("cannot be repaired"), "{warnings:?}");
+    // Neither is a computed ride with bends to one side, that stands still before and after them.
+    let left: Vec<[f64; 7]> = drive()
+        .into_iter()
+        .map(|s| [s[0], 0.0, 0.0, GRAVITY, 0.0, 0.0, 0.1 * (TAU * 0.05 * (s[0] - 5.0).clamp(0.0, 10.0)).sin()])
+        .collect();
+    assert!(read(&left, false).unwrap().warnings.is_empty());
     // A computed manoeuvre that brakes steadily from rest is none.
     let steady: Vec<[f64; 7]> = drive()
         .into_iter()

@@ -370,3 +370,20 @@ fn ctrl_c_keeps_the_best_so_far() {
     assert!(printed.contains("was interrupted") && printed.contains("No recording was held out"), "{printed}");
     assert!(directory.path().join("tuned.toml").exists());
 }
+
+/// Parameters for one ride are worse on another, and are written all the same.
+#[test]
+fn worse_parameters_have_an_exit_status_of_their_own() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    write_recording(here, &weaving());
+    write_recording(here, &brisk());
+    let arguments = ["tune", "weaving.csv", "--folds", "0", "--evaluations", "100", "--hold-out", "brisk.csv"];
+    let output = moris(here, &arguments);
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(printed.starts_with("WORSE than before on recordings that it was not tuned on: brisk."), "{printed}");
+    assert_eq!(output.status.code(), Some(4));
+    assert!(here.join("tuned.toml").exists());
+    // An unknown option is no result.
+    assert_eq!(moris(here, &["tune", "weaving.csv", "--no-such-option"]).status.code(), Some(2));
+}

@@ -2,6 +2,7 @@
 //! sensor that is at the end of its range.
 
 use moris_interface::shown;
+use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::conventions::{Dimension, Quantity};
 use super::table::Table;
@@ -21,6 +22,8 @@ const QUANTILE: f64 = 1.645;
 const FLAT: usize = 4;
 /// The same in lengths of the longest run of any other value, which signals of few digits have.
 const FLAT_RUNS: usize = 3;
+/// Least distance of a flat top from the values at rest \[fractions of the signal's range\].
+const AWAY: f64 = 0.1;
 /// Largest number of times that a message lists.
 const MOST_LISTED: usize = 5;
 
@@ -149,6 +152,12 @@ fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
             (start - run.len(), run.len())
         })
         .collect();
+    // A computed ride stands still at the extreme where all its bends are to one side.
+    let usual = median(values.iter().copied());
+    let is_rest = |extreme: &f64| {
+        let near = |value: f64| (extreme - value).abs() < AWAY * (greatest - least);
+        near(usual) || near(0.0) || near(STANDARD_GRAVITY)
+    };
     let is_extreme = |first: usize| values[first] == least || values[first] == greatest;
     let longest = runs.iter().filter(|(first, _)| !is_extreme(*first)).map(|(_, length)| *length).max();
     // A signal of one or two values is not measured.
@@ -159,7 +168,12 @@ fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
         };
         runs.iter().filter(is_flat).map(|(first, _)| *first).collect()
     };
-    [least, greatest].map(tops).into_iter().filter(|tops| !tops.is_empty()).collect()
+    [least, greatest]
+        .into_iter()
+        .filter(|extreme| !is_rest(extreme))
+        .map(tops)
+        .filter(|tops| !tops.is_empty())
+        .collect()
 }
 
 /// Times and lines of samples, for a message.
