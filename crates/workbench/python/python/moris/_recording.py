@@ -242,7 +242,7 @@ def _in_python(message):
             return names[match[1]]
         return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'
 
-    message = re.sub(r"--mounting[= ](-?[\d.]+(?:,-?[\d.]+){2})", r"mounting=[\1]", message)
+    message = re.sub(r"--mounting[= ](-?\d+(?:\.\d+)?(?:,-?\d+(?:\.\d+)?){2})", r"mounting=[\1]", message)
     message = re.sub(r"--columns ((?:\w+=-?\w+)(?:,\w+=-?\w+)*)", columns, message)
     formats = "phyphox|sensor-logger(?:-ios)?|sensorlog|androsensor|racechrono|aim|motec|vbox|iracing|px4"
     words = (
