@@ -126,6 +126,11 @@ fn bends_before_the_first_acceleration_do_not_mislead() {
             for degrees in [PHONE, [90.0, 0.0, 90.0], [0.0, 0.0, 0.0], [3.0, -20.0, 180.0]] {
                 if leans && (vehicle.yaw_rate)(9.0).abs() < 0.1 {
                     // Too little lean to tell forward from backward: that is said.
+                    let found = read(&vehicle.file(degrees, &[]));
+                    let said = found.map_or_else(|error| error, |recording| recording.warnings.join(" "));
+                    let words = ["forward is backward", "but only to", "apart; give"];
+                    let is_said = words.iter().any(|word| said.contains(word));
+                    assert!(is_said || vehicle.assert_found(degrees, &[]).contains("lean"), "{said}");
                     continue;
                 }
                 let warnings = vehicle.assert_found(degrees, &[("speed", &|_| 30.0)]);
