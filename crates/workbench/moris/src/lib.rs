@@ -26,6 +26,7 @@ pub mod rig;
 pub mod schema;
 pub mod setup_options;
 pub mod simulate;
+mod status;
 pub mod text_table;
 pub mod tune;
 

@@ -110,7 +110,10 @@ fn phyphox_is_a_directory_of_files() {
     assert_is_the_car(&recording, recording.start, 0.01);
     assert!((0.1..0.106).contains(&recording.start), "{}", recording.start);
     assert!(
-        recording.warnings.iter().any(|warning| warning.contains("the first acceleration")),
+        recording
+            .warnings
+            .iter()
+            .any(|warning| warning.contains("straight accelerations and the lateral force of bends")),
         "{:?}",
         recording.warnings
     );

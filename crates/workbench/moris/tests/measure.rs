@@ -140,7 +140,9 @@ fn targets_that_are_missed_are_named_and_fail_a_check() {
 
     let tight = ["--geometric-mean", "0.001", "--ratio", "0.001", "--heave", "0", "--cues", "-1"];
     let (output, text) = measure(directory.path(), &[&["ride.csv", "--check"], &tight[..]].concat());
-    assert!(!output.status.success());
+    assert_eq!(output.status.code(), Some(4));
+    // A recording that cannot be read is another failure.
+    assert_eq!(measure(directory.path(), &["none.csv", "--check"]).0.status.code(), Some(1));
     for expected in ["geometric mean over 2 channels", "ride, surge: ", "ride, sway: ", "ride, heave: ", "Roll rate: "]
     {
         assert!(text.contains(expected), "{expected}: {text}");

@@ -319,6 +319,41 @@ fn unequal_steps_are_refused_and_can_be_interpolated() {
     );
 }
 
+/// A sample may be a fifth of a step from its time.
+#[test]
+fn steps_are_equal_up_to_a_fifth() {
+    let with = |off: f64| {
+        let times = (0..101).map(|k| 0.02 * f64::from(k) + if k == 40 { 0.02 * off } else { 0.0 });
+        let samples: Vec<Sample> = times.map(|t| [t, 0.0, 0.0, GRAVITY, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).collect();
+        csv(PLAIN, &samples, |s| s[..7].to_vec())
+    };
+    for off in [0.18, -0.18] {
+        assert_eq!(read(&with(off), &ConventionOptions::default()).inputs().len(), 101);
+    }
+    for (off, step) in [(0.22, "0.0244"), (-0.22, "0.0156")] {
+        let message = refusal(&with(off), &ConventionOptions::default());
+        assert!(
+            message.contains(&format!("line 42, column time: the samples do not come at equal steps: here {step} s")),
+            "{message}"
+        );
+    }
+}
+
+/// The last sample is reached where the rate fits, also if the duration is rounded:
+/// 0.3 - 0.1 is below 0.2.
+#[test]
+fn resampling_reaches_the_last_sample() {
+    let samples: Vec<Sample> =
+        [0.1, 0.15, 0.17, 0.24, 0.3].map(|t| [t, 2.0 * t, 0.0, GRAVITY, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]).to_vec();
+    let text = csv(PLAIN, &samples, |s| s[..7].to_vec());
+    for (rate, count, last) in [(100.0, 21, 0.3), (30.0, 7, 0.3), (33.0, 7, 0.1 + 6.0 / 33.0)] {
+        let options = ConventionOptions { resample: Some(rate), ..ConventionOptions::default() };
+        let recording = read(&text, &options);
+        assert_eq!(recording.inputs().len(), count, "{rate}");
+        assert!((recording.inputs()[count - 1].specific_force.x - 2.0 * last).abs() < 1e-12, "{rate}");
+    }
+}
+
 #[test]
 fn clocks_with_few_digits_and_comments_are_no_fault() {
     // 64 Hz, written in milliseconds: 0.016, 0.031, 0.047, ...

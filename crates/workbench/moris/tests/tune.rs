@@ -280,7 +280,7 @@ fn the_command_writes_parameters_and_reports_and_tries_each_ride_without_having_
         first.starts_with("WORSE than before") || first.starts_with("Not worse than before on any of 2"),
         "{printed}"
     );
-    let status = if first.starts_with("WORSE") { 2 } else { 0 };
+    let status = if first.starts_with("WORSE") { 4 } else { 0 };
     assert_eq!(output.status.code(), Some(status), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(fs::read_to_string(here.join("tuned.toml")).unwrap().starts_with(&format!("# {first}")));
     assert!(printed.contains("On recordings that it was not tuned on, the mean error goes from"), "{printed}");
@@ -369,4 +369,21 @@ fn ctrl_c_keeps_the_best_so_far() {
     assert!(output.status.success(), "{printed}");
     assert!(printed.contains("was interrupted") && printed.contains("No recording was held out"), "{printed}");
     assert!(directory.path().join("tuned.toml").exists());
+}
+
+/// Parameters for one ride are worse on another, and are written all the same.
+#[test]
+fn worse_parameters_have_an_exit_status_of_their_own() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    write_recording(here, &weaving());
+    write_recording(here, &brisk());
+    let arguments = ["tune", "weaving.csv", "--folds", "0", "--evaluations", "100", "--hold-out", "brisk.csv"];
+    let output = moris(here, &arguments);
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(printed.starts_with("WORSE than before on recordings that it was not tuned on: brisk."), "{printed}");
+    assert_eq!(output.status.code(), Some(4));
+    assert!(here.join("tuned.toml").exists());
+    // An unknown option is no result.
+    assert_eq!(moris(here, &["tune", "weaving.csv", "--no-such-option"]).status.code(), Some(2));
 }

@@ -21,6 +21,7 @@ use crate::recording::preview::parse_seconds;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 use crate::setup_options::SetupOptions;
 use crate::simulate::{bounds, measured};
+use crate::status::WORSE;
 use channel::{Channel, channels};
 use host::{Host, Inputs};
 use targets::Targets;
@@ -63,7 +64,7 @@ pub struct Options {
     #[command(flatten)]
     targets: Targets,
 
-    /// Fail (exit status 1) where a target is missed
+    /// End with exit status 4 where a target is missed
     #[arg(long)]
     check: bool,
 
@@ -129,7 +130,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         recordings(&options.recordings)?.par_iter().map(measure).collect::<Result<_>>()?;
     let missed = options.targets.missed(&recordings);
     write!(out, "{}", table::text(&setup, &host, &recordings, &missed))?;
-    Ok(if options.check && !missed.is_empty() { ExitCode::FAILURE } else { ExitCode::SUCCESS })
+    Ok(if options.check && !missed.is_empty() { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
 /// The files named, and those with the extension csv in the folders named, by name.

@@ -70,6 +70,16 @@ choices! {
     }
 }
 
+choices! {
+    /// Columns of specific force and angular velocity that a recording lacks.
+    Missing {
+        /// They are errors
+        "error" Error,
+        /// They are as at rest: zero, and g along z
+        "rest" Rest,
+    }
+}
+
 impl Axes {
     /// Factors that turn x, y and z into x forward, y left, z up.
     pub fn signs(self) -> [f64; 3] {
@@ -141,7 +151,7 @@ pub struct ConventionOptions {
     pub axes: Option<Axes>,
 
     /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
-    /// gravity and the first acceleration, or from the speed where there is one
+    /// gravity, bends and accelerations, and from the speed where there is one
     #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
     #[schemars(with = "Option<super::mounting::Written>")]
     pub mounting: Option<Mounting>,
@@ -153,6 +163,18 @@ pub struct ConventionOptions {
     /// Fields that are empty [default: error]
     #[arg(long, value_name = "EMPTY")]
     pub empty_fields: Option<EmptyFields>,
+
+    /// Columns of ay az wx wy wz that a recording lacks [default: error]
+    #[arg(long, value_name = "MISSING")]
+    pub missing: Option<Missing>,
+
+    /// The lap of a recording whose time starts again with each, from 1
+    #[arg(long, value_name = "NUMBER")]
+    pub lap: Option<f64>,
+
+    /// Interpolate over a logger's error values and isolated spikes
+    #[arg(long)]
+    pub repair: bool,
 
     /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
     #[arg(long, value_name = "HERTZ")]
@@ -184,6 +206,11 @@ pub struct Conventions {
     pub mounting: Option<Mounting>,
     pub rate_frame: RateFrame,
     pub empty_fields: EmptyFields,
+    pub missing: Missing,
+    /// The lap that is read of several, from 1.
+    pub lap: Option<usize>,
+    /// Interpolates over error values and spikes.
+    pub repair: bool,
     /// Samples a second to interpolate at \[1/s\].
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
@@ -253,6 +280,9 @@ impl ConventionOptions {
             mounting: self.mounting.or(under.mounting),
             rate_frame: self.rate_frame.or(under.rate_frame),
             empty_fields: self.empty_fields.or(under.empty_fields),
+            missing: self.missing.or(under.missing),
+            lap: self.lap.or(under.lap),
+            repair: self.repair || under.repair,
             resample: self.resample.or(under.resample),
             fade_in: self.fade_in.or(under.fade_in),
             conventions: self.conventions.clone(),
@@ -262,6 +292,7 @@ impl ConventionOptions {
     fn checked(&self) -> Result<Conventions, RecordingError> {
         let allowed = [
             ("resample", self.resample, 1.0..=1e5, "samples a second"),
+            ("lap", self.lap, 1.0..=1e6, "laps"),
             ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
         ];
         for (name, given, range, unit) in allowed {
@@ -289,6 +320,9 @@ impl ConventionOptions {
             mounting: self.mounting,
             rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
             empty_fields: self.empty_fields.unwrap_or(EmptyFields::Error),
+            missing: self.missing.unwrap_or(Missing::Error),
+            lap: self.lap.map(|lap| lap as usize),
+            repair: self.repair,
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
         }

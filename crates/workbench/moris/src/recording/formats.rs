@@ -26,6 +26,8 @@ choices! {
         "aim" Aim,
         /// MoTeC i2, CSV
         "motec" Motec,
+        /// Racelogic VBOX, .vbo
+        "vbox" Vbox,
         /// iRacing, .ibt converted to CSV
         "iracing" IRacing,
         /// PX4, sensor_combined of ulog2csv
@@ -45,6 +47,7 @@ impl Format {
             Format::RaceChrono => include_str!("../../formats/racechrono.toml"),
             Format::Aim => include_str!("../../formats/aim.toml"),
             Format::Motec => include_str!("../../formats/motec.toml"),
+            Format::Vbox => include_str!("../../formats/vbox.toml"),
             Format::IRacing => include_str!("../../formats/iracing.toml"),
             Format::Px4 => include_str!("../../formats/px4.toml"),
         }

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 use moris_setup::nearest;
 
 use super::RecordingError;
-use super::conventions::{Conventions, Format, Quantity};
+use super::conventions::{Conventions, Format, Missing, Mounting, Quantity};
 use super::units::{Dimension, TimeUnit, Unit, any_spelled};
 
 /// Longest text of a file that a message quotes \[characters\].
@@ -149,7 +149,8 @@ impl Header {
 
     /// True if all required columns exist.
     pub fn has_needed_columns(&self, conventions: &Conventions) -> bool {
-        let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| quantity.is_required());
+        let is_needed = |quantity: Quantity| quantity.is_required() && !is_at_rest(quantity, conventions);
+        let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| is_needed(*quantity));
         needed.all(|&(quantity, _)| !matches!(self.terms(conventions.column(quantity)), Ok(None)))
     }
 
@@ -210,6 +211,7 @@ impl Header {
                     places.push((quantity, terms));
                 }
                 // Speed helps formats that have it, and no format needs it.
+                None if is_at_rest(quantity, conventions) => (),
                 None if is_needed && (quantity != Quantity::Speed || conventions.format.is_none()) => {
                     missing.push((key, name));
                 }
@@ -300,14 +302,20 @@ impl Header {
         if self.width() > MOST_LISTED {
             present.push(format!("{} more", self.width() - MOST_LISTED));
         }
+        let is_left_out = |key: &str| ["ay", "az", "wx", "wy", "wz"].contains(&key);
+        let rest = match missing.iter().all(|(key, _)| is_left_out(key)) {
+            true => ", or use --missing rest if nothing measured them",
+            false => "",
+        };
         let keys: Vec<String> = missing.iter().map(|(key, _)| format!("{key}=NAME")).collect();
         let reason = format!(
-            "there {} no column{} {}; there are {}; name what is called otherwise with --columns {}",
+            "there {} no column{} {}; there are {}; name what is called otherwise with --columns {}{}",
             if expected.len() == 1 { "is" } else { "are" },
             if expected.len() == 1 { "" } else { "s" },
             expected.join(", "),
             present.join(", "),
-            keys.join(",")
+            keys.join(","),
+            rest
         );
         RecordingError::Whole { file: file.to_owned(), reason }
     }
@@ -316,7 +324,8 @@ impl Header {
     fn is_of(&self, format: Format) -> bool {
         let conventions = format.options().load();
         conventions.is_ok_and(|conventions| {
-            let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| quantity.is_required());
+            let is_needed = |quantity: Quantity| quantity.is_required() && !is_at_rest(quantity, &conventions);
+            let mut needed = Quantity::ALL.iter().filter(|(quantity, _)| is_needed(*quantity));
             // Each of several files has a time.
             needed.all(|&(quantity, _)| match self.terms(conventions.column(quantity)) {
                 Ok(found) => found.is_some(),
@@ -420,6 +429,17 @@ impl Header {
         }
         Ok(())
     }
+}
+
+/// True for a quantity that is as at rest where a recording lacks it. A turned
+/// sensor's is not known.
+fn is_at_rest(quantity: Quantity, conventions: &Conventions) -> bool {
+    let is_known = match quantity {
+        Quantity::Rate(_) => conventions.mounting != Some(Mounting::Auto),
+        Quantity::Force(axis) => axis > 0 && conventions.mounting.is_none(),
+        _ => false,
+    };
+    is_known && conventions.missing == Missing::Rest
 }
 
 /// The names in a sum, each with its sign: `-a + b`, with spaces around the signs between names.

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 
 use moris_interface::shown;
 
-use super::RecordingError;
 use super::conventions::Quantity;
 use super::header::{Column, Term, UnitSource};
 use super::sheet::{Samples, Sheet};
 use super::units::Unit;
+use super::{RecordingError, median, sampling};
 
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const GAP: f64 = 0.2;
+/// The same where a file's samples are further apart, as those of a satellite receiver, in steps.
+const GAP_STEPS: f64 = 2.5;
 
 /// The samples of one file.
 pub struct Part {
@@ -51,7 +53,7 @@ impl Part {
             time: samples.time.into_iter().map(|time| time * unit.in_si).collect(),
             columns: samples.columns,
             lines: samples.lines,
-            warnings: Vec::new(),
+            warnings: samples.warnings,
         }
     }
 
@@ -109,7 +111,12 @@ impl Part {
             file: self.file.clone(),
             line: self.lines[wrong],
             column: None,
-            reason: format!("time {what}: {} s comes after {} s", shown(after), shown(before)),
+            reason: format!(
+                "time {what}: {} s comes after {} s{}",
+                shown(after),
+                shown(before),
+                sampling::remedy_for_equal_times(&self.time, wrong)
+            ),
         })
     }
 
@@ -129,19 +136,35 @@ impl Part {
     }
 }
 
-/// Joins files over the time that they have in common. The samples are those of the file with index
-/// `base`; the others are interpolated linearly.
+/// Joins files over the time that those with required columns have in common. The samples are those
+/// of the file with index `base`. The others are interpolated linearly, and hold their first and
+/// last values beyond their ends.
 ///
 /// # Errors
 /// Time does not increase in a file, or the files have no time in common.
-pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Result<Joined, RecordingError> {
-    for (_, part) in &parts {
+pub fn by_time(
+    name: &Path,
+    mut parts: Vec<(Vec<usize>, Part)>,
+    base: usize,
+    spreads_equal_times: bool,
+    is_required: impl Fn(usize) -> bool,
+) -> Result<Joined, RecordingError> {
+    for (_, part) in &mut parts {
+        if spreads_equal_times {
+            part.warnings.extend(sampling::spread_equal_times(&mut part.time));
+        }
         part.check_order()?;
     }
-    let from = parts.iter().map(|(_, part)| part.time[0]).fold(f64::NEG_INFINITY, f64::max);
-    let to = parts.iter().map(|(_, part)| part.time[part.time.len() - 1]).fold(f64::INFINITY, f64::min);
+    let common = |parts: &mut dyn Iterator<Item = &Part>| {
+        parts.fold((f64::NEG_INFINITY, f64::INFINITY), |(from, to), part| {
+            (from.max(part.time[0]), to.min(part.time[part.time.len() - 1]))
+        })
+    };
+    let is_needed = |(places, _): &&(Vec<usize>, Part)| places.iter().any(|&place| is_required(place));
+    let (from, to) = common(&mut parts.iter().filter(is_needed).map(|(_, part)| part));
+    let all = common(&mut parts.iter().map(|(_, part)| part));
     let main = parts.iter().find(|(places, _)| places.contains(&base)).map(|(_, part)| part);
-    let (Some(main), true) = (main, to > from) else {
+    let (Some(main), true) = (main, all.1 > all.0) else {
         let span = |part: &Part| {
             let (first, last) = (part.time[0], part.time[part.time.len() - 1]);
             format!("{} from {first:.2} s to {last:.2} s", part.file.display())
@@ -164,7 +187,8 @@ pub fn by_time(name: &Path, parts: Vec<(Vec<usize>, Part)>, base: usize) -> Resu
             values.insert(place, part.at(column, &time));
         }
         warnings.extend(part.warnings.iter().cloned());
-        let gap = part.time.windows(2).zip(&part.lines).find(|(pair, _)| pair[1] - pair[0] > GAP);
+        let longest = GAP.max(GAP_STEPS * median(part.time.windows(2).map(|pair| pair[1] - pair[0])));
+        let gap = part.time.windows(2).zip(&part.lines).find(|(pair, _)| pair[1] - pair[0] > longest);
         if let Some((pair, line)) = gap {
             warnings.push(format!(
                 "{} has no samples for {:.2} s after line {line}; the gap is interpolated linearly.",

@@ -6,9 +6,12 @@
 //! - `source` reads the text and `sheet` its lines.
 //! - [`header`] finds the columns and their [`units`].
 //! - [`table`] collects the numbers, and `join` those of several files.
+//! - `laps` chooses one of several.
+//! - `outliers` finds samples that no vehicle causes.
 //! - [`sampling`] makes the time steps equal.
 //! - `convert` rotates the axes by the [`mounting`].
-//! - [`plausibility`] detects wrong units and axes.
+//! - [`plausibility`] detects wrong units and axes, and `consistency` channels that contradict each
+//!   other.
 //!
 //! [`conventions`] are the names, units and axes given by options, or by one of the [`formats`].
 //!
@@ -25,14 +28,17 @@
 //! Orientation columns are used if the recording has them. Gravity is then removed as the parameter
 //! `gravityRemoval` specifies.
 
+mod consistency;
 pub mod conventions;
 mod convert;
 mod error;
 pub mod formats;
 pub mod header;
 mod join;
+mod laps;
 pub mod mounting;
 mod numbers;
+mod outliers;
 pub mod plausibility;
 pub mod preview;
 pub mod quantity;
@@ -42,6 +48,7 @@ pub(crate) mod source;
 pub mod table;
 mod time;
 pub mod units;
+mod vbox;
 
 use std::path::Path;
 
@@ -79,6 +86,7 @@ impl Recording {
     /// - The file cannot be read or is not CSV.
     /// - A column is missing or occurs twice, or a field is not a number.
     /// - The time steps are unequal.
+    /// - There are a logger's error values, and they are not to be repaired.
     /// - A unit in the header contradicts an option.
     /// - The units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
@@ -97,12 +105,16 @@ impl Recording {
         Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
     }
 
-    fn of_table(name: String, table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+    fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
+        laps::choose(&mut table, conventions)?;
+        let outliers = outliers::check(&mut table, conventions.repair)?;
         let (table, mut warnings) = sampling::at_equal_steps(table, conventions)?;
+        warnings.extend(outliers);
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);
         plausibility::check(&table, &inputs, conventions)?;
+        warnings.extend(consistency::warnings(&table, &inputs, conventions));
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
         warnings.extend(plausibility::warnings(&table, &inputs));
         Ok(Recording {

@@ -1,18 +1,22 @@
 //! The sensor's mounting in the vehicle: given as angles, or found from the recording.
 
+mod blocks;
+mod forward;
+
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::median;
+use blocks::Blocks;
+use forward::Forward;
 
 /// The sensor's orientation in the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Written")]
 pub enum Mounting {
-    /// To be found from gravity and the first acceleration.
+    /// To be found from gravity, accelerations and bends.
     Auto,
     /// Roll, pitch and yaw of the sensor in the vehicle's axes \[rad\].
     Angles(RollPitchYaw),
@@ -86,101 +90,18 @@ pub struct Found {
     pub warning: String,
 }
 
-/// Time over which samples are averaged before the search \[s\].
-const BLOCK: f64 = 0.1;
-/// Blocks of a stretch at rest: 1 s.
-const REST: usize = 10;
-/// Largest change of the specific force at rest \[m/s2\].
-const REST_FORCE: f64 = 0.3;
-/// Largest angular velocity at rest \[rad/s\].
-const REST_RATE: f64 = 0.05;
-/// Horizontal specific force above which an acceleration begins, and below which it ends \[m/s2\].
-const ACCELERATION: [f64; 2] = [0.5, 0.25];
-/// Largest angular velocity about the vertical in an acceleration straight ahead \[rad/s\].
-const STRAIGHT: f64 = 0.1;
-/// Shortest acceleration, in blocks: 0.5 s.
-const SHORTEST: usize = 5;
-/// Least change of speed that determines the forward direction, as a standard deviation
-/// of its rate \[m/s2\].
-const SPEED_CHANGE: f64 = 0.2;
+/// Largest standard error of the forward direction \[rad\].
+const LARGEST_ERROR: f64 = 15f64.to_radians();
 
-/// Means of [`BLOCK`]s of a recording.
-struct Blocks {
-    forces: Vec<Vector3<f64>>,
-    rates: Vec<Vector3<f64>>,
-    speeds: Vec<f64>,
-}
-
-impl Blocks {
-    fn new(motion: &SensorMotion) -> Self {
-        let size = ((BLOCK / motion.step).round() as usize).max(1);
-        let mean = |vectors: &[Vector3<f64>]| vectors.iter().sum::<Vector3<f64>>() / vectors.len() as f64;
-        let means = |vectors: &[Vector3<f64>]| vectors.chunks_exact(size).map(mean).collect::<Vec<_>>();
-        let speeds = motion.speeds.unwrap_or_default().chunks_exact(size);
-        Blocks {
-            forces: means(motion.forces),
-            rates: means(motion.rates),
-            speeds: speeds.map(|speeds| speeds.iter().sum::<f64>() / speeds.len() as f64).collect(),
-        }
-    }
-
-    /// The median of the specific forces in stretches at rest or at constant speed, if there are
-    /// any.
-    fn rest(&self) -> Option<Vector3<f64>> {
-        let is_quiet = |&start: &usize| {
-            let forces = &self.forces[start..start + REST];
-            let steady = (0..3).all(|axis| {
-                let values = forces.iter().map(|force| force[axis]);
-                values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min) < REST_FORCE
-            });
-            steady && self.rates[start..start + REST].iter().all(|rate| rate.norm() < REST_RATE)
-        };
-        let starts = (0..(self.forces.len() + 1).saturating_sub(REST)).step_by(REST / 2);
-        let quiet: Vec<Vector3<f64>> = starts
-            .filter(is_quiet)
-            .map(|start| self.forces[start..start + REST].iter().sum::<Vector3<f64>>() / REST as f64)
-            .collect();
-        (!quiet.is_empty()).then(|| Vector3::from_fn(|axis, _| median(quiet.iter().map(|force| force[axis]))))
-    }
-
-    /// The horizontal specific force correlated with the change of speed.
-    fn along_speed(&self, up: &Vector3<f64>) -> Option<Vector3<f64>> {
-        let changes: Vec<f64> = self.speeds.windows(3).map(|s| (s[2] - s[0]) / (2.0 * BLOCK)).collect();
-        let size = (changes.iter().map(|change| change * change).sum::<f64>() / changes.len().max(1) as f64).sqrt();
-        let forces = self.forces.iter().skip(1);
-        (size > SPEED_CHANGE).then(|| changes.iter().zip(forces).map(|(c, f)| *c * horizontal(f, up)).sum())
-    }
-
-    /// The time of the first acceleration straight ahead in blocks, and the sum of its horizontal
-    /// specific forces.
-    fn first_acceleration(&self, up: &Vector3<f64>) -> Option<(usize, Vector3<f64>)> {
-        let is_straight = |block: usize| self.rates[block].dot(up).abs() < STRAIGHT;
-        let force = |block: usize| horizontal(&self.forces[block], up);
-        let mut block = 0;
-        while block < self.forces.len() {
-            if force(block).norm() < ACCELERATION[0] || !is_straight(block) {
-                block += 1;
-                continue;
-            }
-            let last = (block..self.forces.len()).find(|&k| force(k).norm() < ACCELERATION[1] || !is_straight(k));
-            let end = last.unwrap_or(self.forces.len());
-            if end - block >= SHORTEST {
-                return Some((block, (block..end).map(force).sum()));
-            }
-            block = end;
-        }
-        None
-    }
-}
-
-/// Finds the mounting. Up is the direction of the specific force at rest. Forward follows from the
-/// change of speed, or from the first acceleration straight ahead.
+/// Finds the mounting. Up is the direction of the specific force at rest, and the module
+/// `forward` finds forward.
 ///
 /// # Errors
-/// The recording contains no gravity, or no acceleration straight ahead.
+/// The recording contains no gravity, or forward is unknown, uncertain or contradictory. The
+/// message names the option that gives the mounting.
 pub fn find(motion: &SensorMotion) -> Result<Found, String> {
     let blocks = Blocks::new(motion);
-    let rest = blocks.rest();
+    let rest = blocks.rest_force();
     let whole = || motion.forces.iter().sum::<Vector3<f64>>() / motion.forces.len() as f64;
     let gravity = rest.unwrap_or_else(whole);
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
@@ -191,31 +112,37 @@ pub fn find(motion: &SensorMotion) -> Result<Found, String> {
         ));
     }
     let up = gravity.normalize();
-    let (along, evidence) = match blocks.along_speed(&up) {
-        Some(along) => (along, "the change of speed".to_owned()),
-        None => {
-            let (block, along) = blocks.first_acceleration(&up).ok_or(
-                "--mounting auto finds no acceleration straight ahead that lasts 0.5 s, so forward is unknown; give \
-                 --mounting ROLL,PITCH,YAW in degrees",
-            )?;
-            let time = block as f64 * BLOCK;
-            (along, format!("the first acceleration, at {time:.1} s (if it is a braking, add 180 to yaw)"))
-        }
-    };
-    let forward = horizontal(&along, &up).normalize();
-    let left = up.cross(&forward);
-    let rotation = Matrix3::from_rows(&[forward.transpose(), left.transpose(), up.transpose()]);
-    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(rotation).euler_angles();
-    let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
-    let level = if rest.is_some() { "gravity" } else { "the mean force, as the recording has no second of rest" };
-    let warning = format!(
-        "The sensor's mounting was found from {level} and {evidence}: --mounting={roll:.1},{pitch:.1},{yaw:.1} gives the \
-         same."
+    let Forward { direction, error, evidence, may_be_backward } = forward::find(&blocks, &up)?;
+    let rotation = axes(&up, &direction);
+    let option = option(&rotation);
+    if error > LARGEST_ERROR {
+        return Err(format!(
+            "--mounting auto finds forward from {evidence}, but only to {:.0} degrees; give --mounting ROLL,PITCH,YAW in \
+             degrees, or take {option}",
+            error.to_degrees()
+        ));
+    }
+    let level = if rest.is_some() { "gravity" } else { "the mean force, as there is no second of rest" };
+    let mut warning = format!(
+        "The sensor's mounting was found, up from {level}, and forward to {:.0} degrees from {evidence}: {option} gives the \
+         same.",
+        error.to_degrees()
     );
+    if may_be_backward {
+        let turned = self::option(&axes(&up, &-direction));
+        warning.push_str(&format!(" If that acceleration is a braking, forward is backward: use {turned}."));
+    }
     Ok(Found { rotation, warning })
 }
 
-/// The part of a vector that is perpendicular to `up`.
-fn horizontal(vector: &Vector3<f64>, up: &Vector3<f64>) -> Vector3<f64> {
-    vector - up * vector.dot(up)
+/// Rotation from the sensor's axes to the vehicle's, of the upward and the forward direction.
+fn axes(up: &Vector3<f64>, forward: &Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::from_rows(&[forward.transpose(), up.cross(forward).transpose(), up.transpose()])
+}
+
+/// The option that gives a rotation.
+fn option(rotation: &Matrix3<f64>) -> String {
+    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(*rotation).euler_angles();
+    let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
+    format!("--mounting={roll:.1},{pitch:.1},{yaw:.1}")
 }

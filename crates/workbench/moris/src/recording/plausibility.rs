@@ -60,13 +60,13 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
 }
 
 /// The unit of a quantity's column, and its source.
-fn unit(table: &Table, quantity: Quantity) -> (Unit, UnitSource) {
+pub(super) fn unit(table: &Table, quantity: Quantity) -> (Unit, UnitSource) {
     let column = table.column(quantity);
     column.map_or((quantity.dimension().default_unit(), UnitSource::Default), |column| (column.unit, column.source))
 }
 
 /// The remedy for a unit: an option where the header leaves it open, otherwise the header.
-fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
+pub(super) fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
     let (given, source) = unit(table, quantity);
     match source {
         UnitSource::Header => format!("correct the header, which gives {}", given.word),
@@ -190,14 +190,14 @@ fn not_radians(table: &Table, inputs: &[Input], conventions: &Conventions) -> Op
 }
 
 /// Slope of y over x through the origin. None where they are not correlated.
-fn regression(x: &[f64], y: &[f64]) -> Option<f64> {
+pub(super) fn regression(x: &[f64], y: &[f64]) -> Option<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let (xx, xy, yy) = (dot(x, x), dot(x, y), dot(y, y));
     (xy.abs() > TOGETHER * (xx * yy).sqrt()).then(|| xy / xx)
 }
 
 /// A signal without its mean, after a first-order low-pass.
-fn smooth(values: impl Iterator<Item = f64> + Clone, step: f64) -> Vec<f64> {
+pub(super) fn smooth(values: impl Iterator<Item = f64> + Clone, step: f64) -> Vec<f64> {
     let count = values.clone().count();
     let mean = values.clone().sum::<f64>() / count as f64;
     let alpha = step / (SMOOTHING + step);

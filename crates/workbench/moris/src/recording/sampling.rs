@@ -23,13 +23,44 @@ const MOST_SAMPLES: f64 = 1e7;
 /// # Errors
 /// Time does not increase, the steps are unequal and interpolation is off, or the steps are too
 /// coarse or too fine for the unit of time.
-pub fn at_equal_steps(table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RecordingError> {
+pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RecordingError> {
+    let spread = conventions.resample.and_then(|_| spread_equal_times(&mut table.time));
+    table.warnings.extend(spread);
     check_order(&table)?;
     check_unit(&table)?;
     match conventions.resample {
         Some(rate) => resampled(&table, rate),
         None => check_equal(&table).map(|()| (table, Vec::new())),
     }
+}
+
+/// Spreads samples of equal times, as clocks with few digits write them, evenly up to the next
+/// time. Returns a warning if there are any.
+pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
+    let mean = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    let (mut first, mut spread) = (0, 0);
+    while first < time.len() {
+        let count = time[first..].iter().take_while(|&&t| t == time[first]).count();
+        // The last times have none after them.
+        let step = time.get(first + count).map_or(mean, |next| (next - time[first]) / count as f64);
+        for k in 1..count {
+            time[first + k] += k as f64 * step;
+        }
+        spread += count - 1;
+        first += count;
+    }
+    (spread > 0)
+        .then(|| format!("{spread} samples have the time of the one before; they are spread evenly up to the next."))
+}
+
+/// The remedy where a sample has the time of the one before.
+pub fn remedy_for_equal_times(time: &[f64], sample: usize) -> String {
+    let duration = time[time.len() - 1] - time[0];
+    if time[sample] != time[sample - 1] || duration <= 0.0 {
+        return String::new();
+    }
+    let rate = (time.len() - 1) as f64 / duration;
+    format!("; if the times are rounded, --resample {rate:.0} spreads equal ones evenly")
 }
 
 fn line_error(table: &Table, sample: usize, reason: String) -> RecordingError {
@@ -45,7 +76,12 @@ fn check_order(table: &Table) -> Result<(), RecordingError> {
             return Err(line_error(
                 table,
                 k + 1,
-                format!("time {what}: {} s comes after {} s", shown(after), shown(before)),
+                format!(
+                    "time {what}: {} s comes after {} s{}",
+                    shown(after),
+                    shown(before),
+                    remedy_for_equal_times(&table.time, k + 1)
+                ),
             ));
         }
     }

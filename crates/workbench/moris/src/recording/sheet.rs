@@ -8,8 +8,8 @@ use super::RecordingError;
 use super::conventions::{Conventions, EmptyFields, Quantity};
 use super::header::Header;
 use super::numbers::{Numbers, is_empty, is_number};
-use super::source;
 use super::time::{Times, is_written_out};
+use super::{source, vbox};
 
 /// Most lines before the header.
 const LONGEST_PREAMBLE: usize = 100;
@@ -40,6 +40,8 @@ pub struct Samples {
     pub columns: Vec<Vec<f64>>,
     /// The line of the file from which each sample is.
     pub lines: Vec<u64>,
+    /// Warnings, in whole sentences.
+    pub warnings: Vec<String>,
 }
 
 impl Sheet {
@@ -52,6 +54,7 @@ impl Sheet {
     /// The file cannot be read, is no CSV, or has no header.
     pub fn open(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
         let text = source::text(file)?;
+        let text = vbox::as_csv(&text).unwrap_or(text);
         let file = source::shown(file);
         let whole = |reason: &str| RecordingError::Whole { file: file.clone(), reason: reason.to_owned() };
         let start = header_start(&text, conventions);
@@ -101,32 +104,30 @@ impl Sheet {
         for _ in 0..self.below {
             advance(&mut record)?;
         }
-        let mut samples = Samples { time: Vec::new(), columns: vec![Vec::new(); places.len()], lines: Vec::new() };
+        let mut samples = Samples {
+            time: Vec::new(),
+            columns: vec![Vec::new(); places.len()],
+            lines: Vec::new(),
+            warnings: Vec::new(),
+        };
         let mut numbers = Numbers::default();
         let mut times = Times::default();
         while advance(&mut record)? {
             let line = self.start.1 + record.position().map_or(0, |position| line_of_record(position, text));
-            let refused = |place: Option<usize>, reason| {
-                let column = place.map(|place| self.header.shown(place));
-                RecordingError::Line { file: self.file.clone(), line, column, reason }
+            let row = self.row(&record, line, (places, time), (&mut numbers, &mut times), conventions);
+            let (at, values) = match row {
+                Ok(row) => row,
+                Err(error) => {
+                    let is_cut = record.len() < self.header.width() || !text.ends_with('\n');
+                    if is_cut && !advance(&mut record)? {
+                        samples.warnings.push(format!("The last line, {line}, is cut off and left out."));
+                        break;
+                    }
+                    return Err(error);
+                }
             };
-            if record.iter().skip(self.header.width()).any(|field| !field.trim().is_empty()) {
-                return Err(refused(None, too_many_fields(record.len(), self.header.width())));
-            }
-            let at = match record.get(time) {
-                Some(field) if self.has_written_times => times.parse(field),
-                field => numbers.parse(field),
-            };
-            samples.time.push(at.map_err(|reason| refused(Some(time), reason))?);
-            for (&place, column) in places.iter().zip(&mut samples.columns) {
-                let field = record.get(place);
-                let may_be_empty = conventions.empty_fields == EmptyFields::Interpolate;
-                column.push(if may_be_empty && is_empty(field) {
-                    f64::NAN
-                } else {
-                    numbers.parse(field).map_err(|reason| refused(Some(place), reason))?
-                });
-            }
+            samples.time.push(at);
+            samples.columns.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
             samples.lines.push(line);
         }
         if samples.time.len() < 2 {
@@ -134,6 +135,35 @@ impl Sheet {
             return Err(RecordingError::Whole { file: self.file.clone(), reason });
         }
         Ok(samples)
+    }
+
+    /// The time and the values of a line.
+    fn row(
+        &self,
+        record: &StringRecord,
+        line: u64,
+        (places, time): (&[usize], usize),
+        (numbers, times): (&mut Numbers, &mut Times),
+        conventions: &Conventions,
+    ) -> Result<(f64, Vec<f64>), RecordingError> {
+        let refused = |place: Option<usize>, reason| {
+            let column = place.map(|place| self.header.shown(place));
+            RecordingError::Line { file: self.file.clone(), line, column, reason }
+        };
+        if record.iter().skip(self.header.width()).any(|field| !field.trim().is_empty()) {
+            return Err(refused(None, too_many_fields(record.len(), self.header.width())));
+        }
+        let at = match record.get(time) {
+            Some(field) if self.has_written_times => times.parse(field),
+            field => numbers.parse(field),
+        };
+        let at = at.map_err(|reason| refused(Some(time), reason))?;
+        let may_be_empty = conventions.empty_fields == EmptyFields::Interpolate;
+        let value = |&place: &usize| match record.get(place) {
+            field if may_be_empty && is_empty(field) => Ok(f64::NAN),
+            field => numbers.parse(field).map_err(|reason| refused(Some(place), reason)),
+        };
+        Ok((at, places.iter().map(value).collect::<Result<_, _>>()?))
     }
 }
 
@@ -149,11 +179,16 @@ fn header_start(text: &str, conventions: &Conventions) -> (usize, u64) {
     let begin = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let mut start = begin;
     let mut widest = (0, (begin, 0));
-    for (number, line) in (0..).zip(text[begin..].split_inclusive('\n').take(LONGEST_PREAMBLE)) {
+    let mut read = 0;
+    for (number, line) in (0..).zip(text[begin..].split_inclusive('\n')) {
         let here = (start, number);
         start += line.len();
         if line.starts_with('#') || line.trim().is_empty() {
             continue;
+        }
+        read += 1;
+        if read > LONGEST_PREAMBLE {
+            break;
         }
         let mut reader =
             ReaderBuilder::new().delimiter(delimiter(line)).has_headers(false).from_reader(line.as_bytes());

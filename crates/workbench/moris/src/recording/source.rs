@@ -40,7 +40,7 @@ fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RecordingError> {
     let unreadable = |reason| RecordingError::Read { file: directory.to_owned(), reason };
     let is_csv = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-        path.is_file() && (name.ends_with(".csv") || name.ends_with(".csv.gz"))
+        path.is_file() && [".csv", ".csv.gz", ".vbo"].iter().any(|end| name.ends_with(end))
     };
     let entries: Result<Vec<PathBuf>, _> =
         fs::read_dir(directory).map_err(unreadable)?.map(|entry| entry.map(|entry| entry.path())).collect();

@@ -3,8 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use moris_washout::interface::STANDARD_GRAVITY;
+
 use super::RecordingError;
-use super::conventions::{Conventions, Quantity};
+use super::conventions::{Conventions, Gravity, Quantity};
 use super::header::{Column, Header, quoted};
 use super::join::{self, Part};
 use super::sheet::Sheet;
@@ -67,6 +69,24 @@ impl Table {
             .collect();
         Table { file, time, columns, layout, lines, warnings }
     }
+
+    /// Adds the quantities that the recording lacks as at rest, with a warning.
+    fn at_rest(mut self, conventions: &Conventions) -> Self {
+        let is_missing = |(quantity, _): &&(Quantity, &str)| {
+            quantity.is_required() && *quantity != Quantity::Time && !self.columns.contains_key(quantity)
+        };
+        let missing: Vec<(Quantity, &str)> = Quantity::ALL.iter().filter(is_missing).copied().collect();
+        for (quantity, _) in &missing {
+            let is_vertical = *quantity == Quantity::Force(2) && conventions.gravity == Gravity::Included;
+            let rest = if is_vertical { STANDARD_GRAVITY * conventions.axes.signs()[2] } else { 0.0 };
+            self.columns.insert(*quantity, vec![rest; self.time.len()]);
+        }
+        if !missing.is_empty() {
+            let names = missing.iter().map(|(_, key)| *key).collect::<Vec<_>>().join(", ");
+            self.warnings.push(format!("The recording has no {names}: they are taken as at rest."));
+        }
+        self
+    }
 }
 
 /// Reads a recording of one file, of several joined by `+`, or of those in a directory.
@@ -82,6 +102,19 @@ pub fn read(file: &Path, conventions: &Conventions) -> Result<Table, RecordingEr
     }
 }
 
+/// The recordings in files and directories. A directory in which several files have all columns is
+/// so many recordings; any other is one.
+pub fn recordings(paths: &[PathBuf], conventions: &Conventions) -> Vec<PathBuf> {
+    let is_whole =
+        |file: &PathBuf| Sheet::open(file, conventions).is_ok_and(|sheet| sheet.header.has_needed_columns(conventions));
+    let of_path = |path: &PathBuf| {
+        let files = if path.is_dir() { source::files(path).unwrap_or_default() } else { Vec::new() };
+        let whole: Vec<PathBuf> = files.into_iter().filter(is_whole).collect();
+        if whole.len() > 1 { whole } else { vec![path.clone()] }
+    };
+    paths.iter().flat_map(of_path).collect()
+}
+
 fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingError> {
     let sheet = Sheet::open(file, conventions)?;
     let whole = |reason| RecordingError::Whole { file: sheet.file.clone(), reason };
@@ -94,9 +127,10 @@ fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingErr
     let places = value_places(&layout);
     let samples = sheet.samples(&places, time, conventions)?;
     let mut part = Part::new(&sheet, samples, unit);
-    let warnings = part.fill_gaps(&places)?;
+    let gaps = part.fill_gaps(&places)?;
+    part.warnings.extend(gaps);
     let values = places.into_iter().zip(part.columns).collect();
-    Ok(Table::new(sheet.file.clone(), layout, (part.time, part.lines), &values, warnings))
+    Ok(Table::new(sheet.file.clone(), layout, (part.time, part.lines), &values, part.warnings).at_rest(conventions))
 }
 
 /// Reads several files. Files of a directory that hold no column in use are passed over.
@@ -129,7 +163,8 @@ fn of_files(
             let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(refused)?;
             let own: Vec<usize> = places.iter().map(|place| place - first_place).collect();
             let mut part = Part::new(sheet, sheet.samples(&own, time, conventions)?, unit);
-            part.warnings = part.fill_gaps(&own)?;
+            let gaps = part.fill_gaps(&own)?;
+            part.warnings.extend(gaps);
             parts.push((places, part));
         } else if !is_directory {
             return Err(refused("holds no column of the recording; leave it out".to_owned()));
@@ -137,8 +172,11 @@ fn of_files(
         first_place += width;
     }
     let base = layout.iter().find(|column| column.quantity == Quantity::Force(0)).map_or(0, |c| c.terms[0].place);
-    let joined = join::by_time(&name, parts, base)?;
-    Ok(Table::new(name, layout, (joined.time, joined.lines), &joined.values, joined.warnings))
+    let is_required = |place: usize| {
+        layout.iter().any(|c| c.quantity.is_required() && c.terms.iter().any(|term| term.place == place))
+    };
+    let joined = join::by_time(&name, parts, base, conventions.resample.is_some(), is_required)?;
+    Ok(Table::new(name, layout, (joined.time, joined.lines), &joined.values, joined.warnings).at_rest(conventions))
 }
 
 /// The places of all columns in use but the time, each once.
@@ -182,5 +220,5 @@ pub fn of_columns(
         columns[column.terms[0].place].1.iter().map(|time| time * column.unit.in_si).collect()
     });
     let lines = (1..=samples as u64).collect();
-    Ok(Table::new(file, layout, (time, lines), &values, Vec::new()))
+    Ok(Table::new(file, layout, (time, lines), &values, Vec::new()).at_rest(conventions))
 }

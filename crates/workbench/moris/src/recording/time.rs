@@ -1,4 +1,7 @@
 //! Times that are not plain numbers: dates with a time (ISO 8601), and times of day.
+//!
+//! Of dates as 01/05/2026 the order of day and month is not known, and not needed: their times of
+//! day are used, also past midnight.
 
 use jiff::Timestamp;
 use jiff::civil::DateTime;
@@ -58,9 +61,24 @@ fn date(text: &str) -> Option<f64> {
     Some(timestamp.as_nanosecond() as f64 * 1e-9)
 }
 
+/// The text after a date with the year at its end.
+fn without_date(text: &str) -> &str {
+    let is_date = |date: &str| {
+        let parts: Vec<&str> = date.split(['/', '.', '-']).collect();
+        let is_part = |part: &&str, digits: std::ops::RangeInclusive<usize>| {
+            digits.contains(&part.len()) && part.bytes().all(|byte| byte.is_ascii_digit())
+        };
+        matches!(&parts[..], [a, b, year] if is_part(a, 1..=2) && is_part(b, 1..=2) && is_part(year, 4..=4))
+    };
+    match text.split_once([' ', 'T']) {
+        Some((date, time)) if is_date(date) => time.trim_start(),
+        _ => text,
+    }
+}
+
 /// `h:m:s` or `m:s`, with decimals of a second, in seconds.
 fn time_of_day(text: &str) -> Option<f64> {
-    let parts: Vec<&str> = text.split(':').collect();
+    let parts: Vec<&str> = without_date(text).split(':').collect();
     let (hours, minutes, seconds) = match parts[..] {
         [hours, minutes, seconds] => (whole(hours)?, whole(minutes)?, seconds),
         [minutes, seconds] => (0.0, whole(minutes)?, seconds),

@@ -160,7 +160,12 @@ impl Dimension {
 
     /// Words of its units, for messages.
     pub fn words(self) -> Vec<&'static str> {
-        self.entry().units.iter().map(|(unit, _)| unit.word).collect()
+        self.units().map(|unit| unit.word).collect()
+    }
+
+    /// Its units.
+    pub fn units(self) -> impl Iterator<Item = Unit> {
+        self.entry().units.iter().map(|(unit, _)| *unit)
     }
 
     /// The unit of a recording that gives none: the SI unit, which is the first.

@@ -31,13 +31,11 @@ use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
 use crate::recording::preview::{Previewer, parse_seconds};
-use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source};
+use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
 use crate::setup_options::SetupOptions;
+use crate::status::DOES_NOT_FIT;
 pub use bounds::AxisBound;
 pub use simulation::Simulation;
-
-/// Exit status where a recording does not fit the rig.
-const DOES_NOT_FIT: u8 = 3;
 
 /// Simulate recordings on a rig and report how well they are felt
 ///
@@ -161,12 +159,13 @@ impl Outcome {
 /// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
-    check_names(&options.recordings, &cases)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
+    let recordings = table::recordings(&options.recordings, &conventions);
+    check_names(&recordings, &cases)?;
     let mut entries = Vec::new();
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();
-    for file in &options.recordings {
+    for file in &recordings {
         let simulated = match simulate(options, file, &cases, &conventions) {
             Ok(simulated) => simulated,
             Err(error) => {

@@ -29,8 +29,9 @@ use moris_setup::{NamedValues, Setup, all, parameter_file};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::recording::{FADE_IN, Recording};
+use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
+use crate::status::WORSE;
 use cost::Objective;
 pub use options::Options;
 use space::Space;
@@ -46,7 +47,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let before = options.setup.load()?;
     let tuned_on = objectives(options, &options.recordings, &before)?;
     let held_out = objectives(options, &options.hold_out, &before)?;
-    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(options.recordings.len()));
+    let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(tuned_on.len()));
 
     let bar = ProgressBar::new((options.evaluations * (1 + folds.len())) as u64);
     bar.set_style(ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %, {eta} to go")?);
@@ -74,10 +75,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(if summary::is_worse(&results) { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
-/// Exit status where the tuned parameters are written and are worse than before on some recording;
-/// see [`summary::is_worse`].
-const WORSE: u8 = 2;
-
 fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let objective = |file: &PathBuf| {
@@ -85,7 +82,7 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
         let objective = Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?;
         Ok(objective.with_comfort_bounds(options.comfort.0))
     };
-    files.par_iter().map(objective).collect()
+    table::recordings(files, &conventions).par_iter().map(objective).collect()
 }
 
 /// True after Ctrl-C; a second one ends the program.

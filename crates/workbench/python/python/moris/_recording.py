@@ -23,9 +23,15 @@ OPTIONS = (
     "mounting",
     "rate_frame",
     "empty_fields",
+    "missing",
+    "lap",
+    "repair",
     "resample",
     "fade_in",
 )
+
+# Options that are true or false.
+FLAGS = ("repair",)
 
 
 class Recording:
@@ -44,7 +50,9 @@ class Recording:
     gravity: "included" as an accelerometer reads it, or "removed".
     axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
-    empty_fields: of a file, "error" or "interpolate".
+    empty_fields: of a file, "error" or "interpolate". repair: True to interpolate over a logger's error values and spikes.
+    missing: "error", or "rest" to take ay az wx wy wz that the source lacks as at rest. lap: number of the lap to read where
+        time starts again with each.
     resample: samples a second, to interpolate a recording whose steps are unequal.
     fade_in: seconds over which the recording is faded in from rest: 1 by default, 0 to take it as it is.
 
@@ -228,15 +236,17 @@ def _in_python(message):
         word = match[2]
         if match[1] not in names:
             return match[0]
+        if match[1] in FLAGS:
+            return f"{names[match[1]]}=True"
         if not word:
             return names[match[1]]
         return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'
 
-    message = re.sub(r"--mounting[= ](-?[\d.]+(?:,-?[\d.]+){2})", r"mounting=[\1]", message)
-    message = re.sub(r"--columns ((?:\w+=\w+)(?:,\w+=\w+)*)", columns, message)
-    formats = "phyphox|sensor-logger(?:-ios)?|sensorlog|androsensor|racechrono|aim|motec|iracing|px4"
+    message = re.sub(r"--mounting[= ](-?\d+(?:\.\d+)?(?:,-?\d+(?:\.\d+)?){2})", r"mounting=[\1]", message)
+    message = re.sub(r"--columns ((?:\w+=-?\w+)(?:,\w+=-?\w+)*)", columns, message)
+    formats = "phyphox|sensor-logger(?:-ios)?|sensorlog|androsensor|racechrono|aim|motec|vbox|iracing|px4"
     words = (
-        "included|removed|forward-[a-z-]+|auto|interpolate|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|"
+        "included|removed|forward-[a-z-]+|auto|interpolate|rest|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|"
         f"\\d+|{formats}"
     )
     return re.sub(rf"--([a-z]+(?:-[a-z]+)*)(?: ({words})(?![\w/]))?", option, message)

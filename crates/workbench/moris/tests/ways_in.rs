@@ -1,0 +1,241 @@
+//! Recordings that are not plain CSV at equal steps. Each is read, or refused with the option that
+//! helps.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use moris::recording::conventions::{Format, Missing, Mounting};
+use moris::recording::{ConventionOptions, Recording};
+
+const GRAVITY: f64 = 9.80665;
+const HEADER: &str = "time,ax,ay,az,wx,wy,wz";
+
+/// Forces and yaw rate of a car in bends at a time, and its speed.
+fn car(t: f64) -> [f64; 4] {
+    let yaw_rate = 0.1 * (TAU * 0.1 * t).sin();
+    let speed = 15.0 - 4.0 * (TAU * 0.05 * t).cos();
+    [4.0 * TAU * 0.05 * (TAU * 0.05 * t).sin(), speed * yaw_rate, yaw_rate, speed]
+}
+
+/// A file of so many seconds at 100 Hz, whose times are written by a function.
+fn drive(seconds: usize, time: &dyn Fn(usize) -> String) -> String {
+    let mut text = format!("{HEADER}\n");
+    for k in 0..=100 * seconds {
+        let [surge, sway, yaw_rate, _] = car(0.01 * k as f64);
+        writeln!(text, "{},{surge},{sway},{GRAVITY},0,0,{yaw_rate}", time(k)).unwrap();
+    }
+    text
+}
+
+fn plain(k: usize) -> String {
+    format!("{:.2}", 0.01 * k as f64)
+}
+
+fn read_as(name: &str, text: &str, options: &ConventionOptions) -> Result<Recording, String> {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join(name);
+    fs::write(&file, text).unwrap();
+    let recording = Recording::read(&file, &options.load().unwrap());
+    recording.map_err(|error| error.to_string().replace(&format!("{}/", directory.path().display()), ""))
+}
+
+fn read(text: &str, options: &ConventionOptions) -> Result<Recording, String> {
+    read_as("drive.csv", text, options)
+}
+
+fn assert_is_the_car(recording: &Recording, tolerance: f64) {
+    assert!(recording.manoeuvre.duration() > 9.9, "{}", recording.manoeuvre.duration());
+    for (time, input) in recording.times().zip(recording.inputs()) {
+        let [surge, sway, yaw_rate, _] = car(time);
+        assert!((input.specific_force.x - surge).abs() < tolerance, "{time}: {}", input.specific_force);
+        assert!((input.specific_force.y - sway).abs() < tolerance, "{time}: {}", input.specific_force);
+        assert!((input.specific_force.z - GRAVITY).abs() < tolerance, "{time}: {}", input.specific_force);
+        assert!((input.angular_velocity.z - yaw_rate).abs() < tolerance, "{time}: {}", input.angular_velocity);
+    }
+}
+
+/// In the manner of a logger with an inertial unit, and of one with a satellite receiver alone.
+fn vbo(has_unit: bool, time: &dyn Fn(usize) -> String) -> String {
+    let mut text =
+        "File created on 01/05/2026 at 12:30:00\r\n\r\n[header]\r\nsatellites\r\ntime\r\nlatitude\r\nlongitude\r\n\
+        velocity kmh\r\nheading\r\nheight\r\nLong accel g\r\nLat accel g\r\n"
+            .to_owned();
+    text += if has_unit {
+        "YawRate\r\nX_Accel\r\nY_Accel\r\nZ_Accel\r\n\r\n[channel units]\r\nDegrees/s\r\ng\r\ng\r\ng\r\n"
+    } else {
+        "\r\n[channel units]\r\n"
+    };
+    text += "\r\n[comments]\r\n(c) 2001 2003 Racelogic\r\n";
+    (0..150).for_each(|k| writeln!(text, "Line {k} of a long preamble\r").unwrap());
+    text += "\r\n[laptiming]\r\nStart +5773.465840 +1832.282700 +5773.468800 +1832.204030\r\n\r\n[column names]\r\n\
+        sats time lat long velocity heading height Longacc Latacc";
+    text += if has_unit { " YawRate X_Accel Y_Accel Z_Accel" } else { "" };
+    text += "\r\n\r\n[data]\r\n";
+    for k in 0..=1000 {
+        let [surge, sway, yaw_rate, speed] = car(0.01 * k as f64);
+        let (surge, sway) = (surge / GRAVITY, sway / GRAVITY);
+        let receiver = if has_unit { [0.0, 0.0] } else { [surge, sway] };
+        write!(
+            text,
+            "137 {} +03119.09973 -00058.49277 {:07.4} 321.85 +00152.58 {:+.6} {:+.6}",
+            time(k),
+            3.6 * speed,
+            receiver[0],
+            receiver[1]
+        )
+        .unwrap();
+        if has_unit {
+            write!(text, " {:E} {surge:E} {sway:E} 1.0E+00", yaw_rate.to_degrees()).unwrap();
+        }
+        text += "\r\n";
+    }
+    text
+}
+
+#[test]
+fn vbox_files_are_read() {
+    let format = ConventionOptions { format: Some(Format::Vbox), ..ConventionOptions::default() };
+    // Past midnight, too.
+    for hour in [12, 23] {
+        let clock = |k: usize| {
+            let t = 0.01 * k as f64 + 55.0 + 60.0 * 59.0 + 3600.0 * f64::from(hour);
+            format!("{:02}{:02}{:05.2}", (t / 3600.0) as u32 % 24, (t / 60.0) as u32 % 60, t % 60.0)
+        };
+        let recording = read_as("drive.vbo", &vbo(true, &clock), &format).unwrap();
+        assert_is_the_car(&recording, 1e-4);
+        assert!((recording.inputs()[500].speed - car(5.0)[3]).abs() < 1e-4, "{}", recording.inputs()[500].speed);
+        let missing = "The recording has no wx, wy: they are taken as at rest.";
+        assert!(recording.warnings.iter().any(|warning| warning == missing), "{:?}", recording.warnings);
+        let receiver = read_as("drive.vbo", &vbo(false, &clock), &format).unwrap();
+        for (time, input) in receiver.times().zip(receiver.inputs()) {
+            assert!((input.specific_force.y - car(time)[1]).abs() < 1e-4);
+            assert!(input.specific_force.z == GRAVITY && input.angular_velocity.norm() == 0.0);
+        }
+        let message = read_as("drive.vbo", &vbo(false, &clock), &ConventionOptions::default()).unwrap_err();
+        assert!(message.contains("use --format vbox"), "{message}");
+        // Lines are those of the file.
+        let wrong = vbo(true, &clock).replacen(" 1.0E+00\r\n", " one\r\n", 1);
+        let line = wrong.lines().position(|line| line.ends_with(" one")).unwrap() + 1;
+        let message = read_as("drive.vbo", &wrong, &format).unwrap_err();
+        assert!(
+            message.starts_with(&format!("drive.vbo, line {line}, column vertical accel [g]: is \"one\"")),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn a_recording_without_a_gyroscope_is_read_on_request() {
+    let text: String =
+        drive(10, &plain).lines().map(|line| line.split(',').take(4).collect::<Vec<_>>().join(",") + "\n").collect();
+    let message = read(&text, &ConventionOptions::default()).unwrap_err();
+    assert!(message.contains("there are no columns wx, wy, wz") && message.contains("use --missing rest"), "{message}");
+    let rest = ConventionOptions { missing: Some(Missing::Rest), ..ConventionOptions::default() };
+    let recording = read(&text, &rest).unwrap();
+    assert!(recording.inputs().iter().all(|input| input.angular_velocity.norm() == 0.0));
+    assert!(recording.warnings[0].contains("has no wx, wy, wz"), "{:?}", recording.warnings);
+    // Forward is not found without a gyroscope, and a turned sensor's vertical is not known.
+    let auto = ConventionOptions { mounting: Some(Mounting::Auto), ..rest.clone() };
+    assert!(read(&text, &auto).unwrap_err().contains("there are no columns wx, wy, wz"));
+    let message = read(&text.replacen("ax", "surge", 1), &rest).unwrap_err();
+    assert!(message.contains("no column ax") && !message.contains("--missing"), "{message}");
+}
+
+#[test]
+fn equal_times_are_spread_on_request() {
+    // 100 Hz, written with one digit.
+    let rounded = |k: usize| format!("{:.1}", (k / 10) as f64 * 0.1);
+    let message = read(&drive(10, &rounded), &ConventionOptions::default()).unwrap_err();
+    assert!(message.contains("time stands still") && message.contains("--resample 100 spreads"), "{message}");
+    let resample = ConventionOptions { resample: Some(100.0), ..ConventionOptions::default() };
+    let recording = read(&drive(10, &rounded), &resample).unwrap();
+    assert_is_the_car(&recording, 1e-6);
+    assert!(recording.warnings.iter().any(|warning| warning.contains("spread evenly")), "{:?}", recording.warnings);
+    // At the end, steps are the mean ones.
+    let last = |k: usize| plain(k.min(999));
+    let recording = read(&drive(10, &last), &resample).unwrap();
+    assert!((recording.manoeuvre.duration() - 10.0).abs() < 0.011);
+    // In several files as well.
+    let directory = tempfile::tempdir().unwrap();
+    let columns = |from: usize, to: usize| -> String {
+        let line = |line: &str| {
+            let fields: Vec<&str> = line.split(',').collect();
+            format!("{},{}\n", fields[0], fields[from..to].join(","))
+        };
+        drive(10, &rounded).lines().map(line).collect()
+    };
+    fs::write(directory.path().join("force.csv"), columns(1, 4)).unwrap();
+    fs::write(directory.path().join("rate.csv"), columns(4, 7)).unwrap();
+    let read = |options: &ConventionOptions| Recording::read(directory.path(), &options.load().unwrap());
+    assert_is_the_car(&read(&resample).unwrap(), 1e-6);
+    let message = read(&ConventionOptions::default()).unwrap_err().to_string();
+    assert!(message.contains("--resample 100 spreads"), "{message}");
+}
+
+#[test]
+fn a_last_line_that_is_cut_off_is_left_out() {
+    let text = drive(10, &plain);
+    let expected = read(&text, &ConventionOptions::default()).unwrap();
+    for end in ["10.0", "10.01,0.3", "10.01,0.3,0.1,9.8,0,0,-"] {
+        let recording = read(&format!("{text}{end}"), &ConventionOptions::default()).unwrap();
+        assert_eq!(recording.inputs(), expected.inputs(), "{end}");
+        assert_eq!(recording.warnings[..1], ["The last line, 1003, is cut off and left out."]);
+    }
+    // A line in the middle, and a whole last one, are errors.
+    assert!(read(&text.replacen("\n0.05,", "\n0.05\n0.055,", 1), &ConventionOptions::default()).is_err());
+    assert!(read(&format!("{text}10.01,0.3,0.1,9.8,0,0,-\n"), &ConventionOptions::default()).is_err());
+}
+
+#[test]
+fn laps_are_read_one_by_one() {
+    let lap = drive(10, &plain);
+    let second = lap.replacen(&format!("{HEADER}\n"), "", 1);
+    let text = format!("{lap}{second}{}", second.replace(&GRAVITY.to_string(), "9.9"));
+    let message = read(&text, &ConventionOptions::default()).unwrap_err();
+    assert!(
+        message.contains("line 1003, column time: time starts again: there are 3 laps; use --lap 1 to --lap 3"),
+        "{message}"
+    );
+    let with = |lap: f64| read(&text, &ConventionOptions { lap: Some(lap), ..ConventionOptions::default() });
+    let laps = [1.0, 2.0, 3.0].map(|lap| with(lap).unwrap());
+    assert_is_the_car(&laps[0], 1e-9);
+    assert_eq!(laps[0].inputs(), laps[1].inputs());
+    assert_eq!((laps[2].inputs().len(), laps[2].inputs()[7].specific_force.z), (1001, 9.9));
+    assert!(with(4.0).unwrap_err().contains("has no samples of lap 4: time starts 3 times"));
+}
+
+#[test]
+fn dates_with_the_year_last_are_read() {
+    for date in ["01/05/2026", "1.5.2026", "05-01-2026"] {
+        let clock = |k: usize| {
+            let t = 86_395.0 + 0.01 * k as f64;
+            let day = if t < 86_400.0 { date.to_owned() } else { date.replacen('1', "2", 1) };
+            format!("{day} {:02}:{:02}:{:05.2}", (t / 3600.0) as u32 % 24, (t / 60.0) as u32 % 60, t % 60.0)
+        };
+        assert_is_the_car(&read(&drive(10, &clock), &ConventionOptions::default()).unwrap(), 1e-6);
+    }
+}
+
+#[test]
+fn a_directory_of_rides_is_several_recordings() {
+    let directory = tempfile::tempdir().unwrap();
+    let rides = directory.path().join("rides");
+    fs::create_dir(&rides).unwrap();
+    let run = || {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_moris"));
+        command.args(["simulate", "--no-bound", "--report"]).arg(directory.path().join("report")).arg(&rides);
+        command.output().unwrap()
+    };
+    let exists = |name: &str| Path::new(&directory.path().join("report").join(name)).exists();
+    fs::write(rides.join("morning.csv"), drive(10, &plain)).unwrap();
+    fs::write(rides.join("notes.csv"), "time,text\n0,cold\n").unwrap();
+    run();
+    assert!(exists("rides.html"));
+    fs::write(rides.join("evening.csv"), drive(10, &plain)).unwrap();
+    let output = run();
+    assert!(matches!(output.status.code(), Some(0 | 3)), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(exists("morning.html") && exists("evening.html") && exists("index.html") && !exists("notes.html"));
+}
