@@ -26,9 +26,9 @@ pub struct Commands {
     pub leans: Vec<f64>,
     /// Specific force that is felt on the commanded motion \[m/s2\].
     pub felt: Vec<Vector3<f64>>,
-    /// The platform on which the washout is computed, and the point at which the rider feels.
+    /// Rig of washout and platform.
     pub rig: Rig,
-    /// Structure of the washout.
+    /// Structure of the washout, with gravity and the point at which the rider feels.
     pub structure: StructureParameters,
 }
 

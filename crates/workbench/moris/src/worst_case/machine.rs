@@ -8,7 +8,7 @@ use moris_washout::platform::{LocationFrame, PlatformMotion};
 
 use super::commands::Commands;
 
-/// What a machine makes of the commands.
+/// Response of a machine to the commands.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RealMotion {
     /// Specific force that the rider feels, at each command \[m/s2\].

@@ -36,13 +36,15 @@ use study::Study;
 
 /// Measure each strategy on platforms that differ from the nominal one
 ///
-/// The washout's legs command a Stewart platform with dynamics. The table has the RMS error
-/// (geometric mean of surge and sway over all recordings, each at least 0.03 m/s²) and the largest
-/// shake and jolt of what the rider feels: on the commanded motion, on the nominal platform, and on
-/// the worst. Then comes where the worst is. Load (moving masses) goes from 50 to 150 %, bandwidth
-/// of the actuators from 70 to 130 %, dead time from 0 to 50 ms. Tried are nominal, least and
-/// largest value of each in every combination, and random points. The washout gets no feedback from
-/// the platform. Recordings fade in from rest over 1 s; --fade-in changes it.
+/// The washout's legs command a Stewart platform with dynamics; the washout gets no feedback. The
+/// table has the RMS error, shake and jolt of the felt force: on the commanded motion, on the
+/// nominal platform, and on the worst. Then comes where the worst is. The RMS error is the
+/// geometric mean of surge and sway over all recordings, each at least 0.03 m/s². Shake and jolt
+/// are the largest.
+///
+/// Load (all moving masses) goes from 50 to 150 %, bandwidth of the actuators from 70 to 130 %,
+/// dead time from 0 to 50 ms. Nominal, least and largest value of each are tried in every
+/// combination, then random points. Recordings fade in from rest over 1 s; --fade-in changes it.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns
@@ -87,6 +89,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = Setup::load(options.rig.as_deref(), &options.parameters)?;
     let platform = options.platform.as_deref().map_or_else(|| Ok(Platform::default()), read_platform)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
+    let progress = Progress::new("worst case", "reading")?;
     let rides: Vec<Recording> = measure::recordings(&options.recordings)?
         .par_iter()
         .map(|file| Ok(Recording::read(file, &conventions)?))
@@ -94,7 +97,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let strategies = if options.strategy.is_empty() { StrategyKind::ALL } else { &options.strategy };
     let points = points(&platform, options.points, options.seed)?;
 
-    let progress = Mutex::new(Progress::new("worst case", strategies[0].name())?);
+    let progress = Mutex::new(progress);
     let study = |strategy: &StrategyKind| {
         with(&progress, |bar| bar.phase(strategy.name(), (points.len() * rides.len()) as u64));
         let step = || with(&progress, Progress::step);
