@@ -1,6 +1,6 @@
 //! `moris worst-case`: what the rider feels where the platform is not the nominal one.
 //!
-//! - [`points`] are the machines that are tried.
+//! - [`points`](mod@points) are the machines that are tried.
 //! - [`commands`] are the washout's, for a ride.
 //! - [`machine`] moves a platform by them.
 //! - [`figures`] compares what is felt with what is desired.
