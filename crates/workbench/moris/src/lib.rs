@@ -5,6 +5,7 @@
 //! - [`rig`] checks a platform.
 //! - [`simulate`] simulates recordings on it.
 //! - [`measure`] prints a table of the measures of several recordings.
+//! - [`worst_case`] measures the strategies on platforms that differ from the nominal one.
 //! - [`tune`] searches for better parameters.
 //! - [`frequency_response`] measures a frequency response.
 //! - [`parameters`] lists all parameters.
@@ -21,6 +22,7 @@ pub mod help;
 pub mod measure;
 pub mod parameters;
 mod progress;
+mod random;
 pub mod recording;
 pub mod rig;
 pub mod schema;
@@ -29,6 +31,7 @@ pub mod simulate;
 mod status;
 pub mod text_table;
 pub mod tune;
+pub mod worst_case;
 
 /// Default directory for reports. No directory of the sources has this name.
 pub const REPORT_DIRECTORY: &str = "moris-report";

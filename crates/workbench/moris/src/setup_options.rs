@@ -26,7 +26,7 @@ pub struct SetupOptions {
 }
 
 /// The washout's strategies, by name.
-fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
+pub(crate) fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
     let named = |name: String| StrategyKind::ALL.iter().copied().find(|strategy| strategy.name() == name);
     PossibleValuesParser::new(StrategyKind::ALL.iter().map(|strategy| strategy.name()))
         .map(move |name| named(name).unwrap_or(StrategyKind::Classical))

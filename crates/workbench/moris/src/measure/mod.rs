@@ -134,7 +134,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 }
 
 /// The files named, and those with the extension csv in the folders named, by name.
-fn recordings(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
+pub(crate) fn recordings(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in paths {
         if path.is_dir() {

@@ -47,13 +47,14 @@ pub fn counts(channel: &Channel) -> bool {
 
 /// Geometric mean of the RMS errors of surge and sway, and how many they are.
 pub fn geometric_mean(recordings: &[MeasuredRecording]) -> (f64, usize) {
-    let errors: Vec<f64> = recordings
-        .iter()
-        .flat_map(|recording| &recording.channels)
-        .filter(|channel| counts(channel))
-        .map(|channel| channel.error.max(LEAST_FORCE).ln())
-        .collect();
-    ((errors.iter().sum::<f64>() / errors.len().max(1) as f64).exp(), errors.len())
+    let channels = recordings.iter().flat_map(|recording| &recording.channels);
+    geometric_mean_of(channels.filter(|channel| counts(channel)).map(|channel| channel.error))
+}
+
+/// Geometric mean of errors, each at least [`LEAST_FORCE`], and how many they are.
+pub fn geometric_mean_of(errors: impl Iterator<Item = f64>) -> (f64, usize) {
+    let logarithms: Vec<f64> = errors.map(|error| error.max(LEAST_FORCE).ln()).collect();
+    ((logarithms.iter().sum::<f64>() / logarithms.len().max(1) as f64).exp(), logarithms.len())
 }
 
 /// Fractions of the time, weighted by the recordings' durations: a false or a missing cue of a

@@ -8,8 +8,10 @@ use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{Geometry, Pose, jacobian};
 use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
+use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
+
+use crate::random::unit;
 
 /// The tilt for which the workspace is measured beside the level one \[rad\].
 pub const TILT: f64 = 10.0 * TAU / 360.0;
@@ -132,11 +134,6 @@ fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Found 
         found = found.and(Found { level: 1, tilted: u32::from(tilted), extent: [position, position] });
     }
     found
-}
-
-/// A number from 0 to 1.
-fn unit(random: &mut ChaCha8Rng) -> f64 {
-    (random.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
 }
 
 /// The platform tilted by [`TILT`] in each direction.
