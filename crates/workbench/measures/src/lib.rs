@@ -18,6 +18,7 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "bound")]
 pub mod bound;
 pub mod comfort;
 pub mod cues;

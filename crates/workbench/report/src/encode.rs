@@ -127,6 +127,27 @@ pub fn flags<S: Serializer>(values: &[bool], serializer: S) -> Result<S::Ok, S::
     serializer.serialize_str(&deflated(&bytes))
 }
 
+/// Bytes, deflated.
+///
+/// # Errors
+/// The serializer's.
+pub fn bytes<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&deflated(bytes))
+}
+
+/// Series whose values a page needs to the last bit. The first bytes of all values come first, then
+/// the second ones: the bytes of signs and exponents repeat, those of digits do not.
+///
+/// # Errors
+/// The serializer's.
+pub fn exact<S: Serializer>(series: &[Vec<f64>], serializer: S) -> Result<S::Ok, S::Error> {
+    let bytes = |values: &[f64]| {
+        let planes = (0..8).flat_map(|place| values.iter().map(move |value| value.to_le_bytes()[place]));
+        deflated(&planes.collect::<Vec<u8>>())
+    };
+    serializer.collect_seq(series.iter().map(|values| bytes(values)))
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;

@@ -34,7 +34,6 @@ mod join;
 pub mod mounting;
 mod numbers;
 pub mod plausibility;
-pub mod preview;
 pub mod quantity;
 pub mod sampling;
 mod sheet;
@@ -46,6 +45,7 @@ pub mod units;
 use std::path::Path;
 
 use moris_batch::{Manoeuvre, Replay};
+pub use moris_simulation::preview;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 

@@ -1,38 +1,57 @@
 //! The report's data.
 
-use std::array;
-
-use moris_measures::Row;
-use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, ReportError, Run, Thinning, Weight};
-use moris_washout::Output;
+use moris_report::{Chart, Finding, Line, Report, ReportError, Run, Simulator, Thinning, Weight};
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use super::{Outcome, Simulation, findings};
-use crate::capitalised;
+use super::{Outcome, Simulation, simulator};
 use crate::recording::Recording;
 
-/// Largest page \[bytes\].
+/// Largest page without simulation, and with it \[bytes\].
 const LARGEST: usize = 3_000_000;
+const LARGEST_WITH_SIMULATION: usize = 4_200_000;
 /// Samples that fit into the largest page if their curves are smooth, and the least that are worth
 /// showing, of all sets together.
 const MOST_SAMPLES: usize = 150_000;
 const LEAST_SAMPLES: usize = 4_000;
 
 /// The page of a recording with one or several sets of parameters, with as many
-/// samples as fit into it.
+/// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
+/// follow.
 ///
 /// # Errors
 /// The report does not fit together.
-pub fn html(recording: &Recording, outcomes: &[Outcome]) -> Result<String, ReportError> {
+pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>) -> Result<String, ReportError> {
     let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
-        let page = moris_report::html(&report(recording, outcomes, most / outcomes.len()))?;
+        let report = report(recording, outcomes, most / outcomes.len());
+        let page = moris_report::html(&report)?;
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
-            return Ok(page);
+            let Some(simulator) = simulator::of(recording, &outcomes[0], command) else { return Ok(page) };
+            return with_simulation(report, simulator, page);
         }
         let fitting = 0.95 * most as f64 * LARGEST as f64 / page.len() as f64;
         most = (fitting as usize).max(LEAST_SAMPLES);
+    }
+}
+
+/// The page with as much of the recording's inputs as fit into it; `page` is it without simulation.
+fn with_simulation(mut report: Report, mut simulator: Simulator, page: String) -> Result<String, ReportError> {
+    let mut room = LARGEST_WITH_SIMULATION.saturating_sub(page.len());
+    loop {
+        let samples = simulator.inputs[0].len();
+        report.simulator = Some(simulator);
+        let with_all = moris_report::html(&report)?;
+        if with_all.len() <= LARGEST_WITH_SIMULATION {
+            return Ok(with_all);
+        }
+        let Some(mut smaller) = report.simulator.take() else { return Ok(page) };
+        simulator::shorten(&mut smaller, samples, with_all.len() - page.len(), room);
+        if smaller.inputs[0].len() < simulator::LEAST_SAMPLES {
+            return Ok(page);
+        }
+        room = room * 19 / 20;
+        simulator = smaller;
     }
 }
 
@@ -60,6 +79,7 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize) -> Report {
         rig: (&first.setup.parameters).into(),
         runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
         selected: 0,
+        simulator: None,
     }
 }
 
@@ -84,39 +104,8 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
 }
 
 fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
-    let Outcome { setup, simulation, .. } = outcome;
-    let Simulation { inputs, outputs, .. } = simulation;
-    let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
-    let desired_rates = simulation.desired_rates();
-    let leans = inputs.iter().any(|input| input.lean != 0.0);
-    Run {
-        name: setup.parameters_name.clone(),
-        findings: findings::of(outcome),
-        times: thinning.at_times(|k| k as f64 * simulation.step),
-        desired: Cues {
-            specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
-            angular_velocity: array::from_fn(|axis| thinning.extremes(|k| desired_rates[k][axis])),
-        },
-        felt: Cues {
-            specific_force: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_specific_force[axis])),
-            angular_velocity: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_angular_velocity[axis])),
-        },
-        // A pose is that of one time.
-        position: array::from_fn(|axis| thinning.at_times(|k| outputs[k].position[axis])),
-        orientation: array::from_fn(|axis| thinning.at_times(|k| outputs[k].orientation.to_vector()[axis])),
-        legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].length[leg])),
-        tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
-        tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
-        lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
-        limited: Limited {
-            tilt: thinning.any(|k| outputs[k].tilt_limited),
-            safety: thinning.any(|k| outputs[k].safety_active),
-            actuator: thinning.any(|k| outputs[k].actuator_limited),
-        },
-        limits: (&simulation.parameters).into(),
-        measures: outcome.rows().into_iter().map(measure).collect(),
-        charts: bound_charts(outcome, thinning),
-    }
+    let run = outcome.evaluated().run(&outcome.setup.parameters_name, thinning);
+    Run { charts: bound_charts(outcome, thinning), ..run }
 }
 
 /// The bound, axis by axis.
@@ -140,25 +129,4 @@ fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
         })
     };
     (0..3).filter_map(chart).collect()
-}
-
-fn measure(row: Row) -> Measure {
-    Measure {
-        group: capitalised(&row.subject),
-        name: row.name.to_owned(),
-        value: row.value,
-        unit: row.unit.to_owned(),
-        better: better(row.name),
-        definition: row.definition.to_owned(),
-        source: row.source.to_owned(),
-    }
-}
-
-/// Which of two values of a measure of this name is the better.
-fn better(name: &str) -> Better {
-    match name {
-        "correlation" | "smallest stroke margin" => Better::More,
-        "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "relative bound" => Better::Neither,
-        _ => Better::Less,
-    }
 }

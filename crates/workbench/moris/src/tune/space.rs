@@ -1,5 +1,6 @@
 //! Search variables: logarithms of break frequencies, dampings and scales, and orders.
 
+use moris_interface::slots_of;
 use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
 use moris_washout::motion::orientation::RollPitchYaw;
@@ -180,6 +181,25 @@ impl Space {
         });
         parameters
     }
+}
+
+/// Slots of the parameters in these groups that may be tuned, each with the range that makes sense for a
+/// washout. Of the strategies, it is the one in use.
+pub fn ranges(parameters: &Parameters, groups: &[Group]) -> Vec<(usize, [f64; 2])> {
+    let mut ranges = Vec::new();
+    visit(&mut parameters.clone(), groups, &mut |_, range, _| ranges.push([range.min, range.max]));
+    let slot_of = |index: usize| {
+        let mut marked = *parameters;
+        let mut left = index;
+        visit(&mut marked, groups, &mut |value, _, _| {
+            if left == 0 {
+                *value = f64::NAN;
+            }
+            left = left.wrapping_sub(1);
+        });
+        slots_of(&marked).iter().position(|value| value.is_nan())
+    };
+    ranges.into_iter().enumerate().filter_map(|(index, range)| Some((slot_of(index)?, range))).collect()
 }
 
 /// Visits every tuned parameter, always in the same order, with its range and its channel.

@@ -3,7 +3,7 @@
 use moris_measures::{Limited, Measures, Platform, Run, RunError};
 use moris_washout::{Input, Output};
 
-use super::Simulation;
+use crate::Simulation;
 
 /// Measures a simulation.
 ///
