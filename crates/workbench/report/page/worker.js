@@ -3,9 +3,10 @@
 "use strict";
 let simulation = null;
 
-/** Writes numbers for the module to read. */
+/** Writes numbers for the module to read. Its memory may move when it grows, and is asked for after that. */
 function hand(values) {
-  new Float64Array(simulation.memory.buffer, simulation.numbers(values.length), values.length).set(values);
+  const address = simulation.numbers(values.length);
+  new Float64Array(simulation.memory.buffer, address, values.length).set(values);
 }
 
 const answerText = () => new TextDecoder().decode(new Uint8Array(simulation.memory.buffer, simulation.text(), simulation.text_length()));
