@@ -63,10 +63,11 @@ fn is_installed() -> Result<bool, Box<dyn Error>> {
     Ok(printed(&["--print", "target-libdir", "--target", TARGET])?.exists())
 }
 
-/// The module's bytes, compiled in a directory of its own, because this build holds the lock of the
-/// workspace's.
+/// The module's bytes, compiled in a directory of its own, because this build holds the lock of its
+/// own. All profiles share it.
 fn compile(root: &Path, out: &Path) -> Result<Vec<u8>, Box<dyn Error>> {
-    let directory = out.join("target");
+    // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
+    let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
     let mut command = Command::new(variable("CARGO")?);
     command.current_dir(root).args(["build", "--locked", "--offline", "--package", PACKAGE, "--profile", PROFILE]);
     command.args(["--target", TARGET, "--target-dir"]).arg(&directory);

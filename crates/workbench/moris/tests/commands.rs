@@ -391,7 +391,7 @@ fn a_preview_is_simulated_beside_the_strategy_without_it() {
 
 /// A minute at 1 kHz: two sets are shown with every sample, five with the extremes of intervals.
 #[test]
-fn a_long_recording_makes_a_page_of_less_than_three_megabytes() {
+fn the_page_of_a_long_recording_has_its_largest_size() {
     let directory = tempfile::tempdir().unwrap();
     let mut long = "time,ax,ay,az,wx,wy,wz\n".to_owned();
     for k in 0..60_000 {
@@ -406,7 +406,10 @@ fn a_long_recording_makes_a_page_of_less_than_three_megabytes() {
         let output = moris(directory.path(), &arguments);
         assert!(matches!(output.status.code(), Some(0 | 3)), "{}", text(&output.stderr));
         let page = fs::read_to_string(directory.path().join("moris-report/long.html")).unwrap();
-        assert!(page.len() < 3_000_000, "{} bytes", page.len());
+        // The simulation takes what the curves leave, where it is compiled.
+        let (curves, simulator) = page.split_once("\"simulator\":").unwrap();
+        assert!(curves.len() < 3_000_000 && page.len() <= 4_200_000, "{} of {} bytes", curves.len(), page.len());
+        assert!(simulator.starts_with("null") || page.len() > 3_300_000, "as much as fits, not {}", page.len());
         page
     };
     assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");

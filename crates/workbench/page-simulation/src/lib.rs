@@ -7,7 +7,7 @@ use std::cell::RefCell;
 
 use moris_batch::{Manoeuvre, Replay};
 use moris_interface::{Group, Reader, slot_count};
-use moris_report::{Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
+use moris_report::{Chart, Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
 use moris_simulation::{Evaluated, Simulation, measures};
 use moris_washout::{Input, Parameters};
 use serde::Serialize;
@@ -45,6 +45,15 @@ struct Answer {
     limits: Limits,
     events: Vec<Event>,
     leans: bool,
+    charts: Vec<ChartHead>,
+}
+
+/// A chart of one line, whose values are among the curves.
+#[derive(Serialize)]
+struct ChartHead {
+    title: String,
+    quantity: String,
+    label: String,
 }
 
 /// Memory for so many numbers, which the page writes.
@@ -134,7 +143,10 @@ impl Recorded {
         let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && self.holds(parameters)));
         let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds };
         let samples = simulation.inputs.len();
-        Ok(evaluated.run("", &Thinning::new(samples, samples)))
+        let thinning = Thinning::new(samples, samples);
+        let bounded = (0..3).filter(|&axis| self.bounds[axis].is_finite());
+        let charts = bounded.map(|axis| evaluated.felt_chart(axis, &thinning)).collect();
+        Ok(Run { charts, ..evaluated.run("", &thinning) })
     }
 
     /// True where the bounds hold for these parameters: with the limits for which they were computed.
@@ -163,8 +175,14 @@ fn answer(run: &Run, parameters: &Parameters) -> String {
         limits: run.limits,
         events: events(run, &Rig::from(parameters)),
         leans: !run.lean.is_empty(),
+        charts: run.charts.iter().map(head).collect(),
     };
     serde_json::to_string(&answer).unwrap_or_default()
+}
+
+fn head(chart: &Chart) -> ChartHead {
+    let label = chart.lines.first().map(|line| line.label.clone()).unwrap_or_default();
+    ChartHead { title: chart.title.clone(), quantity: chart.quantity.clone(), label }
 }
 
 fn curves_of(run: &Run) -> Vec<f32> {
@@ -186,5 +204,6 @@ fn curves_of(run: &Run) -> Vec<f32> {
         .into_iter()
         .flatten()
         .map(|&flag| f32::from(u8::from(flag)));
-    values.chain(flags).collect()
+    let of_charts = run.charts.iter().flat_map(|chart| &chart.lines).flat_map(|line| &line.values);
+    values.chain(flags).chain(of_charts.map(|&value| value as f32)).collect()
 }

@@ -69,7 +69,7 @@ function play(on) {
 function select(index) {
   now.run = report.runs[index];
   showRunChoice();
-  if (tuning) tuning.showChoice(index !== report.runs.length - 1);
+  if (tuning) tuning.showChoice(now.run);
   timeLine.select(now.run);
   showKey();
   showFindings();
@@ -180,7 +180,7 @@ async function setUpTuning() {
       showMeasures(byId("measures"), report.runs);
       select(index);
     },
-    choose: (original) => select(original || !report.runs[index] ? 0 : index),
+    choose: (original) => select(original ? 0 : index),
   });
 }
 
@@ -210,7 +210,8 @@ addEventListener("afterprint", () => {
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 
 // For those who drive the page from a script, such as its tests.
-window.simulationReport = { now, seek, show, play, select, view, recording, ranges: () => charts.map((chart) => chart.range()) };
+window.simulationReport = { now, seek, show, play, select, view, recording, ranges: () => charts.map((chart) => chart.range()),
+  runs: () => report.runs, cellText };
 byId("alarm").hidden = true;
 await setUpTuning().catch((error) => {
   byId("tuning").replaceChildren(element("summary", {}, ["Change parameters"]), element("p", { class: "summary" }, [`This browser cannot simulate: ${error.message}`]));

@@ -1,8 +1,8 @@
 // One parameter of the panel: its name, a field, a slider with its start marked.
 
 const STEPS = 400;
-/** A slider whose ends are so far apart goes by ratios. */
-const WIDE = 20;
+/** A slider whose ends are farther apart goes by ratios; those of scales are not. */
+const WIDE = 100;
 
 /** With at most three digits, so that a chosen value is one that a person would write. */
 const rounded = (value) => Number(value.toPrecision(3));

@@ -57,11 +57,13 @@ class Simulator {
     const series = (count) => Array.from({ length: count }, next);
     const cues = () => ({ specific_force: series(3), angular_velocity: series(3) });
     const flags = () => Uint8Array.from(next());
-    return {
-      name, ...answer, times: this.times, charts: [],
+    const run = {
+      name, ...answer, times: this.times,
       desired: cues(), felt: cues(), position: series(3), orientation: series(3), legs: series(6), tilt: series(2),
       tilt_rate: series(2), lean: answer.leans ? next() : null,
       limited: { tilt: flags(), safety: flags(), actuator: flags() },
     };
+    const chart = ({ title, quantity, label }) => ({ title, quantity, times: this.times, lines: [{ label, values: next() }], limits: [] });
+    return { ...run, charts: answer.charts.map(chart) };
   }
 }

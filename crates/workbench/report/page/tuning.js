@@ -23,7 +23,7 @@ function parameterFile({ parameters, heading }, values) {
 }
 
 class Tuning {
-  /** `show(run, isDone)` shows a simulated run; `choose(original)` chooses between it and the original. */
+  /** `show(run)` shows a simulated run; `choose(original)` chooses between it and the original. */
   constructor(box, simulator, { show: showRun, choose }) {
     Object.assign(this, { box, simulator, showRun, choose });
     this.parameters = simulator.data.parameters;
@@ -67,6 +67,7 @@ class Tuning {
       }
     });
     this.box.addEventListener("toggle", () => document.body.classList.toggle("tuning", this.box.open));
+    this.showChoice(null);
     this.say(this.introduction());
     this.showControls();
     this.box.hidden = false;
@@ -187,6 +188,7 @@ class Tuning {
       if (run.reason) {
         this.say(`These parameters cannot be used: ${run.reason}`);
       } else {
+        this.isChanged = true;
         this.showRun(run);
         this.say(`Simulated and drawn in ${fixed(performance.now() - begin, 0)} ms.`);
       }
@@ -198,9 +200,10 @@ class Tuning {
     this.choose(this.compareButton.getAttribute("aria-pressed") !== "true");
   }
 
-  /** Says which of the two is shown. */
-  showChoice(isOriginal) {
-    this.compareButton.setAttribute("aria-pressed", String(isOriginal));
+  /** Says whether the run that is shown is another than the changed one. */
+  showChoice(run) {
+    this.compareButton.disabled = !this.isChanged;
+    this.compareButton.setAttribute("aria-pressed", String(Boolean(this.isChanged) && run !== report.runs.at(-1)));
   }
 
   command() {

@@ -216,6 +216,16 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn exact_values_keep_every_bit() {
+        let values = vec![0.1, -2.5e-310, f64::MAX, 9.80665, -0.0];
+        let encoded = exact(&[values.clone(), vec![]], serde_json::value::Serializer).unwrap();
+        let planes = inflated(encoded[0].as_str().unwrap());
+        let value = |k: usize| f64::from_le_bytes(std::array::from_fn(|place| planes[place * values.len() + k]));
+        assert!((0..values.len()).all(|k| value(k).to_bits() == values[k].to_bits()));
+        assert!(inflated(encoded[1].as_str().unwrap()).is_empty());
+    }
+
+    #[test]
     fn gaps_stay_gaps() {
         let (found, _) = through(&[1.5, f64::NAN, f64::INFINITY]);
         assert!(found[0] == 1.5 && found[1].is_nan() && found[2] == f64::INFINITY);

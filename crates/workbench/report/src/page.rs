@@ -96,6 +96,7 @@ mod tests {
     use super::*;
     use crate::check::tests::smallest;
     use crate::encode::tests::decoded;
+    use crate::simulator::Simulator;
 
     /// The part of the page from after `start` to before `end`.
     fn between<'a>(page: &'a str, start: &str, end: &str) -> &'a str {
@@ -116,6 +117,16 @@ mod tests {
         }
         assert!(!page.contains("{{"));
         assert!(page.contains("default-src 'none'"));
+    }
+
+    #[test]
+    fn a_page_without_simulator_has_no_worker() {
+        let mut report = smallest();
+        assert!(data(&html(&report).unwrap())["worker"].is_null());
+        report.simulator = Some(Simulator { inputs: vec![vec![1.0]], ..Simulator::default() });
+        let page = html(&report).unwrap();
+        assert!(data(&page)["worker"].as_str().unwrap().contains("WebAssembly"));
+        assert_eq!(page.matches("</script>").count(), 3);
     }
 
     #[test]

@@ -171,6 +171,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
     check_names(&options.recordings, &cases)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
+    if !simulator::is_compiled() {
+        eprintln!(
+            "note: the reports only show; for reports that simulate with other parameters, build moris after \
+             `rustup target add wasm32-unknown-unknown`"
+        );
+    }
     let mut entries = Vec::new();
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();

@@ -1,9 +1,8 @@
 //! The report's data.
 
 use moris_report::{Chart, Finding, Line, Report, ReportError, Run, Simulator, Thinning, Weight};
-use moris_washout::interface::STANDARD_GRAVITY;
 
-use super::{Outcome, Simulation, simulator};
+use super::{Outcome, simulator};
 use crate::recording::Recording;
 
 /// Largest page without simulation, and with it \[bytes\].
@@ -13,6 +12,8 @@ const LARGEST_WITH_SIMULATION: usize = 4_200_000;
 /// showing, of all sets together.
 const MOST_SAMPLES: usize = 150_000;
 const LEAST_SAMPLES: usize = 4_000;
+/// Fewer samples of a recording are not worth simulating in its page.
+const LEAST_SIMULATED: usize = 1_000;
 
 /// The page of a recording with one or several sets of parameters, with as many
 /// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
@@ -36,23 +37,26 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>
 }
 
 /// The page with as much of the recording's inputs as fit into it; `page` is it without simulation.
-fn with_simulation(mut report: Report, mut simulator: Simulator, page: String) -> Result<String, ReportError> {
-    let mut room = LARGEST_WITH_SIMULATION.saturating_sub(page.len());
-    loop {
-        let samples = simulator.inputs[0].len();
-        report.simulator = Some(simulator);
-        let with_all = moris_report::html(&report)?;
-        if with_all.len() <= LARGEST_WITH_SIMULATION {
-            return Ok(with_all);
-        }
-        let Some(mut smaller) = report.simulator.take() else { return Ok(page) };
-        simulator::shorten(&mut smaller, samples, with_all.len() - page.len(), room);
-        if smaller.inputs[0].len() < simulator::LEAST_SAMPLES {
+fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> Result<String, ReportError> {
+    let inputs = simulator.inputs.clone();
+    let mut page_of = |samples: usize| {
+        let inputs = inputs.iter().map(|series| series[..samples].to_vec()).collect();
+        report.simulator = Some(Simulator { inputs, ..simulator.clone() });
+        moris_report::html(&report)
+    };
+    let mut samples = simulator.samples;
+    let mut with_inputs = page_of(samples)?;
+    let empty = if with_inputs.len() > LARGEST_WITH_SIMULATION { page_of(0)?.len() } else { 0 };
+    while with_inputs.len() > LARGEST_WITH_SIMULATION {
+        let room = LARGEST_WITH_SIMULATION.saturating_sub(empty);
+        let fitting = 0.97 * samples as f64 * room as f64 / (with_inputs.len() - empty) as f64;
+        samples = fitting as usize;
+        if samples < LEAST_SIMULATED {
             return Ok(page);
         }
-        room = room * 19 / 20;
-        simulator = smaller;
+        with_inputs = page_of(samples)?;
     }
+    Ok(with_inputs)
 }
 
 /// The report of a recording with one or several sets of parameters, of which the first is shown
@@ -110,23 +114,15 @@ fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
 
 /// The bound, axis by axis.
 fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
-    let Simulation { outputs, step, .. } = &outcome.simulation;
+    let evaluated = outcome.evaluated();
     let chart = |axis: usize| {
         let bound = outcome.bounds[axis].as_ref()?;
-        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let line = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), values };
-        let best = |k: usize| bound.bound.trajectory.felt(k as f64 * step);
-        Some(Chart {
-            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
-            quantity: "specific force without gravity [m/s²]".to_owned(),
-            times: Vec::new(),
-            lines: vec![
-                line("desired", thinning.extremes(|k| bound.desired[k])),
-                line("felt", thinning.extremes(|k| outputs[k].felt_specific_force[axis] - rest)),
-                line("best possible", thinning.extremes(best)),
-            ],
-            limits: Vec::new(),
-        })
+        let best = |k: usize| bound.bound.trajectory.felt(k as f64 * outcome.simulation.step);
+        let mut chart = evaluated.felt_chart(axis, thinning);
+        chart.lines.insert(0, line("desired", thinning.extremes(|k| bound.desired[k])));
+        chart.lines.push(line("best possible", thinning.extremes(best)));
+        Some(chart)
     };
     (0..3).filter_map(chart).collect()
 }

@@ -13,9 +13,6 @@ use crate::tune::space::{Group, ranges};
 /// The compiled package `moris-page-simulation`; empty where it was not compiled.
 const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/page_simulation.wasm"));
 
-/// Fewer samples of a recording are not worth simulating.
-pub const LEAST_SAMPLES: usize = 100;
-
 /// True if pages can simulate.
 pub fn is_compiled() -> bool {
     !MODULE.is_empty()
@@ -45,16 +42,6 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
         command: command.unwrap_or_else(|| format!("cargo moris simulate {name}.csv --parameters")),
         file: format!("{name}.toml"),
     })
-}
-
-/// Keeps so much of the recording's beginning that `bytes` of `samples` samples become `room`.
-pub fn shorten(simulator: &mut Simulator, samples: usize, bytes: usize, room: usize) {
-    let fixed = simulator.module.len();
-    let share = room.saturating_sub(fixed / 2) as f64 / bytes.saturating_sub(fixed / 2).max(1) as f64;
-    let fitting = (0.95 * share.min(1.0) * samples as f64) as usize;
-    for series in &mut simulator.inputs {
-        series.truncate(fitting);
-    }
 }
 
 /// The sets that strategies have, by the strategies' names.

@@ -331,6 +331,18 @@ mod tests {
     }
 
     #[test]
+    fn ranges_are_those_of_their_parameters() {
+        let start = Parameters::default();
+        let names: Vec<(String, f64)> = moris_setup::all(&start);
+        let found = ranges(&start, &[Group::Scale, Group::Tilt]);
+        let named: Vec<(&str, [f64; 2])> =
+            found.iter().map(|(slot, range)| (names[*slot].0.as_str(), *range)).collect();
+        assert_eq!(named.len(), 9);
+        assert_eq!(named[4], ("scale.angularVelocity.y", [SCALES.min, SCALES.max]));
+        assert_eq!(named[8], ("tilt.angleLimit", [TILT_ANGLES.min, TILT_ANGLES.max]));
+    }
+
+    #[test]
     fn a_fraction_of_the_way_is_by_logarithms_with_the_orders_found() {
         let mut start = Parameters::default();
         start.conditioning.rate_scale.x = 0.0;
