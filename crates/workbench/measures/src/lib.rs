@@ -31,5 +31,5 @@ mod run;
 pub mod vestibular;
 
 pub use listing::{Row, all_rows, bound_rows};
-pub use measures::{Axes, Measures};
+pub use measures::{Axes, Measures, References};
 pub use run::{Limited, Platform, Run, RunError};

@@ -7,8 +7,9 @@ use std::cell::RefCell;
 
 use moris_batch::{Manoeuvre, Replay};
 use moris_interface::{Group, Reader, slot_count};
+use moris_measures::References;
 use moris_report::{Chart, Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
-use moris_simulation::{Evaluated, Simulation, measures};
+use moris_simulation::{Evaluated, Simulation, measures_with};
 use moris_washout::{Input, Parameters};
 use serde::Serialize;
 
@@ -22,6 +23,7 @@ struct Recorded {
     start: Parameters,
     /// Least RMS error by axis \[m/s2\]; not a number where it is not known.
     bounds: [f64; 3],
+    references: References,
 }
 
 /// Memory that the page reads and writes.
@@ -81,6 +83,7 @@ pub extern "C" fn record() -> usize {
             manoeuvre: Manoeuvre::new(head[0], inputs),
             start: Parameters::read(&mut Reader::new(&head[4..])),
             bounds: [head[1], head[2], head[3]],
+            references: References::default(),
         });
         count
     })
@@ -93,7 +96,7 @@ pub extern "C" fn record() -> usize {
 pub extern "C" fn simulate() -> bool {
     EXCHANGE.with_borrow_mut(|exchange| {
         let parameters = Parameters::read(&mut Reader::new(&exchange.numbers));
-        match exchange.recorded.as_ref().ok_or_else(|| "no recording".to_owned()).and_then(|one| one.run(&parameters)) {
+        match exchange.recorded.as_mut().ok_or_else(|| "no recording".to_owned()).and_then(|one| one.run(&parameters)) {
             Ok(run) => {
                 exchange.text = answer(&run, &parameters);
                 exchange.curves = curves_of(&run);
@@ -136,10 +139,10 @@ pub extern "C" fn curves_length() -> usize {
 }
 
 impl Recorded {
-    fn run(&self, parameters: &Parameters) -> Result<Run, String> {
+    fn run(&mut self, parameters: &Parameters) -> Result<Run, String> {
         let replay = Replay::new(&self.manoeuvre);
         let simulation = Simulation::of(&replay, parameters, || ()).map_err(|error| error.to_string())?;
-        let measures = measures(&simulation).map_err(|error| error.to_string())?;
+        let measures = measures_with(&simulation, &mut self.references).map_err(|error| error.to_string())?;
         let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && self.holds(parameters)));
         let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds };
         let samples = simulation.inputs.len();
@@ -149,7 +152,8 @@ impl Recorded {
         Ok(Run { charts, ..evaluated.run("", &thinning) })
     }
 
-    /// True where the bounds hold for these parameters: with the limits for which they were computed.
+    /// True where the bounds hold for these parameters: with the limits for
+    /// which they were computed.
     fn holds(&self, parameters: &Parameters) -> bool {
         let of = |parameters: &Parameters| {
             let Parameters { tilt, safety, structure, rig, .. } = *parameters;

@@ -58,15 +58,19 @@ class Tuning {
     this.found = element("div");
     this.search.addEventListener("input", () => this.showFound());
     const tools = element("div", { class: "tools" }, [this.undoButton, this.resetButton, this.compareButton, this.saveButton, this.copyButton]);
-    const search = element("p", { class: "search" }, [element("label", { for: "search" }, ["All other parameters"]), " ", this.search]);
-    this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.message, this.groups, search, this.found]));
+    const search = element("p", { class: "search" }, [element("label", { for: "search" }, ["Find another parameter"]), " ", this.search]);
+    this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.message, search, this.found, this.groups]));
     this.box.addEventListener("keydown", (event) => {
       if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && event.target !== this.search) {
         event.preventDefault();
         this.undo();
       }
     });
-    this.box.addEventListener("toggle", () => document.body.classList.toggle("tuning", this.box.open));
+    this.box.addEventListener("toggle", () => {
+      document.body.classList.toggle("tuning", this.box.open);
+      // On a narrow screen the panel stands over the page, which then shows its curves.
+      if (this.box.open && getComputedStyle(this.box).position === "fixed") byId("charts").scrollIntoView();
+    });
     this.showChoice(null);
     this.say(this.introduction());
     this.showControls();
@@ -101,17 +105,26 @@ class Tuning {
     return this.controls.get(slot).element;
   }
 
+  /** Shows the parameters that have an effect. Controls that stay keep the focus. */
   showControls() {
+    const effective = this.parameters.map(({ name }) => Number(this.isIdle(name))).join("");
+    if (effective !== this.effective) this.buildControls();
+    this.effective = effective;
+    this.showState();
+  }
+
+  buildControls() {
     const headings = new Map([["Strategy", []], ["Scales", []], ["Break frequencies", []], ["Tilt limits", []]]);
     this.parameters.forEach(({ name, group }, slot) => {
       if (!group || this.isIdle(name)) return;
       if (!headings.has(group)) headings.set(group, []);
       headings.get(group).push(this.control(slot));
     });
+    const focused = document.activeElement;
     const parts = [...headings].filter(([, rows]) => rows.length > 0);
     this.groups.replaceChildren(...parts.flatMap(([heading, rows]) => [element("h3", {}, [heading]), ...rows]));
     this.showFound();
-    this.showState();
+    if (this.box.contains(focused)) focused.focus();
   }
 
   showFound() {

@@ -16,5 +16,5 @@ mod simulation;
 mod spans;
 
 pub use evaluated::{Evaluated, capitalised};
-pub use measured::measures;
+pub use measured::{measures, measures_with};
 pub use simulation::Simulation;

@@ -6,7 +6,8 @@
 //! - [`output_table`] writes inputs and outputs to a file.
 //! - [`bounds`] computes the least possible error.
 //! - [`summary`] and [`json`] print the measures.
-//! - [`page`] makes the report, with a `simulator` in it; [`index`] lists the reports of several recordings.
+//! - [`page`] makes the report, with a `simulator` in it; [`index`] lists the reports
+//!   of several recordings.
 
 pub mod bounds;
 mod command_line;

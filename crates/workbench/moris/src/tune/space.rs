@@ -183,8 +183,8 @@ impl Space {
     }
 }
 
-/// Slots of the parameters in these groups that may be tuned, each with the range that makes sense for a
-/// washout. Of the strategies, it is the one in use.
+/// Slots of the parameters in these groups that may be tuned, each with the range that makes sense
+/// for a washout. Of the strategies, it is the one in use.
 pub fn ranges(parameters: &Parameters, groups: &[Group]) -> Vec<(usize, [f64; 2])> {
     let mut ranges = Vec::new();
     visit(&mut parameters.clone(), groups, &mut |_, range, _| ranges.push([range.min, range.max]));
