@@ -69,7 +69,7 @@ class Tuning {
     this.box.addEventListener("toggle", () => {
       document.body.classList.toggle("tuning", this.box.open);
       // On a narrow screen the panel stands over the page, which then shows its curves.
-      if (this.box.open && getComputedStyle(this.box).position === "fixed") byId("charts").scrollIntoView();
+      if (this.box.open && getComputedStyle(this.box).position === "fixed") document.querySelector("#charts .chart")?.scrollIntoView();
     });
     this.showChoice(null);
     this.say(this.introduction());
