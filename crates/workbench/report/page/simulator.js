@@ -33,8 +33,10 @@ class Simulator {
   async prepare() {
     const { data } = this;
     const [module, ...inputs] = await Promise.all([inflated(data.module), ...data.inputs.map(exactValues)]);
-    const head = [data.step, ...data.bounds.map((bound) => bound ?? NaN), ...data.parameters.map(({ start }) => start)];
     const count = inputs[0].length;
+    // The bounds are those of the whole recording.
+    const bounds = data.bounds.map((bound) => (count === data.samples ? bound : null) ?? NaN);
+    const head = [data.step, ...bounds, ...data.parameters.map(({ start }) => start)];
     const recorded = new Float64Array(head.length + count * inputs.length);
     recorded.set(head);
     inputs.forEach((series, slot) => {

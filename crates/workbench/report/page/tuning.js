@@ -72,16 +72,16 @@ class Tuning {
       if (this.box.open && getComputedStyle(this.box).position === "fixed") document.querySelector("#charts .chart")?.scrollIntoView();
     });
     this.showChoice(null);
-    this.say(this.introduction());
+    this.say(`Every change simulates ${this.subject} again, in this page.`);
     this.showControls();
     this.box.hidden = false;
   }
 
-  introduction() {
+  /** What is simulated. */
+  get subject() {
     const { samples, step } = this.simulator.data;
     const [part, whole] = [this.simulator.samples, samples].map((count) => fixed((count - 1) * step, 1));
-    return part === whole ? "Every change simulates the recording again, in this page."
-      : `Every change simulates the first ${part} of ${whole} s again, in this page. The measures are of this part.`;
+    return part === whole ? "the recording" : `the first ${part} of ${whole} s (curves and measures are of this part)`;
   }
 
   say(text) {
@@ -203,7 +203,7 @@ class Tuning {
       } else {
         this.isChanged = true;
         this.showRun(run);
-        this.say(`Simulated and drawn in ${fixed(performance.now() - begin, 0)} ms.`);
+        this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
       }
     }
     this.isBusy = false;
