@@ -125,6 +125,10 @@ def platforms(options):
 def pages(options):
     """the reports in Chromium"""
     examples()
+    if options.install:
+        run("rustup", "target", "add", "wasm32-unknown-unknown")
+    run("cargo", "build", "--package", "moris")
+    os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
     run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
 
 

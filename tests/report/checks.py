@@ -1,10 +1,11 @@
 """What a report's page shows, held against the data it was made of. Run by run.py:
 
-    checks.py CHROMIUM PAGES PICTURES
+    checks.py CHROMIUM PAGES PICTURES MORIS...
 """
 
 import json
 import math
+import subprocess
 import sys
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,6 +13,7 @@ from pathlib import Path
 from playwright.sync_api import sync_playwright
 
 CHROMIUM, PAGES, PICTURES = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+MORIS = sys.argv[4:]
 LAPTOP = {"width": 1366, "height": 768}
 # Half of what an eye can tell on the screen, and what 32-bit numbers leave of lengths [m].
 PIXEL, ROUNDING = 0.5, 1e-6
@@ -44,7 +46,7 @@ def opened(browser, name, *, quiet=True, text=None, **options):
     context.close()
     if quiet:
         assert not said, f"{name} says {said}"
-    beyond = [url for url in asked if url != file.as_uri() and not url.startswith("data:")]
+    beyond = [url for url in asked if url != file.as_uri() and not url.startswith(("data:", "blob:"))]
     assert not beyond, f"{name} asks for {beyond}"
 
 
@@ -439,6 +441,176 @@ def a_narrow_screen_is_enough(browser):
     with opened(browser, "two-runs", viewport={"width": 700, "height": 900}) as page:
         page.screenshot(path=PICTURES / "narrow.png")
         assert page.evaluate("document.documentElement.scrollWidth") <= 700
+
+
+def of_command(*options):
+    """Measures and findings of the ride, as the command prints them."""
+    command = [*MORIS, "simulate", PAGES / "ride.csv", "--report", PAGES / "of-command", "--json", *options]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode in (0, 3), done.stderr
+    return json.loads(done.stdout)[0]["results"][0]
+
+
+def settled(page):
+    page.evaluate("(async () => { while (simulationReport.tuning.isBusy) await new Promise((next) => setTimeout(next, 5)); })()")
+
+
+@contextmanager
+def tuned(browser, **options):
+    """The ride's page with its panel open."""
+    with opened(browser, "ride", **options) as page:
+        page.locator("#tuning:not([hidden])").wait_for(state="attached")
+        page.locator("#tuning summary").click()
+        assert page.evaluate("Boolean(simulationReport.tuning)"), page.locator("#tuning").inner_text()
+        yield page
+
+
+def move(page, name, place):
+    """Moves a slider to a place and lets it go."""
+    slider = page.get_by_role("slider", name=name, exact=True)
+    slider.evaluate("(slider, place) => ['input', 'change'].forEach((kind) => { slider.value = place; slider.dispatchEvent(new Event(kind)); })", place)
+    settled(page)
+
+
+def saved(page):
+    """The parameter file that the page saves."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save parameters").click()
+    file = PAGES / "saved.toml"
+    download.value.save_as(file)
+    assert download.value.suggested_filename == "ride.toml"
+    return file
+
+
+def assert_same(page, command, what):
+    """Measures to the last digits but one of a double, cells to their digits, findings to the letter."""
+    runs = page.evaluate("simulationReport.runs().map(({ measures, findings }) => ({ measures, findings: findings.map(({ text }) => text) }))")
+    shown = {(measure["group"].lower(), measure["name"]): measure["value"] for measure in runs[-1]["measures"]}
+    assert len(command["measures"]) > 40
+    for measure in command["measures"]:
+        found, expected = shown[measure["subject"].lower(), measure["name"]], measure["value"]
+        if expected is None:
+            assert found is None, (what, measure, found)
+        else:
+            near(found, expected, 1e-9 * max(1.0, abs(expected)), f"{what}, {measure['subject']}, {measure['name']}")
+        cells = page.evaluate("([a, b]) => [a, b].map((value) => simulationReport.cellText(value))", [found, expected])
+        assert cells[0] == cells[1], (what, measure, cells)
+    assert runs[-1]["findings"] == command["findings"], (what, runs[-1]["findings"], command["findings"])
+
+
+@check
+def the_page_simulates_as_the_command(browser):
+    """With a scale, with another strategy and with a weight of its: measures and findings are the command's with the saved file."""
+    with tuned(browser) as page:
+        move(page, "scale.specificForce.x", 300)
+        assert_same(page, of_command("--parameters", saved(page)), "a scale")
+        page.get_by_label("strategy", exact=True).select_option(label="predictive")
+        move(page, "predictive.weightPosition", 260)
+        file = saved(page)
+        assert 'strategy = "predictive"' in file.read_text().replace('"strategy"', "strategy"), file.read_text()
+        assert_same(page, of_command("--parameters", file), "predictive")
+        # The bound belongs to the limits that the page started with.
+        move(page, "tilt.rateLimit", 100)
+        assert_same(page, of_command("--no-bound", "--parameters", saved(page)), "another limit")
+
+
+@check
+def the_start_is_the_original(browser):
+    """With the start values, every curve and measure is that of the page's own run."""
+    with tuned(browser) as page:
+        move(page, "tilt.rateLimit", 60)
+        page.get_by_role("button", name="Start values").click()
+        settled(page)
+        apart = page.evaluate("""() => {
+            const [own, again] = simulationReport.runs();
+            const all = (run) => [...run.desired.specific_force, ...run.desired.angular_velocity, ...run.felt.specific_force,
+                ...run.felt.angular_velocity, ...run.position, ...run.orientation, ...run.legs, ...run.tilt, ...run.tilt_rate,
+                run.limited.tilt, run.limited.safety, run.limited.actuator];
+            const [before, after] = [all(own), all(again)];
+            return before.map((series, i) => series.length !== after[i].length ? Infinity
+                : series.reduce((most, value, k) => Math.max(most, Math.abs(value - after[i][k])), 0));
+        }""")
+        assert len(apart) == 31 and max(apart) < 1e-5, apart
+        own, again = page.evaluate("simulationReport.runs().map(({ measures }) => measures.map(({ value }) => value === null ? null : simulationReport.cellText(value)))")
+        assert own == again and len(own) > 40
+
+
+@check
+def changes_are_undone_and_compared(browser):
+    """By keyboard: a slider, undo, the original beside the changed run."""
+    with tuned(browser) as page:
+        slider = page.get_by_role("slider", name="scale.specificForce.x", exact=True)
+        field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+        slider.focus()
+        start = field.input_value()
+        page.keyboard.press("ArrowLeft")
+        settled(page)
+        changed = field.input_value()
+        assert float(changed) < float(start), (start, changed)
+        page.keyboard.press("ArrowLeft")
+        settled(page)
+        assert float(field.input_value()) < float(changed), "the slider lost the focus"
+        page.keyboard.press("Control+z")
+        settled(page)
+        assert field.input_value() == changed
+        assert page.locator("#runs button[aria-pressed=true]").inner_text() == "by hand"
+        compare = page.get_by_role("button", name="Show the original")
+        compare.click()
+        assert page.locator("#runs button[aria-pressed=true]").inner_text() == "default"
+        compare.click()
+        assert page.locator("#runs button[aria-pressed=true]").inner_text() == "by hand"
+        slider.focus()
+        page.keyboard.press("Control+z")
+        settled(page)
+        assert field.input_value() == start and page.get_by_role("button", name="Undo").is_disabled()
+        field.fill("0.5")
+        field.press("Enter")
+        settled(page)
+        assert page.evaluate("simulationReport.tuning.values[simulationReport.tuning.slots.get('scale.specificForce.x')]") == 0.5
+        page.get_by_label("Find another parameter").fill("damping splitter.x")
+        assert page.get_by_role("slider", name="splitter.x.zeta1", exact=True).is_visible()
+        page.screenshot(path=PICTURES / "panel.png")
+
+
+@check
+def parameters_that_cannot_be_used_are_said_to_be(browser):
+    """The curves stay those of the last parameters that could be used."""
+    with tuned(browser) as page:
+        move(page, "scale.specificForce.x", 200)
+        before = page.evaluate("simulationReport.runs()[1].measures")
+        page.get_by_label("Find another parameter").fill("head.torsoLength")
+        field = page.get_by_label("head.torsoLength", exact=True).and_(page.get_by_role("spinbutton"))
+        field.fill("9")
+        field.press("Enter")
+        settled(page)
+        assert "cannot be used: head.torsoLength" in page.locator("#tuning [role=status]").inner_text()
+        assert page.evaluate("simulationReport.runs()[1].measures") == before
+
+
+@check
+def the_panel_fits_a_phone(browser):
+    """Every control has a label, and the page is not wider than the phone."""
+    for scheme in ("light", "dark"):
+        with tuned(browser, viewport={"width": 390, "height": 844}, color_scheme=scheme, reduced_motion="reduce") as page:
+            move(page, "scale.specificForce.y", 100)
+            assert page.evaluate("document.documentElement.scrollWidth") <= 390
+            box = page.locator("#tuning").bounding_box()
+            assert 0 < box["y"] and box["y"] + box["height"] <= 844 and box["height"] > 200, box
+            unnamed = page.evaluate("""() => [...document.querySelectorAll("#tuning :is(input, select, button)")]
+                .filter((one) => !one.labels?.length && !one.ariaLabel && !one.textContent).length""")
+            assert unnamed == 0
+            page.screenshot(path=PICTURES / f"panel-phone-{scheme}.png")
+
+
+@check
+def without_webassembly_the_page_still_shows(browser):
+    """A panel that cannot simulate says so, and everything else is drawn."""
+    text = (PAGES / "ride.html").read_text().replace("(async () => {", "delete window.Worker;\n(async () => {", 1)
+    with opened(browser, "ride", text=text) as page:
+        page.locator("#tuning:not([hidden])").wait_for(state="attached")
+        page.locator("#tuning summary").click()
+        assert "cannot simulate" in page.locator("#tuning").inner_text()
+        assert page.locator(".chart").count() > 5 and not page.locator("#alarm").is_visible()
 
 
 def main():

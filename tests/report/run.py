@@ -3,11 +3,13 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/workbench/report/examples/pages.rs. Without Chromium or Playwright nothing is run, and that is said; with --require it
+The pages are those of crates/workbench/report/examples/pages.rs, and one of `moris simulate`. Without Chromium or Playwright nothing is run, and that is said; with --require it
 is an error. With --install both are installed first (apt and pip; for Debian and Ubuntu). Pictures are left in target/report/.
 """
 
 import argparse
+import csv
+import math
 import os
 import shutil
 import subprocess
@@ -54,6 +56,19 @@ def playwright():
     return None
 
 
+def write_ride(file):
+    """20 s at 100 Hz: pull away, bends, a stop."""
+    with open(file, "w", newline="") as out:
+        writer = csv.writer(out)
+        writer.writerow(["time", "ax", "ay", "az", "wx", "wy", "wz"])
+        for k in range(2001):
+            t = 0.01 * k
+            bend = math.sin(math.pi * min(max((t - 6) / 6, 0), 1)) ** 2
+            surge = 1.8 * math.sin(math.pi * min(t / 6, 1)) ** 2 - (2.5 if 14 < t < 18 else 0)
+            roll = 0.3 * bend * math.cos(1.5 * t)
+            writer.writerow([t, surge, 0.7 * bend * math.sin(1.5 * t), 9.80665 + 0.4 * math.sin(9 * t) * bend, roll, 0, 0.2 * bend * math.sin(1.5 * t)])
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--require", action="store_true", help="a missing browser is an error")
@@ -69,7 +84,11 @@ def main():
     pages = WORK / "pages"
     compile_and_run = ["cargo", "run", "--release", "--package", "moris-report", "--example", "pages", "--"]
     check_call(*([os.environ["MORIS_PAGES"]] if "MORIS_PAGES" in os.environ else compile_and_run), pages)
-    sys.exit(subprocess.run([interpreter, HERE / "checks.py", chromium, pages, WORK / "pictures"]).returncode)
+    moris = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--release", "--quiet", "--package", "moris", "--"]
+    write_ride(pages / "ride.csv")
+    check_call(*moris, "simulate", pages / "ride.csv", "--report", pages)
+    command = [interpreter, HERE / "checks.py", chromium, pages, WORK / "pictures", *moris]
+    sys.exit(subprocess.run(command, cwd=ROOT).returncode)
 
 
 if __name__ == "__main__":

@@ -87,6 +87,11 @@ impl Reference {
         }
     }
 
+    /// True if it is for felt forces of so many samples to a step.
+    pub fn is_for(&self, divisions: usize, step: f64) -> bool {
+        self.step == step / divisions as f64
+    }
+
     /// Compares a felt force, which begins and ends with the desired one.
     pub fn comfort(&self, felt: &[f64]) -> Comfort {
         Comfort { shake: self.shake(felt), jolt: self.jolt(felt), peak: self.peak(felt) }

@@ -18,6 +18,7 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "bound")]
 pub mod bound;
 pub mod comfort;
 pub mod cues;
@@ -31,5 +32,5 @@ pub mod statistics;
 pub mod vestibular;
 
 pub use listing::{Row, all_rows, bound_rows};
-pub use measures::{Axes, Measures};
+pub use measures::{Axes, Measures, References};
 pub use run::{Limited, Platform, Run, RunError};

@@ -1,6 +1,5 @@
 //! The measures as a list for people.
 
-use crate::bound::Bound;
 use crate::comfort::{Comfort, Excess};
 use crate::cues::Cues;
 use crate::effort::Effort;
@@ -206,7 +205,7 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
 ///
 /// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the
 /// RMS error that was felt.
-pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4] {
+pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: f64) -> [Row; 4] {
     let row = |name, value, unit, definition| Row {
         subject: format!("specific force {axis}"),
         name,
@@ -219,14 +218,14 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
     [
         row(
             "bound",
-            Some(bound.rms_error),
+            Some(bound),
             "m/s²",
             "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
              same limits of tilt, tilt rate, travel, speed and acceleration.",
         ),
         row(
             "gap to the bound",
-            Some((felt - bound.rms_error).max(0.0)),
+            Some((felt - bound).max(0.0)),
             "m/s²",
             "RMS error beyond the bound: the most that a better controller could gain.",
         ),
@@ -236,7 +235,7 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: &Bound) -> [Row; 4
             "%",
             "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.",
         ),
-        row("relative bound", percentage(bound.rms_error), "%", "The bound as the same fraction."),
+        row("relative bound", percentage(bound), "%", "The bound as the same fraction."),
     ]
 }
 

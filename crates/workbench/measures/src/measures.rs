@@ -1,6 +1,6 @@
 //! All measures of a run.
 
-use crate::comfort::{Comfort, comfort};
+use crate::comfort::{Comfort, Reference, divisions};
 use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use crate::effort::{Effort, effort};
 use crate::fidelity::{Fidelity, fidelity};
@@ -12,6 +12,9 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// Something of each axis x, y, z.
 pub type Axes<T> = [T; 3];
+
+/// The desired force on each axis, prepared for several runs.
+pub type References = Axes<Option<Reference>>;
 
 /// All measures of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,15 +44,26 @@ impl Measures {
     /// # Errors
     /// The run's series do not fit together or hold something that is no number.
     pub fn of(run: &Run) -> Result<Self, RunError> {
+        Self::with(run, &mut References::default())
+    }
+
+    /// As [`Measures::of`] for one of several runs with the same desired force, of which it keeps
+    /// what costs most.
+    ///
+    /// # Errors
+    /// As [`Measures::of`].
+    pub fn with(run: &Run, references: &mut References) -> Result<Self, RunError> {
         run.check()?;
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
         let force = Channel { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
         let rate = Channel { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
         let [force_x, force_y, force_z] = force.compare(run.desired_force, run.felt_force);
         let [rate_x, rate_y, rate_z] = rate.compare(run.desired_rate, run.felt_rate);
-        let comfort_of = |k: usize| {
-            let (desired, felt) = (axis(run.desired_force, k), axis(run.felt_force_within_steps, k));
-            comfort(&desired, &felt, upright[k], run.step)
+        let divisions = divisions(run.desired_force.len(), run.felt_force_within_steps.len());
+        let mut comfort_of = |k: usize| {
+            let new = || Reference::new(&axis(run.desired_force, k), divisions, upright[k], run.step);
+            let kept = references[k].take().filter(|kept| kept.is_for(divisions, run.step));
+            references[k].insert(kept.unwrap_or_else(new)).comfort(&axis(run.felt_force_within_steps, k))
         };
         let is_felt = [&force_x, &force_y, &force_z].map(|axis| axis.raw.is_some());
         Ok(Measures {
@@ -92,6 +106,48 @@ impl Channel<'_> {
             raw: fidelity(desired, felt, self.step),
             sensed: fidelity(&sensed_desired, &sensed_felt, self.step),
             cues: cues(&sensed_desired, &sensed_felt, self.thresholds[k]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Limited, Platform};
+
+    use super::*;
+
+    #[test]
+    fn kept_references_change_nothing() {
+        let count = 400;
+        let force = |scale: f64, step: f64, count: usize| -> Vec<[f64; 3]> {
+            (0..count)
+                .map(|k| step * k as f64)
+                .map(|t| [scale * (3.0 * t).sin(), 0.1 * t, 9.8 + scale * t.cos()])
+                .collect()
+        };
+        let desired = force(1.0, 0.01, count);
+        let mut references = References::default();
+        // Another number of samples to a step needs other references.
+        for (scale, divisions) in [(0.5, 10), (0.7, 10), (0.7, 5)] {
+            let (felt, rest) = (force(scale, 0.01, count), vec![[0.0; 3]; count]);
+            let run = Run {
+                step: 0.01,
+                desired_force: &desired,
+                felt_force: &felt,
+                felt_force_within_steps: &force(scale, 0.01 / divisions as f64, divisions * (count - 1) + 1),
+                desired_rate: &rest,
+                felt_rate: &rest,
+                platform: Platform {
+                    legs: &vec![[1.3; 6]; count],
+                    stroke: [1.0, 1.6],
+                    displacement: &rest,
+                    tilt_rate: &vec![[0.0; 2]; count],
+                    limited: &vec![Limited::default(); count],
+                },
+            };
+            let measures = Measures::with(&run, &mut references).unwrap();
+            assert_eq!(measures, Measures::of(&run).unwrap());
+            assert!(measures.comfort[0].is_some() && references[0].is_some());
         }
     }
 }

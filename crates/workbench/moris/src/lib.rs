@@ -35,9 +35,3 @@ pub mod worst_case;
 
 /// Default directory for reports. No directory of the sources has this name.
 pub const REPORT_DIRECTORY: &str = "moris-report";
-
-/// A text with its first letter in upper case.
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}

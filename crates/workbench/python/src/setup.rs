@@ -34,10 +34,12 @@ pub fn load(
 
 fn unchecked(rig: Option<&Bound<PyAny>>, parameters: Option<&Bound<PyAny>>, strategy: Option<&str>) -> PyResult<Setup> {
     let rig = rig.map(rig_of).transpose()?;
+    let rig_alone = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
     let mut setup = Setup {
         rig_name: rig.as_ref().map_or_else(|| "default rig".to_owned(), |rig| rig.name.clone()),
         parameters_name: String::new(),
-        parameters: rig.as_ref().map_or_else(Parameters::default, RigFile::parameters),
+        parameters: rig_alone,
+        rig_alone,
     };
     if let Some(parameters) = parameters {
         overlay(&mut setup, parameters)?;
@@ -54,8 +56,12 @@ fn unchecked(rig: Option<&Bound<PyAny>>, parameters: Option<&Bound<PyAny>>, stra
 /// # Errors
 /// As [`load`].
 pub fn values(parameters: &Bound<PyAny>) -> PyResult<NamedValues> {
-    let mut setup =
-        Setup { rig_name: String::new(), parameters_name: String::new(), parameters: Parameters::default() };
+    let mut setup = Setup {
+        rig_name: String::new(),
+        parameters_name: String::new(),
+        parameters: Parameters::default(),
+        rig_alone: Parameters::default(),
+    };
     let mut given = NamedValues::new();
     each(parameters, &mut |_, values| given.extend(values))?;
     lay_over(&mut setup, "", &given);

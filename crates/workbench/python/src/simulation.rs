@@ -5,7 +5,7 @@ use std::sync::Arc;
 use moris::measure::host::Host;
 use moris::recording::Recording;
 use moris::recording::preview::LONGEST_PREVIEW;
-use moris::simulate::{AxisBound, Outcome, Simulation, bounds, findings, fits_the_rig, page};
+use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fits_the_rig, page};
 use moris_interface::{Group, Writer, slot_count};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
@@ -77,12 +77,12 @@ impl PySimulation {
 
     #[getter]
     fn fits(&self) -> bool {
-        fits_the_rig(&self.outcome)
+        fits_the_rig(&self.outcome.measures)
     }
 
     #[getter]
     fn findings(&self) -> Vec<String> {
-        findings::of(&self.outcome).into_iter().map(|finding| finding.text).collect()
+        self.outcome.findings().into_iter().map(|finding| finding.text).collect()
     }
 
     /// The samples' times, the inputs and outputs row by row, and the names of the columns.
@@ -121,7 +121,7 @@ impl PySimulation {
     fn html(&self, py: Python, others: Vec<PyRef<PySimulation>>) -> PyResult<String> {
         let outcomes: Vec<Outcome> =
             std::iter::once(&self.outcome).chain(others.iter().map(|other| &other.outcome)).cloned().collect();
-        page::html(&self.recording, &outcomes)
+        page::html(&self.recording, &outcomes, None)
             .map_err(|reason| error::recording(py, format!("the report does not fit together: {reason}")))
     }
 }
@@ -158,7 +158,7 @@ pub fn bound<'py>(
 ) -> PyResult<Vec<Option<(f64, f64, Bound<'py, PyArray1<f64>>)>>> {
     let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
     let recording = &recording.inner;
-    let simulation = Simulation::without_outputs(recording, &recording.parameters(&parameters));
+    let simulation = Simulation::without_outputs(&recording.manoeuvre, &recording.parameters(&parameters));
     let bounds: Axes<Option<AxisBound>> =
         py.detach(|| bounds::bounds(&simulation)).map_err(|reason| error::bound(py, &reason))?;
     let times = simulation.times();

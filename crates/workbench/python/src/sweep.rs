@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use moris::measure::host::Host;
 use moris::recording::Recording;
-use moris::simulate::measured;
+use moris::simulate::measures;
 use moris_setup::Setup;
 use numpy::{PyArray1, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
@@ -84,7 +84,7 @@ fn measure(host: &Host, setup: &Setup, recording: &Recording, row: &mut [f64]) {
     let parameters = recording.parameters(&setup.parameters);
     // The setup is checked, and a recording has samples: neither fails.
     let Ok(simulation) = host.replay(recording, &parameters) else { return };
-    let Ok(measures) = measured::measures(&simulation) else { return };
+    let Ok(measures) = measures(&simulation) else { return };
     let mut places = MEASURES.iter().zip(row).peekable();
     for found in measures.rows() {
         // The rows come in the order of the list, which has all of them.

@@ -76,6 +76,7 @@ fn two_runs() -> Report {
             },
         ],
         selected: 0,
+        simulator: None,
     }
 }
 
@@ -109,6 +110,7 @@ fn hostile() -> Report {
         rig: (&Parameters::default()).into(),
         runs: vec![run.clone(), run],
         selected: 1,
+        simulator: None,
     }
 }
 

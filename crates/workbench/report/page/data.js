@@ -32,6 +32,9 @@ async function decoded(encoded, Numbers = Float32Array) {
 /** Dashes of the runs' curves, beside their colours. */
 const RUN_DASHES = [[], [7, 3], [2, 2.5], [9, 3, 2, 3], [12, 4]];
 
+/** How a run's curves look. */
+const runStyle = (index) => ({ colour: `--run-${index % 4 + 1}`, dash: RUN_DASHES[index % RUN_DASHES.length] });
+
 /** A run with typed arrays in place of text. */
 async function decodedRun(run, events, index) {
   const each = (list) => Promise.all(list.map((one) => decoded(one)));
@@ -50,8 +53,7 @@ async function decodedRun(run, events, index) {
     index,
     events,
     times,
-    colour: `--run-${index % 4 + 1}`,
-    dash: RUN_DASHES[index % RUN_DASHES.length],
+    ...runStyle(index),
     desired: await cues(run.desired),
     felt: await cues(run.felt),
     position: await each(run.position),

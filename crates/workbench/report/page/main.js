@@ -15,6 +15,7 @@ const shown = () => now.shown;
 const handlers = { seek, show, hover };
 const timeLine = new TimeLine(shown, handlers);
 let charts = [];
+let tuning = null;
 
 /** Goes to a time. */
 function seek(time) {
@@ -67,13 +68,26 @@ function play(on) {
 
 function select(index) {
   now.run = report.runs[index];
-  [...byId("runs").children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === index)));
+  showRunChoice();
+  if (tuning) tuning.showChoice(now.run);
   timeLine.select(now.run);
   showKey();
   showFindings();
   buildCharts();
   drawCharts();
   seek(now.time);
+}
+
+/** A button for each run, where there are several. */
+function showRunChoice() {
+  const box = byId("runs");
+  while (report.runs.length > 1 && box.children.length < report.runs.length) {
+    const run = report.runs[box.children.length];
+    const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
+    button.addEventListener("click", () => select(run.index));
+    box.append(button);
+  }
+  [...box.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === now.run.index)));
 }
 
 function buildCharts() {
@@ -93,7 +107,7 @@ function buildCharts() {
     drawCharts();
     seek(now.time);
   });
-  choice.open = overlay.size > 0;
+  choice.open = byId("overlay")?.open ?? false;
   box.replaceChildren(lane, ...built, choice);
 }
 
@@ -141,13 +155,6 @@ function setUpPlayer() {
   speed.append(...SPEEDS.map((factor) => element("option", { value: factor }, [`\u00d7 ${factor}`])));
   speed.value = "1";
   speed.addEventListener("change", () => { now.speed = Number(speed.value); });
-  if (report.runs.length > 1) {
-    byId("runs").append(...report.runs.map((run, i) => {
-      const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
-      button.addEventListener("click", () => select(i));
-      return button;
-    }));
-  }
   addEventListener("keydown", (event) => {
     if (event.target !== document.body) return;
     const step = (recording.to - recording.from) / 200;
@@ -158,6 +165,22 @@ function setUpPlayer() {
     else if (event.key === "-") zoom(2);
     else return;
     event.preventDefault();
+  });
+}
+
+/** The panel of parameters, if this page can simulate. Its run stands behind those of the page. */
+async function setUpTuning() {
+  if (!report.simulator) return;
+  const index = report.runs.length;
+  const simulator = new Simulator(report.simulator, page.worker);
+  await simulator.prepare();
+  tuning = new Tuning(byId("tuning"), simulator, {
+    show: (run) => {
+      report.runs[index] = { ...run, index, ...runStyle(index) };
+      showMeasures(byId("measures"), report.runs);
+      select(index);
+    },
+    choose: (original) => select(original ? 0 : index),
   });
 }
 
@@ -187,5 +210,11 @@ addEventListener("afterprint", () => {
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 
 // For those who drive the page from a script, such as its tests.
-window.simulationReport = { now, seek, show, play, select, view, recording, ranges: () => charts.map((chart) => chart.range()) };
+window.simulationReport = { now, seek, show, play, select, view, recording, ranges: () => charts.map((chart) => chart.range()),
+  runs: () => report.runs, cellText };
 byId("alarm").hidden = true;
+await setUpTuning().catch((error) => {
+  byId("tuning").replaceChildren(element("summary", {}, ["Change parameters"]), element("p", { class: "summary" }, [`This browser cannot simulate: ${error.message}`]));
+  byId("tuning").hidden = false;
+});
+if (tuning) window.simulationReport.tuning = tuning;

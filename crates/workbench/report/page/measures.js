@@ -81,7 +81,9 @@ function definitions(groups) {
 function showMeasures(box, runs) {
   const groups = gathered(runs);
   if (groups.length === 0) return;
-  box.append(element("h2", {}, ["Measures"]), ...alike(groups).map((table) => measureTable(table, runs)));
+  const wasOpen = box.querySelector("details")?.open;
+  box.replaceChildren(element("h2", {}, ["Measures"]), ...alike(groups).map((table) => measureTable(table, runs)));
   if (runs.length > 1) box.append(element("p", { class: "summary" }, ["Bold: the better value."]));
   box.append(definitions(groups));
+  box.querySelector("details").open = Boolean(wasOpen);
 }

@@ -7,6 +7,7 @@ use moris_washout::Parameters;
 use serde::Serialize;
 
 use crate::encode::{curve, flags, times};
+use crate::simulator::Simulator;
 
 /// The whole page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -24,6 +25,8 @@ pub struct Report {
     pub runs: Vec<Run>,
     /// Which of the runs the platform shows first.
     pub selected: usize,
+    /// The simulation of the recording with other parameters; none for a page that only shows.
+    pub simulator: Option<Simulator>,
 }
 
 /// A sentence about the run, and how much it matters.

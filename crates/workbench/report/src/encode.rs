@@ -127,6 +127,27 @@ pub fn flags<S: Serializer>(values: &[bool], serializer: S) -> Result<S::Ok, S::
     serializer.serialize_str(&deflated(&bytes))
 }
 
+/// Bytes, deflated.
+///
+/// # Errors
+/// The serializer's.
+pub fn bytes<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(&deflated(bytes))
+}
+
+/// Series whose values a page needs to the last bit. The first bytes of all values come first, then
+/// the second ones: the bytes of signs and exponents repeat, those of digits do not.
+///
+/// # Errors
+/// The serializer's.
+pub fn exact<S: Serializer>(series: &[Vec<f64>], serializer: S) -> Result<S::Ok, S::Error> {
+    let bytes = |values: &[f64]| {
+        let planes = (0..8).flat_map(|place| values.iter().map(move |value| value.to_le_bytes()[place]));
+        deflated(&planes.collect::<Vec<u8>>())
+    };
+    serializer.collect_seq(series.iter().map(|values| bytes(values)))
+}
+
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
@@ -192,6 +213,16 @@ pub(crate) mod tests {
             let found = decoded(&times(&values, serde_json::value::Serializer).unwrap());
             assert!(found.iter().zip(&values).all(|(found, value)| (found - value).abs() <= error), "{first}");
         }
+    }
+
+    #[test]
+    fn exact_values_keep_every_bit() {
+        let values = vec![0.1, -2.5e-310, f64::MAX, 9.80665, -0.0];
+        let encoded = exact(&[values.clone(), vec![]], serde_json::value::Serializer).unwrap();
+        let planes = inflated(encoded[0].as_str().unwrap());
+        let value = |k: usize| f64::from_le_bytes(std::array::from_fn(|place| planes[place * values.len() + k]));
+        assert!((0..values.len()).all(|k| value(k).to_bits() == values[k].to_bits()));
+        assert!(inflated(encoded[1].as_str().unwrap()).is_empty());
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod encode;
 mod events;
 mod index;
 mod page;
+mod simulator;
 mod thinning;
 
 pub use check::{ReportError, check};
@@ -21,4 +22,5 @@ pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Rep
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::html;
+pub use simulator::{Parameter, ParameterKind, Simulator};
 pub use thinning::Thinning;

@@ -9,9 +9,10 @@ use crate::events::{Event, events};
 const TEMPLATE: &str = include_str!("../page/page.html");
 pub(crate) const STYLE: &str = include_str!("../page/style.css");
 const ALARM: &str = include_str!("../page/alarm.js");
+const WORKER: &str = include_str!("../page/worker.js");
 
 /// The scripts in the order of their dependencies.
-const SCRIPTS: [&str; 16] = [
+const SCRIPTS: [&str; 19] = [
     include_str!("../page/data.js"),
     include_str!("../page/format.js"),
     include_str!("../page/dom.js"),
@@ -27,6 +28,9 @@ const SCRIPTS: [&str; 16] = [
     include_str!("../page/measures.js"),
     include_str!("../page/overlay.js"),
     include_str!("../page/panels.js"),
+    include_str!("../page/simulator.js"),
+    include_str!("../page/parameter.js"),
+    include_str!("../page/tuning.js"),
     include_str!("../page/main.js"),
 ];
 
@@ -36,6 +40,8 @@ struct Page<'a> {
     report: &'a Report,
     /// Of each run.
     events: Vec<Vec<Event>>,
+    /// The script of the simulation beside the page; none for a page without simulation.
+    worker: Option<&'static str>,
 }
 
 /// The whole page as HTML, which needs no network and no other file.
@@ -47,7 +53,11 @@ struct Page<'a> {
 /// Never: plain data always serialise.
 pub fn html(report: &Report) -> Result<String, ReportError> {
     check(report)?;
-    let page = Page { report, events: report.runs.iter().map(|run| events(run, &report.rig)).collect() };
+    let page = Page {
+        report,
+        events: report.runs.iter().map(|run| events(run, &report.rig)).collect(),
+        worker: report.simulator.is_some().then_some(WORKER),
+    };
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(&page).expect("plain data serialise").replace('<', "\\u003c");
     Ok(filled(
@@ -86,6 +96,7 @@ mod tests {
     use super::*;
     use crate::check::tests::smallest;
     use crate::encode::tests::decoded;
+    use crate::simulator::Simulator;
 
     /// The part of the page from after `start` to before `end`.
     fn between<'a>(page: &'a str, start: &str, end: &str) -> &'a str {
@@ -106,6 +117,16 @@ mod tests {
         }
         assert!(!page.contains("{{"));
         assert!(page.contains("default-src 'none'"));
+    }
+
+    #[test]
+    fn a_page_without_simulator_has_no_worker() {
+        let mut report = smallest();
+        assert!(data(&html(&report).unwrap())["worker"].is_null());
+        report.simulator = Some(Simulator { inputs: vec![vec![1.0]], ..Simulator::default() });
+        let page = html(&report).unwrap();
+        assert!(data(&page)["worker"].as_str().unwrap().contains("WebAssembly"));
+        assert_eq!(page.matches("</script>").count(), 3);
     }
 
     #[test]

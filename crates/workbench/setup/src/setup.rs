@@ -20,6 +20,8 @@ pub struct Setup {
     pub parameters_name: String,
     /// All parameters, the rig's among them.
     pub parameters: Parameters,
+    /// Those of the rig with default parameters.
+    pub rig_alone: Parameters,
 }
 
 /// Name of the default rig.
@@ -33,7 +35,8 @@ impl Setup {
     /// A file cannot be read, a name or value in it is invalid, or the parameters make no washout.
     pub fn load(rig: Option<&Path>, sets: &[String]) -> Result<Self, Error> {
         let rig = rig.map(load_rig).transpose()?;
-        let mut parameters = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
+        let rig_alone = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
+        let mut parameters = rig_alone;
         for set in sets {
             parameters = overlaid(&parameters, &load_set(set, Parameters::ROWS)?);
         }
@@ -42,6 +45,7 @@ impl Setup {
             rig_name: rig.map_or_else(|| DEFAULT_RIG.to_owned(), |rig| rig.name),
             parameters_name: if sets.is_empty() { "default".to_owned() } else { names_of(sets) },
             parameters,
+            rig_alone,
         })
     }
 }

@@ -6,11 +6,12 @@ use anyhow::Result;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use moris_simulation::capitalised;
+
 use super::Measured;
 use super::channel::{CROSS, Channel, name, ratio_unit};
 use super::measure::Response;
 use super::table::{modulus, phase};
-use crate::capitalised;
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 

@@ -3,10 +3,10 @@
 
 use anyhow::{Context, Result};
 use moris_batch::Replay;
+use moris_simulation::preview::Previewer;
 use moris_washout::Parameters;
 
 use crate::recording::Recording;
-use crate::recording::preview::Previewer;
 use crate::simulate::Simulation;
 
 /// Input within a step, as given by the host.

@@ -14,13 +14,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
+use moris_simulation::preview::parse_seconds;
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
-use crate::recording::preview::parse_seconds;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 use crate::setup_options::SetupOptions;
-use crate::simulate::{bounds, measured};
+use crate::simulate::{bounds, measures};
 use crate::status::WORSE;
 use channel::{Channel, channels};
 use host::{Host, Inputs};
@@ -97,7 +97,7 @@ impl MeasuredRecording {
     /// The parameters cannot be used, the steps do not fit, or there is no bound.
     pub fn of(recording: &Recording, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
         let simulation = host.replay(recording, &recording.parameters(parameters))?;
-        let measures = measured::measures(&simulation)?;
+        let measures = measures(&simulation)?;
         let bounds = if with_bound { bounds::bounds(&simulation)? } else { [const { None }; 3] };
         let effort = &measures.effort;
         let steps = simulation.outputs.len().max(2) - 1;

@@ -1,8 +1,9 @@
 //! Figures that a set of parameters is to reach, and those that it misses.
 
+use moris_simulation::capitalised;
+
 use super::MeasuredRecording;
 use super::channel::{Channel, Quantity};
-use crate::capitalised;
 
 /// A force on which less than this is desired does not count; an error below it
 /// counts as this \[m/s2\].

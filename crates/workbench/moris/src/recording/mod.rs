@@ -40,7 +40,6 @@ pub mod mounting;
 mod numbers;
 mod outliers;
 pub mod plausibility;
-pub mod preview;
 pub mod quantity;
 pub mod sampling;
 mod sheet;
@@ -53,6 +52,7 @@ mod vbox;
 use std::path::Path;
 
 use moris_batch::{Manoeuvre, Replay};
+pub use moris_simulation::preview;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 

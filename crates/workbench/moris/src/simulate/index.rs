@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use moris_report::{IndexRow, index_html};
+use moris_simulation::findings::fits_freely;
 
-use super::{Outcome, findings};
+use super::Outcome;
 use crate::recording::Recording;
 
 /// A recording in the list.
@@ -53,7 +54,7 @@ impl Entry {
         let row = IndexRow {
             name: recording.name.clone(),
             file: page.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            is_good: findings::fits_freely(outcome),
+            is_good: fits_freely(measures),
             cells: first.into_iter().chain(comfort).chain(errors.map(figure)).chain([figure(Some(error))]).collect(),
         };
         Entry { row, limited, error }

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Outcome, findings, fits_the_rig};
+use super::{Outcome, fits_the_rig};
 use crate::recording::Recording;
 
 /// A recording, simulated with one or several sets of parameters.
@@ -89,8 +89,8 @@ fn result(outcome: &Outcome) -> SetResult {
     SetResult {
         rig: outcome.setup.rig_name.clone(),
         parameters: outcome.setup.parameters_name.clone(),
-        fits: fits_the_rig(outcome),
-        findings: findings::of(outcome).into_iter().map(|finding| finding.text).collect(),
+        fits: fits_the_rig(&outcome.measures),
+        findings: outcome.findings().into_iter().map(|finding| finding.text).collect(),
         force_bounds: outcome.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error)),
         measures: measures.map(measure).collect(),
     }

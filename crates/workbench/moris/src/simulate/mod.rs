@@ -1,21 +1,21 @@
 //! `moris simulate`: simulates a recording on a rig and measures the cues.
 //!
-//! [`simulation`] steps the washout. The other modules process its result:
+//! `moris_simulation` steps the washout, measures, and describes the measures in sentences. The
+//! modules process its result:
 //!
 //! - [`output_table`] writes inputs and outputs to a file.
-//! - [`measured`] computes the measures, [`bounds`] the least possible error.
-//! - [`summary`] and [`json`] print the measures, [`findings`] describes them in sentences.
-//! - [`page`] makes the report, [`index`] lists the reports of several recordings.
+//! - [`bounds`] computes the least possible error.
+//! - [`summary`] and [`json`] print the measures.
+//! - [`page`] makes the report, with a `simulator` in it; [`index`] lists the reports
+//!   of several recordings.
 
 pub mod bounds;
-pub mod findings;
+mod command_line;
 pub mod index;
 pub mod json;
-pub mod measured;
 pub mod output_table;
 pub mod page;
-pub mod simulation;
-mod spans;
+mod simulator;
 pub mod summary;
 
 use std::collections::BTreeMap;
@@ -25,17 +25,20 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_measures::{Axes, Measures, Row, bound_rows};
+use moris_measures::{Axes, Measures, Row};
+use moris_report::Finding;
 use moris_setup::Setup;
+use moris_simulation::Evaluated;
+use moris_simulation::preview::{Previewer, parse_seconds};
 use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
-use crate::recording::preview::{Previewer, parse_seconds};
 use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
 pub use bounds::AxisBound;
-pub use simulation::Simulation;
+pub use moris_simulation::findings::fits_the_rig;
+pub use moris_simulation::{Simulation, measures};
 
 /// Simulate recordings on a rig and report how well they are felt
 ///
@@ -124,7 +127,7 @@ impl Outcome {
     /// # Errors
     /// The simulation has too few samples.
     pub fn measured(simulation: Simulation, setup: &Setup) -> Result<Self> {
-        let measures = measured::measures(&simulation)?;
+        let measures = measures(&simulation)?;
         let bounds = [const { None }; 3];
         Ok(Outcome {
             setup: Setup { parameters: simulation.parameters, ..setup.clone() },
@@ -136,12 +139,18 @@ impl Outcome {
 
     /// The rows of its measures, and of its bounds with the felt error.
     pub fn rows(&self) -> Vec<Row> {
-        let on_axis = |axis: usize| {
-            let bound = self.bounds[axis].as_ref()?;
-            let felt = self.measures.force[axis]?.rms_error;
-            Some(bound_rows(["x", "y", "z"][axis], bound.desired_rms(), felt, &bound.bound))
-        };
-        self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten()).collect()
+        self.evaluated().rows()
+    }
+
+    /// The findings, the most important first.
+    pub fn findings(&self) -> Vec<Finding> {
+        self.evaluated().findings()
+    }
+
+    /// The simulation with its measures and the bounds' errors.
+    pub fn evaluated(&self) -> Evaluated<'_> {
+        let bounds = self.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error));
+        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds }
     }
 
     /// The bounds of its recording on its rig.
@@ -162,6 +171,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let recordings = table::recordings(&options.recordings, &conventions);
     check_names(&recordings, &cases)?;
+    if !simulator::is_compiled() {
+        eprintln!(
+            "note: the reports only show; for reports that simulate with other parameters, build moris after \
+             `rustup target add wasm32-unknown-unknown`"
+        );
+    }
     let mut entries = Vec::new();
     let (mut all_fit, mut any_failed) = (true, false);
     let mut objects = Vec::new();
@@ -253,18 +268,18 @@ fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conven
         outcomes(&recording, cases, !options.no_bound, &mut progress).with_context(|| recording.name.clone())?;
     progress.phase("writing the report", 0);
     fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
-    let files = write_files(&options.report, &recording, &outcomes)?;
+    let files = write_files(&options.report, file, &recording, &outcomes)?;
     progress.finish();
     let json = json::recording(&recording, &outcomes, &files);
     let page = files.last().map(PathBuf::as_path).unwrap_or(file);
     let entry = index::Entry::new(&recording, &outcomes[0], page);
-    Ok(Simulated { fits: fits_the_rig(&outcomes[0]), text: summary::text(&recording, &outcomes), json, files, entry })
-}
-
-/// True where neither a safety unit nor an actuator's limit was active.
-pub fn fits_the_rig(outcome: &Outcome) -> bool {
-    let effort = &outcome.measures.effort;
-    effort.safety_active == 0.0 && effort.actuator_limited == 0.0
+    Ok(Simulated {
+        fits: fits_the_rig(&outcomes[0].measures),
+        text: summary::text(&recording, &outcomes),
+        json,
+        files,
+        entry,
+    })
 }
 
 fn outcomes(recording: &Recording, cases: &[Case], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
@@ -335,24 +350,32 @@ fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
 }
 
 /// Writes the tables of outputs and the page; returns their names.
-fn write_files(directory: &Path, recording: &Recording, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
+fn write_files(directory: &Path, file: &Path, recording: &Recording, outcomes: &[Outcome]) -> Result<Vec<PathBuf>> {
     let mut written = Vec::new();
     for (index, outcome) in outcomes.iter().enumerate() {
         let file = directory.join(table_name(&recording.name, index, &outcome.setup));
         output_table::write(&file, &outcome.simulation)?;
         written.push(file);
     }
-    written.push(write_page(directory, &recording.name, recording, outcomes)?);
+    let command = command_line::with_other_parameters(file);
+    written.push(write_page(directory, &recording.name, recording, outcomes, Some(command))?);
     Ok(written)
 }
 
-/// Writes the page of a recording under a name; returns the file.
+/// Writes the page of a recording under a name; returns the file. `command` simulates the recording
+/// with a parameter file whose name is to follow.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write_page(directory: &Path, name: &str, recording: &Recording, outcomes: &[Outcome]) -> Result<PathBuf> {
+pub fn write_page(
+    directory: &Path,
+    name: &str,
+    recording: &Recording,
+    outcomes: &[Outcome],
+    command: Option<String>,
+) -> Result<PathBuf> {
     let file = directory.join(format!("{name}.html"));
-    let html = page::html(recording, outcomes).context("the report does not fit together")?;
+    let html = page::html(recording, outcomes, command).context("the report does not fit together")?;
     fs::write(&file, html).with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)
 }

@@ -1,39 +1,62 @@
 //! The report's data.
 
-use std::array;
+use moris_report::{Chart, Finding, Line, Report, ReportError, Run, Simulator, Thinning, Weight};
 
-use moris_measures::Row;
-use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, ReportError, Run, Thinning, Weight};
-use moris_washout::Output;
-use moris_washout::interface::STANDARD_GRAVITY;
-
-use super::{Outcome, Simulation, findings};
-use crate::capitalised;
+use super::{Outcome, simulator};
 use crate::recording::Recording;
 
-/// Largest page \[bytes\].
+/// Largest page without simulation, and with it \[bytes\].
 const LARGEST: usize = 3_000_000;
+const LARGEST_WITH_SIMULATION: usize = 4_200_000;
 /// Samples that fit into the largest page if their curves are smooth, and the least that are worth
 /// showing, of all sets together.
 const MOST_SAMPLES: usize = 150_000;
 const LEAST_SAMPLES: usize = 4_000;
+/// Fewer samples of a recording are not worth simulating in its page.
+const LEAST_SIMULATED: usize = 1_000;
 
 /// The page of a recording with one or several sets of parameters, with as many
-/// samples as fit into it.
+/// samples as fit into it. `command` simulates the recording with a parameter file whose name is to
+/// follow.
 ///
 /// # Errors
 /// The report does not fit together.
-pub fn html(recording: &Recording, outcomes: &[Outcome]) -> Result<String, ReportError> {
+pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>) -> Result<String, ReportError> {
     let samples = outcomes[0].simulation.inputs.len() * outcomes.len();
     let mut most = samples.min(MOST_SAMPLES);
     loop {
-        let page = moris_report::html(&report(recording, outcomes, most / outcomes.len()))?;
+        let report = report(recording, outcomes, most / outcomes.len());
+        let page = moris_report::html(&report)?;
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
-            return Ok(page);
+            let Some(simulator) = simulator::of(recording, &outcomes[0], command) else { return Ok(page) };
+            return with_simulation(report, simulator, page);
         }
         let fitting = 0.95 * most as f64 * LARGEST as f64 / page.len() as f64;
         most = (fitting as usize).max(LEAST_SAMPLES);
     }
+}
+
+/// The page with as much of the recording's inputs as fit into it; `page` is it without simulation.
+fn with_simulation(mut report: Report, simulator: Simulator, page: String) -> Result<String, ReportError> {
+    let inputs = simulator.inputs.clone();
+    let mut page_of = |samples: usize| {
+        let inputs = inputs.iter().map(|series| series[..samples].to_vec()).collect();
+        report.simulator = Some(Simulator { inputs, ..simulator.clone() });
+        moris_report::html(&report)
+    };
+    let mut samples = simulator.samples;
+    let mut with_inputs = page_of(samples)?;
+    let empty = if with_inputs.len() > LARGEST_WITH_SIMULATION { page_of(0)?.len() } else { 0 };
+    while with_inputs.len() > LARGEST_WITH_SIMULATION {
+        let room = LARGEST_WITH_SIMULATION.saturating_sub(empty);
+        let fitting = 0.97 * samples as f64 * room as f64 / (with_inputs.len() - empty) as f64;
+        samples = fitting as usize;
+        if samples < LEAST_SIMULATED {
+            return Ok(page);
+        }
+        with_inputs = page_of(samples)?;
+    }
+    Ok(with_inputs)
 }
 
 /// The report of a recording with one or several sets of parameters, of which the first is shown
@@ -60,6 +83,7 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize) -> Report {
         rig: (&first.setup.parameters).into(),
         runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
         selected: 0,
+        simulator: None,
     }
 }
 
@@ -84,81 +108,21 @@ fn resolution(outcome: &Outcome, thinning: &Thinning) -> String {
 }
 
 fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
-    let Outcome { setup, simulation, .. } = outcome;
-    let Simulation { inputs, outputs, .. } = simulation;
-    let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
-    let desired_rates = simulation.desired_rates();
-    let leans = inputs.iter().any(|input| input.lean != 0.0);
-    Run {
-        name: setup.parameters_name.clone(),
-        findings: findings::of(outcome),
-        times: thinning.at_times(|k| k as f64 * simulation.step),
-        desired: Cues {
-            specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
-            angular_velocity: array::from_fn(|axis| thinning.extremes(|k| desired_rates[k][axis])),
-        },
-        felt: Cues {
-            specific_force: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_specific_force[axis])),
-            angular_velocity: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_angular_velocity[axis])),
-        },
-        // A pose is that of one time.
-        position: array::from_fn(|axis| thinning.at_times(|k| outputs[k].position[axis])),
-        orientation: array::from_fn(|axis| thinning.at_times(|k| outputs[k].orientation.to_vector()[axis])),
-        legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].length[leg])),
-        tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
-        tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
-        lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
-        limited: Limited {
-            tilt: thinning.any(|k| outputs[k].tilt_limited),
-            safety: thinning.any(|k| outputs[k].safety_active),
-            actuator: thinning.any(|k| outputs[k].actuator_limited),
-        },
-        limits: (&simulation.parameters).into(),
-        measures: outcome.rows().into_iter().map(measure).collect(),
-        charts: bound_charts(outcome, thinning),
-    }
+    let run = outcome.evaluated().run(&outcome.setup.parameters_name, thinning);
+    Run { charts: bound_charts(outcome, thinning), ..run }
 }
 
 /// The bound, axis by axis.
 fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
-    let Simulation { outputs, step, .. } = &outcome.simulation;
+    let evaluated = outcome.evaluated();
     let chart = |axis: usize| {
         let bound = outcome.bounds[axis].as_ref()?;
-        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let line = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), values };
-        let best = |k: usize| bound.bound.trajectory.felt(k as f64 * step);
-        Some(Chart {
-            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
-            quantity: "specific force without gravity [m/s²]".to_owned(),
-            times: Vec::new(),
-            lines: vec![
-                line("desired", thinning.extremes(|k| bound.desired[k])),
-                line("felt", thinning.extremes(|k| outputs[k].felt_specific_force[axis] - rest)),
-                line("best possible", thinning.extremes(best)),
-            ],
-            limits: Vec::new(),
-        })
+        let best = |k: usize| bound.bound.trajectory.felt(k as f64 * outcome.simulation.step);
+        let mut chart = evaluated.felt_chart(axis, thinning);
+        chart.lines.insert(0, line("desired", thinning.extremes(|k| bound.desired[k])));
+        chart.lines.push(line("best possible", thinning.extremes(best)));
+        Some(chart)
     };
     (0..3).filter_map(chart).collect()
-}
-
-fn measure(row: Row) -> Measure {
-    Measure {
-        group: capitalised(&row.subject),
-        name: row.name.to_owned(),
-        value: row.value,
-        unit: row.unit.to_owned(),
-        better: better(row.name),
-        definition: row.definition.to_owned(),
-        source: row.source.to_owned(),
-    }
-}
-
-/// Which of two values of a measure of this name is the better.
-fn better(name: &str) -> Better {
-    match name {
-        "correlation" | "smallest stroke margin" => Better::More,
-        "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "relative bound" => Better::Neither,
-        _ => Better::Less,
-    }
 }

@@ -4,7 +4,7 @@ use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
 
-use super::{Outcome, findings};
+use super::Outcome;
 use crate::recording::Recording;
 use crate::text_table::TextTable;
 
@@ -21,7 +21,7 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
     for outcome in outcomes {
         let setup = &outcome.setup;
         text += &format!("\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name);
-        for finding in findings::of(outcome) {
+        for finding in outcome.findings() {
             text += &format!("  {}\n", finding.text);
         }
         text += &format!("\n{}", table(outcome));

@@ -322,7 +322,7 @@ impl<'a> CostAccumulator<'a> {
 
 /// The desired channels, as deviations from rest.
 fn desired(recording: &Recording, parameters: &Parameters) -> Channels<Vec<f64>> {
-    let simulation = Simulation::without_outputs(recording, parameters);
+    let simulation = Simulation::without_outputs(&recording.manoeuvre, parameters);
     let rates = simulation.desired_rates();
     let samples =
         simulation.inputs.iter().zip(rates).map(|(input, rate)| channels(input.specific_force - rest(), rate));

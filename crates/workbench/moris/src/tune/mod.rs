@@ -109,8 +109,8 @@ fn save(options: &Options, before: &Setup, tuned: &Setup, first_line: &str) -> R
         before.parameters_name,
         options.seed
     );
-    let rig_alone = all(&Setup::load(options.setup.rig.as_deref(), &[])?.parameters);
-    let differing = all(&tuned.parameters).into_iter().zip(rig_alone).filter(|(mine, rigs)| mine.1 != rigs.1);
+    let differing =
+        all(&tuned.parameters).into_iter().zip(all(&before.rig_alone)).filter(|(mine, rigs)| mine.1 != rigs.1);
     let values: NamedValues = differing.map(|(mine, _)| mine).collect();
     let text = parameter_file::write(&heading, &values, Parameters::ROWS);
     fs::write(&options.output, text).with_context(|| format!("cannot write {}", options.output.display()))
@@ -134,6 +134,7 @@ fn write_reports<'a>(
             &format!("{}.tuned", objective.name()),
             objective.recording(),
             &outcomes?,
+            None,
         )?);
     }
     Ok(written)

@@ -1,5 +1,6 @@
 //! Search variables: logarithms of break frequencies, dampings and scales, and orders.
 
+use moris_interface::slots_of;
 use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
 use moris_washout::motion::orientation::RollPitchYaw;
@@ -182,6 +183,25 @@ impl Space {
     }
 }
 
+/// Slots of the parameters in these groups that may be tuned, each with the range that makes sense
+/// for a washout. Of the strategies, it is the one in use.
+pub fn ranges(parameters: &Parameters, groups: &[Group]) -> Vec<(usize, [f64; 2])> {
+    let mut ranges = Vec::new();
+    visit(&mut parameters.clone(), groups, &mut |_, range, _| ranges.push([range.min, range.max]));
+    let slot_of = |index: usize| {
+        let mut marked = *parameters;
+        let mut left = index;
+        visit(&mut marked, groups, &mut |value, _, _| {
+            if left == 0 {
+                *value = f64::NAN;
+            }
+            left = left.wrapping_sub(1);
+        });
+        slots_of(&marked).iter().position(|value| value.is_nan())
+    };
+    ranges.into_iter().enumerate().filter_map(|(index, range)| Some((slot_of(index)?, range))).collect()
+}
+
 /// Visits every tuned parameter, always in the same order, with its range and its channel.
 ///
 /// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch and
@@ -308,6 +328,18 @@ mod tests {
         moved.dedup();
         assert_eq!(moved.len(), 30);
         assert!(moved.iter().all(|name| ["splitter", "angular", "scale"].contains(&name.split('.').next().unwrap())));
+    }
+
+    #[test]
+    fn ranges_are_those_of_their_parameters() {
+        let start = Parameters::default();
+        let names: Vec<(String, f64)> = moris_setup::all(&start);
+        let found = ranges(&start, &[Group::Scale, Group::Tilt]);
+        let named: Vec<(&str, [f64; 2])> =
+            found.iter().map(|(slot, range)| (names[*slot].0.as_str(), *range)).collect();
+        assert_eq!(named.len(), 9);
+        assert_eq!(named[4], ("scale.angularVelocity.y", [SCALES.min, SCALES.max]));
+        assert_eq!(named[8], ("tilt.angleLimit", [TILT_ANGLES.min, TILT_ANGLES.max]));
     }
 
     #[test]

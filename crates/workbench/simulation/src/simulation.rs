@@ -1,6 +1,6 @@
 //! Inputs and outputs of the washout in a simulation.
 
-use moris_batch::Replay;
+use moris_batch::{Manoeuvre, Replay};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
@@ -8,8 +8,7 @@ use moris_washout::platform::LocationFrame;
 use moris_washout::platform::Pose;
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
-use crate::recording::Recording;
-use crate::recording::preview::Previewer;
+use crate::preview::Previewer;
 
 /// Every input and output of a simulation.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,11 +26,11 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// A recording alone, to be simulated with these parameters: no outputs yet.
-    pub fn without_outputs(recording: &Recording, parameters: &Parameters) -> Self {
-        let inputs = recording.inputs().to_vec();
+    /// Inputs alone, to be simulated with these parameters: no outputs yet.
+    pub fn without_outputs(manoeuvre: &Manoeuvre, parameters: &Parameters) -> Self {
+        let inputs = manoeuvre.inputs().to_vec();
         Simulation {
-            step: recording.step(),
+            step: manoeuvre.step(),
             parameters: *parameters,
             inputs,
             outputs: Vec::new(),

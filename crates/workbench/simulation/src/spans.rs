@@ -2,7 +2,7 @@
 
 use moris_washout::Output;
 
-use super::Simulation;
+use crate::Simulation;
 
 /// Spans closer to each other than this are one \[s\].
 const GAP: f64 = 0.1;

@@ -1,15 +1,23 @@
 //! The measures of a simulation.
 
-use moris_measures::{Limited, Measures, Platform, Run, RunError};
+use moris_measures::{Limited, Measures, Platform, References, Run, RunError};
 use moris_washout::{Input, Output};
 
-use super::Simulation;
+use crate::Simulation;
 
 /// Measures a simulation.
 ///
 /// # Errors
 /// It is too short to be measured.
 pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
+    measures_with(simulation, &mut References::default())
+}
+
+/// As [`measures`] for one of several simulations of a recording.
+///
+/// # Errors
+/// As [`measures`].
+pub fn measures_with(simulation: &Simulation, references: &mut References) -> Result<Measures, RunError> {
     let inputs = |value: fn(&Input) -> [f64; 3]| simulation.inputs.iter().map(value).collect::<Vec<_>>();
     let outputs = |value: fn(&Output) -> [f64; 3]| simulation.outputs.iter().map(value).collect::<Vec<_>>();
     let limited = |output: &Output| Limited {
@@ -19,7 +27,7 @@ pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
         actuator: output.actuator_limited,
     };
     let rig = &simulation.parameters.rig;
-    Measures::of(&Run {
+    let run = Run {
         step: simulation.step,
         desired_force: &inputs(|input| input.specific_force.into()),
         felt_force: &outputs(|output| output.felt_specific_force.into()),
@@ -33,5 +41,6 @@ pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
             tilt_rate: &simulation.outputs.iter().map(|o| [o.tilt_roll_rate, o.tilt_pitch_rate]).collect::<Vec<_>>(),
             limited: &simulation.outputs.iter().map(limited).collect::<Vec<_>>(),
         },
-    })
+    };
+    Measures::with(&run, references)
 }

@@ -1,13 +1,14 @@
 //! Findings of a simulation, in sentences.
 
+use moris_measures::Measures;
 use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::fidelity::Fidelity;
 use moris_report::{Finding, Weight};
 
 use moris_washout::Output;
 
-use super::spans::Spans;
-use super::{Outcome, Simulation, fits_the_rig};
+use crate::spans::Spans;
+use crate::{Evaluated, Simulation};
 
 /// Less than this of a signal is not worth a sentence: RMS of the desired specific force
 /// without its mean \[m/s2\].
@@ -33,7 +34,7 @@ const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 
 /// The findings, the most important first: did it fit, what does a rider complain of, what limited
 /// it, how well was it felt.
-pub fn of(outcome: &Outcome) -> Vec<Finding> {
+pub fn of(outcome: &Evaluated) -> Vec<Finding> {
     let mut findings = vec![fits(outcome)];
     findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
     findings.extend(tilt(outcome));
@@ -46,7 +47,7 @@ fn finding(weight: Weight, text: String) -> Finding {
 }
 
 /// Fit of the recording to the rig: active limits, their durations and times.
-fn fits(outcome: &Outcome) -> Finding {
+fn fits(outcome: &Evaluated) -> Finding {
     let effort = &outcome.measures.effort;
     let simulation = &outcome.simulation;
     let hard: Vec<String> = [
@@ -64,7 +65,7 @@ fn fits(outcome: &Outcome) -> Finding {
     );
     match (hard.as_slice(), soft) {
         ([], None) => finding(Weight::Good, format!("The recording fits the rig: {used}.")),
-        ([], Some(soft)) if fits_freely(outcome) => {
+        ([], Some(soft)) if fits_freely(outcome.measures) => {
             finding(Weight::Good, format!("The recording fits the rig: {used}. {soft}"))
         }
         ([], Some(soft)) => finding(
@@ -78,9 +79,14 @@ fn fits(outcome: &Outcome) -> Finding {
     }
 }
 
-/// True if neither a safety unit nor an actuator's limit was active, and soft limits hardly ever.
-pub fn fits_freely(outcome: &Outcome) -> bool {
-    fits_the_rig(outcome) && outcome.measures.effort.soft_limited <= SELDOM
+/// True if neither a safety unit nor an actuator's limit was active.
+pub fn fits_the_rig(measures: &Measures) -> bool {
+    measures.effort.safety_active == 0.0 && measures.effort.actuator_limited == 0.0
+}
+
+/// True if soft limits were hardly ever active, either.
+pub fn fits_freely(measures: &Measures) -> bool {
+    fits_the_rig(measures) && measures.effort.soft_limited <= SELDOM
 }
 
 /// Active limits with total duration and first time; none without any.
@@ -104,7 +110,7 @@ fn soft_limited_time(simulation: &Simulation) -> Option<String> {
 }
 
 /// Shaking, jolts and peaks of the felt force on an axis beyond the desired force.
-fn comfort(outcome: &Outcome, axis: usize) -> Vec<Finding> {
+fn comfort(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
     let Some(Comfort { shake, jolt, peak }) = outcome.measures.comfort[axis] else { return Vec::new() };
     let name = AXES[axis].to_lowercase();
     let sentences = [
@@ -129,9 +135,9 @@ fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
     excess.filter(|excess| excess.value >= least)
 }
 
-fn tilt(outcome: &Outcome) -> Option<Finding> {
+fn tilt(outcome: &Evaluated) -> Option<Finding> {
     let fraction = outcome.measures.effort.tilt_limited;
-    let limits = &outcome.setup.parameters.tilt;
+    let limits = &outcome.simulation.parameters.tilt;
     (fraction > 0.0).then(|| {
         finding(
             Weight::Note,
@@ -147,7 +153,7 @@ fn tilt(outcome: &Outcome) -> Option<Finding> {
 }
 
 /// Agreement of the specific force on an axis on which there is some.
-fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
+fn force(outcome: &Evaluated, axis: usize) -> Option<Finding> {
     let name = AXES[axis];
     let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;
     let desired = deviation(outcome.simulation.inputs.iter().map(|input| input.specific_force[axis]));
@@ -163,8 +169,7 @@ fn force(outcome: &Outcome, axis: usize) -> Option<Finding> {
         (Weight::Warning, "has a larger error than a platform at rest")
     };
     let correlation = correlation.map_or(String::new(), |correlation| format!("correlation {correlation:.2}, "));
-    let bound = outcome.bounds[axis].as_ref().map_or_else(String::new, |bound| {
-        let least = bound.bound.rms_error;
+    let bound = outcome.bounds[axis].map_or_else(String::new, |least| {
         if least < FAITHFUL * rms_error {
             format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² on this rig.")
         } else {

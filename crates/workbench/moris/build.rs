@@ -1,0 +1,95 @@
+//! Compiles the simulation for the report's page to WebAssembly.
+//!
+//! Where the target is not installed the file is empty, and the page does not simulate.
+
+use std::env;
+use std::error::Error;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+const PACKAGE: &str = "moris-page-simulation";
+const PROFILE: &str = "page-simulation";
+
+/// Directories of the workspace whose files the module is compiled of.
+const SOURCES: [&str; 9] = [
+    "src",
+    "crates/interface",
+    "crates/workbench/batch/src",
+    "crates/workbench/measures/src",
+    "crates/workbench/page-simulation",
+    "crates/workbench/report/src",
+    "crates/workbench/simulation",
+    "Cargo.lock",
+    "Cargo.toml",
+];
+
+/// Variables of the outer cargo that are for the host's code only.
+const OF_THE_HOST: [&str; 6] = [
+    "CARGO_BUILD_TARGET",
+    "CARGO_ENCODED_RUSTFLAGS",
+    "CARGO_TARGET_DIR",
+    "RUSTC_WORKSPACE_WRAPPER",
+    "RUSTFLAGS",
+    "RUSTDOCFLAGS",
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let root = PathBuf::from(variable("CARGO_MANIFEST_DIR")?).join("../../..");
+    let out = PathBuf::from(variable("OUT_DIR")?);
+    for source in SOURCES {
+        println!("cargo::rerun-if-changed={}", root.join(source).display());
+    }
+    let module = if is_installed()? { compile(&root, &out)? } else { Vec::new() };
+    fs::write(out.join("page_simulation.wasm"), module)?;
+    Ok(())
+}
+
+fn variable(name: &str) -> Result<String, String> {
+    env::var(name).map_err(|error| format!("{name}: {error}"))
+}
+
+/// True if the compiler has the target's standard library. What rustup installs later is noticed.
+fn is_installed() -> Result<bool, Box<dyn Error>> {
+    let printed = |what: &[&str]| -> Result<PathBuf, Box<dyn Error>> {
+        let output = Command::new(variable("RUSTC")?).args(what).output()?;
+        Ok(PathBuf::from(String::from_utf8(output.stdout)?.trim()))
+    };
+    let components = printed(&["--print", "sysroot"])?.join("lib/rustlib/components");
+    if components.exists() {
+        println!("cargo::rerun-if-changed={}", components.display());
+    }
+    Ok(printed(&["--print", "target-libdir", "--target", TARGET])?.exists())
+}
+
+/// The module's bytes, compiled in a directory of its own, because this build holds the lock of its
+/// own. All profiles share it.
+fn compile(root: &Path, out: &Path) -> Result<Vec<u8>, Box<dyn Error>> {
+    // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
+    let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
+    let mut command = Command::new(variable("CARGO")?);
+    command.current_dir(root).args(["build", "--locked", "--offline", "--package", PACKAGE, "--profile", PROFILE]);
+    command.args(["--target", TARGET, "--target-dir"]).arg(&directory);
+    for name in OF_THE_HOST {
+        command.env_remove(name);
+    }
+    // Two numbers at once: every browser since 2023 has it.
+    command.env("RUSTFLAGS", "-Ctarget-feature=+simd128");
+    let output = command.output()?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        println!(
+            "cargo::warning=the report's page will not simulate, because {PACKAGE} does not compile: {}",
+            last_lines(&said)
+        );
+        return Ok(Vec::new());
+    }
+    Ok(fs::read(directory.join(TARGET).join(PROFILE).join("moris_page_simulation.wasm"))?)
+}
+
+/// The last lines of a message as one.
+fn last_lines(text: &str) -> String {
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
+    lines[lines.len().saturating_sub(3)..].join("; ")
+}

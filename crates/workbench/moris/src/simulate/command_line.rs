@@ -1,0 +1,56 @@
+//! The command to simulate a recording once more.
+
+use std::path::Path;
+
+/// Options about parameters, which the file takes the place of.
+const OF_PARAMETERS: [&str; 5] = ["--parameters", "--strategy", "--compare", "--against", "--preview"];
+/// The options without a value.
+const WITHOUT_VALUE: [&str; 2] = ["--no-bound", "--json"];
+
+/// This program's command line for one recording, with `--parameters` at its end for another file.
+pub fn with_other_parameters(recording: &Path) -> String {
+    // The program and its subcommand come first.
+    of(std::env::args().skip(2), &recording.display().to_string())
+}
+
+fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
+    let mut words = vec!["cargo moris simulate".to_owned(), quoted(recording)];
+    while let Some(argument) = arguments.next() {
+        let (name, value) = match argument.split_once('=') {
+            _ if !argument.starts_with("--") => continue,
+            Some((name, value)) => (name.to_owned(), Some(value.to_owned())),
+            None if WITHOUT_VALUE.contains(&argument.as_str()) => (argument, None),
+            None => (argument, arguments.next()),
+        };
+        if !OF_PARAMETERS.contains(&name.as_str()) {
+            words.push(name);
+            words.extend(value.as_deref().map(quoted));
+        }
+    }
+    words.push("--parameters".to_owned());
+    words.join(" ")
+}
+
+/// A word for a shell.
+fn quoted(word: &str) -> String {
+    let is_plain = |letter: char| letter.is_alphanumeric() || "-_./,:=+%@".contains(letter);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_options_but_those_of_parameters_stay() {
+        let words =
+            "a.csv b.csv --rig r.toml --parameters=car --strategy robust --no-bound --mounting -3,0,1 --compare x";
+        let command = of(words.split(' ').map(str::to_owned), "my ride's.csv");
+        let expected =
+            "cargo moris simulate 'my ride'\\''s.csv' --rig r.toml --no-bound --mounting -3,0,1 --parameters";
+        assert_eq!(command, expected);
+    }
+}

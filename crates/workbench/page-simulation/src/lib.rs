@@ -1,0 +1,213 @@
+//! Simulation of a recording in a report's page: plain functions over linear memory.
+//!
+//! The page writes numbers to [`numbers`], calls [`record`] once, and [`simulate`] for each set of
+//! parameters. The result is a text of JSON and the curves.
+
+use std::cell::RefCell;
+
+use moris_batch::{Manoeuvre, Replay};
+use moris_interface::{Group, Reader, slot_count};
+use moris_measures::References;
+use moris_report::{Chart, Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
+use moris_simulation::{Evaluated, Simulation, measures_with};
+use moris_washout::{Input, Parameters};
+use serde::Serialize;
+
+const INPUTS: usize = slot_count(Input::ROWS);
+const PARAMETERS: usize = slot_count(Parameters::ROWS);
+
+/// What the page knows of a recording.
+struct Recorded {
+    manoeuvre: Manoeuvre,
+    /// The parameters for which the bounds hold.
+    start: Parameters,
+    /// Least RMS error by axis \[m/s2\]; not a number where it is not known.
+    bounds: [f64; 3],
+    references: References,
+}
+
+/// Memory that the page reads and writes.
+#[derive(Default)]
+struct Exchange {
+    numbers: Vec<f64>,
+    recorded: Option<Recorded>,
+    text: String,
+    curves: Vec<f32>,
+}
+
+thread_local! {
+    static EXCHANGE: RefCell<Exchange> = RefCell::default();
+}
+
+/// All but the curves.
+#[derive(Serialize)]
+struct Answer {
+    findings: Vec<Finding>,
+    measures: Vec<Measure>,
+    limits: Limits,
+    events: Vec<Event>,
+    leans: bool,
+    charts: Vec<ChartHead>,
+}
+
+/// A chart of one line, whose values are among the curves.
+#[derive(Serialize)]
+struct ChartHead {
+    title: String,
+    quantity: String,
+    label: String,
+}
+
+/// Memory for so many numbers, which the page writes.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn numbers(count: usize) -> *mut f64 {
+    EXCHANGE.with_borrow_mut(|exchange| {
+        exchange.numbers.clear();
+        exchange.numbers.resize(count, 0.0);
+        exchange.numbers.as_mut_ptr()
+    })
+}
+
+/// Takes a recording from the numbers: the time between samples, the bounds of the three axes, the
+/// parameters for which they hold, and each sample's inputs. The result is the number of samples.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn record() -> usize {
+    EXCHANGE.with_borrow_mut(|exchange| {
+        let (head, samples) = exchange.numbers.split_at(4 + PARAMETERS);
+        let inputs: Vec<Input> =
+            samples.chunks_exact(INPUTS).map(|slots| Input::read(&mut Reader::new(slots))).collect();
+        let count = inputs.len();
+        exchange.recorded = Some(Recorded {
+            manoeuvre: Manoeuvre::new(head[0], inputs),
+            start: Parameters::read(&mut Reader::new(&head[4..])),
+            bounds: [head[1], head[2], head[3]],
+            references: References::default(),
+        });
+        count
+    })
+}
+
+/// Simulates with the parameters that the numbers hold. True if [`text`] is the answer and the
+/// curves are written; false if it is the reason why the parameters cannot be used.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn simulate() -> bool {
+    EXCHANGE.with_borrow_mut(|exchange| {
+        let parameters = Parameters::read(&mut Reader::new(&exchange.numbers));
+        match exchange.recorded.as_mut().ok_or_else(|| "no recording".to_owned()).and_then(|one| one.run(&parameters)) {
+            Ok(run) => {
+                exchange.text = answer(&run, &parameters);
+                exchange.curves = curves_of(&run);
+                true
+            }
+            Err(reason) => {
+                exchange.text = reason;
+                false
+            }
+        }
+    })
+}
+
+/// Address of the text.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn text() -> *const u8 {
+    EXCHANGE.with_borrow(|exchange| exchange.text.as_ptr())
+}
+
+/// Length of the text in bytes.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn text_length() -> usize {
+    EXCHANGE.with_borrow(|exchange| exchange.text.len())
+}
+
+/// Address of the curves: series one after the other, in the order of the page's `simulator.js`.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn curves() -> *const f32 {
+    EXCHANGE.with_borrow(|exchange| exchange.curves.as_ptr())
+}
+
+/// Number of the curves' values.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn curves_length() -> usize {
+    EXCHANGE.with_borrow(|exchange| exchange.curves.len())
+}
+
+impl Recorded {
+    fn run(&mut self, parameters: &Parameters) -> Result<Run, String> {
+        let replay = Replay::new(&self.manoeuvre);
+        let simulation = Simulation::of(&replay, parameters, || ()).map_err(|error| error.to_string())?;
+        let measures = measures_with(&simulation, &mut self.references).map_err(|error| error.to_string())?;
+        let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && self.holds(parameters)));
+        let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds };
+        let samples = simulation.inputs.len();
+        let thinning = Thinning::new(samples, samples);
+        let bounded = (0..3).filter(|&axis| self.bounds[axis].is_finite());
+        let charts = bounded.map(|axis| evaluated.felt_chart(axis, &thinning)).collect();
+        Ok(Run { charts, ..evaluated.run("", &thinning) })
+    }
+
+    /// True where the bounds hold for these parameters: with the limits for
+    /// which they were computed.
+    fn holds(&self, parameters: &Parameters) -> bool {
+        let of = |parameters: &Parameters| {
+            let Parameters { tilt, safety, structure, rig, .. } = *parameters;
+            let head = moris_washout::platform::LocationFrame::new(&structure, 0.0).point;
+            (
+                tilt,
+                safety.position_limit,
+                safety.velocity_limit,
+                safety.acceleration_limit,
+                head,
+                structure.gravity,
+                rig,
+            )
+        };
+        of(&self.start) == of(parameters)
+    }
+}
+
+fn answer(run: &Run, parameters: &Parameters) -> String {
+    let answer = Answer {
+        findings: run.findings.clone(),
+        measures: run.measures.clone(),
+        limits: run.limits,
+        events: events(run, &Rig::from(parameters)),
+        leans: !run.lean.is_empty(),
+        charts: run.charts.iter().map(head).collect(),
+    };
+    serde_json::to_string(&answer).unwrap_or_default()
+}
+
+fn head(chart: &Chart) -> ChartHead {
+    let label = chart.lines.first().map(|line| line.label.clone()).unwrap_or_default();
+    ChartHead { title: chart.title.clone(), quantity: chart.quantity.clone(), label }
+}
+
+fn curves_of(run: &Run) -> Vec<f32> {
+    let groups: [&[Vec<f64>]; 10] = [
+        &run.desired.specific_force,
+        &run.desired.angular_velocity,
+        &run.felt.specific_force,
+        &run.felt.angular_velocity,
+        &run.position,
+        &run.orientation,
+        &run.legs,
+        &run.tilt,
+        &run.tilt_rate,
+        std::slice::from_ref(&run.lean),
+    ];
+    let values = groups.into_iter().flatten().flatten().map(|&value| value as f32);
+    let limited = &run.limited;
+    let flags = [&limited.tilt, &limited.safety, &limited.actuator]
+        .into_iter()
+        .flatten()
+        .map(|&flag| f32::from(u8::from(flag)));
+    let of_charts = run.charts.iter().flat_map(|chart| &chart.lines).flat_map(|line| &line.values);
+    values.chain(flags).chain(of_charts.map(|&value| value as f32)).collect()
+}

@@ -1,0 +1,93 @@
+// One parameter of the panel: its name, a field, a slider with its start marked.
+
+const STEPS = 400;
+/** A slider whose ends are farther apart goes by ratios; those of scales are not. */
+const WIDE = 100;
+
+/** With at most three digits, so that a chosen value is one that a person would write. */
+const rounded = (value) => Number(value.toPrecision(3));
+const inWords = (value) => withMinus(String(Number(value.toPrecision(6))));
+
+class ParameterControl {
+  /** `changed(value)` is called while a control moves, `done()` when it is let go. */
+  constructor(parameter, value, changed, done) {
+    this.parameter = parameter;
+    const id = `parameter-${parameter.name}`;
+    const label = element("label", { for: id, title: parameter.text }, [parameter.name]);
+    const unit = parameter.unit ? [" ", element("span", { class: "unit" }, [parameter.unit])] : [];
+    const name = element("span", { class: "name" }, [label, ...unit]);
+    this.element = element("div", { class: "parameter" }, [name, ...this.controls(id, changed, done)]);
+    this.show(value);
+  }
+
+  controls(id, changed, done) {
+    const { kind, items } = this.parameter;
+    const act = (value) => {
+      changed(value);
+      done();
+    };
+    if (kind === "enumeration") {
+      this.field = element("select", { id }, items.map((item, i) => element("option", { value: String(i + 1) }, [item])));
+      this.field.addEventListener("change", () => act(Number(this.field.value)));
+      return [this.field];
+    }
+    if (kind === "boolean") {
+      this.field = element("input", { id, type: "checkbox" });
+      this.field.addEventListener("change", () => act(Number(this.field.checked)));
+      return [this.field];
+    }
+    this.field = element("input", { id, type: "number", step: kind === "integer" ? "1" : "any", min: this.parameter.accepted[0], max: this.parameter.accepted[1] });
+    this.field.addEventListener("change", () => {
+      if (this.field.value !== "" && this.field.checkValidity()) act(Number(this.field.value));
+      else this.field.reportValidity();
+    });
+    return [this.field, this.track(changed, done)];
+  }
+
+  track(changed, done) {
+    const { name, text, slider: [low, high], start } = this.parameter;
+    this.slider = element("input", { type: "range", min: "0", max: String(STEPS), step: "1", "aria-label": name, title: text });
+    this.slider.addEventListener("input", () => {
+      changed(this.valueAt(Number(this.slider.value)));
+    });
+    this.slider.addEventListener("change", done);
+    // The middle of the knob goes from half its width to half its width before the end.
+    const share = this.placeOf(start) / STEPS;
+    const mark = element("span", { class: "start", title: `start: ${inWords(start)}`, style: `left: calc(8px + ${share} * (100% - 16px))` });
+    const end = (value) => element("span", { class: "end", "aria-hidden": "true" }, [inWords(value)]);
+    return element("span", { class: "range" }, [end(low), element("span", { class: "slide" }, [mark, this.slider]), end(high)]);
+  }
+
+  get byRatio() {
+    const [low, high] = this.parameter.slider;
+    return low > 0 && high / low > WIDE;
+  }
+
+  /** The slider's place of a value, and the value of a place; at the start's place, the start. */
+  placeOf(value) {
+    const [low, high] = this.parameter.slider;
+    const inside = Math.min(high, Math.max(low, value));
+    const share = this.byRatio ? Math.log(inside / low) / Math.log(high / low) : (inside - low) / (high - low);
+    return Math.round(share * STEPS);
+  }
+
+  valueAt(place) {
+    const { slider: [low, high], kind, start } = this.parameter;
+    if (place === this.placeOf(start)) return start;
+    const share = place / STEPS;
+    if (share === 0 || share === 1) return share ? high : low;
+    const value = this.byRatio ? low * (high / low) ** share : low + share * (high - low);
+    return kind === "integer" ? Math.round(value) : rounded(value);
+  }
+
+  show(value) {
+    const { kind, unit, start } = this.parameter;
+    if (kind === "boolean") this.field.checked = value !== 0;
+    else this.field.value = String(value);
+    if (this.slider) {
+      this.slider.value = String(this.placeOf(value));
+      this.slider.setAttribute("aria-valuetext", `${inWords(value)} ${unit}, start ${inWords(start)}`);
+    }
+    this.element.classList.toggle("changed", value !== start);
+  }
+}

@@ -1,0 +1,68 @@
+//! What a page needs to simulate its recording again, with other parameters.
+
+use serde::Serialize;
+
+use crate::encode::{bytes, exact};
+
+/// The simulation as WebAssembly, the recording's inputs, and the parameters to choose from.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Simulator {
+    /// The compiled package `moris-page-simulation`.
+    #[serde(serialize_with = "bytes")]
+    pub module: Vec<u8>,
+    /// Time between samples \[s\].
+    pub step: f64,
+    /// The recording's samples; the inputs may be those of its beginning only.
+    pub samples: usize,
+    /// Slot by slot of the washout's inputs, a value for each sample.
+    #[serde(serialize_with = "exact")]
+    pub inputs: Vec<Vec<f64>>,
+    /// Least RMS error of the specific force on each axis with the first run's limits \[m/s2\].
+    pub bounds: [Option<f64>; 3],
+    /// Slot by slot of the washout's parameters.
+    pub parameters: Vec<Parameter>,
+    /// Names and values of the set that each strategy has, by the strategy's name.
+    pub sets: Vec<(String, Vec<(String, f64)>)>,
+    /// Heading of a saved parameter file, without the marks of a comment.
+    pub heading: String,
+    /// The command that simulates with the saved file, and the file's name at its end.
+    pub command: String,
+    /// Name of the saved file.
+    pub file: String,
+}
+
+/// A parameter to choose.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Parameter {
+    pub name: String,
+    /// Description, a sentence.
+    pub text: String,
+    /// Empty for pure numbers.
+    pub unit: String,
+    pub kind: ParameterKind,
+    /// Names of an enumeration's items, of which the first has the value 1.
+    pub items: Vec<String>,
+    /// Values that are accepted.
+    pub accepted: [f64; 2],
+    /// Values of the slider.
+    pub slider: [f64; 2],
+    /// Heading below which it stands; none for one that only a search shows.
+    pub group: Option<String>,
+    /// False for what belongs to the rig or the recording.
+    pub is_free: bool,
+    /// The first run's value.
+    pub start: f64,
+    /// The value of the rig with default parameters, which a parameter file omits.
+    pub base: f64,
+}
+
+/// Type of a parameter's values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ParameterKind {
+    #[default]
+    Real,
+    Integer,
+    Boolean,
+    Enumeration,
+}

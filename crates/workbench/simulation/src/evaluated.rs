@@ -1,0 +1,122 @@
+//! A simulation with its measures: rows, findings and the run of a report.
+
+use std::array;
+
+use moris_measures::{Axes, Measures, Row, bound_rows};
+use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Run, Thinning};
+use moris_washout::Output;
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use crate::{Simulation, findings};
+
+/// A simulation, its measures, and the least possible errors.
+#[derive(Clone, Copy, Debug)]
+pub struct Evaluated<'a> {
+    /// All inputs and outputs.
+    pub simulation: &'a Simulation,
+    /// The measures.
+    pub measures: &'a Measures,
+    /// The least RMS error of the specific force that a controller could reach, by axis \[m/s2\];
+    /// none where it is not known.
+    pub bounds: Axes<Option<f64>>,
+}
+
+impl Evaluated<'_> {
+    /// The rows of the measures, and of the bounds with the felt error.
+    pub fn rows(&self) -> Vec<Row> {
+        let on_axis = |axis: usize| {
+            let felt = self.measures.force[axis]?.rms_error;
+            Some(bound_rows(["x", "y", "z"][axis], self.desired_rms(axis), felt, self.bounds[axis]?))
+        };
+        self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten()).collect()
+    }
+
+    /// The felt force on an axis without gravity, for the chart of the least possible error.
+    pub fn felt_chart(&self, axis: usize, thinning: &Thinning) -> Chart {
+        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
+        let felt = |k: usize| self.simulation.outputs[k].felt_specific_force[axis] - rest;
+        Chart {
+            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
+            quantity: "specific force without gravity [m/s²]".to_owned(),
+            times: Vec::new(),
+            lines: vec![Line { label: "felt".to_owned(), values: thinning.extremes(felt) }],
+            limits: Vec::new(),
+        }
+    }
+
+    /// RMS of the desired specific force as a deviation from rest \[m/s2\].
+    fn desired_rms(&self, axis: usize) -> f64 {
+        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
+        let inputs = &self.simulation.inputs;
+        let squares = inputs.iter().map(|input| input.specific_force[axis] - rest).map(|force| force * force);
+        (squares.sum::<f64>() / inputs.len() as f64).sqrt()
+    }
+
+    /// The findings, the most important first.
+    pub fn findings(&self) -> Vec<Finding> {
+        findings::of(self)
+    }
+
+    /// The run of a report, without further charts.
+    pub fn run(&self, name: &str, thinning: &Thinning) -> Run {
+        let Simulation { inputs, outputs, step, parameters, .. } = self.simulation;
+        let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
+        let desired_rates = self.simulation.desired_rates();
+        let leans = inputs.iter().any(|input| input.lean != 0.0);
+        Run {
+            name: name.to_owned(),
+            findings: self.findings(),
+            times: thinning.at_times(|k| k as f64 * step),
+            desired: Cues {
+                specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
+                angular_velocity: array::from_fn(|axis| thinning.extremes(|k| desired_rates[k][axis])),
+            },
+            felt: Cues {
+                specific_force: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_specific_force[axis])),
+                angular_velocity: array::from_fn(|axis| thinning.extremes(|k| outputs[k].felt_angular_velocity[axis])),
+            },
+            // A pose is that of one time.
+            position: array::from_fn(|axis| thinning.at_times(|k| outputs[k].position[axis])),
+            orientation: array::from_fn(|axis| thinning.at_times(|k| outputs[k].orientation.to_vector()[axis])),
+            legs: array::from_fn(|leg| thinning.extremes(|k| outputs[k].length[leg])),
+            tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
+            tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
+            lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
+            limited: Limited {
+                tilt: thinning.any(|k| outputs[k].tilt_limited),
+                safety: thinning.any(|k| outputs[k].safety_active),
+                actuator: thinning.any(|k| outputs[k].actuator_limited),
+            },
+            limits: parameters.into(),
+            measures: self.rows().into_iter().map(measure).collect(),
+            charts: Vec::new(),
+        }
+    }
+}
+
+fn measure(row: Row) -> Measure {
+    Measure {
+        group: capitalised(&row.subject),
+        name: row.name.to_owned(),
+        value: row.value,
+        unit: row.unit.to_owned(),
+        better: better(row.name),
+        definition: row.definition.to_owned(),
+        source: row.source.to_owned(),
+    }
+}
+
+/// Which of two values of a measure of this name is the better.
+fn better(name: &str) -> Better {
+    match name {
+        "correlation" | "smallest stroke margin" => Better::More,
+        "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "relative bound" => Better::Neither,
+        _ => Better::Less,
+    }
+}
+
+/// A text with its first letter in upper case.
+pub fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

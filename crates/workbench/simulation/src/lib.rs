@@ -1,0 +1,20 @@
+//! Simulation of a recording with its measures and findings.
+//!
+//! The workbench and the report's page use it. The page has it as WebAssembly, so that both have
+//! the same numbers and sentences: no threads, no files.
+//!
+//! - [`Simulation`] steps the washout; [`preview`] gives it the recording's future.
+//! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
+
+#![forbid(unsafe_code)]
+
+mod evaluated;
+pub mod findings;
+mod measured;
+pub mod preview;
+mod simulation;
+mod spans;
+
+pub use evaluated::{Evaluated, capitalised};
+pub use measured::{measures, measures_with};
+pub use simulation::Simulation;
