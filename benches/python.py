@@ -12,9 +12,8 @@ import sys
 import time
 from pathlib import Path
 
-import numpy as np
-
 import moris
+import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
 FMU = ROOT / "target" / "fmu" / "MorisWashout.fmu"

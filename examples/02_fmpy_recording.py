@@ -10,7 +10,6 @@ to 1.5 m/s² within 2 s and goes back to zero, twice as fast. Inputs that it lac
 
 import numpy as np
 from fmpy import simulate_fmu
-
 from picture import BLUE, GREY, draw
 
 time = np.linspace(0, 20, 2001)

@@ -13,7 +13,6 @@ import shutil
 import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
-
 from picture import BLUE, GREY, draw
 
 GRAVITY = 9.80665

@@ -8,12 +8,11 @@ its workspace; `cargo build-fmu --rig examples/04_own_rig.toml` embeds it in an 
 `target/examples/04_own_rig.svg`.
 """
 
-import tomllib
 from pathlib import Path
 
 import numpy as np
+import tomllib
 from fmpy import simulate_fmu
-
 from picture import BLUE, GREY, ORANGE, draw
 
 rig = tomllib.loads(Path("examples/04_own_rig.toml").read_text())

@@ -7,11 +7,10 @@ sample. Draws `target/examples/05_tune.svg`.
 """
 
 import subprocess
-import tomllib
 from pathlib import Path
 
 import numpy as np
-
+import tomllib
 from picture import BLUE, GREY, ORANGE, draw
 from recording import main as write_recording
 

@@ -10,7 +10,6 @@ The system's inputs are the rider's commands: throttle, brake and lean. The moto
 import numpy as np
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssv
-
 from picture import BLUE, GREY, ORANGE, draw
 
 DURATION = 45.0  # s

@@ -8,7 +8,6 @@ Draws `target/examples/10_lap.svg` and writes the lap as a recording, `target/ex
 
 import numpy as np
 from fmpy.ssp.simulation import simulate_ssp
-
 from picture import BLUE, GREY, ORANGE, draw
 
 DURATION = 100.0  # s

@@ -4,13 +4,11 @@ import sys
 from pathlib import Path
 
 import ecospy
-from ecospy.EcosSimulation import EcosSimulation
-from ecospy.EcosSimulationStructure import EcosSimulationStructure
-
 import report
 import simulator
+from ecospy.EcosSimulation import EcosSimulation
+from ecospy.EcosSimulationStructure import EcosSimulationStructure
 from ride import Ride
-
 
 # proxyfmu reads 512 bytes of a reply, and crashes on what is longer: that many real outputs and its head fit.
 OUTPUTS_OF_A_REPLY = 60

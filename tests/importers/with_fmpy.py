@@ -6,15 +6,14 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import report
+import simulator
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
 from fmpy.fmi2 import FMU2Slave
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssv
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
-
-import report
-import simulator
 from ride import Ride
 
 FMUS, WORK = sys.argv[1].split(","), Path(sys.argv[2])

@@ -6,11 +6,10 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import report
 from fmpy import simulate_fmu
 from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
-
-import report
 from ride import Ride
 
 TOOLS = Path(sys.executable).parent

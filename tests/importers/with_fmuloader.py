@@ -4,10 +4,9 @@ import sys
 import zipfile
 from pathlib import Path
 
+import report
 from fmuloader.fmi2 import Fmi2Slave, Fmi2Type
 from fmuloader.fmi3 import Fmi3Slave
-
-import report
 from ride import Ride
 
 

@@ -2,13 +2,12 @@
 
 import sys
 
+import report
+import simulator
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimManipulator import CosimManipulator
 from libcosimpy.CosimObserver import CosimObserver
 from libcosimpy.CosimSlave import CosimLocalSlave
-
-import report
-import simulator
 from ride import Ride
 
 NANOSECONDS = 1e9

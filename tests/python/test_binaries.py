@@ -5,9 +5,8 @@ import sys
 import zipfile
 
 import pytest
-from elftools.elf.elffile import ELFFile
-
 from conftest import ROOT
+from elftools.elf.elffile import ELFFile
 
 # The oldest that Rust supports: RHEL 7 and everything since.
 OLDEST_GLIBC = (2, 17)

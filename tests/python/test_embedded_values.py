@@ -4,10 +4,9 @@ import subprocess
 
 import numpy as np
 import pytest
+from conftest import ROOT
 from fmpy import read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
-
-from conftest import ROOT
 
 RIG = ROOT / "examples" / "rigs" / "narrow.toml"
 LEGS = [f"actuator[{i}].length" for i in range(1, 7)]
@@ -28,9 +27,9 @@ def starts(fmu):
     return {v.name: v.start for v in read_model_description(fmu).modelVariables if v.start is not None}
 
 
-def simulate(fmu, lengths, start_values={}):
+def simulate(fmu, lengths, start_values=None):
     """The actuators' lengths after each of 500 steps of 1 ms with an acceleration that is there from the beginning."""
-    result = simulate_fmu(fmu, stop_time=0.5, step_size=0.001, output_interval=0.001, start_values=start_values, output=lengths)
+    result = simulate_fmu(fmu, stop_time=0.5, step_size=0.001, output_interval=0.001, start_values=start_values or {}, output=lengths)
     return np.column_stack([result[name] for name in lengths])
 
 

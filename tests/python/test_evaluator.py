@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
-
 from conftest import ANGLES, AXES
+from scipy.spatial.transform import Rotation
 
 STEP = 1e-3
 GRAVITY = 9.80665

@@ -5,10 +5,9 @@ import zipfile
 
 import numpy as np
 import pytest
+from conftest import ROOT, stated
 from fmpy import read_model_description, simulate_fmu
 from fmpy.util import read_csv
-
-from conftest import ROOT, stated
 
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 RIDE = "extra/org.fmi-standard.fmi-ls-ref"

@@ -4,11 +4,10 @@ import multiprocessing
 
 import numpy as np
 import pytest
+from conftest import AXES, Washout
 from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
-
-from conftest import AXES, Washout
 
 POSE = [f"platform.position.{a}" for a in AXES] + ["platform.orientation.pitch", "rider.specificForce.x"]
 LEGS = [f"actuator[{i}].length" for i in range(1, 7)]

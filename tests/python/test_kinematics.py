@@ -1,9 +1,8 @@
 """The legs, against scipy's rotations."""
 
 import numpy as np
-from scipy.spatial.transform import Rotation
-
 from conftest import ANGLES, AXES
+from scipy.spatial.transform import Rotation
 
 
 def test_legs_are_the_inverse_kinematics_of_the_pose(washout):

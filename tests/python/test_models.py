@@ -4,10 +4,10 @@ import shutil
 
 import numpy as np
 import pytest
+from conftest import ROOT
+from conftest import Washout as Instance
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.validation import validate_fmu
-
-from conftest import ROOT, Washout as Instance
 
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]
 

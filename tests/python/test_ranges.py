@@ -5,10 +5,9 @@ import os
 from pathlib import Path
 
 import pytest
+from conftest import ROOT, stated
 from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.fmi1 import FMICallException
-
-from conftest import ROOT, stated
 
 FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]

@@ -8,10 +8,9 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from conftest import ANGLES, AXES, ROOT, example
 from fmpy import read_model_description
 from lxml import etree
-
-from conftest import ANGLES, AXES, ROOT, example
 
 ENDS = ("startElement", "startConnector", "endElement", "endConnector")
 SCHEMAS = Path(fmpy.__file__).parent / "ssp" / "schema"

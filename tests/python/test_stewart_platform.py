@@ -6,10 +6,10 @@ import shutil
 
 import numpy as np
 import pytest
+from conftest import ANGLES, AXES, ROOT
+from conftest import Washout as Instance
 from fmpy import extract, read_model_description
 from scipy.spatial.transform import Rotation
-
-from conftest import ANGLES, AXES, ROOT, Washout as Instance
 
 LEGS = range(1, 7)
 STEP = 1e-3

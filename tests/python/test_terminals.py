@@ -5,10 +5,9 @@ from pathlib import Path
 
 import fmpy
 import pytest
+from conftest import ROOT, stated
 from fmpy import read_model_description
 from lxml import etree
-
-from conftest import ROOT, stated
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 MODELS = ["MorisWashout", "Motorcycle", "StewartPlatform"]

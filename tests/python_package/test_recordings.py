@@ -3,12 +3,11 @@
 import pickle
 import subprocess
 
+import moris
 import numpy as np
 import pandas
 import pytest
 from conftest import ROOT, STANDARD_GRAVITY, gentle
-
-import moris
 
 NAMES = ["time", "ax", "ay", "az", "wx", "wy", "wz"]
 

@@ -3,11 +3,10 @@
 import subprocess
 import sys
 
+import moris
 import numpy as np
 import pytest
 from conftest import ROOT, STANDARD_GRAVITY
-
-import moris
 
 
 @pytest.fixture

@@ -4,10 +4,9 @@ import os
 import signal
 import threading
 
+import moris
 import numpy as np
 import pytest
-
-import moris
 
 pytest.importorskip("distributed")
 from distributed import Client, LocalCluster  # noqa: E402

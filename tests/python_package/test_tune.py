@@ -4,12 +4,11 @@ import os
 import signal
 import subprocess
 
+import moris
 import numpy as np
 import pandas
 import pytest
 from conftest import ROOT
-
-import moris
 
 
 @pytest.fixture(scope="module")

@@ -5,13 +5,12 @@ import pickle
 import threading
 import time as clock
 
+import moris
 import numpy as np
 import pytest
 from conftest import STANDARD_GRAVITY, gentle
 from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
-
-import moris
 
 STEP = 2.0**-7
 """A power of two: samples of few bits have slopes without rounding."""

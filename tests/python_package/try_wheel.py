@@ -9,9 +9,8 @@ import hashlib
 import pickle
 import sys
 
-import numpy as np
-
 import moris
+import numpy as np
 
 STRATEGIES = ("classical", "adaptive", "optimal", "robust", "predictive")
 

@@ -11,7 +11,6 @@ import base64
 from pathlib import Path
 
 from playwright.sync_api import sync_playwright
-
 from run import browser
 
 SIZE = {"width": 1366, "height": 768}
