@@ -112,11 +112,12 @@ def test_what_cannot_be_is_refused_with_the_argument_that_helps(ride, change, op
 
 def test_no_message_names_an_option_of_the_command():
     """Every option that a message of the import code may name is an argument here."""
-    from moris._recording import OPTIONS, _in_python
+    from moris._recording import FLAGS, OPTIONS, _in_python
 
     for option in OPTIONS:
         flag = option.replace("_", "-")
-        assert _in_python(f"use --{flag}.") == f"use {option}."
+        argument = f"{option}=True" if option in FLAGS else option
+        assert _in_python(f"use --{flag}.") == f"use {argument}."
     text = 'correct it with --columns ax=NAME,ay=NAME, --force-unit m/s2 or "--time-unit"'
     assert _in_python(text) == 'correct it with columns={"ax": "NAME", "ay": "NAME"}, force_unit="m/s2" or "time_unit"'
 
