@@ -198,14 +198,36 @@ fn degenerate_programs_are_solved() {
     compare_degenerate(2, 300);
 }
 
-#[test]
-#[ignore = "takes minutes: 100,000 programs"]
-fn a_hundred_thousand_programs_have_the_solution_that_an_interior_point_method_finds() {
-    compare_feasible(11, 20_000);
-    compare_degenerate(12, 15_000);
-    let mut random = Random(13);
-    for _ in 0..10_000 {
-        compare(&random.infeasible::<16, 40>());
+/// A hundred thousand programs have the solution that an interior point method finds: the tests of
+/// this module run side by side.
+mod many {
+    use super::*;
+
+    #[test]
+    #[ignore = "takes a minute: 30,000 programs"]
+    fn feasible() {
+        compare_feasible(11, 10_000);
+    }
+
+    #[test]
+    #[ignore = "takes a minute: 30,000 programs"]
+    fn other_feasible() {
+        compare_feasible(14, 10_000);
+    }
+
+    #[test]
+    #[ignore = "takes a minute: 30,000 programs"]
+    fn degenerate() {
+        compare_degenerate(12, 15_000);
+    }
+
+    #[test]
+    #[ignore = "takes a minute: 10,000 programs"]
+    fn infeasible() {
+        let mut random = Random(13);
+        for _ in 0..10_000 {
+            compare(&random.infeasible::<16, 40>());
+        }
     }
 }
 
