@@ -35,6 +35,7 @@ mod model;
 pub mod motion;
 pub mod platform;
 pub mod presets;
+pub mod riccati;
 mod validate;
 mod washout;
 

@@ -20,7 +20,6 @@ pub mod minimax;
 pub mod optimal;
 pub mod predictive;
 pub mod regulator;
-pub mod riccati;
 pub mod robust;
 pub mod smooth_tilt;
 

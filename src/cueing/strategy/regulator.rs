@@ -4,9 +4,9 @@
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
-use super::riccati;
 use super::smooth_tilt::TiltLimits;
 use crate::interface::{OptimalParameters, PredictiveParameters, RobustParameters};
+use crate::riccati;
 
 /// Position \[m\], velocity \[m/s\], tilt \[rad\], tilt rate \[rad/s\], and the slow and the fast
 /// part of the reference \[m/s2\].
@@ -115,7 +115,7 @@ impl Problem {
     /// The cost to come of the regulator against a disturbance D D'/gamma^2, in scaled states. None
     /// if the Riccati equation has no solution in numbers, or none without a disturbance that pays.
     pub fn cost(&self, disturbance: &SMatrix<f64, 6, 6>) -> Option<SMatrix<f64, 6, 6>> {
-        let cost = riccati::solve(&self.a, &(self.b * self.to_input - disturbance), &self.q)?;
+        let cost = riccati::solve::<6, 12>(&self.a, &(self.b * self.to_input - disturbance), &self.q)?;
         // Rounding alone makes the least eigenvalue of a semidefinite matrix negative.
         (cost.symmetric_eigenvalues().min() >= -1e-9 * cost.amax()).then_some(cost)
     }

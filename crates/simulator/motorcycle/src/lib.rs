@@ -10,7 +10,7 @@
 //! | [`suspension`] | heave and pitch: a half-bike on two springs |
 //! | [`lateral`] | lean, steer, lateral velocity and yaw on tyres that slip, in the manner of Sharp (1971) |
 //! | [`whipple`] | the limit for stiff tyres: the benchmark bicycle of Meijaard et al. (2007) |
-//! | [`rider`], [`riccati`] | lean control by steering torque and torso |
+//! | [`rider`] | lean control by steering torque and torso |
 //! | [`path`] | a path, and the rider who follows it |
 //! | [`pose`] | the pose in the world, and the specific force at the head |
 //! | [`state`] | the state vector and its integration |
@@ -33,7 +33,6 @@ mod motorcycle;
 mod output_rate;
 pub mod path;
 pub mod pose;
-pub mod riccati;
 pub mod rider;
 mod speeds;
 pub mod state;

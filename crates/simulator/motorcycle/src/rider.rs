@@ -11,12 +11,12 @@
 //! see [`crate::lateral::foot_support`].
 
 use moris_interface::ParameterError;
+use moris_washout::riccati;
 use nalgebra::{Matrix6, SMatrix, SVector, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::interface::{self, Parameters};
 use crate::lateral::{self, Lateral, foot_support, place};
-use crate::riccati::lqr_gain;
 use crate::speeds::Speeds;
 
 /// The lateral state, and the accumulated error of the lean.
@@ -248,14 +248,11 @@ fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Opt
     cost[place::STEER] = 25.0;
     cost[place::STEER_RATE] = 0.25;
     cost[ERROR] = 100.0;
-    let gain = lqr_gain(
-        &(inverse * a * scale),
-        &(inverse * torque),
-        &SMatrix::from_diagonal(&cost),
-        limits.torque_weight * limits.torque_weight,
-        CAYLEY_SHIFT,
-    )?;
-    let gain = inverse * gain;
+    let torque = inverse * torque;
+    let ease = limits.torque_weight * limits.torque_weight;
+    let spread = torque * torque.transpose() * ease;
+    let to_go = riccati::solve::<SIZE, { 2 * SIZE }>(&(inverse * a * scale), &spread, &SMatrix::from_diagonal(&cost))?;
+    let gain = inverse * to_go * torque * ease;
     let finite = gain.iter().chain(turn.iter()).chain([&turn_torque]).all(|number| number.is_finite());
     finite.then(|| GainSet {
         gain: gain.fixed_rows::<{ lateral::SIZE }>(0).into_owned(),
@@ -264,9 +261,6 @@ fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Opt
         turn_torque,
     })
 }
-
-/// See [`lqr_gain`] \[1/s\].
-const CAYLEY_SHIFT: f64 = 20.0;
 
 /// Lateral state and torque of a steady turn with the lean 1. Lean rate and steer rate are zero.
 /// The other five variables and the torque solve six equations.

@@ -15,11 +15,11 @@
 //! J. Dyn. Syst. Meas. Control 129 (2007) 373-382, in continuous time. The integral is taken over
 //! [`SAMPLES`] intervals in which ρ is linear.
 
+use moris_washout::riccati;
 use nalgebra::{SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
 use crate::lateral::{self, Actions, Lateral, place};
-use crate::riccati::cost_to_go;
 use crate::rider::{GainSet, Rider};
 use crate::speeds::Speeds;
 
@@ -229,7 +229,8 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     for (coordinate, size) in WEIGHTS {
         cost[coordinate] = 1.0 / (size * size);
     }
-    let to_go = cost_to_go(&scaled, &control(), &PlantMatrix::from_diagonal(&cost), EASE, CAYLEY_SHIFT)?;
+    let spread = control() * control().transpose() * EASE;
+    let to_go = riccati::solve::<SIZE, { 2 * SIZE }>(&scaled, &spread, &PlantMatrix::from_diagonal(&cost))?;
     let gain = to_go * control() * EASE;
     let closed = scaled - control() * gain.transpose();
     // The mean of exp(A_c' τ) P X over each interval.
@@ -248,8 +249,6 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
 /// Deviations of equal cost. A control of 1 / sqrt([`EASE`]) has the same cost.
 pub const WEIGHTS: [(usize, f64); 4] = [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL, 0.3)];
 pub const EASE: f64 = 16.0;
-/// See [`cost_to_go`] \[1/s\].
-const CAYLEY_SHIFT: f64 = 20.0;
 
 /// exp(A t), and the mean of exp(A τ) from 0 to t, by Taylor's series over a small part of the time
 /// and repeated doubling.

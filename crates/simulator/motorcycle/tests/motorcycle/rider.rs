@@ -1,35 +1,10 @@
 //! The rider: gains compared with closed forms, stability at all speeds, and tracking of the lean.
 
 use moris_motorcycle::lateral::place;
-use moris_motorcycle::riccati::lqr_gain;
 use moris_motorcycle::{Input, Model, Parameters};
-use nalgebra::{Complex, Matrix1, Matrix2, SMatrix, SVector, Vector1, Vector2};
+use nalgebra::{Complex, SMatrix, SVector};
 
 use crate::common::{assert_near, at_speed, cruise, motorcycle};
-
-#[test]
-fn the_gain_of_an_unstable_first_order_system_is_the_closed_forms() {
-    for (a, b, q, ease) in [(1.0, 1.0, 1.0, 1.0), (-3.0, 2.0, 10.0, 0.1), (5.0, 0.2, 100.0, 4.0)] {
-        let gain = lqr_gain(&Matrix1::new(a), &Vector1::new(b), &Matrix1::new(q), ease, 2.0).unwrap();
-        // u = -k x with k = (a + sqrt(a^2 + b^2 q ease)) / b
-        assert_near(gain[0], (a + f64::sqrt(a * a + b * b * q * ease)) / b, 1e-12, "gain");
-    }
-}
-
-#[test]
-fn the_gain_of_a_double_integrator_is_the_closed_forms() {
-    let a = Matrix2::new(0.0, 1.0, 0.0, 0.0);
-    let q = Matrix2::new(16.0, 0.0, 0.0, 0.0);
-    let gain = lqr_gain(&a, &Vector2::new(0.0, 1.0), &q, 1.0, 2.0).unwrap();
-    assert_near(gain[0], 4.0, 1e-12, "of the position");
-    assert_near(gain[1], f64::sqrt(8.0), 1e-12, "of the velocity");
-}
-
-#[test]
-fn what_cannot_be_controlled_has_no_gain() {
-    let a = Matrix2::new(1.0, 0.0, 0.0, -1.0);
-    assert!(lqr_gain(&a, &Vector2::new(0.0, 1.0), &Matrix2::identity(), 1.0, 2.0).is_none());
-}
 
 /// Kalman's identity for x' = A x + b u with the cost x' Q x + u^2 / e.
 ///

@@ -1,11 +1,8 @@
 //! The algebraic Riccati equation of a linear-quadratic regulator.
 
-use nalgebra::SMatrix;
+use nalgebra::{Const, DimMin, SMatrix, ToTypenum};
 
-/// Size of the regulator's state.
-const N: usize = 6;
-type Square = SMatrix<f64, N, N>;
-type Hamiltonian = SMatrix<f64, { 2 * N }, { 2 * N }>;
+type Square<const N: usize> = SMatrix<f64, N, N>;
 
 /// The matrix sign iteration converges quadratically; a solvable equation needs 10 to 20.
 const MAX_ITERATIONS: usize = 60;
@@ -15,13 +12,18 @@ const MAX_ITERATIONS: usize = 60;
 const TOLERANCE: f64 = 1e-6;
 
 /// Solves A'P + PA + Q - PSP = 0 for the stabilizing P, with S = B R^-1 B'. None
-/// if there is no such P.
+/// if there is no such P. M is 2 N.
 ///
 /// By the matrix sign function (Roberts, *International Journal of Control* 32 (1980) 677-687): the
 /// sign W of the Hamiltonian [A -S; -Q -A'] satisfies (W + I) [I; P] = 0. Newton's iteration W <-
 /// (c W + (c W)^-1) / 2 is scaled by norms. The states and inputs should be scaled to about 1.
-pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
-    let mut w = Hamiltonian::zeros();
+pub fn solve<const N: usize, const M: usize>(a: &Square<N>, s: &Square<N>, q: &Square<N>) -> Option<Square<N>>
+where
+    Const<N>: ToTypenum,
+    Const<M>: ToTypenum + DimMin<Const<N>, Output = Const<N>>,
+{
+    const { assert!(M == 2 * N) };
+    let mut w = SMatrix::<f64, M, M>::zeros();
     w.fixed_view_mut::<N, N>(0, 0).copy_from(a);
     w.fixed_view_mut::<N, N>(0, N).copy_from(&-s);
     w.fixed_view_mut::<N, N>(N, 0).copy_from(&-q);
@@ -36,7 +38,7 @@ pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
             break;
         }
     }
-    w += Hamiltonian::identity();
+    w += SMatrix::<f64, M, M>::identity();
     // The last N columns times P are minus the first N.
     let (left, right) = (w.fixed_columns::<N>(0).into_owned(), w.fixed_columns::<N>(N).into_owned());
     let qr = right.qr();
@@ -51,21 +53,23 @@ pub fn solve(a: &Square, s: &Square, q: &Square) -> Option<Square> {
 }
 
 /// The left side of the equation, which a solution makes zero.
-pub fn residual(a: &Square, s: &Square, q: &Square, p: &Square) -> Square {
+pub fn residual<const N: usize>(a: &Square<N>, s: &Square<N>, q: &Square<N>, p: &Square<N>) -> Square<N> {
     a.transpose() * p + p * a + q - p * s * p
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::{Matrix2, Matrix6};
+
     use super::*;
 
     #[test]
     fn uncoupled_scalar_equations_have_their_closed_form() {
-        let a = Square::from_fn(|i, j| if i == j { [-2.0, -1.0, 0.0, 0.5, 1.0, -0.01][i] } else { 0.0 });
-        let s = Square::from_fn(|i, j| if i == j { [1.0, 0.1, 2.0, 3.0, 0.5, 1.0][i] } else { 0.0 });
-        let q = Square::from_fn(|i, j| if i == j { [1.0, 5.0, 0.3, 1.0, 2.0, 0.04][i] } else { 0.0 });
-        let p = solve(&a, &s, &q).unwrap();
-        for k in 0..N {
+        let a = Matrix6::from_fn(|i, j| if i == j { [-2.0, -1.0, 0.0, 0.5, 1.0, -0.01][i] } else { 0.0 });
+        let s = Matrix6::from_fn(|i, j| if i == j { [1.0, 0.1, 2.0, 3.0, 0.5, 1.0][i] } else { 0.0 });
+        let q = Matrix6::from_fn(|i, j| if i == j { [1.0, 5.0, 0.3, 1.0, 2.0, 0.04][i] } else { 0.0 });
+        let p = solve::<6, 12>(&a, &s, &q).unwrap();
+        for k in 0..6 {
             let (a, s, q) = (a[(k, k)], s[(k, k)], q[(k, k)]);
             let expected = (a + (a * a + s * q).sqrt()) / s;
             assert!((p[(k, k)] - expected).abs() < 1e-12 * expected, "{k}: {} beside {expected}", p[(k, k)]);
@@ -73,10 +77,25 @@ mod tests {
     }
 
     #[test]
+    fn the_double_integrators_gains_are_the_closed_forms() {
+        let p = solve::<2, 4>(
+            &Matrix2::new(0.0, 1.0, 0.0, 0.0),
+            &Matrix2::new(0.0, 0.0, 0.0, 1.0),
+            &Matrix2::new(16.0, 0.0, 0.0, 0.0),
+        );
+        let gains = p.unwrap().row(1).into_owned();
+        assert!((gains[0] - 4.0).abs() < 1e-12, "of the position: {}", gains[0]);
+        assert!((gains[1] - f64::sqrt(8.0)).abs() < 1e-12, "of the velocity: {}", gains[1]);
+    }
+
+    #[test]
     fn an_equation_without_a_stabilizing_solution_has_none() {
         // Unstable, and without an input.
-        let a = Square::identity();
-        assert_eq!(solve(&a, &Square::zeros(), &Square::identity()), None);
-        assert_eq!(solve(&(f64::NAN * a), &a, &a), None);
+        let a = Matrix6::identity();
+        assert_eq!(solve::<6, 12>(&a, &Matrix6::zeros(), &Matrix6::identity()), None);
+        assert_eq!(solve::<6, 12>(&(f64::NAN * a), &a, &a), None);
+        // The state that grows is not the one that the input reaches.
+        let reached = Matrix2::new(0.0, 0.0, 0.0, 1.0);
+        assert_eq!(solve::<2, 4>(&Matrix2::new(1.0, 0.0, 0.0, -1.0), &reached, &Matrix2::identity()), None);
     }
 }
