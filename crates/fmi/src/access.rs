@@ -3,8 +3,9 @@
 
 use std::mem::MaybeUninit;
 
-use moris_interface::{Model, SlotModel};
+use moris_interface::{Model, SlotModel, shown};
 
+use crate::instance::OutOfRange;
 use crate::{CallError, Instance, Mode, Role, Scalar, VariableInfo, Variables};
 
 /// The slots of output derivatives, each with the derivative's order.
@@ -44,7 +45,9 @@ impl<M: Model> Instance<M> {
         // Inputs can be set in every mode in which any variable can. In other modes the calling
         // sequences refuse the call.
         let is_for_input = |(slot, values): (u32, &[S])| {
-            self.info::<S>(slot).is_some_and(|info| matches!(info.role, Role::Input { .. }) && accepts(info, values))
+            self.info::<S>(slot).is_some_and(|info| {
+                matches!(info.role, Role::Input { .. }) && values.iter().all(|value| info.contains(value.to_slot()))
+            })
         };
         if !variables.with_values(values).all(is_for_input) {
             return self.set_parameters(variables, values);
@@ -156,17 +159,20 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    /// Sets variables that are not all inputs, or refuses to. Out of the way of the calls that set
-    /// inputs at every step.
+    /// Sets variables that are not all inputs within their ranges, or refuses to. Out of the way of
+    /// the calls that set inputs at every step.
     #[inline(never)]
     fn set_parameters<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) -> Result<(), CallError> {
         let mode = self.state.mode;
         let is_settable = |(slot, values): (u32, &[S])| {
-            self.info::<S>(slot).is_some_and(|info| info.settable.contains(mode) && accepts(info, values))
+            self.info::<S>(slot).is_some_and(|info| {
+                info.settable.contains(mode) && values.iter().all(|value| info.accepts(value.to_slot()))
+            })
         };
         if !variables.with_values(values).all(is_settable) {
             return Err(self.why_not_settable(variables, values));
         }
+        self.note_range(variables, values);
         if mode == Mode::StepComplete {
             return self.set_and_retune(variables, values);
         }
@@ -188,6 +194,31 @@ impl<M: Model> Instance<M> {
             self.state.values.copy_from_slice(&self.old_values);
             CallError::discard(format!("{error}. The values of this call have not been taken; the old ones hold"))
         })
+    }
+
+    /// Notes the first value beyond its input's range, unless the host has been told of one.
+    fn note_range<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
+        if self.out_of_range != OutOfRange::Never {
+            return;
+        }
+        let beyond = one_by_one(variables, values)
+            .map(|(slot, value)| (slot, value.to_slot()))
+            .find(|&(slot, value)| self.tables.infos[slot as usize].replacement(value).is_some());
+        if let Some((slot, value)) = beyond {
+            self.out_of_range = OutOfRange::Now(slot, value);
+        }
+    }
+
+    /// What the model makes of an input beyond its range.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn about_range(&self, slot: u32, value: f64) -> String {
+        let (name, reason) = (self.name(slot), M::IDENTITY.row(slot as usize).reason(value));
+        let end = self.tables.infos[slot as usize].replacement(value).unwrap_or(value);
+        format!(
+            "{name} {reason}; the model uses {}. Later values beyond a range are treated alike, without a message",
+            shown(end)
+        )
     }
 
     /// The variable's name in quotes.
@@ -257,12 +288,6 @@ impl<M: Model> Instance<M> {
         let old = self.state.values[slot];
         Some(CallError::discard(format!("{name} {reason}. No value of this call has been set; {name} is still {old}")))
     }
-}
-
-/// Checks these values for a variable.
-#[inline]
-fn accepts<S: Scalar>(info: &VariableInfo, values: &[S]) -> bool {
-    values.iter().all(|value| info.accepts(value.to_slot()))
 }
 
 /// The variables' slots, all of them, each with its value.

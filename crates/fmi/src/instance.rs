@@ -17,6 +17,16 @@ pub struct Instance<M> {
     pub(crate) output_derivatives: Box<[f64]>,
     /// Room for all values as they were before parameters are set.
     pub(crate) old_values: Box<[f64]>,
+    pub(crate) out_of_range: OutOfRange,
+}
+
+/// The one message about inputs beyond their ranges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum OutOfRange {
+    Never,
+    /// The first slot and its value, of which the host does not know yet.
+    Now(u32, f64),
+    Told,
 }
 
 impl<M: Model> Instance<M> {
@@ -28,6 +38,7 @@ impl<M: Model> Instance<M> {
             state: InstanceState::fresh(tables.start),
             output_derivatives: buffer(),
             old_values: buffer(),
+            out_of_range: OutOfRange::Never,
         }
     }
 
@@ -50,6 +61,15 @@ impl<M: Model> Instance<M> {
     /// Makes the instance as it was when it was new.
     pub fn reset(&mut self) {
         self.state = InstanceState::fresh(self.tables.start);
+        self.out_of_range = OutOfRange::Never;
+    }
+
+    /// A sentence about the first input beyond its range, once until the instance is reset.
+    #[inline]
+    pub fn take_warning(&mut self) -> Option<String> {
+        let OutOfRange::Now(slot, value) = self.out_of_range else { return None };
+        self.out_of_range = OutOfRange::Told;
+        Some(self.about_range(slot, value))
     }
 
     /// Marks the instance as unusable until it is reset or a state restored: the model

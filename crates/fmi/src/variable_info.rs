@@ -51,6 +51,9 @@ macro_rules! scalar {
 }
 pub(crate) use scalar;
 
+/// Rounding of a value, relative to its range.
+const ROUNDING: f64 = 1e-9;
+
 /// Causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -90,19 +93,29 @@ impl VariableInfo {
             Kind::Boolean => ValueType::Boolean,
             Kind::Enumeration(_) => ValueType::Enumeration,
         };
-        let (lower, upper) = match (row.causality, row.kind) {
-            // A host's rounding may put a real input a little beyond its range: the model takes it as the range's end.
-            (Causality::Input, Kind::Real(_)) => (f64::MIN, f64::MAX),
-            _ => row.bounds(),
-        };
+        let (lower, upper) = row.bounds();
         let row_slots = if element == 0 { row.slots() as u32 } else { 0 };
         VariableInfo { value_type, role: role(row), row_slots, settable: settable(row), lower, upper }
     }
 
-    /// Checks that the variable accepts `value`.
+    /// Checks that `value` lies within the variable's range.
     #[inline]
-    pub fn accepts(&self, value: f64) -> bool {
+    pub fn contains(&self, value: f64) -> bool {
         value >= self.lower && value <= self.upper
+    }
+
+    /// Checks that the variable accepts `value`. The model takes a real input beyond its range as
+    /// the range's end: rounding in a host must not end a simulation.
+    pub fn accepts(&self, value: f64) -> bool {
+        let is_real_input = matches!((self.role, self.value_type), (Role::Input { .. }, ValueType::Real));
+        self.contains(value) || is_real_input && value.is_finite()
+    }
+
+    /// The end of the range that the model uses in place of `value`; `None` where the difference is
+    /// not more than rounding.
+    pub fn replacement(&self, value: f64) -> Option<f64> {
+        let end = value.clamp(self.lower, self.upper);
+        ((value - end).abs() > ROUNDING * (self.upper - self.lower)).then_some(end)
     }
 }
 

@@ -24,6 +24,8 @@ pub trait Host {
     }
     /// Reports a stage of the instance's life to a host that logs events.
     fn event(&self, text: &str);
+    /// Reports what the user should look at, though the call worked.
+    fn warning(&self, text: &str);
     /// Logs why a call failed. Returns the call's status.
     fn failure(&self, severity: Severity, text: &str) -> Self::Status;
 }
@@ -102,6 +104,14 @@ pub unsafe fn call<M: Model, H: Host>(
 }
 
 impl<M: Model, H: Host> Component<M, H> {
+    /// Sends a warning of this function.
+    #[cold]
+    #[inline(never)]
+    pub fn warn(&self, function: &Function, text: String) {
+        let text = self.logger.rename(&M::IDENTITY, text);
+        self.logger.warning(&format!("{}: {text}", function.name));
+    }
+
     #[cold]
     #[inline(never)]
     fn report(&self, function: &Function, error: CallError) -> H::Status {

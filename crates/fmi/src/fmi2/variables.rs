@@ -38,7 +38,11 @@ pub unsafe fn set<M: Model, S: Scalar>(
     let body = |component: &mut Component<M>| {
         // SAFETY: the host's arrays have `count` elements.
         let (references, values) = unsafe { (slice(references, count)?, slice(values, count)?) };
-        component.instance.set(Scalars(references), values)
+        component.instance.set(Scalars(references), values)?;
+        if let Some(warning) = component.instance.take_warning() {
+            component.warn(function, warning);
+        }
+        Ok(())
     };
     // SAFETY: the host's component.
     unsafe { call(component, function, body) }

@@ -15,6 +15,7 @@ pub struct Logger {
     callback: Option<fmi3LogMessageCallback>,
     environment: fmi3InstanceEnvironment,
     events: bool,
+    warnings: bool,
     discards: bool,
     errors: bool,
     /// Layout of the model description that the host has read.
@@ -33,6 +34,7 @@ impl Logger {
             callback,
             environment,
             events: logging_on,
+            warnings: logging_on,
             discards: logging_on,
             errors: true,
             layout: Layout::Scalars,
@@ -43,6 +45,7 @@ impl Logger {
     pub fn switch(&mut self, category: LogCategory, on: bool) {
         match category {
             LogCategory::Events => self.events = on,
+            LogCategory::Warning => self.warnings = on,
             LogCategory::Discard => self.discards = on,
             LogCategory::Error => self.errors = on,
             _ => {}
@@ -81,6 +84,12 @@ impl Host for Logger {
     fn event(&self, text: &str) {
         if self.events {
             self.send(fmi3Status::fmi3OK, LogCategory::Events, text);
+        }
+    }
+
+    fn warning(&self, text: &str) {
+        if self.warnings {
+            self.send(fmi3Status::fmi3Warning, LogCategory::Warning, text);
         }
     }
 

@@ -53,9 +53,14 @@ pub unsafe fn set<M: Model, S: Scalar>(
         check_length::<M>(component.logger.layout, infos, references, value_count)?;
         // A value each: there is no array among them.
         if references.len() == value_count {
-            return component.instance.set(Scalars(references), values);
+            component.instance.set(Scalars(references), values)?;
+        } else {
+            component.instance.set(Arrays { infos, references }, values)?;
         }
-        component.instance.set(Arrays { infos, references }, values)
+        if let Some(warning) = component.instance.take_warning() {
+            component.warn(function, warning);
+        }
+        Ok(())
     };
     // SAFETY: the host's component.
     unsafe { call(instance, function, body) }

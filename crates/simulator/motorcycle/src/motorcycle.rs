@@ -15,6 +15,7 @@ use crate::output_rate::{mean_rate, rest_rate};
 use crate::path::follower::{Ahead, Follower};
 use crate::path::forerun::{Forerun, PREVIEW_STEP, Record};
 use crate::path::grip::{self, Friction};
+use crate::path::table::Table;
 use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
 use crate::state::{Place, RunState, Stage, State};
@@ -64,6 +65,10 @@ impl Model for Motorcycle {
     type Output = Output;
     type Parameters = Parameters;
     const IDENTITY: Identity = IDENTITY;
+
+    fn warnings(parameters: &Parameters) -> Vec<String> {
+        Table::unused(&parameters.path).into_iter().collect()
+    }
 
     /// The motorcycle at its initial speed, upright and straight ahead, with throttle closed and
     /// brakes off; in the wind of the input.

@@ -15,7 +15,7 @@ use super::logger::Log;
 use super::player::{Logged, c_string, fmi3_callback};
 use super::world::World;
 
-pub const LOG_CATEGORIES: &[&CStr] = &[c"logEvents", c"logStatusDiscard", c"logStatusError"];
+pub const LOG_CATEGORIES: &[&CStr] = &[c"logEvents", c"logStatusWarning", c"logStatusDiscard", c"logStatusError"];
 
 /// Effect of fmi3SetDebugLogging: without categories all of them, but errors go off by name only.
 pub fn switch_logging(logged: &mut Logged, on: bool, categories: &[&CStr]) {
@@ -23,10 +23,11 @@ pub fn switch_logging(logged: &mut Logged, on: bool, categories: &[&CStr]) {
     let all = categories.is_empty();
     for (category, logs) in [
         (LOG_CATEGORIES[0], &mut logged.events),
-        (LOG_CATEGORIES[1], &mut logged.discards),
-        (LOG_CATEGORIES[2], &mut logged.errors),
+        (LOG_CATEGORIES[1], &mut logged.warnings),
+        (LOG_CATEGORIES[2], &mut logged.discards),
+        (LOG_CATEGORIES[3], &mut logged.errors),
     ] {
-        if named(category) || all && (on || category != LOG_CATEGORIES[2]) {
+        if named(category) || all && (on || category != LOG_CATEGORIES[3]) {
             *logs = on;
         }
     }

@@ -170,6 +170,17 @@ impl Instance<'_> {
         }
     }
 
+    /// Makes the instance as it was when it was new.
+    pub fn reset(&mut self) -> c_int {
+        // SAFETY: the instance is alive.
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(fmu) => (fmu.api().reset)(self.pointer),
+                Functions::Fmi3(library) => (library.api().reset)(self.pointer),
+            }
+        }
+    }
+
     /// Sets the variable of this slot.
     pub fn set(&mut self, slot: usize, value: f64) -> c_int {
         let (reference, pointer) = (&(slot as u32), self.pointer);

@@ -68,6 +68,47 @@ fn parameters_take_the_ends_of_their_ranges_and_nothing_beyond() {
     }
 }
 
+/// The user hears of it once, by the name of the first such input, and again after a reset.
+#[test]
+fn an_input_beyond_its_range_is_a_warning_once() {
+    for model in MODELS {
+        for version in VERSIONS {
+            let library = Library::open(model, version, &model.library());
+            let messages = Messages::default();
+            let mut instance = library.instantiate(&messages).unwrap();
+            let is_real_input = |&slot: &usize| {
+                let row = model.identity.row(slot);
+                // FMI 3.0 names an array's variable otherwise.
+                row.causality == Causality::Input && matches!(row.kind, Kind::Real(_)) && row.slots() == 1
+            };
+            let inputs: Vec<usize> = model.slots().filter(is_real_input).collect();
+            for round in 0..2 {
+                assert_eq!(instance.enter_initialization_mode(), OK);
+                assert_eq!(instance.exit_initialization_mode(), OK);
+                messages.borrow_mut().clear();
+                for &slot in &inputs {
+                    let (min, max) = model.identity.row(slot).bounds();
+                    assert_eq!(instance.set(slot, max), OK);
+                    assert_eq!(instance.set(slot, max + 1e-12 * (max - min)), OK);
+                }
+                assert!(messages.borrow().is_empty(), "rounding is no reason to warn: {:?}", messages.borrow());
+                for &slot in &inputs {
+                    let (_, max) = model.identity.row(slot).bounds();
+                    assert_eq!(instance.set(slot, 3.0 * max), OK);
+                }
+                let (name, (_, max)) =
+                    (model.identity.variable_name(inputs[0]), model.identity.row(inputs[0]).bounds());
+                let expected = [format!("'{name}' is {}", shown(3.0 * max)), format!("the model uses {}", shown(max))];
+                let heard = messages.borrow();
+                assert_eq!(heard.len(), 1, "round {round}: {heard:?}");
+                assert!(expected.iter().all(|part| heard[0].contains(part)), "{heard:?}");
+                drop(heard);
+                assert_eq!(instance.reset(), OK);
+            }
+        }
+    }
+}
+
 /// Rounding in a host may put an input slightly beyond its range. This must not end a simulation.
 #[test]
 fn inputs_beyond_their_range_count_as_its_end() {

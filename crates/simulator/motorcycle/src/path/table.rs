@@ -110,6 +110,18 @@ impl Table {
             .map(|(_, text, repeat)| custom(&from_csv(text).expect("the model's own paths are readable"), *repeat)))
     }
 
+    /// A warning where the parameters have a table that their course does not use.
+    pub fn unused(parameters: &Path) -> Option<String> {
+        let Path { course, count, .. } = parameters;
+        (*count > 0 && *course != Course::Custom).then(|| {
+            let custom = Course::Custom.name();
+            format!(
+                "path.point.count is {count}, and path.course is {} ({}): the table is not used; set path.course to {} ({custom}) to ride it",
+                course.name(), *course as i32 + 1, Course::Custom as i32 + 1
+            )
+        })
+    }
+
     /// Number of rows.
     pub fn count(&self) -> usize {
         self.count.clamp(2, PATH_POINTS)
