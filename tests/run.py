@@ -4,7 +4,7 @@
     python3 tests/run.py [--all] [--only PART ...] [-k EXPRESSION] [--install] [--require]
 
 The default is what a change can break, in few cases where a test is a search. --all adds importers, other platforms and
-pages, all cases, and the optimised builds that users get.
+pages, all cases, and the optimised Python package that users get.
 
 With --install what other platforms and the pages need is installed first; with --require it is an error where it is missing.
 """
@@ -50,9 +50,9 @@ def pytest(options, *arguments):
     chosen = ["-k", options.k] if options.k else []
     allowed = (0, NO_TESTS) if options.k else (0,)
     command = [python(), "-m", "pytest", "--quiet", "--numprocesses", "2", *chosen, *arguments]
-    # As fast as the tools are compiled for the tests; with --all as the pages' commands compile them.
-    cheap = {} if options.all else {"CARGO_ALIAS_MORIS": "run --package moris --", "CARGO_ALIAS_HUNTER": "run --package moris-hunter --"}
-    run(*command, allowed=allowed, **cheap)
+    # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile.
+    compiled = {"CARGO_ALIAS_MORIS": "run --package moris --", "CARGO_ALIAS_HUNTER": "run --package moris-hunter --"}
+    run(*command, allowed=allowed, **compiled)
 
 
 def fmu(options):
@@ -149,7 +149,7 @@ def main():
     parser = argparse.ArgumentParser(
         description=f"Runs the tests. The parts:\n{described}", formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--all", action="store_true", help="every part, in all cases, with optimised builds")
+    parser.add_argument("--all", action="store_true", help="every part, in all cases, with the optimised package")
     parser.add_argument("--only", action="append", choices=PARTS, metavar="PART", help="this part, with the FMUs as they are")
     parser.add_argument("-k", metavar="EXPRESSION", help="the tests that match, as pytest and cargo test understand it")
     parser.add_argument("--require", action="store_true", help="what other platforms and the pages need must be there")
