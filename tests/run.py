@@ -51,7 +51,11 @@ def pytest(options, *arguments):
     allowed = (0, NO_TESTS) if options.k else (0,)
     command = [python(), "-m", "pytest", "--quiet", "--numprocesses", "2", *chosen, *arguments]
     # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile.
-    compiled = {"CARGO_ALIAS_MORIS": "run --package moris --", "CARGO_ALIAS_HUNTER": "run --package moris-hunter --"}
+    compiled = {
+        "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
+        "CARGO_ALIAS_MORIS": "run --package moris --",
+        "CARGO_ALIAS_HUNTER": "run --package moris-hunter --",
+    }
     run(*command, allowed=allowed, **compiled)
 
 
