@@ -10,6 +10,8 @@
 //! | [`vestibular`] | what the semicircular canals and the otoliths make of a signal |
 //! | [`comfort`](mod@comfort) | shake, jolt and peak: what RMS errors hide |
 //! | [`cues`] | time above the perception thresholds: false cues, missing cues |
+//! | [`sickness`] | motion sickness of the ride and of the platform |
+//! | [`incongruence`](mod@incongruence) | how wrong the worst moment feels |
 //! | [`effort`](mod@effort) | stroke used, time limited |
 //! | [`bound`](mod@bound) | the least RMS error that any controller could reach |
 //!
@@ -25,12 +27,14 @@ pub mod cues;
 pub mod delay;
 pub mod effort;
 pub mod fidelity;
+pub mod incongruence;
 mod listing;
 mod measures;
 mod run;
+pub mod sickness;
 pub mod statistics;
 pub mod vestibular;
 
 pub use listing::{Row, all_rows, bound_rows};
-pub use measures::{Axes, Measures, References};
+pub use measures::{Axes, Measures, References, Rider};
 pub use run::{Limited, Platform, Run, RunError};

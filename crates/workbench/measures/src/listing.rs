@@ -4,7 +4,7 @@ use crate::comfort::{Comfort, Excess};
 use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
-use crate::measures::{Axes, Measures};
+use crate::measures::{Axes, Measures, Rider};
 use crate::run::{Limited, Platform, Run};
 
 /// One measure.
@@ -31,6 +31,10 @@ const COMMON: &str = "common usage";
 const VESTIBULAR: &str = "Telban, Cardullo: Motion Cueing Algorithm Development: Human-Centered Linear and Nonlinear \
     Approaches, NASA/CR-2005-213747";
 const COMFORT: &str = "docs/measures.md, comfort";
+const SICKNESS: &str = "Inoue, Liu, Wada: Revisiting Motion Sickness Models Based on SVC Theory Considering Motion Perception, \
+    SAE Technical Paper 2023-01-0176";
+const DOSE: &str = "ISO 2631-1";
+const RATING: &str = "docs/measures.md, incongruence";
 const BOUND: &str = "docs/measures.md, the bound; solved with Clarabel (Goulart, Chen 2024)";
 const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
@@ -55,6 +59,7 @@ impl Measures {
                 rows.extend(cue_rows(format!("sensed angular velocity {axis}"), &self.rate_cues[k]));
             }
         }
+        rows.extend(rider_rows(&self.rider));
         rows.extend(effort_rows(&self.effort));
         rows
     }
@@ -239,6 +244,52 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: f64) -> [Row; 4] {
     ]
 }
 
+fn rider_rows(rider: &Rider) -> [Row; 5] {
+    let row = |name, value, unit, definition, source| Row {
+        subject: "rider".to_string(),
+        name,
+        value,
+        unit,
+        definition,
+        source,
+    };
+    let [vehicle, platform] = rider.sick;
+    let [vehicle_dose, platform_dose] = rider.dose;
+    [
+        row(
+            "sick in the vehicle",
+            Some(vehicle),
+            "%",
+            "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
+             vertical; without vision, from data of passengers.",
+            SICKNESS,
+        ),
+        row("sick on the platform", Some(platform), "%", "The same of the platform's motion.", SICKNESS),
+        row(
+            "sickness dose in the vehicle",
+            Some(vehicle_dose),
+            "m/s^1.5",
+            "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.",
+            DOSE,
+        ),
+        row(
+            "sickness dose on the platform",
+            Some(platform_dose),
+            "m/s^1.5",
+            "The same of the platform's motion.",
+            DOSE,
+        ),
+        row(
+            "incongruence",
+            rider.incongruence.map(|incongruence| 100.0 * incongruence.value),
+            "%",
+            "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
+             that of a platform at rest.",
+            RATING,
+        ),
+    ]
+}
+
 fn effort_rows(effort: &Effort) -> [Row; 8] {
     let row = |name, value, unit, definition| Row {
         subject: "platform".to_string(),
@@ -348,7 +399,7 @@ mod tests {
     #[test]
     fn the_rows_of_any_run_are_among_all_rows_in_their_order() {
         let all = all_rows();
-        assert_eq!(all.len(), 3 * (4 + 3 + 4 + 3) + 3 * (4 + 4 + 3) + 8);
+        assert_eq!(all.len(), 3 * (4 + 3 + 4 + 3) + 3 * (4 + 4 + 3) + 5 + 8);
         let mut rest = all.iter();
         for row in rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]) {
             let same = |other: &&Row| (&other.subject, other.name, other.unit) == (&row.subject, row.name, row.unit);

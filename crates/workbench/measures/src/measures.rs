@@ -4,7 +4,9 @@ use crate::comfort::{Comfort, Reference, divisions};
 use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use crate::effort::{Effort, effort};
 use crate::fidelity::{Fidelity, fidelity};
+use crate::incongruence::{Incongruence, incongruence};
 use crate::run::{Run, RunError, axis};
+use crate::sickness::{dose, share_sick};
 use crate::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
 
 /// Standard gravity, at which the otoliths are at rest \[m/s2\].
@@ -36,6 +38,31 @@ pub struct Measures {
     pub rate_cues: Axes<Cues>,
     /// Effort of the platform.
     pub effort: Effort,
+    /// What the rider may say of the whole run.
+    pub rider: Rider,
+}
+
+/// Motion sickness and the worst moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rider {
+    /// Share of people who are sick after half an hour of such motion \[%\]: in the vehicle and on
+    /// the platform.
+    pub sick: [f64; 2],
+    /// Dose of ISO 2631-1 \[m/s^1.5\]: in the vehicle and on the platform.
+    pub dose: [f64; 2],
+    /// None where nothing is desired along x and y.
+    pub incongruence: Option<Incongruence>,
+}
+
+impl Rider {
+    fn of(run: &Run) -> Self {
+        let motions = [(run.desired_force, run.desired_rate), (run.felt_force, run.felt_rate)];
+        Rider {
+            sick: motions.map(|(force, rate)| share_sick(force, rate, run.step)),
+            dose: motions.map(|(force, _)| dose(force, run.step)),
+            incongruence: incongruence(run.desired_force, run.felt_force, run.step),
+        }
+    }
 }
 
 impl Measures {
@@ -75,6 +102,7 @@ impl Measures {
             force_cues: [force_x.cues, force_y.cues, force_z.cues],
             rate_cues: [rate_x.cues, rate_y.cues, rate_z.cues],
             effort: effort(&run.platform),
+            rider: Rider::of(run),
         })
     }
 }
