@@ -142,6 +142,7 @@ def test_a_survey_reaches_as_far_as_the_legs():
     highest = np.sqrt(values["actuator.maxLength"] ** 2 - apart**2).min() - values["rig.neutralHeight"]
     assert survey.reach["heave"].max == pytest.approx(highest, abs=1e-6)
     assert survey.singular_at is None and survey.worst_condition < 4
+    assert survey.closest_legs == (1, 6) and 0.2 < survey.leg_clearance < 0.24
     assert 0 < survey.tilted_volume < survey.volume < 2
     assert survey._repr_svg_().startswith("<svg") and "smallest singular value" in str(survey)
 

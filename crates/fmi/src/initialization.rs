@@ -66,6 +66,11 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
+    /// Doubts about the parameters that the model has been built with, in sentences.
+    pub(crate) fn warnings(&self) -> Vec<String> {
+        M::warnings(&M::parameters_in(&self.state.values))
+    }
+
     /// Makes the outputs those of the values set so far. If the model refuses these, the outputs
     /// stay as they are, and the end of the initialization will say why.
     pub(crate) fn evaluate_start(&mut self) {

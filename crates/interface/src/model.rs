@@ -179,6 +179,11 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// The first parameter that cannot be used, and why.
     fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), ParameterError>;
 
+    /// Doubts about parameters that can be used, in sentences.
+    fn warnings(_parameters: &Self::Parameters) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Longest communication step \[s\].
     fn longest_step(&self) -> f64 {
         f64::INFINITY

@@ -20,6 +20,9 @@ pub unsafe fn free_instance<M: Model, H: Host>(component: *mut c_void) {
 pub unsafe fn exit_initialization_mode<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
     let body = |component: &mut Component<M, H>| {
         component.instance.exit_initialization()?;
+        for warning in component.instance.warnings() {
+            component.logger.warning(&component.logger.rename(&M::IDENTITY, warning));
+        }
         component.logger.event("initialized");
         Ok(())
     };

@@ -63,6 +63,10 @@ impl Host for Logger {
         }
     }
 
+    fn warning(&self, text: &str) {
+        self.send(fmi2Status::fmi2Warning, LogCategory::Warning, text);
+    }
+
     fn failure(&self, severity: Severity, text: &str) -> fmi2Status {
         let (status, category) = match severity {
             Severity::Discard => (fmi2Status::fmi2Discard, LogCategory::Discard),

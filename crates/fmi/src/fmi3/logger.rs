@@ -9,13 +9,14 @@ use crate::abi::Host;
 use crate::abi::pointers::c_string;
 use crate::{LogCategory, Mode, Severity};
 
-/// Destination of an instance's messages: errors unless the host switches them off by name, the
-/// others on request.
+/// Destination of an instance's messages: errors unless the host switches them off by name,
+/// warnings unless it switches them off, the others on request.
 pub struct Logger {
     callback: Option<fmi3LogMessageCallback>,
     environment: fmi3InstanceEnvironment,
     events: bool,
     discards: bool,
+    warnings: bool,
     errors: bool,
     /// Layout of the model description that the host has read.
     pub layout: Layout,
@@ -34,6 +35,7 @@ impl Logger {
             environment,
             events: logging_on,
             discards: logging_on,
+            warnings: true,
             errors: true,
             layout: Layout::Scalars,
         }
@@ -44,6 +46,7 @@ impl Logger {
         match category {
             LogCategory::Events => self.events = on,
             LogCategory::Discard => self.discards = on,
+            LogCategory::Warning => self.warnings = on,
             LogCategory::Error => self.errors = on,
             _ => {}
         }
@@ -81,6 +84,12 @@ impl Host for Logger {
     fn event(&self, text: &str) {
         if self.events {
             self.send(fmi3Status::fmi3OK, LogCategory::Events, text);
+        }
+    }
+
+    fn warning(&self, text: &str) {
+        if self.warnings {
+            self.send(fmi3Status::fmi3Warning, LogCategory::Warning, text);
         }
     }
 

@@ -66,6 +66,46 @@ fn every_example_rig_passes_the_check_and_is_drawn() {
 }
 
 #[test]
+fn legs_that_cross_or_are_too_thick_fail_the_check_and_are_drawn() {
+    let directory = tempfile::tempdir().unwrap();
+    let default = fs::read_to_string(rigs().join("default.toml")).unwrap();
+    let changed = |from: &str, to: &str| {
+        assert!(default.contains(from));
+        fs::write(directory.path().join("mine.toml"), default.replace(from, to)).unwrap();
+        let output = moris(directory.path(), &["rig", "check", "mine.toml", "--samples", "2000"]);
+        (output.status.code(), text(&output.stdout), text(&output.stderr))
+    };
+    let (code, printed, _) = changed("[-52, 52, 68,", "[52, -52, 68,");
+    assert_eq!(code, Some(1), "{printed}");
+    assert!(printed.contains("LEGS COLLIDE") && printed.contains("legs 1 and 2 come within 0.00"), "{printed}");
+    assert!(printed.contains("free of singularities"), "{printed}");
+    let picture = fs::read_to_string(directory.path().join("moris-report/mine.svg")).unwrap();
+    assert!(picture.contains("LEGS COLLIDE") && picture.contains("Legs 1 and 2 where they are closest"), "{picture}");
+
+    let (code, printed, _) = changed("accelerationLimit = 15.0", "accelerationLimit = 15.0\ndiameter = 0.12");
+    assert_eq!(code, Some(0), "{printed}");
+    assert!(printed.contains("no legs touch") && printed.contains("taken as 0.120 m thick\n"), "{printed}");
+    let (code, printed, _) = changed("accelerationLimit = 15.0", "accelerationLimit = 15.0\ndiameter = 0.3");
+    assert_eq!(code, Some(1), "{printed}");
+    let (code, _, error) = changed("accelerationLimit = 15.0", "accelerationLimit = 15.0\ndiameter = 120");
+    assert_eq!(code, Some(1));
+    assert!(error.contains("actuator.diameter") && error.contains("is 120 m"), "{error}");
+}
+
+#[test]
+fn a_safety_limit_beyond_the_reach_is_told_by_check_and_simulation_in_the_same_words() {
+    let directory = tempfile::tempdir().unwrap();
+    write_recording(directory.path(), "ride.csv");
+    let default = fs::read_to_string(rigs().join("default.toml")).unwrap();
+    fs::write(directory.path().join("mine.toml"), default.replace("0.37, 0.33]", "0.37, 0.4]")).unwrap();
+    let doubt = "safety.z.positionLimit is 0.4 m, but in heave the rig reaches only 0.344 m from neutral";
+    let check = moris(directory.path(), &["rig", "check", "mine.toml", "--samples", "2000"]);
+    assert!(check.status.success() && text(&check.stdout).contains(doubt), "{}", text(&check.stdout));
+    let ride = moris(directory.path(), &["simulate", "ride.csv", "--rig", "mine.toml", "--no-bound"]);
+    assert!(ride.status.success() && text(&ride.stdout).contains(doubt), "{}", text(&ride.stdout));
+}
+
+#[test]
 fn a_singular_rig_fails_the_check_with_its_leg_lengths_and_is_drawn_all_the_same() {
     let directory = tempfile::tempdir().unwrap();
     let file = singular_rig(directory.path());

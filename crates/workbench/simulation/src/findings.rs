@@ -36,6 +36,8 @@ const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 /// it, how well was it felt.
 pub fn of(outcome: &Evaluated) -> Vec<Finding> {
     let mut findings = vec![fits(outcome)];
+    let doubts = moris_washout::warnings(&outcome.simulation.parameters);
+    findings.extend(doubts.into_iter().map(|doubt| finding(Weight::Warning, format!("{doubt}."))));
     findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
     findings.extend(tilt(outcome));
     findings.extend((0..3).filter_map(|axis| force(outcome, axis)));

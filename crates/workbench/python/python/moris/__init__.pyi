@@ -258,8 +258,10 @@ class Survey:
     smallest_singular_value: float | None
     worst_condition: float | None
     singular_at: list[float] | None
+    closest_legs: tuple[int, int]
+    leg_clearance: float
     def __init__(
-        self, name: Any, axes: Any, volumes: Any, condition: Any, singular_at: Any, text: Any, picture: Any
+        self, name: Any, axes: Any, volumes: Any, condition: Any, singular_at: Any, closest: Any, text: Any, picture: Any
     ) -> None: ...
 
 def survey(rig: _Rig | None = None, samples: int = 1_000_000) -> Survey: ...
