@@ -1,7 +1,7 @@
 // The time line of what was limited, and the list of it with reasons.
 
 const KINDS = {
-  tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target because of its rate, acceleration or angle limit." },
+  tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit." },
   safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit limited the platform from its position, velocity or acceleration limit." },
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };

@@ -1,8 +1,8 @@
 //! Closest approach of the legs to each other within the platform's reach.
 //!
 //! A leg is the straight segment between its joints. The distance of two segments is exact at each
-//! pose. The poses are those of a grid of leg lengths, and from the closest of them a pattern search
-//! goes on to a smallest distance.
+//! pose. The poses are those of a grid of leg lengths, and from the closest of them a pattern
+//! search goes on to a smallest distance.
 
 use std::array;
 use std::fmt;
@@ -167,8 +167,8 @@ impl Reach<'_> {
 
 /// The points of two segments that are closest to each other.
 ///
-/// On the lines, the squared distance is a quadratic function of both parameters. Its smallest value
-/// over the unit square is inside or on an edge, where one of the points is an end.
+/// On the lines, the squared distance is a quadratic function of both parameters. Its smallest
+/// value over the unit square is inside or on an edge, where one of the points is an end.
 pub fn closest_points(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let (u, v, w) = (a[1] - a[0], b[1] - b[0], b[0] - a[0]);
     let (uu, uv, vv, uw, vw) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&w), v.dot(&w));
@@ -194,7 +194,8 @@ mod tests {
     use super::*;
     use crate::random::unit;
 
-    /// A fine net of points on both segments has nothing closer, and comes as near as its mesh allows.
+    /// A fine net of points on both segments has nothing closer, and comes as
+    /// near as its mesh allows.
     #[test]
     fn no_points_of_two_segments_are_closer() {
         const N: u32 = 200;

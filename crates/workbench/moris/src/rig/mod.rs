@@ -1,8 +1,10 @@
 //! `moris rig`: looks at a platform.
 //!
-//! [`new`] writes a rig file. [`survey`] gathers what there is to know of it: [`workspace`]
-//! measures where it can go, [`clearance`] how close its legs come to each other.
-//! [`picture`] draws it.
+//! - [`new`] writes a rig file.
+//! - [`survey`] gathers what there is to know of a rig.
+//! - [`workspace`] measures where it can go.
+//! - [`clearance`] measures how close its legs come to each other.
+//! - [`picture`] draws it.
 
 pub mod clearance;
 pub mod new;
