@@ -268,14 +268,40 @@ fn one_recording_that_cannot_be_read_does_not_end_the_others() {
     let directory = tempfile::tempdir().unwrap();
     write_recording(directory.path(), "ride.csv");
     fs::write(directory.path().join("broken.csv"), "time,ax\n0,1\n").unwrap();
-    let output = moris(directory.path(), &["simulate", "missing.csv", "broken.csv", "ride.csv", "--no-bound"]);
+    let recordings = ["missing.csv", "broken.csv", "ride.csv"];
+    let options = ["--no-bound", "--strategy", "predictive", "--preview", "1"];
+    let output = moris(directory.path(), &[&["simulate"], &recordings[..], &options].concat());
     assert_eq!(output.status.code(), Some(1));
     let printed = text(&output.stderr);
     let errors: Vec<&str> = printed.lines().filter(|line| line.starts_with("error")).collect();
     assert_eq!(errors.len(), 2, "{printed}");
     assert!(errors[0].contains("cannot read missing.csv") && errors[1].matches("broken.csv").count() == 1, "{printed}");
     assert!(text(&output.stdout).contains("The recording fits the rig"));
-    assert!(directory.path().join("moris-report/ride.html").exists());
+    // The list has all of them: failures with their reason, and a row for each set of the others.
+    let index = fs::read_to_string(directory.path().join("moris-report/index.html")).unwrap();
+    assert!(index.contains("<title>3 recordings, the worst first</title>"), "{index}");
+    assert!(index.contains("missing</th><td class=\"verdict\">cannot read missing.csv"), "{index}");
+    assert!(index.contains("ride, predictive</a></th><td class=\"verdict\">fits"), "{index}");
+    assert!(index.contains("ride, &quot;predictive, preview of 1 s&quot;</a>"), "{index}");
+    assert_eq!(index.matches("href=\"./ride.html\"").count(), 2);
+}
+
+#[test]
+fn every_command_has_the_same_exit_statuses() {
+    let directory = tempfile::tempdir().unwrap();
+    let status = |arguments: &[&str]| moris(directory.path(), arguments).status.code();
+    for command in ["simulate", "measure", "worst-case", "tune", "frequency-response", "parameters", "schema", "man"] {
+        assert_eq!(status(&[command, "--no-such-option"]), Some(2), "{command}");
+        assert_eq!(status(&[command, "--help"]), Some(0), "{command}");
+    }
+    for command in ["simulate", "measure", "worst-case", "tune"] {
+        assert_eq!(status(&[command, "missing.csv"]), Some(1), "{command}");
+    }
+    for arguments in [&["rig", "check", "missing.toml"][..], &["frequency-response", "--rig", "missing.toml"]] {
+        assert_eq!(status(arguments), Some(1), "{arguments:?}");
+    }
+    let version = text(&moris(directory.path(), &["--version"]).stdout);
+    assert!(version.starts_with(concat!("moris ", env!("CARGO_PKG_VERSION"))), "{version}");
 }
 
 #[test]

@@ -6,6 +6,8 @@ const KINDS = {
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };
 const LANE = 20;
+/** Rows of the list that a print has; the style sheet leaves out the others. */
+const PRINTED = 40;
 
 /** How long a flag was up: it speaks of the step before its sample. */
 function timeLimited(run, flags) {
@@ -23,7 +25,8 @@ class TimeLine {
     this.summary = element("p", { class: "summary" });
     this.list = element("tbody");
     const table = element("table", {}, [this.list]);
-    this.element = element("div", {}, [this.plot.box, this.summary, element("div", { class: "events" }, [table])]);
+    this.printed = element("p", { class: "summary print-only" });
+    this.element = element("div", {}, [this.plot.box, this.summary, element("div", { class: "events" }, [table]), this.printed]);
     this.seek = handlers.seek;
   }
 
@@ -37,6 +40,7 @@ class TimeLine {
     this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
     this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "No limit was active.";
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
+    this.printed.textContent = this.events.length > PRINTED ? `The first ${PRINTED} of ${this.events.length}.` : "";
     this.element.querySelector(".events").hidden = this.events.length === 0;
   }
 

@@ -1,8 +1,8 @@
 //! The limit of tilt coordination that acts, axis by axis and sample by sample.
 //!
 //! Tilt coordination lags behind its target whenever the target moves faster than a limit allows.
-//! Noise of the recording alone makes it lag by thousandths of a degree in nearly every step. A limit
-//! therefore counts only where the tilt itself is at it.
+//! Noise of the recording alone makes it lag by thousandths of a degree in nearly every step. A
+//! limit therefore counts only where the tilt itself is at it.
 
 use crate::data::Limits;
 
@@ -62,7 +62,8 @@ pub fn tilt_limits(times: &[f64], lags: &[bool], tilt: [&[f64]; 2], rate: [&[f64
     })
 }
 
-/// Samples before which the rate has changed by at least `least` \[rad/s2\] in one direction for long.
+/// Samples before which the rate has changed by at least `least` \[rad/s2\] in
+/// one direction for long.
 fn sustained(times: &[f64], rate: &[f64], least: f64) -> Vec<bool> {
     let sign = |k: usize| {
         let acceleration = (rate[k] - rate[k - 1]) / (times[k] - times[k - 1]);

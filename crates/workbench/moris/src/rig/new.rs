@@ -37,7 +37,7 @@ pub fn main(options: &NewOptions, answers: &mut dyn BufRead, out: &mut dyn Write
     let name = file.display().to_string();
     rig_file::read(&text, &name)?
         .check()
-        .with_context(|| format!("the washout rejects this rig; {name} is not written"))?;
+        .with_context(|| format!("{name} is not written, because the washout rejects this rig"))?;
     let clearance = Clearance::of(&rig_file::read(&text, &name)?.rig(), None);
     if clearance.collisions().next().is_some() {
         bail!("{clearance}  {name} is not written");

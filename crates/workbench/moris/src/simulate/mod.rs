@@ -159,7 +159,7 @@ impl Outcome {
     /// # Errors
     /// The recording is too short, or the solver fails.
     pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>> {
-        bounds::bounds(&self.simulation).context("cannot compute the bound; --no-bound omits it")
+        bounds::bounds(&self.simulation).context("cannot compute the bound (--no-bound omits it)")
     }
 }
 
