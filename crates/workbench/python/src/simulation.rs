@@ -129,6 +129,7 @@ impl PySimulation {
         self.outcome.rows().into_iter().map(measure).collect()
     }
 
+    #[allow(clippy::type_complexity)]
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (PyRecording, Bound<'py, PyBytes>))> {
         let Outcome { setup, simulation, bounds, .. } = &self.outcome;
         let state: State = (
