@@ -8,6 +8,8 @@ to 1.5 m/s² within 2 s and goes back to zero, twice as fast. Inputs that it lac
 `target/examples/02_fmpy_recording.svg`.
 """
 
+from contextlib import redirect_stdout
+
 import numpy as np
 from fmpy import simulate_fmu
 from picture import BLUE, GREY, draw
@@ -17,13 +19,15 @@ surge = np.interp(time, [1, 3, 10, 11], [0, 1.5, 1.5, 0])
 recording = np.rec.fromarrays([time, surge], names=["time", "vehicle.specificForce.x"])
 
 lengths = [f"actuator[{i}].length" for i in range(1, 7)]
-result = simulate_fmu(
-    "target/fmu/MorisWashout.fmu",
-    input=recording,
-    output=["rider.specificForce.x", *lengths],
-    stop_time=20,
-    output_interval=0.001,
-)
+# FMPy prints a line for each input that the recording lacks.
+with redirect_stdout(None):
+    result = simulate_fmu(
+        "target/fmu/MorisWashout.fmu",
+        input=recording,
+        output=["rider.specificForce.x", *lengths],
+        stop_time=20,
+        output_interval=0.001,
+    )
 
 desired, felt = np.interp(result["time"], time, surge), result["rider.specificForce.x"]
 print(f"RMS error of the felt specific force: {np.sqrt(np.mean((felt - desired) ** 2)):.3f} m/s²")

@@ -43,7 +43,7 @@ pub use nalgebra;
 
 pub use interface::{Input, Output, Parameters, Preview, Rig};
 pub use moris_interface::{MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
-pub use validate::{check, check_rig};
+pub use validate::{check, check_rig, warnings};
 pub use washout::{ENGAGE_TIME, Washout};
 
 // The snippets of this page, as doc tests.

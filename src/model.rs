@@ -3,6 +3,7 @@
 use moris_interface::{Group, Identity, MOST_INTERNAL_STEPS, Model, ParameterError, variables};
 
 use crate::interface::{Inputs, Output, Parameters};
+use crate::validate::warnings;
 use crate::washout::Washout;
 
 variables!(Inputs, Output, Parameters);
@@ -39,6 +40,10 @@ impl Model for Washout {
 
     fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         Washout::retune(self, parameters)
+    }
+
+    fn warnings(parameters: &Parameters) -> Vec<String> {
+        warnings(parameters)
     }
 
     fn longest_step(&self) -> f64 {

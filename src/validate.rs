@@ -3,6 +3,7 @@
 use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
+use crate::platform::reach::{Axis, single_axis_range};
 use crate::platform::{Geometry, Pose, check_torso, leg_lengths, stroke_reserve, survey};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
@@ -23,6 +24,35 @@ pub fn check(parameters: &Parameters) -> Result<(), ParameterError> {
     let Parameters { structure, rig, .. } = parameters;
     check_torso(structure.torso_length, structure.head_height, "platform")?;
     check_rig(rig, structure.max_step)
+}
+
+/// Limits that never act, in sentences: those of the safety units that are farther from neutral
+/// than the rig reaches along their axis alone. There the legs come to the ends of their stroke
+/// before. Such parameters can be used; [`check`] accepts them.
+///
+/// ```
+/// use moris_washout::{Parameters, warnings};
+///
+/// let mut parameters = Parameters::default();
+/// assert!(warnings(&parameters).is_empty());
+/// parameters.safety.position_limit.z = 0.4;
+/// assert!(warnings(&parameters)[0].starts_with("safety.z.positionLimit is 0.4 m, but in heave the rig reaches only 0.344 m"));
+/// ```
+pub fn warnings(parameters: &Parameters) -> Vec<String> {
+    let limits = parameters.safety.position_limit;
+    let beyond = |(place, axis): (usize, Axis)| {
+        let reach = single_axis_range(&parameters.rig, axis).min_reach();
+        (limits[place] > reach).then(|| {
+            format!(
+                "safety.{}.positionLimit is {} m, but in {} the rig reaches only {reach:.3} m from neutral: this limit never \
+                 acts, the ends of the actuators' stroke come first; reduce it",
+                ["x", "y", "z"][place],
+                limits[place],
+                axis.name()
+            )
+        })
+    };
+    [Axis::Surge, Axis::Sway, Axis::Heave].into_iter().enumerate().filter_map(beyond).collect()
 }
 
 /// Checks parameters that are to follow others, of which the tunable ones may change. No

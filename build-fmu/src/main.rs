@@ -81,6 +81,9 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     for (model, start, fmi) in fmus {
         if !start.is_own() {
             println!("{}: {} embedded start values", model.name, start.count());
+            for warning in (model.functions.warnings)(start.slots()) {
+                eprintln!("warning: {}: {warning}", model.name);
+            }
         }
         let report = |line: &str| println!("{line}");
         let built = build(model, start, fmi, &arguments.platform, &output, report)?;

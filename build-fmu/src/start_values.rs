@@ -24,7 +24,7 @@ impl Start {
     /// is left out.
     ///
     /// # Errors
-    /// The model cannot start with them, or they contradict each other.
+    /// The model cannot start with them.
     pub fn with(model: &FmuModel, values: &NamedValues) -> Result<Self, Error> {
         let identity = &model.functions.identity;
         let own = (model.functions.start)(&[]);
@@ -49,9 +49,7 @@ impl Start {
     }
 
     fn check(&self, model: &FmuModel) -> Result<(), Error> {
-        let refused = |error| Error::Start { model: model.name, error };
-        (model.functions.check)(&self.slots).map_err(refused)?;
-        if self.is_own() { Ok(()) } else { (model.consistency)(&self.slots).map_err(refused) }
+        (model.functions.check)(&self.slots).map_err(|error| Error::Start { model: model.name, error })
     }
 
     /// The start value of each slot.

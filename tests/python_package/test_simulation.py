@@ -1,5 +1,6 @@
 """Simulations, bounds, frequency responses and surveys."""
 
+import pickle
 import subprocess
 import sys
 
@@ -142,6 +143,7 @@ def test_a_survey_reaches_as_far_as_the_legs():
     highest = np.sqrt(values["actuator.maxLength"] ** 2 - apart**2).min() - values["rig.neutralHeight"]
     assert survey.reach["heave"].max == pytest.approx(highest, abs=1e-6)
     assert survey.singular_at is None and survey.worst_condition < 4
+    assert survey.closest_legs == (1, 6) and 0.2 < survey.leg_clearance < 0.24
     assert 0 < survey.tilted_volume < survey.volume < 2
     assert survey._repr_svg_().startswith("<svg") and "smallest singular value" in str(survey)
 
@@ -188,3 +190,37 @@ def test_a_build_without_sources_or_toolchain_says_what_to_do(tmp_path, monkeypa
 def test_the_stubs_are_those_of_the_package():
     done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", ROOT / "tests" / "python_package" / "mypy.ini", "moris"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_version_is_that_of_the_package():
+    manifest = (ROOT / "Cargo.toml").read_text()
+    assert f'version = "{moris.__version__}"' in manifest
+
+
+def test_a_simulation_is_pickled_with_everything(ride):
+    simulation = moris.simulate(ride, parameters="preview", preview=1.0, bound=True)
+    again = pickle.loads(pickle.dumps(simulation))
+    for name in simulation:
+        assert np.array_equal(again[name], simulation[name]), name
+    assert again.measures == simulation.measures and again.findings == simulation.findings
+    assert (again.name, again.preview, again.parameters) == (simulation.name, simulation.preview, simulation.parameters)
+    with pytest.raises(ValueError, match="damaged"):
+        type(simulation._native)._from_state(simulation.recording._native, b"nothing")
+
+
+def test_a_preview_without_the_predictive_strategy_is_an_error(ride):
+    with pytest.raises(ValueError, match='preview is for the predictive strategy alone; add strategy="predictive"'):
+        moris.simulate(ride, preview=1.0)
+
+
+def test_a_washout_is_shown_in_pythons_words():
+    assert repr(moris.Washout()) == "Washout(strategy='classical', started=False)"
+
+
+def test_a_misspelt_option_is_found_before_it_runs(tmp_path):
+    source = tmp_path / "ride.py"
+    source.write_text('import moris\nmoris.simulate("ride.csv", force_unit="g")\nmoris.simulate("ride.csv", force_units="g")\n')
+    config = ROOT / "tests" / "python_package" / "mypy.ini"
+    done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", config, source], capture_output=True, text=True)
+    errors = [line for line in done.stdout.splitlines() if ": error: " in line]
+    assert len(errors) == 1 and ":3: " in errors[0] and "force_units" in errors[0], done.stdout + done.stderr

@@ -314,6 +314,8 @@ def chosen_channels_share_a_chart(browser):
 def the_machine_is_in_sight_where_it_plays(browser):
     """On a phone, too, wherever the page is scrolled to."""
     with opened(browser, "two-runs", viewport={"width": 390, "height": 844}) as page:
+        box, play = (page.locator(name).bounding_box() for name in ("#view", "#play"))
+        assert 0 <= box["y"] and box["y"] + box["height"] <= play["y"], (box, play)
         page.get_by_role("button", name="Play").click()
         box = page.locator("#view").bounding_box()
         assert 0 <= box["y"] and box["y"] + box["height"] <= 844 and box["height"] > 120, box
@@ -323,17 +325,55 @@ def the_machine_is_in_sight_where_it_plays(browser):
 
 
 @check
-def a_print_has_every_definition_once(browser):
+def a_print_has_the_definitions_on_request(browser):
     """The control bar and what is only for a screen are left out."""
     with opened(browser, "two-runs") as page:
-        page.emulate_media(media="print")
+        first = page.locator("#measures details tbody tr").first
+        for wanted in (False, True):
+            page.get_by_label("print with the definitions").set_checked(wanted)
+            page.evaluate("dispatchEvent(new Event('beforeprint'))")
+            page.emulate_media(media="print")
+            assert not page.locator("#player").is_visible() and not page.locator("#overlay").is_visible()
+            assert first.is_visible() == wanted and page.locator("#measures details").is_visible() == wanted
+            page.screenshot(path=PICTURES / "print.png", full_page=True)
+            page.evaluate("dispatchEvent(new Event('afterprint'))")
+            page.emulate_media(media="screen")
+            assert not first.is_visible()
+        rows = page.locator("#measures details tbody tr").all_text_contents()
+        assert rows and len(rows) == len(set(rows))
+
+
+@check
+def a_print_is_light_and_undistorted(browser):
+    """From a dark screen, too: the canvases are drawn anew, for the paper's width and in its colours."""
+    canvases = """[...document.querySelectorAll('canvas')].map((canvas) => {
+        const { width, height } = canvas.getBoundingClientRect();
+        return [canvas.width / canvas.height, width / height];
+    })"""
+    # Lightness of the darkest pixel that is drawn in a chart: a line of the grid on a dark screen, a curve on paper.
+    darkest = """(() => {
+        const chart = document.querySelector('.chart canvas');
+        const copy = Object.assign(document.createElement('canvas'), { width: chart.width, height: chart.height });
+        const context = copy.getContext('2d', { willReadFrequently: true });
+        context.drawImage(chart, 0, 0);
+        const { data } = context.getImageData(0, 0, copy.width, copy.height);
+        let least = 765;
+        for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255) least = Math.min(least, data[i] + data[i + 1] + data[i + 2]);
+        return least / 3;
+    })()"""
+    with opened(browser, "two-runs", color_scheme="dark") as page:
+        colours = lambda: page.evaluate("[getComputedStyle(document.documentElement).getPropertyValue('--card').trim(), getComputedStyle(document.documentElement).getPropertyValue('--ink').trim()]")
+        dark, on_dark = colours(), page.evaluate(darkest)
         page.evaluate("dispatchEvent(new Event('beforeprint'))")
-        assert not page.locator("#player").is_visible() and not page.locator("#overlay").is_visible()
-        rows = page.locator("#measures details tbody tr").all_inner_texts()
-        assert rows and len(rows) == len(set(rows)) and page.locator("#measures details tbody tr").first.is_visible()
-        page.screenshot(path=PICTURES / "print.png", full_page=True)
+        page.emulate_media(media="print", color_scheme="dark")
+        light, on_light = colours(), page.evaluate(darkest)
+        assert light == ["#ffffff", "#1e2530"] != dark, (light, dark)
+        assert on_dark < 70 and on_light > 80, (on_dark, on_light)
+        for drawn, shown in page.evaluate(canvases):
+            assert abs(drawn - shown) < 0.02 * shown, (drawn, shown)
         page.evaluate("dispatchEvent(new Event('afterprint'))")
-        assert not page.locator("#measures details tbody tr").first.is_visible()
+        page.emulate_media(media="screen", color_scheme="dark")
+        assert colours() == dark
 
 
 @check
@@ -370,13 +410,11 @@ def another_run_can_be_chosen(browser):
 def the_table_holds_the_measures(browser):
     data = plain("two-runs")
     with opened(browser, "two-runs") as page:
-        shown, heads, group = {}, [], None
-        for row in page.locator("#measures .wide tr").evaluate_all("rows => rows.map((row) => [...row.children].map((cell) => cell.textContent))"):
-            group = row[0] or group
-            if row[:2] == ["", ""]:
-                heads, group = row[2:], None
-            for head, cell in zip(heads, row[2:]):
-                shown[group, head, row[1]] = cell
+        shown = {}
+        rows = "rows => rows.map((row) => [row.dataset.group, ...[...row.children].map((cell) => cell.textContent)])"
+        for group, name, *cells in page.locator("#measures .channel tbody tr").evaluate_all(rows):
+            for run, cell in zip(data["runs"], cells, strict=True):
+                shown[group, name, run["name"]] = cell
         for run in data["runs"]:
             for measure in run["measures"]:
                 cell = shown[measure["group"], f"{measure['name']} {measure['unit']}", run["name"]]

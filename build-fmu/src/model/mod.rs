@@ -46,8 +46,6 @@ pub struct FmuModel {
     /// Start values of inputs that follow from those of parameters, by name, given all start
     /// values.
     pub derived_start_values: fn(start: &[f64]) -> NamedValues,
-    /// Checks start values against each other, where they are not the model's own.
-    pub consistency: fn(start: &[f64]) -> Result<(), ParameterError>,
     /// The documentation's hand-written sections, in order; the variables follow them.
     pub sections: &'static [Section],
     /// Texts of the sections that depend on the version. Further places are `fmi`, the version's
@@ -119,6 +117,8 @@ pub struct ModelFns {
     pub start: fn(overrides: &[(usize, f64)]) -> Vec<f64>,
     /// Checks that the model can start with these values.
     pub check: fn(start: &[f64]) -> Result<(), ParameterError>,
+    /// Doubts about start values that the model accepts, in sentences.
+    pub warnings: fn(start: &[f64]) -> Vec<String>,
     /// The model description of FMI 2.0.
     pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
     /// That of FMI 3.0.
@@ -138,6 +138,7 @@ impl ModelFns {
             identity: M::IDENTITY,
             start: start_values::<M>,
             check: |start| M::from_slots(start).map(drop),
+            warnings: |start| M::warnings(&M::parameters_in(start)),
             description: fmi2::describe_with::<M>,
             fmi3_description: fmi3::describe_with::<M>,
             variables: fmi2::variables_html::<M>,

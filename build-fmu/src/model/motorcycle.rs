@@ -19,7 +19,6 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
     title: "Motorcycle: a vehicle and its rider",
     functions: ModelFns::from::<Motorcycle>(),
     derived_start_values: |_| NamedValues::new(),
-    consistency: |_| Ok(()),
     sections: &[section!("Motorcycle", "what", "Overview"), section!("Motorcycle", "connect", "Connections")],
     wording: &[example!("Motorcycle")],
     terminals: &[terminal("vehicle", VEHICLE, VEHICLE_MEMBERS), terminal("rider", RIDER, &[("rider.lean", "lean")])],

@@ -16,7 +16,6 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
     title: "Stewart platform: a motion base with dynamics",
     functions: ModelFns::from::<StewartPlatform>(),
     derived_start_values: commands_at_neutral,
-    consistency: |_| Ok(()),
     sections: &[
         section!("StewartPlatform", "what", "Overview"),
         section!("StewartPlatform", "connect", "Connections"),

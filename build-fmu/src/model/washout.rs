@@ -1,7 +1,6 @@
 //! The washout filter with the platform's kinematics.
 
-use moris_interface::SlotModel;
-use moris_setup::{NamedValues, check_consistency};
+use moris_setup::NamedValues;
 use moris_washout::Washout;
 
 use super::{
@@ -17,7 +16,6 @@ pub const WASHOUT: FmuModel = FmuModel {
     title: "MORIS washout: motion cueing for a motorcycle simulator",
     functions: ModelFns::from::<Washout>(),
     derived_start_values: |_| NamedValues::new(),
-    consistency: |start| check_consistency(&Washout::parameters_in(start)),
     sections: &[
         section!("MorisWashout", "what", "Overview"),
         section!("MorisWashout", "connect", "Connections"),

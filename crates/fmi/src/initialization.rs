@@ -66,8 +66,8 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// What a user should look at in the parameters.
-    pub fn warnings(&self) -> Vec<String> {
+    /// Doubts about the parameters that the model has been built with, in sentences.
+    pub(crate) fn warnings(&self) -> Vec<String> {
         M::warnings(&M::parameters_in(&self.state.values))
     }
 

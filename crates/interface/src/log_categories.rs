@@ -31,7 +31,7 @@ pub const LOG_CATEGORIES: &[(&str, &str)] = &[
 /// The categories of FMI 3.0 with their descriptions: a message's status is told beside it.
 pub const LOG_CATEGORIES_OF_FMI3: &[(LogCategory, &str)] = &[
     (LogCategory::Events, "Stages of the instance's life: instantiated, initialized, terminated, reset"),
-    (LogCategory::Warning, "Values that are taken otherwise than they were given"),
+    (LogCategory::Warning, "Doubts about values that were taken; sent unless switched off"),
     (LogCategory::Discard, "Values that were not taken"),
     (LogCategory::Error, "Calls that failed; sent unless this category is switched off by its name"),
 ];

@@ -173,16 +173,16 @@ pub trait Model: Clone + Serialize + DeserializeOwned + Send + 'static {
     /// The first parameter that cannot be used, and why.
     fn new(parameters: &Self::Parameters, input: &Self::Input) -> Result<Self, ParameterError>;
 
-    /// What a user should look at in parameters that can be used: a sentence each.
-    fn warnings(_parameters: &Self::Parameters) -> Vec<String> {
-        Vec::new()
-    }
-
     /// Changes tunable parameters. On an error nothing has changed.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why.
     fn retune(&mut self, parameters: &Self::Parameters) -> Result<(), ParameterError>;
+
+    /// Doubts about parameters that can be used, in sentences.
+    fn warnings(_parameters: &Self::Parameters) -> Vec<String> {
+        Vec::new()
+    }
 
     /// Longest communication step \[s\].
     fn longest_step(&self) -> f64 {

@@ -1,6 +1,7 @@
-//! Compiles the simulation for the report's page to WebAssembly.
+//! Compiles the simulation for the report's page to WebAssembly, and finds the commit.
 //!
-//! Where the target is not installed the file is empty, and the page does not simulate.
+//! Where the target is not installed the file is empty, and the page does not simulate. Without git
+//! the version is that of the package alone.
 
 use std::env;
 use std::error::Error;
@@ -41,6 +42,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for source in SOURCES {
         println!("cargo::rerun-if-changed={}", root.join(source).display());
     }
+    let version = variable("CARGO_PKG_VERSION")?;
+    let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
+    println!("cargo::rustc-env=MORIS_VERSION={version}");
     let module = if is_installed()? { compile(&root, &out)? } else { Vec::new() };
     fs::write(out.join("page_simulation.wasm"), module)?;
     Ok(())
@@ -48,6 +52,27 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 fn variable(name: &str) -> Result<String, String> {
     env::var(name).map_err(|error| format!("{name}: {error}"))
+}
+
+/// The commit of the sources; none outside their own git repository. A new commit is noticed.
+fn commit(root: &Path) -> Option<String> {
+    let git = |arguments: &[&str]| -> Option<String> {
+        let output = Command::new("git").current_dir(root).args(arguments).output().ok()?;
+        let printed = String::from_utf8(output.stdout).ok()?;
+        output.status.success().then(|| printed.trim().to_owned())
+    };
+    let top = git(&["rev-parse", "--show-toplevel"])?;
+    if fs::canonicalize(top).ok()? != fs::canonicalize(root).ok()? {
+        return None;
+    }
+    let branch = git(&["symbolic-ref", "--quiet", "HEAD"]);
+    for name in ["HEAD"].into_iter().chain(branch.as_deref()) {
+        let file = root.join(git(&["rev-parse", "--git-path", name])?);
+        if file.exists() {
+            println!("cargo::rerun-if-changed={}", file.display());
+        }
+    }
+    git(&["rev-parse", "--short=9", "HEAD"])
 }
 
 /// True if the compiler has the target's standard library. What rustup installs later is noticed.

@@ -153,6 +153,11 @@ impl Model for FirstOrder {
         Ok(())
     }
 
+    fn warnings(parameters: &Parameters) -> Vec<String> {
+        let slow = "tau is above 1000 s: the output hardly moves".to_owned();
+        (parameters.fixed.tau > 1000.0).then_some(slow).into_iter().collect()
+    }
+
     fn longest_step(&self) -> f64 {
         1.0
     }

@@ -147,6 +147,11 @@ impl Model for Lags {
         Ok(())
     }
 
+    fn warnings(parameters: &Parameters) -> Vec<String> {
+        let slow = "tau is above 1000 s: the output hardly moves".to_owned();
+        (parameters.fixed.tau > 1000.0).then_some(slow).into_iter().collect()
+    }
+
     fn step_between(&mut self, input: &Input, _: &Input, step: f64) {
         let Parameters { tunable, fixed } = self.parameters;
         assert!(!tunable.trap, "trapped in step");

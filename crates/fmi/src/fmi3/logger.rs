@@ -9,8 +9,8 @@ use crate::abi::Host;
 use crate::abi::pointers::c_string;
 use crate::{LogCategory, Mode, Severity};
 
-/// Destination of an instance's messages: errors unless the host switches them off by name, the
-/// others on request.
+/// Destination of an instance's messages: errors unless the host switches them off by name,
+/// warnings unless it switches them off, the others on request.
 pub struct Logger {
     callback: Option<fmi3LogMessageCallback>,
     environment: fmi3InstanceEnvironment,
@@ -34,7 +34,7 @@ impl Logger {
             callback,
             environment,
             events: logging_on,
-            warnings: logging_on,
+            warnings: true,
             discards: logging_on,
             errors: true,
             layout: Layout::Scalars,

@@ -85,3 +85,16 @@ fn reset_makes_an_instance_as_new() {
     assert_eq!(bytes(&mut instance), fresh);
     assert_eq!(run(&mut instance), first);
 }
+
+#[test]
+fn a_doubt_about_parameters_is_a_warning_and_no_failure() {
+    for (tau, count) in [(1000.0, 0), (1001.0, 1)] {
+        let mut instance = initializing();
+        instance.set("tau", tau).unwrap();
+        assert_eq!(instance.exit_initialization_mode(), Status::Ok);
+        let messages = instance.messages();
+        let warnings: Vec<_> = messages.iter().filter(|message| message.category == "logStatusWarning").collect();
+        assert_eq!(warnings.len(), count, "{messages:?}");
+        assert!(warnings.iter().all(|message| message.text.contains("tau is above 1000 s")));
+    }
+}

@@ -14,6 +14,7 @@ use crate::model::Lags;
 pub const IDENTITY: Identity = Lags::IDENTITY;
 
 pub const OK: c_int = 0;
+pub const WARNING: c_int = 1;
 pub const DISCARD: c_int = 2;
 pub const ERROR: c_int = 3;
 

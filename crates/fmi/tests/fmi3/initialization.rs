@@ -56,3 +56,17 @@ fn reset_makes_an_instance_as_new() {
     assert_eq!(instance.reset(), OK);
     assert_eq!(instance.bytes(), fresh);
 }
+
+#[test]
+fn a_doubt_about_parameters_is_a_warning_and_no_failure() {
+    for (tau, expected) in [(1000.0, 0), (1001.0, 1)] {
+        let instance = initializing();
+        instance.set_real("tau", &[tau]);
+        assert_eq!(instance.exit_initialization_mode(), OK);
+        let messages = instance.messages();
+        let is_warning = |(status, category, text): &&Entry| {
+            *status == WARNING && category == "logStatusWarning" && text.contains("tau is above 1000 s")
+        };
+        assert_eq!(messages.iter().filter(is_warning).count(), expected, "{messages:?}");
+    }
+}

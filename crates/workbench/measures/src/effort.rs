@@ -14,7 +14,7 @@ pub struct Effort {
     pub stroke_used: f64,
     /// Smallest distance of any actuator from either end of its stroke \[m\].
     pub smallest_margin: f64,
-    /// Fraction of the steps in which tilt coordination was limited, 0 to 1.
+    /// Fraction of the steps in which a limit of tilt coordination acted, 0 to 1.
     pub tilt_limited: f64,
     /// Fraction of the steps in which the soft limits changed the motion, 0 to 1.
     pub soft_limited: f64,

@@ -322,7 +322,7 @@ fn effort_rows(effort: &Effort) -> [Row; 8] {
             "tilt limited",
             100.0 * effort.tilt_limited,
             "%",
-            "Fraction of the steps in which tilt coordination lagged behind its target because of a limit.",
+            "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit.",
         ),
         row(
             "soft limits active",

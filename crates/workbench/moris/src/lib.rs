@@ -33,5 +33,8 @@ pub mod text_table;
 pub mod tune;
 pub mod worst_case;
 
+/// Version, and the commit where it is known.
+pub const VERSION: &str = env!("MORIS_VERSION");
+
 /// Default directory for reports. No directory of the sources has this name.
 pub const REPORT_DIRECTORY: &str = "moris-report";

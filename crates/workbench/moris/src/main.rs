@@ -8,7 +8,7 @@ use moris::{frequency_response, help, measure, parameters, rig, schema, simulate
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
-#[command(name = "moris", version)]
+#[command(name = "moris", version = moris::VERSION)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,

@@ -4,6 +4,7 @@
 //! tests and other programs.
 
 mod chart;
+pub mod curves;
 pub mod figures;
 pub mod fmu;
 pub mod manoeuvres;

@@ -8,6 +8,7 @@ use anyhow::{Context, Result};
 use clap::Parser;
 use moris_build_fmu::workspace;
 use moris_fmu_host::Fmu;
+use moris_paper_runs::curves::write_curves;
 use moris_paper_runs::figures::{write_figures, write_strategies};
 use moris_paper_runs::fmu::{built, open};
 use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre, TOWN};
@@ -17,11 +18,11 @@ use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
 
 /// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and
-/// draws figures 5 to 9; then compares the strategies.
+/// draws figures 5 to 9; then compares the strategies. Writes the curves as CSV, too.
 #[derive(Parser)]
 #[command(name = "cargo paper-runs", bin_name = "cargo paper-runs")]
 struct Options {
-    /// Directory for the figures [default: target/paper-runs]
+    /// Directory for the figures and curves [default: target/paper-runs]
     #[arg(long, value_name = "DIR")]
     output: Option<PathBuf>,
 
@@ -54,6 +55,9 @@ fn main() -> Result<()> {
     let strategies = output.join("strategies.svg");
     write_strategies(&strategies, &compared)?;
     println!("{}", strategies.display());
+    for path in write_curves(&output, &recordings)?.into_iter().chain(write_curves(&output, &compared)?) {
+        println!("{}", path.display());
+    }
     Ok(())
 }
 

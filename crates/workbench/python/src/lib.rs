@@ -23,6 +23,10 @@ use pyo3::prelude::*;
 
 #[pymodule]
 mod _moris {
+    /// Version of the package.
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+
     /// Time over which recordings are faded in by default \[s\].
     #[pymodule_export]
     const FADE_IN: f64 = moris::recording::FADE_IN;

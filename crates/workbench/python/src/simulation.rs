@@ -6,14 +6,15 @@ use moris::measure::host::Host;
 use moris::recording::Recording;
 use moris::recording::preview::LONGEST_PREVIEW;
 use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fits_the_rig, page};
-use moris_interface::{Group, Writer, slot_count};
+use moris_interface::{Group, Writer, guid, slot_count};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
-use moris_washout::{Input, Output};
+use moris_washout::interface::StrategyKind;
+use moris_washout::{Input, Output, Parameters, Washout};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::error;
 use crate::recording::PyRecording;
@@ -23,6 +24,13 @@ use crate::washout::parameter_dict;
 
 /// A measure for Python: subject, name, value, unit, definition, source.
 type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &'static str);
+
+/// A simulation as it is pickled beside its recording, behind the version:
+///
+/// - names of rig and parameters; the parameters, and those of the rig alone;
+/// - step, inputs, outputs, and felt force within steps;
+/// - whether the bound was computed.
+type State = ([String; 2], [Parameters; 2], f64, Vec<Input>, Vec<Output>, Vec<[f64; 3]>, bool);
 
 /// A simulated recording.
 #[pyclass(frozen, module = "moris._moris", name = "Simulation")]
@@ -45,8 +53,12 @@ impl PySimulation {
         bound: bool,
         preview: f64,
     ) -> PyResult<Self> {
-        let host = host(preview)?;
         let setup = setup::load(py, rig, parameters, strategy)?;
+        let host = host(preview)?;
+        if preview > 0.0 && setup.parameters.structure.strategy != StrategyKind::Predictive {
+            let reason = "preview is for the predictive strategy alone; add strategy=\"predictive\"";
+            return Err(PyValueError::new_err(reason));
+        }
         let recording = Arc::clone(&recording.inner);
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
@@ -115,6 +127,46 @@ impl PySimulation {
     #[getter]
     fn measures(&self) -> Vec<Measure> {
         self.outcome.rows().into_iter().map(measure).collect()
+    }
+
+    #[allow(clippy::type_complexity)]
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (PyRecording, Bound<'py, PyBytes>))> {
+        let Outcome { setup, simulation, bounds, .. } = &self.outcome;
+        let state: State = (
+            [setup.rig_name.clone(), setup.parameters_name.clone()],
+            [setup.parameters, setup.rig_alone],
+            simulation.step,
+            simulation.inputs.clone(),
+            simulation.outputs.clone(),
+            simulation.felt_within_steps.iter().map(|felt| (*felt).into()).collect(),
+            bounds.iter().any(Option::is_some),
+        );
+        let bytes = postcard::to_allocvec(&(guid::<Washout>(), state))
+            .map_err(|reason| PyValueError::new_err(reason.to_string()))?;
+        let recording = PyRecording { inner: Arc::clone(&self.recording) };
+        Ok((py.get_type::<PySimulation>().getattr("_from_state")?, (recording, PyBytes::new(py, &bytes))))
+    }
+
+    #[staticmethod]
+    fn _from_state(py: Python, recording: &PyRecording, state: &[u8]) -> PyResult<Self> {
+        let refused = || PyValueError::new_err("the pickled simulation is damaged, or of another version of moris");
+        let (version, body) = postcard::take_from_bytes::<String>(state).map_err(|_| refused())?;
+        if version != guid::<Washout>() {
+            return Err(refused());
+        }
+        let (names, parameters, step, inputs, outputs, felt, has_bounds): State =
+            postcard::from_bytes(body).map_err(|_| refused())?;
+        let [rig_name, parameters_name] = names;
+        let [parameters, rig_alone] = parameters;
+        let felt_within_steps = felt.into_iter().map(Into::into).collect();
+        let simulation = Simulation { step, parameters, inputs, outputs, felt_within_steps };
+        let setup = Setup { rig_name, parameters_name, parameters, rig_alone };
+        let mut outcome = Outcome::measured(simulation, &setup).map_err(|_| refused())?;
+        if has_bounds {
+            outcome.bounds =
+                py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
+        }
+        Ok(PySimulation { recording: Arc::clone(&recording.inner), outcome })
     }
 
     /// The report's page, with other simulations of the same recording for comparison.

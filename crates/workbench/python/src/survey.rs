@@ -20,8 +20,10 @@ type AxisAlone = (&'static str, f64, f64, Option<f64>, Option<f64>);
 /// - name, and properties of each axis alone;
 /// - volumes of the workspace, level and tilted, with standard errors;
 /// - smallest singular value and worst condition number, or else leg lengths at a singularity;
+/// - the two legs that come closest to each other, counted from 1, and their distance [m];
 /// - the survey as text and as picture.
-type Properties = (String, Vec<AxisAlone>, [(f64, f64); 2], Option<(f64, f64)>, Option<[f64; 6]>, String, String);
+type Properties =
+    (String, Vec<AxisAlone>, [(f64, f64); 2], Option<(f64, f64)>, Option<[f64; 6]>, ([usize; 2], f64), String, String);
 
 /// Surveys a rig.
 ///
@@ -45,5 +47,7 @@ pub fn survey(py: Python, rig: Option<&Bound<PyAny>>, samples: u32) -> PyResult<
     };
     let volumes = [survey.workspace.level, survey.workspace.tilted].map(|volume| (volume.size, volume.standard_error));
     let axes = axes.collect();
-    Ok((survey.name.clone(), axes, volumes, condition, singular_at, survey.to_string(), picture::svg(&survey)))
+    let closest = survey.clearance.approaches[0];
+    let closest = (closest.legs.map(|leg| leg + 1), closest.distance);
+    Ok((survey.name.clone(), axes, volumes, condition, singular_at, closest, survey.to_string(), picture::svg(&survey)))
 }

@@ -9,7 +9,7 @@ use moris::tune::cost::{Cost, Objective};
 use moris::tune::folds;
 use moris::tune::search::{Budget, Evaluate, evaluate_here};
 use moris::tune::space::{Group, Space};
-use moris::tune::summary;
+use moris::tune::summary::{self, Verdict};
 use moris::tune::tested::{Tested, tune_tested};
 use moris::tune::tuner::{NoFeasibleParameters, Tuner};
 use moris_setup::{NamedValues, Setup, all, overlaid};
@@ -190,7 +190,7 @@ impl PyTuning {
             parameter_dict(py, &tuned.parameters)?,
             text,
             summary::first_line(&results, fraction),
-            summary::is_worse(&results),
+            Verdict::of(&results, fraction) == Verdict::Worse,
             was_interrupted,
             errors.collect(),
         ))

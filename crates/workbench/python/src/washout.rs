@@ -253,7 +253,8 @@ impl PyWashout {
 
     fn __repr__(&self) -> String {
         let parameters = self.washout.parameters();
-        format!("Washout(strategy={:?}, started={})", parameters.structure.strategy, self.started)
+        let started = if self.started { "True" } else { "False" };
+        format!("Washout(strategy='{}', started={started})", parameters.structure.strategy.name())
     }
 }
 

@@ -7,7 +7,9 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use std::process::exit;
 
-use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Report, Run, Weight, html};
+use moris_report::{
+    Better, Chart, Cues, Finding, Limited, Line, Measure, Report, Run, Vehicle, Weight, html, tilt_limits,
+};
 use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
 
@@ -56,6 +58,7 @@ fn two_runs() -> Report {
     soft.conditioning.rate_scale.fill(0.3);
     let small_motions = presets::parameters(presets::SMALL_MOTIONS);
     Report {
+        vehicle: Vehicle::Motorcycle,
         title: "Out of town and a brusque stop".into(),
         subtitle: "A computed ride of 60 s on the default rig, with the shipped parameters and two others".into(),
         findings: vec![finding(Weight::Note, "The ride is computed.")],
@@ -103,6 +106,7 @@ fn hostile() -> Report {
         limits: vec![],
     });
     Report {
+        vehicle: Vehicle::Car,
         title: HOSTILE.into(),
         subtitle: HOSTILE.into(),
         findings: vec![finding(Weight::Warning, HOSTILE)],
@@ -168,6 +172,11 @@ fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -
             keep(&mut run, time, &input(time), &washout, std::mem::take(&mut limited));
         }
     }
+    let [roll, pitch] = &run.tilt;
+    let [roll_rate, pitch_rate] = &run.tilt_rate;
+    let by = tilt_limits(&run.times, &run.limited.tilt, [roll, pitch], [roll_rate, pitch_rate], &run.limits);
+    run.limited.tilt = (0..run.times.len()).map(|k| by.iter().flatten().any(|flags| flags[k])).collect();
+    run.limited.tilt_by = by;
     run.measures = measures(&run);
     run
 }
@@ -192,7 +201,7 @@ fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bo
     run.tilt_rate[0].push(output.tilt_roll_rate);
     run.tilt_rate[1].push(output.tilt_pitch_rate);
     run.lean.push(input.lean);
-    let Limited { tilt, safety, actuator } = &mut run.limited;
+    let Limited { tilt, safety, actuator, .. } = &mut run.limited;
     tilt.push(limited[0]);
     safety.push(limited[1]);
     actuator.push(limited[2]);

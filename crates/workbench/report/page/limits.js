@@ -1,11 +1,13 @@
 // The time line of what was limited, and the list of it with reasons.
 
 const KINDS = {
-  tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target because of its rate, acceleration or angle limit." },
+  tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit." },
   safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit limited the platform from its position, velocity or acceleration limit." },
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };
 const LANE = 20;
+/** Rows of the list that a print has; the style sheet leaves out the others. */
+const PRINTED = 40;
 
 /** How long a flag was up: it speaks of the step before its sample. */
 function timeLimited(run, flags) {
@@ -23,7 +25,8 @@ class TimeLine {
     this.summary = element("p", { class: "summary" });
     this.list = element("tbody");
     const table = element("table", {}, [this.list]);
-    this.element = element("div", {}, [this.plot.box, this.summary, element("div", { class: "events" }, [table])]);
+    this.printed = element("p", { class: "summary print-only" });
+    this.element = element("div", {}, [this.plot.box, this.summary, element("div", { class: "events" }, [table]), this.printed]);
     this.seek = handlers.seek;
   }
 
@@ -37,6 +40,7 @@ class TimeLine {
     this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
     this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "No limit was active.";
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
+    this.printed.textContent = this.events.length > PRINTED ? `The first ${PRINTED} of ${this.events.length}.` : "";
     this.element.querySelector(".events").hidden = this.events.length === 0;
   }
 

@@ -34,17 +34,32 @@ const headOf = (rig, state) => onTorso(rig, state, rig.torso_length);
 /** A vector in the head's axes, in the base frame. */
 const fromHead = (state, a) => turned(state.rotation, turned(rolled(state.lean), a));
 
-// The mock-up in side view, as x and z in units of the seat's height above the platform, and half its width.
-const BODY = [
-  { half: 0.20, colour: "--mock-up", outline: [[-0.45, 0.30], [0.35, 0.26], [0.62, 0.70], [0.50, 0.98], [-0.10, 0.92]] },
-  { half: 0.16, colour: "--tank", outline: [[0.02, 0.92], [0.60, 0.86], [0.66, 1.10], [0.46, 1.22], [0.10, 1.14]] },
-  { half: 0.18, colour: "--seat", outline: [[-0.98, 1.02], [-0.60, 0.88], [0.08, 0.92], [0.10, 1.04], [-0.50, 1.02], [-0.94, 1.14]] },
-];
-const WHEELS = [{ centre: [1.28, 0.52], radius: 0.5 }, { centre: [-1.12, 0.52], radius: 0.5 }];
-const FORK = [[1.28, 0.52], [0.70, 1.34]];
-const BAR = { at: [0.66, 1.38], half: 0.62 };
-const FOOT = [-0.22, 0.34];
-const KNEE = [0.42, 0.98];
+// The mock-ups in side view, as x and z in units of the seat's height above the platform, and half their widths. A wheel has
+// its centre's y as third coordinate.
+const MOTORCYCLE = {
+  body: [
+    { half: 0.20, colour: "--mock-up", outline: [[-0.45, 0.30], [0.35, 0.26], [0.62, 0.70], [0.50, 0.98], [-0.10, 0.92]] },
+    { half: 0.16, colour: "--tank", outline: [[0.02, 0.92], [0.60, 0.86], [0.66, 1.10], [0.46, 1.22], [0.10, 1.14]] },
+    { half: 0.18, colour: "--seat", outline: [[-0.98, 1.02], [-0.60, 0.88], [0.08, 0.92], [0.10, 1.04], [-0.50, 1.02], [-0.94, 1.14]] },
+  ],
+  wheels: [{ centre: [1.28, 0.52, 0], radius: 0.5 }, { centre: [-1.12, 0.52, 0], radius: 0.5 }],
+  rods: [[[1.28, 0.52, 0], [0.70, 1.34, 0]]],
+  bar: { at: [0.66, 1.38], half: 0.62 },
+  legs: { knee: [0.42, 0.98], foot: [-0.22, 0.34] },
+};
+const CAR = {
+  body: [
+    { half: 0.92, colour: "--tank", outline: [[-1.85, 0.38], [2.25, 0.38], [2.35, 0.70], [1.20, 1.02], [-1.10, 1.02], [-1.85, 0.92]] },
+    { half: 0.30, colour: "--seat", outline: [[-0.42, 1.00], [-0.26, 1.00], [-0.40, 2.05], [-0.58, 2.05]] },
+  ],
+  wheels: [1.50, -1.20].flatMap((x) => [0.95, -0.95].map((y) => ({ centre: [x, 0.42, y], radius: 0.4 }))),
+  rods: [
+    ...[0.85, -0.85].map((y) => [[1.20, 1.02, y], [0.78, 1.80, 0.85 * y]]),
+    [[0.78, 1.80, 0.72], [0.78, 1.80, -0.72]],
+  ],
+  bar: { at: [0.62, 1.42], half: 0.28 },
+};
+const MOCK_UPS = { motorcycle: MOTORCYCLE, car: CAR };
 
 /** A flat shape swept across: its two sides and the strip between them, as polygons of points on the platform. */
 function swept(outline, half, size) {
@@ -58,10 +73,10 @@ function swept(outline, half, size) {
 }
 
 /** A ring of points on the platform, standing along its x axis. */
-function wheel({ centre: [x, z], radius }, size) {
+function wheel({ centre: [x, z, y], radius }, size) {
   return Array.from({ length: 29 }, (_, k) => {
     const angle = k / 28 * 2 * Math.PI;
-    return [size * (x + radius * Math.cos(angle)), 0, size * (z + radius * Math.sin(angle))];
+    return [size * (x + radius * Math.cos(angle)), size * y, size * (z + radius * Math.sin(angle))];
   });
 }
 

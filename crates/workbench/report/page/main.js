@@ -8,7 +8,7 @@ const recording = {
 };
 const now = { time: recording.from, run: report.runs[report.selected], shown: [recording.from, recording.to], playing: false, speed: 1 };
 
-const view = new View(byId("view"), report.rig);
+const view = new View(byId("view"), report.rig, report.vehicle);
 const gauges = new Gauges(byId("gauges"), report.rig.stroke);
 const chips = new Chips(byId("chips"));
 const shown = () => now.shown;
@@ -196,16 +196,21 @@ setUpPlayer();
 letTurn(view, drawMachine);
 select(report.selected);
 addEventListener("resize", redraw);
-// A print has room for what a screen unfolds.
+// A print is as wide as its paper and in light colours. The definitions are in it if the reader wants them.
 const folded = [];
 addEventListener("beforeprint", () => {
-  for (const part of document.querySelectorAll("#measures details:not([open])")) {
-    part.open = true;
-    folded.push(part);
+  document.documentElement.classList.add("printing");
+  const definitions = document.querySelector("#measures details");
+  if (definitions && !definitions.open && printBox.checked) {
+    definitions.open = true;
+    folded.push(definitions);
   }
+  redraw();
 });
 addEventListener("afterprint", () => {
+  document.documentElement.classList.remove("printing");
   for (const part of folded.splice(0)) part.open = false;
+  redraw();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 

@@ -1,4 +1,4 @@
-// The table of measures: the runs one below the other, and each measure's definition and source below it all.
+// The measures, channel by channel: the runs side by side, and each measure's definition and source below it all.
 
 const cellText = (value) => (value == null ? "\u2013" : significant(value, 3));
 
@@ -24,37 +24,36 @@ function gathered(runs) {
   return [...groups].map(([name, measures]) => ({ name, measures: [...measures.values()] }));
 }
 
-/** Groups that hold the same measures, which stand in one table. */
-function alike(groups) {
-  const tables = new Map();
+/** The channels: a group with what is sensed of it. */
+function byChannel(groups) {
+  const known = new Map();
   for (const group of groups) {
-    const columns = JSON.stringify(group.measures.map((measure) => [measure.name, measure.unit]));
-    if (!tables.has(columns)) tables.set(columns, []);
-    tables.get(columns).push(group);
+    const [, sensed] = /^Sensed (.*)/.exec(group.name) ?? [];
+    const name = sensed ? sensed[0].toUpperCase() + sensed.slice(1) : group.name;
+    if (!known.has(name)) known.set(name, []);
+    known.get(name).push({ name: group.name, part: sensed ? "sensed: " : "", measures: group.measures });
   }
-  return [...tables.values()];
+  return [...known].map(([name, parts]) => ({ name, groups: parts }));
 }
 
-/** A table: a column for each measure, a row for each group and run. */
-function measureTable(groups, runs) {
-  const [{ measures: columns }] = groups;
+/** A block: a row for each measure of a channel, a column for each run. */
+function channelBlock({ name, groups }, runs) {
   const several = runs.length > 1;
-  const heads = columns.map(({ name, unit: inUnit, definition }) => {
+  const heads = runs.map((run) => element("th", { scope: "col", class: "run number" }, [runMark(run), run.name]));
+  const head = element("thead", {}, [element("tr", {}, [element("td"), ...heads])]);
+  const rows = groups.flatMap(({ name: group, part, measures }) => measures.map(({ name: measure, unit: inUnit, definition, values, better }) => {
     const shownUnit = element("span", { class: "unit" }, [inUnit]);
-    return element("th", { scope: "col", class: "number", title: definition }, [name, " ", shownUnit]);
-  });
-  const head = element("tr", {}, [element("th"), ...(several ? [element("th")] : []), ...heads]);
-  const rows = groups.flatMap((group) => runs.map((run, i) => {
-    const name = element("th", { scope: "row" }, [i === 0 ? group.name : ""]);
-    const ofRun = several ? [element("td", { class: "run" }, [runMark(run), run.name])] : [];
-    const cells = group.measures.map(({ values, better }) => {
+    const cells = runs.map((run, i) => {
       const of = best(values, better) === i ? "number best" : "number";
       return element("td", { class: of }, [cellText(values[i])]);
     });
-    return element("tr", { class: i === 0 ? "group" : "" }, [name, ...ofRun, ...cells]);
+    const heading = element("th", { scope: "row", title: definition }, [`${measure.startsWith("sensed") ? "" : part}${measure} `, shownUnit]);
+    const row = element("tr", {}, [heading, ...cells]);
+    Object.assign(row.dataset, { group, measure });
+    return row;
   }));
-  const table = element("table", {}, [element("thead", {}, [head]), element("tbody", {}, rows)]);
-  return element("div", { class: "wide" }, [table]);
+  const table = element("table", {}, [...(several ? [head] : []), element("tbody", {}, rows)]);
+  return element("div", { class: "channel" }, [element("h3", {}, [name]), table]);
 }
 
 const runMark = (run) => element("span", { class: "mark", style: `background: var(${run.colour})` });
@@ -82,8 +81,13 @@ function showMeasures(box, runs) {
   const groups = gathered(runs);
   if (groups.length === 0) return;
   const wasOpen = box.querySelector("details")?.open;
-  box.replaceChildren(element("h2", {}, ["Measures"]), ...alike(groups).map((table) => measureTable(table, runs)));
+  const blocks = byChannel(groups).map((channel) => channelBlock(channel, runs));
+  box.replaceChildren(element("h2", {}, ["Measures"]), element("div", { class: "channels" }, blocks));
   if (runs.length > 1) box.append(element("p", { class: "summary" }, ["Bold: the better value."]));
-  box.append(definitions(groups));
+  box.append(definitions(groups), printChoice());
   box.querySelector("details").open = Boolean(wasOpen);
 }
+
+/** The switch that prints the definitions, too; it stays as it is when the measures change. */
+const printBox = element("input", { type: "checkbox", id: "print-definitions" });
+const printChoice = () => element("label", { class: "print-choice" }, [printBox, " print with the definitions"]);

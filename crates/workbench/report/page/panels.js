@@ -83,9 +83,11 @@ function furtherSections() {
   for (const run of report.runs) {
     for (const chart of run.charts) {
       if (!charts.has(chart.title)) charts.set(chart.title, { title: chart.title, unit: chart.quantity, lines: [], limits: chart.limits });
-      const lines = chart.lines.map((line, i) => ({
-        label: report.runs.length > 1 ? `${line.label}, ${run.name}` : line.label,
-        colour: report.runs.length > 1 ? run.colour : LEGS[i % 6],
+      // What is desired is the recording's, the same for every run.
+      const isNew = (line) => line.label !== "desired" || charts.get(chart.title).lines.every(({ label }) => label !== "desired");
+      const lines = chart.lines.filter(isNew).map((line, i) => ({
+        label: report.runs.length > 1 && line.label !== "desired" ? `${line.label}, ${run.name}` : line.label,
+        colour: line.label === "desired" ? "--desired" : report.runs.length > 1 ? run.colour : LEGS[i % 6],
         dash: DASHES[i % DASHES.length],
         width: 1.6, times: chart.times, values: line.values,
       }));

@@ -7,9 +7,10 @@ const ARROW_WORTH_DRAWING = 0.1;
 const GRAVITY = 9.80665;
 
 class View {
-  constructor(canvas, rig) {
+  constructor(canvas, rig, vehicle) {
     this.canvas = canvas;
     this.rig = rig;
+    this.mockUp = MOCK_UPS[vehicle];
     this.camera = new Camera(rig);
     /** As drawn last: both ends of each leg and the middle of the head, in the picture. */
     this.drawnLegs = [];
@@ -129,20 +130,21 @@ class View {
   addMockUp(state) {
     const size = this.rig.head_height - this.rig.torso_length;
     if (size < 0.1) return;
-    const place = ([x, z], y = 0) => onPlatform(state, [size * x, size * y, size * z]);
-    for (const { outline, half, colour: name } of BODY) {
+    const place = ([x, z, y = 0], aside = y) => onPlatform(state, [size * x, size * aside, size * z]);
+    const { body, wheels, rods, bar } = this.mockUp;
+    for (const { outline, half, colour: name } of body) {
       for (const face of swept(outline, half, size)) {
         this.addPolygon(face.map((point) => onPlatform(state, point)), channels(colour(name)));
       }
     }
     const dark = channels(colour("--tyre"));
-    for (const one of WHEELS) {
+    for (const one of wheels) {
       const ring = wheel(one, size).map((point) => onPlatform(state, point));
       for (let k = 0; k + 7 < ring.length; k += 7) this.addRod(ring.slice(k, k + 8), 0.14 * size, dark);
       this.addBall(place(one.centre), 0.1 * size, dark);
     }
-    this.addRod([place(FORK[0]), place(FORK[1])], 0.1 * size, dark);
-    this.addRod([place(BAR.at, BAR.half), place(BAR.at, -BAR.half)], 0.07 * size, dark);
+    for (const ends of rods) this.addRod(ends.map((end) => place(end)), 0.1 * size, dark);
+    this.addRod([place(bar.at, bar.half), place(bar.at, -bar.half)], 0.07 * size, dark);
   }
 
   addRider(state) {
@@ -153,11 +155,15 @@ class View {
     if (size >= 0.1) {
       for (const [i, side] of [1, -1].entries()) {
         const place = ([x, z], y) => onPlatform(state, [size * x, side * size * y, size * z]);
-        const hip = onTorso(rig, state, 0.08, side * 0.09, -0.2);
-        this.addRod([hip, place(KNEE, 0.5)], 0.11, suit);
-        this.addRod([place(KNEE, 0.5), place(FOOT, 0.42)], 0.09, suit);
-        const elbow = plus(scaled(0.5, plus(shoulders[i], place(BAR.at, BAR.half))), scaled(-0.09, state.rotation.map((row) => row[2])));
-        this.addRod([shoulders[i], elbow, place(BAR.at, BAR.half)], 0.075, suit);
+        const { legs, bar } = this.mockUp;
+        if (legs) {
+          const hip = onTorso(rig, state, 0.08, side * 0.09, -0.2);
+          this.addRod([hip, place(legs.knee, 0.5)], 0.11, suit);
+          this.addRod([place(legs.knee, 0.5), place(legs.foot, 0.42)], 0.09, suit);
+        }
+        const hand = place(bar.at, bar.half);
+        const elbow = plus(scaled(0.5, plus(shoulders[i], hand)), scaled(-0.09, state.rotation.map((row) => row[2])));
+        this.addRod([shoulders[i], elbow, hand], 0.075, suit);
       }
     }
     const back = [onTorso(rig, state, 0.1, 0, -0.2), onTorso(rig, state, 0.6 * rig.torso_length, 0, -0.1)];

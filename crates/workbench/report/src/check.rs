@@ -114,7 +114,12 @@ pub(crate) mod tests {
             legs: zeros(),
             tilt: zeros(),
             tilt_rate: zeros(),
-            limited: Limited { tilt: vec![false; 2], safety: vec![false; 2], actuator: vec![false; 2] },
+            limited: Limited {
+                tilt: vec![false; 2],
+                safety: vec![false; 2],
+                actuator: vec![false; 2],
+                ..Limited::default()
+            },
             ..Run::default()
         };
         Report { rig: Rig { stroke: [1.0, 1.6], ..Rig::default() }, runs: vec![run], ..Report::default() }

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::encode::{curve, flags, times};
 use crate::simulator::Simulator;
+use crate::tilt_limits::TiltFlags;
 
 /// The whole page.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -21,12 +22,23 @@ pub struct Report {
     /// Facts for the foot of the page as name and value: files, versions, step.
     pub provenance: Vec<(String, String)>,
     pub rig: Rig,
+    /// What is drawn on the platform.
+    pub vehicle: Vehicle,
     /// The runs, for instance with the default parameters and with tuned ones. At least one.
     pub runs: Vec<Run>,
     /// Which of the runs the platform shows first.
     pub selected: usize,
     /// The simulation of the recording with other parameters; none for a page that only shows.
     pub simulator: Option<Simulator>,
+}
+
+/// The mock-up on the platform.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Vehicle {
+    #[default]
+    Motorcycle,
+    Car,
 }
 
 /// A sentence about the run, and how much it matters.
@@ -135,9 +147,12 @@ pub struct Cues {
 /// Limits active during the step before each sample.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Limited {
-    /// Tilt coordination lagged behind its target.
+    /// A limit held tilt coordination back from its target: any of `tilt_by`.
     #[serde(serialize_with = "flags")]
     pub tilt: Vec<bool>,
+    /// Which limit, of roll and of pitch.
+    #[serde(skip)]
+    pub tilt_by: TiltFlags,
     /// A safety unit limited the platform.
     #[serde(serialize_with = "flags")]
     pub safety: Vec<bool>,

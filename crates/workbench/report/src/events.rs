@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::data::{Rig, Run};
+use crate::tilt_limits::TiltLimit;
 
 /// A stretch of time in which something was limited.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -49,14 +50,32 @@ impl Utilisation {
 
 /// Everything that was limited in a run, in the order of time.
 pub fn events(run: &Run, rig: &Rig) -> Vec<Event> {
-    let flags =
-        [(Kind::Tilt, &run.limited.tilt), (Kind::Safety, &run.limited.safety), (Kind::Actuator, &run.limited.actuator)];
+    let flags = [(Kind::Safety, &run.limited.safety), (Kind::Actuator, &run.limited.actuator)];
     let mut events: Vec<Event> = flags
         .iter()
         .flat_map(|(kind, flags)| stretches(&run.times, flags).map(|at| event(*kind, run, rig, at)))
+        .chain(tilt_events(run))
         .collect();
     events.sort_by(|a, b| a.from.total_cmp(&b.from));
     events
+}
+
+/// The stretches in which a limit of tilt coordination acted, limit by limit.
+fn tilt_events(run: &Run) -> Vec<Event> {
+    let of_axis = |(axis, by_limit): (&str, &[Vec<bool>; 3])| -> Vec<Event> {
+        let of_limit = |(limit, flags): (TiltLimit, &Vec<bool>)| -> Vec<Event> {
+            let why = format!("{axis} at the {}", limit.text(&run.limits));
+            let event = |(first, last): (usize, usize)| Event {
+                kind: Kind::Tilt,
+                from: run.times[first],
+                to: run.times[last],
+                why: why.clone(),
+            };
+            stretches(&run.times, flags).map(event).collect()
+        };
+        TiltLimit::ALL.into_iter().zip(by_limit).flat_map(of_limit).collect()
+    };
+    ["roll", "pitch"].into_iter().zip(&run.limited.tilt_by).flat_map(of_axis).collect()
 }
 
 /// First and last index of each stretch of raised flags. A flag speaks of the step before it.
@@ -75,9 +94,8 @@ fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usiz
 fn event(kind: Kind, run: &Run, rig: &Rig, (first, last): (usize, usize)) -> Event {
     let at = Stretch { times: &run.times[first..=last], first, last };
     let why = match kind {
-        Kind::Tilt => tilt_reason(run, &at),
-        Kind::Safety => safety_reason(run, rig, &at),
         Kind::Actuator => actuator_reason(run, rig, &at),
+        _ => safety_reason(run, rig, &at),
     };
     Event { kind, from: run.times[first], to: run.times[last], why }
 }
@@ -110,28 +128,6 @@ impl Stretch<'_> {
         let values = self.of(series).windows(2);
         values.zip(self.times.windows(2)).map(|(x, t)| (x[1] - x[0]) / (t[1] - t[0])).collect()
     }
-}
-
-fn peak(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |peak, value| f64::max(peak, value.abs()))
-}
-
-fn tilt_reason(run: &Run, at: &Stretch) -> String {
-    let limits = &run.limits;
-    let axes = [(0, "roll"), (1, "pitch")];
-    let angles = axes.map(|(i, axis)| {
-        let text = format!("angle limit of {:.1}°", limits.tilt_angle.to_degrees());
-        Utilisation::new(axis, peak(at.of(&run.tilt[i])), limits.tilt_angle, text)
-    });
-    let rates = axes.map(|(i, axis)| {
-        let text = format!("rate limit of {:.1}°/s", limits.tilt_rate.to_degrees());
-        Utilisation::new(axis, peak(at.of(&run.tilt_rate[i])), limits.tilt_rate, text)
-    });
-    let accelerations = axes.map(|(i, axis)| {
-        let text = format!("acceleration limit of {:.1}°/s²", limits.tilt_acceleration.to_degrees());
-        Utilisation::new(axis, at.peak_rate(&run.tilt_rate[i]), limits.tilt_acceleration, text)
-    });
-    reason([angles.into(), rates.into(), accelerations.into()])
 }
 
 fn safety_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
@@ -225,7 +221,7 @@ mod tests {
             legs: std::array::from_fn(|_| all(1.3)),
             tilt: [all(0.0), all(0.0)],
             tilt_rate: [all(0.0), all(0.0)],
-            limited: Limited { tilt: vec![false; 201], safety: vec![false; 201], actuator: vec![false; 201] },
+            limited: Limited { safety: vec![false; 201], actuator: vec![false; 201], ..Limited::default() },
             limits: Limits {
                 tilt_angle: 0.38,
                 tilt_rate: 3_f64.to_radians(),
@@ -250,7 +246,7 @@ mod tests {
     fn a_flag_speaks_of_the_step_before_it_and_short_gaps_close() {
         let mut run = still();
         for k in [50, 51, 52, 60, 100] {
-            run.limited.tilt[k] = true;
+            run.limited.safety[k] = true;
         }
         let spans: Vec<(f64, f64)> = events(&run, &RIG).iter().map(|event| (event.from, event.to)).collect();
         assert_eq!(spans, [(0.49, 0.6), (0.99, 1.0)]);
@@ -259,17 +255,25 @@ mod tests {
     #[test]
     fn the_reason_is_the_limit_that_is_reached() {
         let mut run = still();
-        run.limited.tilt[100] = true;
+        run.limited.tilt_by[1] = [100, 120, 140].map(|at| (0..201).map(|k| k == at).collect());
         run.limited.safety[100] = true;
         run.limited.actuator[100] = true;
-        run.tilt_rate[1][100] = -3_f64.to_radians();
         run.position[2][100] = 1.1 - 0.33;
         run.legs[3][100] = 1.0;
         run.legs[4][100] = 1.6;
         run.legs[5][100] = 1.6;
         let events = events(&run, &RIG);
         let reason = |kind| events.iter().find(|event| event.kind == kind).map(|event| event.why.as_str());
-        assert_eq!(reason(Kind::Tilt), Some("pitch at the rate limit of 3.0°/s"));
+        let tilt: Vec<&str> =
+            events.iter().filter(|event| event.kind == Kind::Tilt).map(|event| event.why.as_str()).collect();
+        assert_eq!(
+            tilt,
+            [
+                "pitch at the rate limit of 3.0°/s",
+                "pitch at the acceleration limit of 11.5°/s²",
+                "pitch at the angle limit of 21.8°"
+            ]
+        );
         assert_eq!(reason(Kind::Safety), Some("heave at the travel limit of 0.33 m"));
         assert_eq!(
             reason(Kind::Actuator),

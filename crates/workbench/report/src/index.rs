@@ -7,28 +7,34 @@ use crate::page::{STYLE, escaped};
 pub struct IndexRow {
     /// The recording's name.
     pub name: String,
-    /// Its page, a file in the same directory.
-    pub file: String,
+    /// Its page, a file in the same directory; none for a recording that could not be used.
+    pub file: Option<String>,
     /// False for one that needs attention.
     pub is_good: bool,
+    /// The verdict in words.
+    pub verdict: String,
     /// Its figures, one for each heading.
     pub cells: Vec<String>,
 }
 
 /// The page as HTML: a heading, a sentence, and a table of the rows in their order.
 pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]) -> String {
-    let heads: String =
+    let header_cells: String =
         heads.iter().map(|head| format!("<th class=\"number\" scope=\"col\">{}</th>", escaped(head))).collect();
     let mut body = String::new();
     for row in rows {
-        let cells: String =
-            row.cells.iter().map(|cell| format!("<td class=\"number\">{}</td>", escaped(cell))).collect();
+        let cells = row.cells.iter().zip(heads);
+        let cell = |(cell, head): (&String, &&str)| {
+            format!("<td class=\"number\" data-head=\"{}\">{}</td>", escaped(head), escaped(cell))
+        };
+        let cells: String = cells.map(cell).collect();
+        let name = escaped(&row.name);
+        let name = row.file.as_ref().map_or(name.clone(), |file| format!("<a href=\"{}\">{name}</a>", encoded(file)));
         let (class, mark) = if row.is_good { ("good", "\u{2713}") } else { ("warning", "!") };
         body += &format!(
             "<tr class=\"group {class}\"><th scope=\"row\"><span class=\"finding-mark\" style=\"display: inline-block\">{mark}</span> \
-             <a href=\"{}\">{}</a></th>{cells}</tr>\n",
-            encoded(&row.file),
-            escaped(&row.name)
+             {name}</th><td class=\"verdict\">{}</td>{cells}</tr>\n",
+            escaped(&row.verdict)
         );
     }
     let (title, subtitle) = (escaped(title), escaped(subtitle));
@@ -37,7 +43,7 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
          initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<meta http-equiv=\"Content-Security-Policy\" \
          content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>{title}</title>\n<style>\n{STYLE}\na {{ color: \
          var(--accent); }}\n</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p id=\"subtitle\">{subtitle}</p>\n</header>\n\
-         <section id=\"measures\"><div class=\"wide\"><table><thead><tr><th></th>{heads}</tr></thead>\n<tbody>\n{body}</tbody>\
+         <section id=\"measures\"><div class=\"wide\"><table><thead><tr><th></th><th scope=\"col\">verdict</th>{header_cells}</tr></thead>\n<tbody>\n{body}</tbody>\
          </table></div></section>\n</body>\n</html>\n"
     )
 }
@@ -55,9 +61,17 @@ mod tests {
 
     #[test]
     fn names_stay_text_and_files_are_addresses() {
-        let row =
-            IndexRow { name: "<b>&".into(), file: "a b#1%.html".into(), is_good: false, cells: vec!["<1".into()] };
-        let page = index_html("<t>", "s", &["x>y"], &[row]);
+        let row = IndexRow {
+            name: "<b>&".into(),
+            file: Some("a b#1%.html".into()),
+            is_good: false,
+            verdict: "does <not> fit".into(),
+            cells: vec!["<1".into()],
+        };
+        let failed = IndexRow { name: "broken".into(), verdict: "no columns".into(), ..IndexRow::default() };
+        let page = index_html("<t>", "s", &["x>y"], &[row, failed]);
+        assert!(page.contains("does &lt;not&gt; fit") && page.matches("<a href").count() == 1, "{page}");
+        assert!(page.contains("broken</th><td class=\"verdict\">no columns</td></tr>"), "{page}");
         assert!(page.contains("href=\"./a%20b%231%25.html\">&lt;b&gt;&amp;</a>"), "{page}");
         assert!(page.contains("&lt;1") && page.contains("x&gt;y") && page.contains("<title>&lt;t&gt;</title>"));
         assert!(!page.contains("http:") && !page.contains("https:") && !page.contains("<script"));

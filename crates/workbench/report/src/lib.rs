@@ -16,11 +16,13 @@ mod index;
 mod page;
 mod simulator;
 mod thinning;
+mod tilt_limits;
 
 pub use check::{ReportError, check};
-pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
+pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Vehicle, Weight};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::html;
 pub use simulator::{Parameter, ParameterKind, Simulator};
 pub use thinning::Thinning;
+pub use tilt_limits::{TiltFlags, TiltLimit, tilt_limits};

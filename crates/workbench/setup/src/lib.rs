@@ -12,17 +12,14 @@
 
 #![forbid(unsafe_code)]
 
-mod consistency;
 mod error;
 mod named_values;
 mod names;
 pub mod parameter_file;
 mod parameter_sets;
-pub mod ranges;
 pub mod rig_file;
 mod setup;
 
-pub use consistency::check_consistency;
 pub use error::Error;
 pub use named_values::{NamedValues, all, changed, overlaid, values_of};
 pub use names::nearest;

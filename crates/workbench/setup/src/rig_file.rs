@@ -16,6 +16,7 @@
 //! maxLength = 1.6
 //! velocityLimit = 1.0                # m/s
 //! accelerationLimit = 15.0           # m/s2
+//! diameter = 0.1                     # m, optional: `rig check` looks for legs that touch each other
 //!
 //! [head]                             # optional: the rider's
 //! height = 1.2                       # m above the platform
@@ -35,12 +36,12 @@
 use moris_interface::shown;
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::reach::{Axis, displaced, single_axis_range, stroke_margin};
 use moris_washout::{ParameterError, Rig, check};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::names::nearest;
-use crate::ranges::{Axis, displaced, single_axis_range, stroke_margin};
 use crate::{Error, NamedValues};
 
 /// Fraction of the reach along an axis alone that a safety unit allows where the file does not say.
@@ -95,6 +96,8 @@ pub struct Actuator {
     pub velocity_limit: f64,
     /// \[m/s2\]
     pub acceleration_limit: f64,
+    /// Thickness, which keeps two legs apart \[m\]; `rig check` assumes one where none is given.
+    pub diameter: Option<f64>,
 }
 
 /// The rider's head.
@@ -135,6 +138,7 @@ const KEYS: &[&str] = &[
     "actuator.maxLength",
     "actuator.velocityLimit",
     "actuator.accelerationLimit",
+    "actuator.diameter",
     "head.height",
     "head.torsoLength",
     "safety.positionLimit",
@@ -144,6 +148,8 @@ const KEYS: &[&str] = &[
 
 /// A platform larger than this, in metres, has been given in other units.
 const LARGEST: f64 = 30.0;
+/// A leg thicker than this, in metres, has been given in other units.
+const LARGEST_DIAMETER: f64 = 1.0;
 
 /// Reads the text of a rig file. `source_name` is what errors call the file.
 ///
@@ -231,6 +237,13 @@ impl RigFile {
                 let farthest = shown(farthest);
                 return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
             }
+        }
+        if let Some(diameter) = self.actuator.diameter.filter(|diameter| !(0.0..LARGEST_DIAMETER).contains(diameter)) {
+            return Err(Error::WrongValue {
+                source_name: source_name.to_owned(),
+                name: "actuator.diameter".to_owned(),
+                reason: format!("is {} m, but must be from 0 to {LARGEST_DIAMETER} m", shown(diameter)),
+            });
         }
         Ok(())
     }

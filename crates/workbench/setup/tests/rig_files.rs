@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use moris_setup::ranges::{Axis, single_axis_range};
 use moris_setup::rig_file::{SAFETY_FRACTION, read};
 use moris_setup::{load_rig, overlaid};
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::reach::{Axis, single_axis_range};
 use moris_washout::{Parameters, Rig};
 
 fn example(name: &str) -> PathBuf {

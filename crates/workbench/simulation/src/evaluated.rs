@@ -44,12 +44,16 @@ impl Evaluated<'_> {
         }
     }
 
-    /// RMS of the desired specific force as a deviation from rest \[m/s2\].
-    fn desired_rms(&self, axis: usize) -> f64 {
+    /// RMS of the desired specific force as a deviation from rest \[m/s2\]: the error
+    /// of a platform at rest.
+    pub fn desired_rms(&self, axis: usize) -> f64 {
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
-        let inputs = &self.simulation.inputs;
-        let squares = inputs.iter().map(|input| input.specific_force[axis] - rest).map(|force| force * force);
-        (squares.sum::<f64>() / inputs.len() as f64).sqrt()
+        rms(self.simulation.inputs.iter().map(|input| input.specific_force[axis] - rest))
+    }
+
+    /// RMS of the desired angular velocity \[rad/s\].
+    pub fn desired_rate_rms(&self, axis: usize) -> f64 {
+        rms(self.simulation.desired_rates().iter().map(|rate| rate[axis]))
     }
 
     /// The findings, the most important first.
@@ -57,11 +61,23 @@ impl Evaluated<'_> {
         findings::of(self)
     }
 
+    /// True if the recording fits the rig and no channel has a larger error than a platform at
+    /// rest.
+    pub fn is_good(&self) -> bool {
+        findings::fits_the_rig(self.measures) && findings::is_better_than_rest(self)
+    }
+
+    /// Fit and cues in a few words.
+    pub fn verdict(&self) -> String {
+        findings::verdict(self)
+    }
+
     /// The run of a report, without further charts.
     pub fn run(&self, name: &str, thinning: &Thinning) -> Run {
         let Simulation { inputs, outputs, step, parameters, .. } = self.simulation;
         let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
         let desired_rates = self.simulation.desired_rates();
+        let tilt_limits = self.simulation.tilt_limits();
         let leans = inputs.iter().any(|input| input.lean != 0.0);
         Run {
             name: name.to_owned(),
@@ -83,7 +99,8 @@ impl Evaluated<'_> {
             tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
             lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
             limited: Limited {
-                tilt: thinning.any(|k| outputs[k].tilt_limited),
+                tilt: thinning.any(|k| tilt_limits.iter().flatten().any(|flags| flags[k])),
+                tilt_by: tilt_limits.each_ref().map(|axis| axis.each_ref().map(|flags| thinning.any(|k| flags[k]))),
                 safety: thinning.any(|k| outputs[k].safety_active),
                 actuator: thinning.any(|k| outputs[k].actuator_limited),
             },
@@ -92,6 +109,11 @@ impl Evaluated<'_> {
             charts: Vec::new(),
         }
     }
+}
+
+fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    (values.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
 fn measure(row: Row) -> Measure {

@@ -2,21 +2,26 @@
 
 use moris_measures::Measures;
 use moris_measures::comfort::{Comfort, Excess};
+use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
-use moris_report::{Finding, Weight};
-
+use moris_report::{Finding, Limits, TiltLimit, Weight};
 use moris_washout::Output;
 
 use crate::spans::Spans;
 use crate::{Evaluated, Simulation};
 
-/// Less than this of a signal is not worth a sentence: RMS of the desired specific force
-/// without its mean \[m/s2\].
-const LEAST_FORCE: f64 = 0.1;
-/// Relative error up to which a force counts as reproduced well.
+/// Least RMS of the desired motion that counts as desired, of forces \[m/s2\]
+/// and of rates \[rad/s\].
+const LEAST: [f64; 2] = [0.05, 1.0_f64.to_radians()];
+/// Relative error up to which a channel counts as reproduced well.
 const FAITHFUL: f64 = 0.25;
-/// More than this fraction, and not cueing at all would be as good: a platform at rest has 1.
-const USELESS: f64 = 1.0;
+/// The relative error of a platform at rest.
+const AT_REST: f64 = 1.0;
+/// Fractions of the time with false cues that are worth a sentence, and a warning.
+const FALSE_CUES: f64 = 0.05;
+const MANY_FALSE_CUES: f64 = 0.1;
+/// Least fraction of the time with limited tilt that is worth a sentence.
+const LEAST_TILT_LIMITED: f64 = 0.005;
 
 /// Least excesses of the felt force that are worth a sentence: well above what is felt at all, and
 /// well below what hurts \[m/s2\].
@@ -31,14 +36,20 @@ const GIVEN_UP: &str =
     "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
 
 const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
+const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 
-/// The findings, the most important first: did it fit, what does a rider complain of, what limited
-/// it, how well was it felt.
+/// The findings, the most important first: fit, comfort, channels worse than at rest, limits of the
+/// tilt, other channels.
 pub fn of(outcome: &Evaluated) -> Vec<Finding> {
     let mut findings = vec![fits(outcome)];
     findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
+    let doubts = moris_washout::warnings(&outcome.simulation.parameters);
+    findings.extend(doubts.into_iter().map(|doubt| finding(Weight::Warning, format!("{doubt}."))));
+    let (worse, others): (Vec<Finding>, Vec<Finding>) =
+        channels(outcome).iter().filter_map(Channel::finding).partition(|finding| finding.weight == Weight::Warning);
+    findings.extend(worse);
     findings.extend(tilt(outcome));
-    findings.extend((0..3).filter_map(|axis| force(outcome, axis)));
+    findings.extend(others);
     findings
 }
 
@@ -59,14 +70,15 @@ fn fits(outcome: &Evaluated) -> Finding {
     .collect();
     let soft = soft_limited_time(simulation);
     let used = format!(
-        "{:.0} % of the stroke is used, and {:.0} mm are left at the least",
+        "{:.0} % of the stroke is used, with at least {:.0} mm to spare",
         100.0 * effort.stroke_used,
         1000.0 * effort.smallest_margin
     );
+    let good = if is_better_than_rest(outcome) { Weight::Good } else { Weight::Note };
     match (hard.as_slice(), soft) {
-        ([], None) => finding(Weight::Good, format!("The recording fits the rig: {used}.")),
-        ([], Some(soft)) if fits_freely(outcome.measures) => {
-            finding(Weight::Good, format!("The recording fits the rig: {used}. {soft}"))
+        ([], None) => finding(good, format!("The recording fits the rig: {used}.")),
+        ([], Some(soft)) if fits_the_rig(outcome.measures) => {
+            finding(good, format!("The recording fits the rig: {used}. {soft}"))
         }
         ([], Some(soft)) => finding(
             Weight::Warning,
@@ -79,14 +91,38 @@ fn fits(outcome: &Evaluated) -> Finding {
     }
 }
 
-/// True if neither a safety unit nor an actuator's limit was active.
+/// True if neither a safety unit nor an actuator's limit was active, and soft limits, which keep
+/// these from acting, hardly ever.
 pub fn fits_the_rig(measures: &Measures) -> bool {
-    measures.effort.safety_active == 0.0 && measures.effort.actuator_limited == 0.0
+    let effort = &measures.effort;
+    effort.safety_active == 0.0 && effort.actuator_limited == 0.0 && effort.soft_limited <= SELDOM
 }
 
-/// True if soft limits were hardly ever active, either.
-pub fn fits_freely(measures: &Measures) -> bool {
-    fits_the_rig(measures) && measures.effort.soft_limited <= SELDOM
+/// True if no channel is worse than on a platform at rest.
+pub fn is_better_than_rest(outcome: &Evaluated) -> bool {
+    !channels(outcome).iter().any(Channel::is_worse_than_rest)
+}
+
+/// Fit and cues in a few words.
+pub fn verdict(outcome: &Evaluated) -> String {
+    let effort = &outcome.measures.effort;
+    let channels = channels(outcome);
+    let worse: Vec<String> = channels
+        .iter()
+        .filter(|channel| channel.is_worse_than_rest())
+        .map(|channel| channel.name.to_lowercase())
+        .collect();
+    let fit = if fits_the_rig(outcome.measures) {
+        "fits"
+    } else if effort.safety_active == 0.0 && effort.actuator_limited == 0.0 {
+        "within the rig by soft limits alone"
+    } else {
+        "does not fit"
+    };
+    match worse.as_slice() {
+        [] => format!("{fit}, better than at rest"),
+        worse => format!("{fit}; worse than at rest: {}", worse.join(", ")),
+    }
 }
 
 /// Active limits with total duration and first time; none without any.
@@ -135,59 +171,186 @@ fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
     excess.filter(|excess| excess.value >= least)
 }
 
+/// Time in which limits of tilt coordination acted, limit by limit.
 fn tilt(outcome: &Evaluated) -> Option<Finding> {
     let fraction = outcome.measures.effort.tilt_limited;
-    let limits = &outcome.simulation.parameters.tilt;
-    (fraction > 0.0).then(|| {
-        finding(
-            Weight::Note,
-            format!(
-                "Tilt coordination was limited for {:.0} % of the recording, by {:.1}°/s, {:.1}°/s² or {:.0}°.",
-                100.0 * fraction,
-                limits.rate_limit.to_degrees(),
-                limits.acceleration_limit.to_degrees(),
-                limits.angle_limit.to_degrees()
-            ),
-        )
-    })
-}
-
-/// Agreement of the specific force on an axis on which there is some.
-fn force(outcome: &Evaluated, axis: usize) -> Option<Finding> {
-    let name = AXES[axis];
-    let Fidelity { rms_error, correlation, .. } = outcome.measures.force[axis]?;
-    let desired = deviation(outcome.simulation.inputs.iter().map(|input| input.specific_force[axis]));
-    if desired < LEAST_FORCE {
+    if fraction < LEAST_TILT_LIMITED {
         return None;
     }
-    let fraction = rms_error / desired;
-    let (weight, verdict) = if fraction <= FAITHFUL {
-        (Weight::Good, "is reproduced well")
-    } else if fraction < USELESS {
-        (Weight::Note, "is reproduced in part")
-    } else {
-        (Weight::Warning, "has a larger error than a platform at rest")
-    };
-    let correlation = correlation.map_or(String::new(), |correlation| format!("correlation {correlation:.2}, "));
-    let bound = outcome.bounds[axis].map_or_else(String::new, |least| {
-        if least < FAITHFUL * rms_error {
-            format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² on this rig.")
-        } else {
-            format!(" No controller could get below {least:.2} m/s² on this rig.")
-        }
+    let limits = Limits::from(&outcome.simulation.parameters);
+    let [roll, pitch] = outcome.simulation.tilt_limits();
+    let steps = (roll[0].len().max(2) - 1) as f64;
+    let by = TiltLimit::ALL.iter().zip(roll.iter().zip(&pitch)).filter_map(|(limit, (roll, pitch))| {
+        let count = roll.iter().zip(pitch).skip(1).filter(|(roll, pitch)| **roll || **pitch).count();
+        let fraction = count as f64 / steps;
+        (fraction >= LEAST_TILT_LIMITED).then(|| format!("the {} for {:.0} %", limit.text(&limits), 100.0 * fraction))
     });
-    Some(finding(
-        weight,
-        format!(
-            "{name} {verdict}: {correlation}an RMS error of {rms_error:.2} m/s², {:.0} % of what is desired.{bound}",
-            100.0 * fraction
-        ),
-    ))
+    let by = by.collect::<Vec<_>>().join(", ");
+    let text = format!("Tilt coordination was limited for {:.0} % of the recording: by {by}.", 100.0 * fraction);
+    Some(finding(Weight::Note, text))
 }
 
-/// Standard deviation.
-fn deviation(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    let count = values.clone().count() as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    (values.map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt()
+/// A channel of the felt motion on which something is desired or felt.
+struct Channel {
+    name: &'static str,
+    unit: &'static str,
+    /// Units in one SI unit.
+    factor: f64,
+    fidelity: Fidelity,
+    cues: Cues,
+    /// RMS of the desired motion: the error of a platform at rest.
+    desired: f64,
+    /// Least RMS that is worth a sentence.
+    least: f64,
+    /// Least error that a controller could reach.
+    bound: Option<f64>,
+}
+
+/// The channels of a simulation: surge, sway, heave, and the rates of roll, pitch and yaw.
+fn channels(outcome: &Evaluated) -> Vec<Channel> {
+    let measures = outcome.measures;
+    let force = |axis: usize| {
+        Some(Channel {
+            name: AXES[axis],
+            unit: "m/s²",
+            factor: 1.0,
+            fidelity: measures.force[axis]?,
+            cues: measures.force_cues[axis],
+            desired: outcome.desired_rms(axis),
+            least: LEAST[0],
+            bound: outcome.bounds[axis],
+        })
+    };
+    let rate = |axis: usize| {
+        Some(Channel {
+            name: RATES[axis],
+            unit: "°/s",
+            factor: 1f64.to_degrees(),
+            fidelity: measures.rate[axis]?,
+            cues: measures.rate_cues[axis],
+            desired: outcome.desired_rate_rms(axis),
+            least: LEAST[1],
+            bound: None,
+        })
+    };
+    (0..3).filter_map(force).chain((0..3).filter_map(rate)).collect()
+}
+
+impl Channel {
+    /// True if a platform at rest would be better: its error would be smaller or, where hardly any
+    /// motion is desired, motion is sensed that should not be.
+    fn is_worse_than_rest(&self) -> bool {
+        if self.is_desired() {
+            self.fidelity.rms_error > AT_REST * self.desired
+        } else {
+            self.cues.false_cues >= FALSE_CUES
+        }
+    }
+
+    fn is_desired(&self) -> bool {
+        self.desired >= self.least
+    }
+
+    /// A channel on which something is desired, felt, or falsely cued.
+    fn finding(&self) -> Option<Finding> {
+        let Fidelity { rms_error, correlation, .. } = self.fidelity;
+        let false_cues = self.cues.false_cues;
+        let is_desired = self.is_desired();
+        if !is_desired && !self.is_worse_than_rest() {
+            return None;
+        }
+        let (weight, verdict) = if self.is_worse_than_rest() {
+            (
+                Weight::Warning,
+                if is_desired {
+                    "has a larger error than a platform at rest"
+                } else {
+                    "is felt though hardly any is desired"
+                },
+            )
+        } else if rms_error <= FAITHFUL * self.desired {
+            (Weight::Good, "is reproduced well")
+        } else {
+            (Weight::Note, "is reproduced in part")
+        };
+        let correlation = correlation.filter(|_| is_desired);
+        let correlation = correlation.map_or_else(String::new, |correlation| format!("correlation {correlation:.2}, "));
+        let value = |value: f64| format!("{:.2} {}", self.factor * value, self.unit);
+        let of_desired = if is_desired {
+            format!("{:.0} % of what is desired", 100.0 * rms_error / self.desired)
+        } else {
+            format!("where {} is desired", value(self.desired))
+        };
+        let (false_weight, falsely) = match false_cues {
+            FALSE_CUES.. => {
+                let weight = if false_cues >= MANY_FALSE_CUES { Weight::Warning } else { Weight::Note };
+                (weight, format!(" Its cues are false for {:.0} % of the time.", 100.0 * false_cues))
+            }
+            _ => (weight, String::new()),
+        };
+        let weight = if weight == Weight::Warning { weight } else { false_weight };
+        let name = self.name;
+        let text =
+            format!("{name} {verdict}: {correlation}an RMS error of {}, {of_desired}.{falsely}", value(rms_error));
+        Some(finding(weight, text + &self.bound_sentence()))
+    }
+
+    fn bound_sentence(&self) -> String {
+        self.bound.map_or_else(String::new, |least| {
+            if least < FAITHFUL * self.fidelity.rms_error {
+                format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² on this rig.")
+            } else {
+                format!(" No controller could get below {least:.2} m/s² on this rig.")
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The finding on a roll rate of this RMS [°/s], error [°/s] and fraction of false cues.
+    fn finding_on(desired: f64, error: f64, false_cues: f64) -> Option<(Weight, String)> {
+        let fidelity = Fidelity { rms_error: error.to_radians(), peak_error: 0.1, correlation: Some(0.5), delay: None };
+        let channel = Channel {
+            name: RATES[0],
+            unit: "°/s",
+            factor: 1f64.to_degrees(),
+            fidelity,
+            cues: Cues { false_cues, ..Cues::default() },
+            desired: desired.to_radians(),
+            least: LEAST[1],
+            bound: None,
+        };
+        let found = channel.finding();
+        assert!(!channel.is_worse_than_rest() || found.as_ref().is_some_and(|one| one.weight == Weight::Warning));
+        found.map(|Finding { weight, text }| (weight, text))
+    }
+
+    #[test]
+    fn a_channel_worse_than_at_rest_or_falsely_cued_has_a_sentence() {
+        let of = |desired, error, false_cues| finding_on(desired, error, false_cues).unwrap();
+        let (weight, text) = of(4.0, 5.8, 0.0);
+        assert_eq!(weight, Weight::Warning);
+        assert_eq!(
+            text,
+            "Roll rate has a larger error than a platform at rest: correlation 0.50, an RMS error of 5.80 °/s, 145 % of what is \
+             desired."
+        );
+        let (weight, text) = of(4.0, 3.0, 0.22);
+        assert!(
+            weight == Weight::Warning
+                && text.ends_with("75 % of what is desired. Its cues are false for 22 % of the time.")
+        );
+        assert_eq!(of(4.0, 3.0, 0.06).0, Weight::Note);
+        assert_eq!(of(4.0, 0.9, 0.01).0, Weight::Good);
+        let (weight, text) = of(0.0, 2.0, 0.08);
+        assert!(weight == Weight::Warning && text.contains("is felt though hardly any is desired"), "{text}");
+    }
+
+    #[test]
+    fn nothing_desired_and_nothing_sensed_has_no_sentence() {
+        assert_eq!(finding_on(0.0, 2.0, 0.0), None);
+    }
 }

@@ -20,8 +20,9 @@ pub fn measures(simulation: &Simulation) -> Result<Measures, RunError> {
 pub fn measures_with(simulation: &Simulation, references: &mut References) -> Result<Measures, RunError> {
     let inputs = |value: fn(&Input) -> [f64; 3]| simulation.inputs.iter().map(value).collect::<Vec<_>>();
     let outputs = |value: fn(&Output) -> [f64; 3]| simulation.outputs.iter().map(value).collect::<Vec<_>>();
-    let limited = |output: &Output| Limited {
-        tilt: output.tilt_limited,
+    let tilt_limits = simulation.tilt_limits();
+    let limited = |(sample, output): (usize, &Output)| Limited {
+        tilt: tilt_limits.iter().flatten().any(|flags| flags[sample]),
         soft: output.soft_limited,
         safety: output.safety_active,
         actuator: output.actuator_limited,
@@ -39,7 +40,7 @@ pub fn measures_with(simulation: &Simulation, references: &mut References) -> Re
             stroke: [rig.min_length, rig.max_length],
             displacement: &simulation.displacements().into_iter().map(Into::into).collect::<Vec<_>>(),
             tilt_rate: &simulation.outputs.iter().map(|o| [o.tilt_roll_rate, o.tilt_pitch_rate]).collect::<Vec<_>>(),
-            limited: &simulation.outputs.iter().map(limited).collect::<Vec<_>>(),
+            limited: &simulation.outputs.iter().enumerate().map(limited).collect::<Vec<_>>(),
         },
     };
     Measures::with(&run, references)

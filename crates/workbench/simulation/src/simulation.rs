@@ -1,6 +1,7 @@
 //! Inputs and outputs of the washout in a simulation.
 
 use moris_batch::{Manoeuvre, Replay};
+use moris_report::{Limits, TiltFlags, tilt_limits};
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
@@ -95,6 +96,16 @@ impl Simulation {
         let in_head =
             |input: &Input| LocationFrame::new(&self.parameters.structure, input.lean).to_location_axes(in_body(input));
         self.inputs.iter().map(in_head).collect()
+    }
+
+    /// The limits of tilt coordination that act, of roll and pitch, at each sample.
+    pub fn tilt_limits(&self) -> TiltFlags {
+        let series = |value: fn(&Output) -> f64| self.outputs.iter().map(value).collect::<Vec<f64>>();
+        let lags: Vec<bool> = self.outputs.iter().map(|output| output.tilt_limited).collect();
+        let [roll, pitch] = [series(|output| output.tilt_roll), series(|output| output.tilt_pitch)];
+        let [roll_rate, pitch_rate] = [series(|output| output.tilt_roll_rate), series(|output| output.tilt_pitch_rate)];
+        let limits = Limits::from(&self.parameters);
+        tilt_limits(&self.times(), &lags, [&roll, &pitch], [&roll_rate, &pitch_rate], &limits)
     }
 
     /// The platform's position relative to neutral at each sample, in the base frame \[m\].

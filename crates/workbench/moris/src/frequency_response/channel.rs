@@ -1,9 +1,9 @@
 //! The six channels of the input at the head and of the felt motion.
 
+use moris_washout::Output;
 /// A translation stands for the specific force along it, a rotation for the angular velocity about
 /// it, in head axes.
-pub use moris_setup::ranges::Axis as Channel;
-use moris_washout::Output;
+pub use moris_washout::platform::reach::Axis as Channel;
 
 /// Number of channels.
 pub const CHANNELS: usize = Channel::ALL.len();

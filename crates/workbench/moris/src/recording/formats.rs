@@ -53,6 +53,12 @@ impl Format {
         }
     }
 
+    /// Name of the logger.
+    pub fn title(self) -> String {
+        let help = self.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
+        help.and_then(|help| help.split(',').next().map(str::to_owned)).unwrap_or_else(|| self.word().to_owned())
+    }
+
     /// The format's conventions.
     ///
     /// # Panics
@@ -67,10 +73,16 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_title_is_the_logger_s_name() {
+        assert_eq!(Format::Aim.title(), "AiM");
+    }
+
+    #[test]
     fn every_format_names_what_a_recording_needs() {
         for format in Format::value_variants() {
             let conventions = format.options().load().unwrap();
             assert!(conventions.columns.len() >= 7, "{}", format.word());
+            assert!(!format.title().contains(',') && format.title() != "", "{}", format.word());
         }
     }
 }

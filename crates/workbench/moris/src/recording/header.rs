@@ -285,12 +285,10 @@ impl Header {
         let names = || self.titles.iter().map(|title| title.name.as_str());
         let format = Format::value_variants().iter().find(|format| self.is_of(**format));
         if let Some(format) = format {
-            let reason = format!(
-                "there is no column {}, but those that {} writes; use --format {}",
-                missing.iter().map(|(_, name)| quoted(name)).collect::<Vec<_>>().join(", "),
-                format.word(),
-                format.word()
-            );
+            let names = missing.iter().map(|(_, name)| quoted(name)).collect::<Vec<_>>().join(", ");
+            let (title, word) = (format.title(), format.word());
+            let reason =
+                format!("this looks like a recording of {title}; use --format {word} (there is no column {names})");
             return RecordingError::Whole { file: file.to_owned(), reason };
         }
         let like = |name: &str| {

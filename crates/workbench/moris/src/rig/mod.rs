@@ -1,8 +1,12 @@
 //! `moris rig`: looks at a platform.
 //!
-//! [`new`] writes a rig file. [`survey`] gathers what there is to know of it, [`workspace`]
-//! measures where it can go, [`picture`] draws both.
+//! - [`new`] writes a rig file.
+//! - [`survey`] gathers what there is to know of a rig.
+//! - [`workspace`] measures where it can go.
+//! - [`clearance`] measures how close its legs come to each other.
+//! - [`picture`] draws it.
 
+pub mod clearance;
 pub mod new;
 pub mod picture;
 mod section;
@@ -19,7 +23,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use moris_setup::load_rig;
 
-use survey::{Singularities, Survey};
+use survey::Survey;
 
 /// Check a rig, or write a new one
 #[derive(Clone, Debug, clap::Subcommand)]
@@ -31,9 +35,9 @@ pub enum Command {
     New(new::NewOptions),
     /// Reach and singularities of a rig
     ///
-    /// Prints reach, speed and acceleration along each axis alone, the size of the workspace
-    /// and the condition number over all leg lengths, and draws the rig. The exit status is not
-    /// 0 for an invalid rig.
+    /// Prints reach, speed and acceleration along each axis alone, the size of the workspace, the
+    /// closest approach of the legs, and the condition number over all leg lengths. Draws the rig.
+    /// The exit status is 1 for a rig that is singular or whose legs collide.
     Check(CheckOptions),
 }
 
@@ -74,8 +78,5 @@ fn check(options: &CheckOptions, out: &mut dyn Write) -> Result<ExitCode> {
     let picture = options.report.join(format!("{stem}.svg"));
     fs::write(&picture, picture::svg(&survey)).with_context(|| format!("cannot write {}", picture.display()))?;
     writeln!(out, "\nwrote {}", picture.display())?;
-    Ok(match survey.singularities {
-        Singularities::None(_) => ExitCode::SUCCESS,
-        Singularities::At(_) => ExitCode::FAILURE,
-    })
+    Ok(if survey.is_sound() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

@@ -10,6 +10,8 @@ use std::str::FromStr;
 use anyhow::{Context, Result, bail};
 use moris_setup::rig_file;
 
+use super::clearance::Clearance;
+
 /// A new rig file.
 #[derive(Clone, Debug, clap::Args)]
 pub struct NewOptions {
@@ -35,7 +37,11 @@ pub fn main(options: &NewOptions, answers: &mut dyn BufRead, out: &mut dyn Write
     let name = file.display().to_string();
     rig_file::read(&text, &name)?
         .check()
-        .with_context(|| format!("the washout rejects this rig; {name} is not written"))?;
+        .with_context(|| format!("{name} is not written, because the washout rejects this rig"))?;
+    let clearance = Clearance::of(&rig_file::read(&text, &name)?.rig(), None);
+    if clearance.collisions().next().is_some() {
+        bail!("{clearance}  {name} is not written");
+    }
     let new = OpenOptions::new().write(true).create_new(true).open(file);
     new.and_then(|mut new| new.write_all(text.as_bytes())).with_context(|| format!("cannot write {name}"))?;
     writeln!(out, "\nwrote {name}; moris rig check {name} shows its reach")?;

@@ -1,5 +1,9 @@
-//! The picture of a rig: itself, and three sections through its workspace.
+//! The picture of a rig: itself, three sections through its workspace, and where its legs are
+//! closest to each other.
 
+use moris_washout::platform::Pose;
+
+use super::clearance::Approach;
 use super::section::{MARGINS, PLANES, section};
 use super::survey::{Singularities, Survey};
 use super::svg::{PANEL, escaped};
@@ -9,16 +13,20 @@ use super::view::view;
 const HEADER: f64 = 64.0;
 const FOOTER: f64 = 44.0;
 
+/// Height of a row of the table of closest approaches \[px\].
+const ROW: f64 = 26.0;
+
 const STYLE: &str = "text{font:13px system-ui,sans-serif;fill:#333}.title{font-size:20px;font-weight:600}.panel{font-size:14px;\
 font-weight:600}.frame{fill:none;stroke:#999}.safety{fill:none;stroke:#d95f02;stroke-width:1.5;stroke-dasharray:6 4}\
 .neutral{stroke:#111;stroke-width:1.5}.base{fill:#e9e9e9;stroke:#777}.platform{fill:#2171b5;fill-opacity:.25;stroke:#2171b5;\
 stroke-width:2}.leg{stroke:#555;stroke-width:4;stroke-linecap:round}.number{fill:#fff;stroke:#555}.arrow{stroke:#d95f02;\
-stroke-width:2}.torso{stroke:#1b9e77;stroke-width:4;stroke-linecap:round}.head{fill:#1b9e77}.singular{fill:#b2182b}";
+stroke-width:2}.torso{stroke:#1b9e77;stroke-width:4;stroke-linecap:round}.head{fill:#1b9e77}.singular{fill:#b2182b}\
+.close{stroke:#b2182b}.gap{stroke:#b2182b;stroke-width:2;stroke-dasharray:3 3}.point{fill:#b2182b}.collision{fill:#b2182b;font-weight:600}";
 
 /// The picture as SVG.
 pub fn svg(survey: &Survey) -> String {
     let parameters = &survey.parameters;
-    let (width, height) = (2.0 * PANEL[0], HEADER + 2.0 * PANEL[1] + FOOTER);
+    let (width, height) = (2.0 * PANEL[0], HEADER + 3.0 * PANEL[1] + FOOTER);
     let mut text = format!(
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
         escaped(&survey.name)
@@ -27,7 +35,17 @@ pub fn svg(survey: &Survey) -> String {
     let drawn = PLANES.iter().map(|plane| {
         (plane.title, section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit))
     });
-    let panels = [("The rig at neutral", view(parameters))].into_iter().chain(drawn);
+    let closest = &survey.clearance.approaches[0];
+    let [first, second] = closest.legs.map(|leg| leg + 1);
+    let close_title = format!("Legs {first} and {second} where they are closest: {:.0} mm", 1000.0 * closest.distance);
+    let drawn = drawn.map(|(title, body)| (title.to_owned(), body));
+    let panels = [("The rig at neutral".to_owned(), view(parameters, &Pose::neutral(&parameters.rig), None))]
+        .into_iter()
+        .chain(drawn)
+        .chain([
+            (close_title, view(parameters, &closest.pose, Some(closest))),
+            ("Closest approach of each pair of legs [mm]".to_owned(), distances(survey)),
+        ]);
     for (index, (title, body)) in panels.enumerate() {
         let (x, y) = ((index % 2) as f64 * PANEL[0], HEADER + (index / 2) as f64 * PANEL[1]);
         text +=
@@ -36,9 +54,27 @@ pub fn svg(survey: &Survey) -> String {
     text + &legend(height - FOOTER) + "</svg>\n"
 }
 
+/// Table of the closest approach of each pair of legs.
+fn distances(survey: &Survey) -> String {
+    let at = |column: usize, row: usize| [120.0 + 64.0 * column as f64, 80.0 + ROW * row as f64];
+    let cell = |[x, y]: [f64; 2], class: &str, text: &str| {
+        format!(r#"<text x="{x}" y="{y}" text-anchor="middle" class="{class}">{text}</text>"#)
+    };
+    let mut text: String = (1..6).map(|leg| cell(at(leg - 1, 0), "", &format!("leg {leg}"))).collect();
+    text += &(2..=6).map(|leg| cell([64.0, at(0, leg - 1)[1]], "", &format!("leg {leg}"))).collect::<String>();
+    for Approach { legs: [first, second], distance, .. } in &survey.clearance.approaches {
+        let class = if survey.clearance.collides(*distance) { "collision" } else { "" };
+        text += &cell(at(*first, *second), class, &format!("{:.0}", 1000.0 * distance));
+    }
+    let diameter = 1000.0 * survey.clearance.diameter;
+    let [_, y] = at(0, 7);
+    text + &format!(r#"<text x="40" y="{y}">Legs are taken as {diameter:.0} mm thick.</text>"#)
+}
+
 fn verdict(survey: &Survey) -> String {
     let volume = survey.workspace.level;
-    match &survey.singularities {
+    let collision = if survey.clearance.collisions().next().is_some() { "; LEGS COLLIDE" } else { "" };
+    let regular = match &survey.singularities {
         Singularities::None(found) => format!(
             "Workspace {:.3} m³ level; free of singularities: condition number at most {:.1}",
             volume.size, found.worst_condition
@@ -46,7 +82,8 @@ fn verdict(survey: &Survey) -> String {
         Singularities::At(_) => {
             format!("Workspace {:.3} m³ level; SINGULAR inside the stroke of its legs", volume.size)
         }
-    }
+    };
+    regular + collision
 }
 
 /// Legend of the colours.

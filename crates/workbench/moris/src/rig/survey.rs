@@ -3,12 +3,13 @@
 use std::fmt;
 
 use moris_interface::Group;
-use moris_setup::ranges::{Axis, Range, single_axis_range, stroke_margin};
 use moris_setup::rig_file::RigFile;
 use moris_washout::interface::Parameters;
+use moris_washout::platform::reach::{Axis, Range, single_axis_range, stroke_margin};
 use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
-use moris_washout::{ParameterError, Rig};
+use moris_washout::{ParameterError, Rig, warnings};
 
+use super::clearance::Clearance;
 use super::workspace::{TILT, Volume, Workspace};
 use crate::text_table::TextTable;
 
@@ -25,6 +26,8 @@ pub struct Survey {
     pub workspace: Workspace,
     /// Result of the search for singularities.
     pub singularities: Singularities,
+    /// How close the legs come to each other.
+    pub clearance: Clearance,
 }
 
 /// Capabilities of the platform along one axis alone.
@@ -55,6 +58,11 @@ pub enum Singularities {
 }
 
 impl Survey {
+    /// True for a rig that can be built and used.
+    pub fn is_sound(&self) -> bool {
+        matches!(self.singularities, Singularities::None(_)) && self.clearance.collisions().next().is_none()
+    }
+
     /// Surveys a rig, with `samples` points for the volume of its workspace.
     ///
     /// # Errors
@@ -75,6 +83,7 @@ impl Survey {
             axes: Axis::ALL.map(|axis| AxisAlone::of(rig, axis)),
             workspace: Workspace::of(rig, samples),
             singularities,
+            clearance: Clearance::of(&file.rig(), file.actuator.diameter),
             parameters,
         })
     }
@@ -134,6 +143,7 @@ impl fmt::Display for Survey {
         writeln!(f, "{table}")?;
         self.write_workspace(f)?;
         self.write_safety(f)?;
+        writeln!(f, "{}", self.clearance)?;
         match &self.singularities {
             Singularities::None(survey) => writeln!(
                 f,
@@ -166,15 +176,8 @@ impl Survey {
         let texts: Vec<String> =
             ["x", "y", "z"].iter().enumerate().map(|(i, name)| format!("±{:.3} m in {name}", limits[i])).collect();
         writeln!(f, "safety units: {}", texts.join(", "))?;
-        for (i, alone) in self.axes.iter().take(3).enumerate() {
-            if limits[i] > alone.range.min_reach() {
-                writeln!(
-                    f,
-                    "  beyond the {:.3} m that {} reaches: there the legs' own limits stop the platform",
-                    alone.range.min_reach(),
-                    alone.axis.name()
-                )?;
-            }
+        for doubt in warnings(&self.parameters) {
+            writeln!(f, "  {doubt}")?;
         }
         writeln!(f)
     }

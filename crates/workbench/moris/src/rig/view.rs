@@ -1,9 +1,10 @@
-//! The rig at neutral, seen from the front right and above.
+//! The rig in a pose, seen from the front right and above.
 
 use moris_washout::interface::Parameters;
 use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::LocationFrame;
+use moris_washout::platform::{LocationFrame, Pose};
 
+use super::clearance::Approach;
 use super::svg::Window;
 
 /// Where it is seen from: turned about the vertical, then from above \[rad\].
@@ -15,14 +16,15 @@ const HEAD_RADIUS: f64 = 0.12;
 /// Length of the arrows along the base's axes, as a fraction of its radius.
 const ARROW: f64 = 0.4;
 
-/// The base, the platform, the six legs with their numbers, the rider's head, and
-/// the axes of the base.
-pub fn view(parameters: &Parameters) -> String {
+/// The base, the platform in this pose, the six legs with their numbers, the rider's head, and the
+/// axes of the base. The two closest legs have a colour of their own.
+pub fn view(parameters: &Parameters, pose: &Pose, closest: Option<&Approach>) -> String {
     let rig = &parameters.rig;
-    let raised = |joint: &Vector3<f64>| joint + Vector3::new(0.0, 0.0, rig.neutral_height);
-    let platform = rig.platform.map(|joint| raised(&joint));
-    let head = raised(&LocationFrame::new(&parameters.structure, 0.0).point);
-    let seat = head - Vector3::new(0.0, 0.0, parameters.structure.torso_length);
+    let in_base = |point: &Vector3<f64>| pose.position + pose.orientation.rotation * point;
+    let platform = rig.platform.map(|joint| in_base(&joint));
+    let above_platform = LocationFrame::new(&parameters.structure, 0.0).point;
+    let head = in_base(&above_platform);
+    let seat = in_base(&(above_platform - Vector3::new(0.0, 0.0, parameters.structure.torso_length)));
     let radius = rig.base.iter().map(Vector3::norm).fold(0.0, f64::max);
     let arrows = [Vector3::x(), Vector3::y(), Vector3::z()].map(|axis| ARROW * radius * axis);
 
@@ -47,8 +49,9 @@ pub fn view(parameters: &Parameters) -> String {
         text += &line(&Vector3::zeros(), arrow, "arrow");
         text += &format!(r#"<text x="{x:.1}" y="{:.1}" text-anchor="middle">{name}</text>"#, y + 4.0);
     }
-    for (from, to) in rig.base.iter().zip(&platform) {
-        text += &line(from, to, "leg");
+    for (leg, (from, to)) in rig.base.iter().zip(&platform).enumerate() {
+        let is_close = closest.is_some_and(|approach| approach.legs.contains(&leg));
+        text += &line(from, to, if is_close { "leg close" } else { "leg" });
     }
     text += &polygon(&platform, "platform");
     for (leg, (from, to)) in rig.base.iter().zip(&platform).enumerate() {
@@ -58,6 +61,12 @@ pub fn view(parameters: &Parameters) -> String {
             y + 4.0,
             leg + 1
         );
+    }
+    if let Some(Approach { points: [from, to], .. }) = closest {
+        text += &line(from, to, "gap");
+        for [x, y] in [at(from), at(to)] {
+            text += &format!(r#"<circle cx="{x:.1}" cy="{y:.1}" r="4" class="point"/>"#);
+        }
     }
     let [x, y] = at(&head);
     text += &line(&seat, &head, "torso");

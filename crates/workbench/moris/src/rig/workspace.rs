@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use moris_setup::ranges::stroke_margin;
 use moris_washout::Rig;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::reach::stroke_margin;
 use moris_washout::platform::{Geometry, Pose, jacobian};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -3,10 +3,10 @@
 
 use moris_measures::Axes;
 use moris_measures::bound::{AxisLimits, Bound, BoundError, INTERVAL, TiltLimits, bound};
-use moris_setup::ranges::{Axis, single_axis_range};
 use moris_washout::Parameters;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::reach::{Axis, single_axis_range};
 use rayon::prelude::*;
 
 use super::Simulation;

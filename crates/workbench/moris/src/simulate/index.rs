@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use moris_report::{IndexRow, index_html};
-use moris_simulation::findings::fits_freely;
 
-use super::Outcome;
+use super::{Outcome, listed};
 use crate::recording::Recording;
 
-/// A recording in the list.
+/// A recording with one of the parameter sets, or one that failed, in the list.
 pub struct Entry {
     row: IndexRow,
-    /// Fraction of the time in which a safety unit or the actuator guard was active.
+    /// Fraction of the time in which a safety unit or the actuator guard was active; more than 1
+    /// where the recording could not be used.
     limited: f64,
     /// RMS error of the sensed specific force, all axes \[m/s2\].
     error: f64,
@@ -34,8 +34,22 @@ const HEADS: [&str; 11] = [
 ];
 
 impl Entry {
-    /// The entry of a recording by its first outcome; `page` is its report.
-    pub fn new(recording: &Recording, outcome: &Outcome, page: &Path) -> Self {
+    /// The entries of a recording, one for each outcome; `page` is its report.
+    pub fn of_recording(recording: &Recording, outcomes: &[Outcome], page: &Path) -> Vec<Self> {
+        let name = |outcome: &Outcome| match outcomes.len() {
+            1 => recording.name.clone(),
+            _ => listed([recording.name.as_str(), &outcome.setup.parameters_name].into_iter()),
+        };
+        outcomes.iter().map(|outcome| Entry::new(name(outcome), recording, outcome, page)).collect()
+    }
+
+    /// The entry of a recording that could not be used, and why.
+    pub fn failed(name: String, reason: String) -> Self {
+        let row = IndexRow { name, verdict: reason, ..IndexRow::default() };
+        Entry { row, limited: f64::INFINITY, error: f64::INFINITY }
+    }
+
+    fn new(name: String, recording: &Recording, outcome: &Outcome, page: &Path) -> Self {
         let measures = &outcome.measures;
         let effort = &measures.effort;
         let limited = effort.safety_active.max(effort.actuator_limited);
@@ -52,30 +66,34 @@ impl Entry {
         let worst = |k: usize| measures.comfort.iter().flatten().map(|comfort| comfort.values()[k]).fold(0.0, f64::max);
         let comfort = [worst(0), worst(1), worst(2)].map(|value| figure(Some(value)));
         let row = IndexRow {
-            name: recording.name.clone(),
-            file: page.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-            is_good: fits_freely(measures),
+            name,
+            file: Some(page.file_name().unwrap_or_default().to_string_lossy().into_owned()),
+            is_good: outcome.evaluated().is_good(),
+            verdict: outcome.evaluated().verdict(),
             cells: first.into_iter().chain(comfort).chain(errors.map(figure)).chain([figure(Some(error))]).collect(),
         };
         Entry { row, limited, error }
     }
 }
 
-/// Writes the list into a directory; returns its file.
+/// Writes the list into a directory; returns its file. The entries are those of each recording,
+/// which stand together.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write(directory: &Path, rig: &str, parameters: &str, mut entries: Vec<Entry>) -> Result<PathBuf> {
-    entries.sort_by(|a, b| b.limited.total_cmp(&a.limited).then(b.error.total_cmp(&a.error)));
+pub fn write(directory: &Path, rig: &str, parameters: &str, mut recordings: Vec<Vec<Entry>>) -> Result<PathBuf> {
+    recordings.retain(|entries| !entries.is_empty());
+    recordings.sort_by(|a, b| b[0].limited.total_cmp(&a[0].limited).then(b[0].error.total_cmp(&a[0].error)));
+    let title = format!("{} recordings, the worst first", recordings.len());
+    let rows: Vec<IndexRow> = recordings.into_iter().flatten().map(|entry| entry.row).collect();
     // A recording may be called index.
-    let is_taken = entries.iter().any(|entry| entry.row.file == "index.html");
+    let is_taken = rows.iter().any(|row| row.file.as_deref() == Some("index.html"));
     let file = directory.join(if is_taken { "index-of-recordings.html" } else { "index.html" });
     let subtitle = format!(
-        "{rig}, parameters: {parameters}. Recordings with active limits come first, then those with the larger error of the \
-         sensed specific force."
+        "{rig}, parameters: {parameters}. Recordings that could not be used come first, then those with active limits, then \
+         those with the larger error of the sensed specific force. A tick: fits the rig, and no channel is worse than on a \
+         platform at rest."
     );
-    let rows: Vec<IndexRow> = entries.into_iter().map(|entry| entry.row).collect();
-    let title = format!("{} recordings, the worst first", rows.len());
     fs::write(&file, index_html(&title, &subtitle, &HEADS, &rows))
         .with_context(|| format!("cannot write {}", file.display()))?;
     Ok(file)

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Outcome, fits_the_rig};
+use super::{Outcome, fits_the_rig, is_better_than_rest};
 use crate::recording::Recording;
 
 /// A recording, simulated with one or several sets of parameters.
@@ -37,8 +37,11 @@ struct SetResult {
     rig: String,
     /// Name of the parameters.
     parameters: String,
-    /// False if a safety unit or the actuator guard was active. Soft limits may have been.
+    /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
+    /// the time.
     fits: bool,
+    /// False if a channel has a larger error than a platform at rest.
+    better_than_rest: bool,
     /// Findings in sentences, the most important first.
     findings: Vec<String>,
     /// Least RMS error of the specific force along x, y and z that any controller could reach, in
@@ -90,6 +93,7 @@ fn result(outcome: &Outcome) -> SetResult {
         rig: outcome.setup.rig_name.clone(),
         parameters: outcome.setup.parameters_name.clone(),
         fits: fits_the_rig(&outcome.measures),
+        better_than_rest: is_better_than_rest(&outcome.evaluated()),
         findings: outcome.findings().into_iter().map(|finding| finding.text).collect(),
         force_bounds: outcome.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error)),
         measures: measures.map(measure).collect(),

@@ -17,6 +17,7 @@ pub mod output_table;
 pub mod page;
 mod simulator;
 pub mod summary;
+mod vehicle;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -37,7 +38,7 @@ use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, sourc
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
 pub use bounds::AxisBound;
-pub use moris_simulation::findings::fits_the_rig;
+pub use moris_simulation::findings::{fits_the_rig, is_better_than_rest};
 pub use moris_simulation::{Simulation, measures};
 
 /// Simulate recordings on a rig and report how well they are felt
@@ -158,7 +159,7 @@ impl Outcome {
     /// # Errors
     /// The recording is too short, or the solver fails.
     pub fn bounds(&self) -> Result<Axes<Option<AxisBound>>> {
-        bounds::bounds(&self.simulation).context("cannot compute the bound; --no-bound omits it")
+        bounds::bounds(&self.simulation).context("cannot compute the bound (--no-bound omits it)")
     }
 }
 
@@ -185,12 +186,13 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             Ok(simulated) => simulated,
             Err(error) => {
                 eprintln!("error: {error:#}");
+                entries.push(vec![index::Entry::failed(source::name(file), format!("{error:#}"))]);
                 any_failed = true;
                 continue;
             }
         };
         all_fit &= simulated.fits;
-        entries.push(simulated.entry);
+        entries.push(simulated.entries);
         if options.json {
             objects.push(simulated.json);
             continue;
@@ -202,8 +204,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         writeln!(out)?;
     }
     if entries.len() > 1 {
-        let Setup { rig_name, parameters_name, .. } = &cases[0].setup;
-        let file = index::write(&options.report, rig_name, parameters_name, entries)?;
+        let names = listed(cases.iter().map(|case| case.setup.parameters_name.as_str()));
+        fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+        let file = index::write(&options.report, &cases[0].setup.rig_name, &names, entries)?;
         if !options.json {
             writeln!(out, "wrote {}", file.display())?;
         }
@@ -252,12 +255,12 @@ fn cases(options: &Options) -> Result<Vec<Case>> {
 
 /// A recording's results, ready to be printed.
 struct Simulated {
-    /// No safety unit and no actuator's limit was active with the first parameters.
+    /// The recording fits the rig with the first parameters.
     fits: bool,
     text: String,
     json: json::SimulatedRecording,
     files: Vec<PathBuf>,
-    entry: index::Entry,
+    entries: Vec<index::Entry>,
 }
 
 /// Simulates a recording with each of the setups, and writes its files.
@@ -272,13 +275,13 @@ fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conven
     progress.finish();
     let json = json::recording(&recording, &outcomes, &files);
     let page = files.last().map(PathBuf::as_path).unwrap_or(file);
-    let entry = index::Entry::new(&recording, &outcomes[0], page);
+    let entries = index::Entry::of_recording(&recording, &outcomes, page);
     Ok(Simulated {
         fits: fits_the_rig(&outcomes[0].measures),
         text: summary::text(&recording, &outcomes),
         json,
         files,
-        entry,
+        entries,
     })
 }
 
@@ -300,6 +303,12 @@ fn outcomes(recording: &Recording, cases: &[Case], with_bounds: bool, progress: 
         }
     }
     Ok(outcomes)
+}
+
+/// Names in a row, those with a comma in quotes.
+pub(crate) fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let quoted = |name: &str| if name.contains(',') { format!("\"{name}\"") } else { name.to_owned() };
+    names.map(quoted).collect::<Vec<_>>().join(", ")
 }
 
 /// File name of the outputs with one of the setups: the recording's for the first, with the

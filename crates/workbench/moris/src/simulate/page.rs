@@ -2,7 +2,8 @@
 
 use moris_report::{Chart, Finding, Line, Report, ReportError, Run, Simulator, Thinning, Weight};
 
-use super::{Outcome, simulator};
+use super::vehicle::vehicle;
+use super::{Outcome, listed, simulator};
 use crate::recording::Recording;
 
 /// Largest page without simulation, and with it \[bytes\].
@@ -71,16 +72,17 @@ fn report(recording: &Recording, outcomes: &[Outcome], most: usize) -> Report {
             "{:.1} s on {}, parameters: {}",
             recording.manoeuvre.duration(),
             first.setup.rig_name,
-            outcomes.iter().map(|outcome| outcome.setup.parameters_name.as_str()).collect::<Vec<_>>().join(", ")
+            listed(outcomes.iter().map(|outcome| outcome.setup.parameters_name.as_str()))
         ),
         findings: warnings.collect(),
         provenance: vec![
             ("Recording".to_owned(), format!("{}, {:.0} samples a second", recording.name, 1.0 / recording.step())),
             ("Gravity".to_owned(), gravity(recording).to_owned()),
             ("Curves".to_owned(), resolution(first, &thinning)),
-            ("Made by".to_owned(), format!("moris {}", env!("CARGO_PKG_VERSION"))),
+            ("Made by".to_owned(), format!("moris {}", crate::VERSION)),
         ],
         rig: (&first.setup.parameters).into(),
+        vehicle: vehicle(recording, &first.setup.parameters_name),
         runs: outcomes.iter().map(|outcome| run(outcome, &thinning)).collect(),
         selected: 0,
         simulator: None,

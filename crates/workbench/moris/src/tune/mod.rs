@@ -35,6 +35,7 @@ use crate::status::WORSE;
 use cost::Objective;
 pub use options::Options;
 use space::Space;
+use summary::Verdict;
 use tested::{Tested, tune_tested};
 use tuner::Tuner;
 
@@ -72,7 +73,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     for file in write_reports(options, &text, tuned_on.iter().chain(&held_out), &[tuned, before])? {
         writeln!(out, "wrote {}", file.display())?;
     }
-    Ok(if summary::is_worse(&results) { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
+    let is_worse = Verdict::of(&results, fraction) == Verdict::Worse;
+    Ok(if is_worse { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
 fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {

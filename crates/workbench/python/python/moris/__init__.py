@@ -7,6 +7,7 @@ are in SI units. Variables have the names that they have in the FMU.
 from ._errors import BoundError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
 from ._fmu import BuildError, build_fmu
 from ._measures import Measure, Measures
+from ._moris import VERSION as __version__
 from ._moris import Output, Washout
 from ._outputs import Outputs
 from ._recording import Recording
@@ -41,6 +42,7 @@ __all__ = [
     "Tuned",
     "Variable",
     "Washout",
+    "__version__",
     "best",
     "bound",
     "build_fmu",

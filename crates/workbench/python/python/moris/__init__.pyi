@@ -2,10 +2,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from threading import Event
-from typing import Any, Literal, NamedTuple, Union, final
+from typing import Any, Literal, NamedTuple, TypedDict, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 _Floats = NDArray[np.float64]
 _Rig = Union[str, PathLike[str], Mapping[str, Any]]
@@ -39,6 +40,7 @@ __all__ = [
     "Tuned",
     "Variable",
     "Washout",
+    "__version__",
     "best",
     "bound",
     "build_fmu",
@@ -52,7 +54,27 @@ __all__ = [
     "write_parameters",
 ]
 
+__version__: str
 MEASURES: dict[str, str]
+
+class _RecordingOptions(TypedDict, total=False):
+    format: str | None
+    columns: Mapping[str, str] | None
+    time_unit: Literal["s", "ms", "us", "ns"] | None
+    force_unit: Literal["m/s2", "g", "mg"] | None
+    rate_unit: Literal["rad/s", "deg/s"] | None
+    angle_unit: Literal["rad", "deg"] | None
+    speed_unit: Literal["m/s", "km/h", "mph", "kn"] | None
+    gravity: Literal["included", "removed"] | None
+    axes: Literal["forward-left-up", "forward-right-down"] | None
+    mounting: Sequence[float] | Literal["auto"] | None
+    rate_frame: Literal["body", "world"] | None
+    empty_fields: Literal["error", "interpolate"] | None
+    missing: Literal["error", "rest"] | None
+    lap: int | None
+    repair: bool | None
+    resample: float | None
+    fade_in: float | None
 
 class MorisError(ValueError): ...
 
@@ -155,7 +177,7 @@ class Recording:
         self,
         source: _Source,
         name: str | None = None,
-        **options: Any,
+        **options: Unpack[_RecordingOptions],
     ) -> None: ...
     @property
     def name(self) -> str: ...
@@ -210,10 +232,10 @@ def simulate(
     *,
     bound: bool = False,
     preview: float = 0.0,
-    **options: Any,
+    **options: Unpack[_RecordingOptions],
 ) -> Simulation: ...
 def bound(
-    recording: _Source, rig: _Rig | None = None, parameters: _ParameterSet | None = None, **options: Any
+    recording: _Source, rig: _Rig | None = None, parameters: _ParameterSet | None = None, **options: Unpack[_RecordingOptions]
 ) -> dict[str, Bound]: ...
 def parameters(
     rig: _Rig | None = None, parameters: _ParameterSet | None = None, strategy: _Strategy | None = None
@@ -258,8 +280,10 @@ class Survey:
     smallest_singular_value: float | None
     worst_condition: float | None
     singular_at: list[float] | None
+    closest_legs: tuple[int, int]
+    leg_clearance: float
     def __init__(
-        self, name: Any, axes: Any, volumes: Any, condition: Any, singular_at: Any, text: Any, picture: Any
+        self, name: Any, axes: Any, volumes: Any, condition: Any, singular_at: Any, closest: Any, text: Any, picture: Any
     ) -> None: ...
 
 def survey(rig: _Rig | None = None, samples: int = 1_000_000) -> Survey: ...
@@ -305,7 +329,7 @@ def sweep(
     chunk: int | None = None,
     progress: _Show = None,
     cancel: Event | None = None,
-    **options: Any,
+    **options: Unpack[_RecordingOptions],
 ) -> Sweep: ...
 
 class Tuned:
@@ -348,5 +372,5 @@ def tune(
     patience: int | None = None,
     stop: Callable[[str, int, float | None], bool] | None = None,
     client: Any = None,
-    **options: Any,
+    **options: Unpack[_RecordingOptions],
 ) -> Tuned: ...

@@ -33,7 +33,8 @@ class Simulation(Outputs):
 
     time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
     recording: the Recording. measures: Measures. findings: sentences, the most important first.
-    preview: time of the recording that was previewed [s]. parameters: dict of all parameters. fits: False where a safety unit or an actuator's limit was active.
+    preview: time of the recording that was previewed [s]. parameters: dict of all parameters. fits: False where
+        a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time.
     """
 
     def __init__(self, native, recording, preview=0.0):
@@ -69,6 +70,9 @@ class Simulation(Outputs):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(page, encoding="utf-8")
         return path
+
+    def __reduce__(self):
+        return Simulation, (self._native, self.recording, self.preview)
 
     def __repr__(self):
         return f"Simulation({self.name!r}: {len(self.time)} samples, {'fits' if self.fits else 'does not fit'} the rig)"

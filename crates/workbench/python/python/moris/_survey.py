@@ -25,14 +25,17 @@ class Survey:
     volume: of the workspace with the platform level [m3]. tilted_volume: where it can be tilted by 10 degrees, too [m3].
     smallest_singular_value, worst_condition: of the Jacobian over all leg lengths; None for a singular rig.
     singular_at: leg lengths at a singularity, (6,) [m]; None for a rig that can be used.
+    closest_legs: numbers of the two legs that come closest to each other. leg_clearance: their distance there [m].
     """
 
-    def __init__(self, name, axes, volumes, condition, singular_at, text, picture):
+    def __init__(self, name, axes, volumes, condition, singular_at, closest, text, picture):
         self.name = name
         self.reach = {axis: AxisReach(*reach) for axis, *reach in axes}
         (self.volume, _), (self.tilted_volume, _) = volumes
         self.smallest_singular_value, self.worst_condition = condition or (None, None)
         self.singular_at = singular_at
+        closest_legs, self.leg_clearance = closest
+        self.closest_legs = tuple(closest_legs)
         self._text = text
         self._picture = picture
 

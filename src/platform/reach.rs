@@ -1,9 +1,10 @@
 //! Reach of a platform along one axis alone.
 
-use moris_washout::Rig;
-use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
-use moris_washout::nalgebra::Vector3;
-use moris_washout::platform::{Geometry, Pose, leg_lengths};
+use nalgebra::Vector3;
+
+use super::{Geometry, Pose, leg_lengths};
+use crate::interface::Rig;
+use crate::motion::orientation::{Orientation, RollPitchYaw};
 
 /// An axis of the platform's motion: a translation in the base frame or a rotation from level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
