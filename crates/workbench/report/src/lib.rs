@@ -17,6 +17,12 @@ mod page;
 mod simulator;
 mod thinning;
 
+/// Parts of the page for pages of other packages.
+pub mod shared {
+    pub use crate::encode::bytes;
+    pub use crate::page::{ALARM, SHARED as SCRIPTS, STYLE, escaped, filled};
+}
+
 pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Weight};
 pub use events::{Event, Kind, events};
