@@ -16,9 +16,9 @@ const MODULE: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/ride.wasm"));
 
 /// Write a page in which you ride the motorcycle, with the platform beside it
 ///
-/// The page is one file and needs no network. Motorcycle, washout and platform run in it, 1000 steps
-/// a second. Ride with the arrow keys, a gamepad or by tilting a phone; each lap gets its time and
-/// its measures. The page saves the ride as a recording for `moris simulate`.
+/// The page is one file and needs no network. Motorcycle, washout and platform run in it, 1000
+/// steps a second. Ride with the arrow keys, a gamepad or by tilting a phone; each lap gets its
+/// time and its measures. The page saves the ride as a recording for `moris simulate`.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     #[command(flatten)]

@@ -110,9 +110,9 @@ function showNumbers(view) {
 
 function draw(view, seconds) {
   road.draw(view, byId("map").checked, paints.scene, seconds);
-  // The platform and the curves at half the rate: they move less.
+  // The platform moves less, and the curves least.
   if (now.frames % 2 === 0) machine.drawState(machineState(view), paints.strip.felt);
-  else for (const strip of Object.values(strips)) strip.draw(paints.strip);
+  else if (now.frames % 6 === 1) for (const strip of Object.values(strips)) strip.draw(paints.strip);
   showNumbers(view);
 }
 
@@ -161,4 +161,4 @@ function tick(at) {
 requestAnimationFrame(tick);
 document.getElementById("alarm").hidden = true;
 /** For checks: what is shown, and a frame by hand. */
-globalThis.simulationRide = { now, engine, controls, frame, road, strips };
+globalThis.simulationRide = { now, engine, controls, frame, road, machine, strips };

@@ -15,6 +15,8 @@ const scattered = (k) => { const wave = Math.sin(12.9898 * k) * 43758.5453; retu
 
 class Road {
   constructor(canvas, points, halfWidth) {
+    // All of it is drawn over in each frame.
+    canvas.getContext("2d", { alpha: false });
     Object.assign(this, { canvas, points, halfWidth, look: 0 });
     this.spacing = Math.hypot(points[1].x - points[0].x, points[1].y - points[0].y);
     this.bends = points.map((_, k) => (this.point(k + 1).yaw - this.point(k - 1).yaw) / (2 * this.spacing));
@@ -172,7 +174,8 @@ class Road {
     const all = [...this.numbers(here)];
     this.fillGround(this.band(all, half + 1.2, -half - 1.2), paints.verge);
     this.fillGround(this.band(all, half, -half), paints.tarmac);
-    for (const k of all) if (k % 8 < 0 ? k % 8 + 8 < 4 : k % 8 < 4) this.fillGround(this.band([k, k + 1], half, -half), paints.tarmacToo);
+    // Shades by which speed is seen: of 8 m, and near.
+    for (let k = 8 * Math.floor(here / 8); k < here + 60; k += 8) this.fillGround(this.band([k, k + 1, k + 2, k + 3, k + 4], half, -half), paints.tarmacToo);
     for (const side of [1, -1]) this.fillGround(this.band(all, side * (half - 0.35), side * (half - 0.2)), paints.line);
     const start = Math.round(here / this.laps) * this.laps;
     for (let row = 0; row < 2; row += 1) {

@@ -67,8 +67,8 @@ impl Course {
         self.centre.iter().zip(self.advised.iter().copied())
     }
 
-    /// The place of a motorcycle at a distance along the centre, so far to the left of it and turned
-    /// to the left. Headings count all laps.
+    /// The place of a motorcycle at a distance along the centre, so far to the left of it and
+    /// turned to the left. Headings count all laps.
     pub fn at(&self, distance: f64, left: f64, turned: f64) -> Place {
         let laps = (distance / self.length).floor();
         let last = self.centre.len() - 1;

@@ -55,7 +55,8 @@ impl Recording {
         }
     }
 
-    /// Measures of surge and sway from one sample to another; none for a shorter part than a second.
+    /// Measures of surge and sway from one sample to another; none for a shorter part than a
+    /// second.
     pub fn ratings(&self, from: usize, to: usize) -> Option<[Rating; 2]> {
         let to = to.min(self.inputs.len());
         if ((to.saturating_sub(from)) as f64) * self.step < 1.0 {

@@ -22,8 +22,8 @@ const STILL: f64 = 5e-3;
 /// Longest time to wait for the platform at neutral \[s\].
 const PATIENCE: f64 = 20.0;
 
-/// Fraction of a leg's stroke next to its ends, and fractions of its largest speed and acceleration,
-/// from which on a lamp lights.
+/// Fraction of a leg's stroke next to its ends, and fractions of its largest speed and
+/// acceleration, from which on a lamp lights.
 const NEAR_END: f64 = 0.05;
 const NEAR_LIMIT: f64 = 0.9;
 
