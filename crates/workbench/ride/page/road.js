@@ -70,7 +70,7 @@ class Road {
     const here = Math.floor(view.distance / this.spacing);
     if (isMap) {
       context.fillStyle = paints.grass;
-      context.fillRect(0, 0, width, height);
+      context.fillRect(0, 0, width + 1, height + 1);
       this.drawMap(view, [24, 24, width - 48, height - 48], 9);
       return;
     }

@@ -1,6 +1,8 @@
 //! The ride, natively: what a player's commands do.
 
-use moris_ride::{Command, Lap, Ride, STEP, Stage};
+use moris_motorcycle::{Model, Output};
+use moris_ride::page::{Page, html};
+use moris_ride::{Command, HALF_WIDTH, Lap, Ride, STEP, Stage};
 use moris_washout::interface::StrategyKind;
 use moris_washout::{Input, Parameters, Washout, presets};
 
@@ -20,7 +22,7 @@ fn go(ride: &mut Ride, seconds: f64, mut command: impl FnMut(&Ride) -> Command) 
 
 /// Throttle and brakes of a player who keeps a speed.
 fn at_speed(ride: &Ride, speed: f64) -> Command {
-    let missing = speed - moris_interface::Model::output(ride.motorcycle()).speed;
+    let missing = speed - output(ride).speed;
     Command {
         throttle: (0.1 * missing).clamp(0.0, 0.25),
         brake: (-0.1 * missing).clamp(0.0, 0.6),
@@ -29,8 +31,8 @@ fn at_speed(ride: &Ride, speed: f64) -> Command {
     }
 }
 
-fn output(ride: &Ride) -> moris_motorcycle::Output {
-    moris_interface::Model::output(ride.motorcycle())
+fn output(ride: &Ride) -> Output {
+    ride.motorcycle().output()
 }
 
 /// A lap at nine tenths of the advised speed.
@@ -187,4 +189,20 @@ fn falls_restarts_and_new_strategies_are_gentle() {
         })
         .is_err()
     );
+}
+
+#[test]
+fn the_page_holds_all_that_it_needs() {
+    let page = html(&Page {
+        subtitle: "</script><b>".into(),
+        module: vec![0; 100],
+        rig: (&Parameters::default()).into(),
+        parameters: Vec::new(),
+        sets: Vec::new(),
+        half_width: HALF_WIDTH,
+    });
+    for outside in ["http:", "https:", "src=", "@import", "url(", "import ", "fetch(", "{{", "<b>"] {
+        assert!(!page.contains(outside), "the page holds {outside}");
+    }
+    assert_eq!(page.matches("</script>").count(), 3);
 }
