@@ -3,7 +3,7 @@
 const KEYS = { w: "ArrowUp", a: "ArrowLeft", s: "ArrowDown", d: "ArrowRight" };
 const HELD = ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight"];
 /** Rates at which keys open the throttle, pull the brake and move the stick, and at which these go back [1/s]. */
-const RATES = { throttle: [0.7, 3], brake: [1, 4], stick: [1.8, 2.5] };
+const RATES = { throttle: [0.7, 3], brake: [1, 4], stick: [1.2, 2] };
 /** Most of the brake that a key pulls: all of it is for hands that feel it. */
 const KEY_BRAKE = 0.8;
 /** Tilt of a phone that is the stick's end [degrees], and a gamepad's dead zone. */
