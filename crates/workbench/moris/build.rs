@@ -1,7 +1,7 @@
-//! Compiles the simulation for the report's page to WebAssembly, and finds the commit.
+//! Compiles the simulation for the report's page, and the ride, to WebAssembly, and finds the commit.
 //!
-//! Where the target is not installed the file is empty, and the page does not simulate. Without git
-//! the version is that of the package alone.
+//! Where the target is not installed the files are empty. The report's page then does not simulate,
+//! and there is no ride. Without git the version is that of the package alone.
 
 use std::env;
 use std::error::Error;
@@ -10,17 +10,23 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const TARGET: &str = "wasm32-unknown-unknown";
-const PACKAGE: &str = "moris-page-simulation";
+/// Packages, the files of their modules, and what is missing without one.
+const MODULES: [(&str, &str, &str); 2] = [
+    ("moris-page-simulation", "page_simulation", "the report's page will not simulate"),
+    ("moris-ride", "ride", "there will be no ride"),
+];
 const PROFILE: &str = "page-simulation";
 
-/// Directories of the workspace whose files the module is compiled of.
-const SOURCES: [&str; 9] = [
+/// Directories of the workspace whose files the modules are compiled of.
+const SOURCES: [&str; 11] = [
     "src",
     "crates/interface",
+    "crates/simulator/motorcycle",
     "crates/workbench/batch/src",
     "crates/workbench/measures/src",
     "crates/workbench/page-simulation",
     "crates/workbench/report/src",
+    "crates/workbench/ride/src",
     "crates/workbench/simulation",
     "Cargo.lock",
     "Cargo.toml",
@@ -45,8 +51,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     let version = variable("CARGO_PKG_VERSION")?;
     let version = commit(&root).map_or(version.clone(), |commit| format!("{version} ({commit})"));
     println!("cargo::rustc-env=MORIS_VERSION={version}");
-    let module = if is_installed()? { compile(&root, &out)? } else { Vec::new() };
-    fs::write(out.join("page_simulation.wasm"), module)?;
+    let is_installed = is_installed()?;
+    for (package, name, missing) in MODULES {
+        let module = if is_installed { compile(&root, &out, package, missing)? } else { Vec::new() };
+        fs::write(out.join(name).with_extension("wasm"), module)?;
+    }
     Ok(())
 }
 
@@ -88,14 +97,15 @@ fn is_installed() -> Result<bool, Box<dyn Error>> {
     Ok(printed(&["--print", "target-libdir", "--target", TARGET])?.exists())
 }
 
-/// The module's bytes, compiled in a directory of its own, because this build holds the lock of its
+/// A package's module, compiled in a directory of its own, because this build holds the lock of its
 /// own. All profiles share it.
-fn compile(root: &Path, out: &Path) -> Result<Vec<u8>, Box<dyn Error>> {
+fn compile(root: &Path, out: &Path, package: &str, missing: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     // Above the directories of the profile, of build scripts, of this package, and OUT_DIR itself.
     let directory = out.ancestors().nth(4).unwrap_or(out).join("page-simulation");
     let mut command = Command::new(variable("CARGO")?);
-    command.current_dir(root).args(["build", "--locked", "--offline", "--package", PACKAGE, "--profile", PROFILE]);
-    command.args(["--target", TARGET, "--target-dir"]).arg(&directory);
+    command.current_dir(root).args(["rustc", "--locked", "--offline", "--package", package, "--profile", PROFILE]);
+    // Alone this kind of library is optimised as a whole.
+    command.args(["--lib", "--crate-type", "cdylib", "--target", TARGET, "--target-dir"]).arg(&directory);
     for name in OF_THE_HOST {
         command.env_remove(name);
     }
@@ -104,13 +114,10 @@ fn compile(root: &Path, out: &Path) -> Result<Vec<u8>, Box<dyn Error>> {
     let output = command.output()?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
-        println!(
-            "cargo::warning=the report's page will not simulate, because {PACKAGE} does not compile: {}",
-            last_lines(&said)
-        );
+        println!("cargo::warning={missing}, because {package} does not compile: {}", last_lines(&said));
         return Ok(Vec::new());
     }
-    Ok(fs::read(directory.join(TARGET).join(PROFILE).join("moris_page_simulation.wasm"))?)
+    Ok(fs::read(directory.join(TARGET).join(PROFILE).join(package.replace('-', "_")).with_extension("wasm"))?)
 }
 
 /// The last lines of a message as one.

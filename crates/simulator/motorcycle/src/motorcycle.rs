@@ -41,8 +41,10 @@ pub struct Motorcycle {
     output_derivative: Output,
     /// The path and the rider's gains on it; none without a path.
     follower: Option<Box<Follower>>,
-    /// The simulation of the next seconds. None without a path, or after the
-    /// path was left or a fall.
+    /// True if the rider obeys the commands on the path, too.
+    commanded: bool,
+    /// The simulation of the next seconds. None without a path, with a commanded rider, or after
+    /// the path was left or a fall.
     forerun: Option<Box<Forerun>>,
 }
 
@@ -103,6 +105,7 @@ impl Model for Motorcycle {
             output: Output::default(),
             output_derivative: rest_rate(),
             follower,
+            commanded: false,
             forerun: None,
         };
         let input = input.sanitized();
@@ -188,6 +191,13 @@ impl Model for Motorcycle {
 }
 
 impl Motorcycle {
+    /// This motorcycle with a rider who obeys the commands on the path, too. The path has no effect
+    /// but on the place beside it, the friction across the road and the end of the ride. There is
+    /// no preview, because the commands to come are not known.
+    pub fn commanded(self) -> Self {
+        Motorcycle { commanded: true, forerun: None, ..self }
+    }
+
     /// The parameters in force.
     pub fn parameters(&self) -> &Parameters {
         &self.parameters
@@ -234,9 +244,15 @@ impl Motorcycle {
         run
     }
 
-    /// The rider's actions for the path ahead; none without one.
+    /// True if the rider obeys the commands: without a path, and on it if commanded.
+    fn obeys(&self, stage: Stage) -> bool {
+        self.follower.is_none() || self.commanded && stage == Stage::Riding
+    }
+
+    /// The rider's actions for the path ahead; none for a rider who obeys the commands.
     fn ahead(&self, state: &State, stage: Stage) -> Ahead {
         match &self.follower {
+            Some(_) if self.obeys(stage) => Ahead::default(),
             Some(follower) if stage == Stage::Riding => follower.ahead(state, &self.longitudinal),
             Some(follower) => follower.stop(state, &self.longitudinal),
             None => Ahead::default(),
@@ -267,12 +283,14 @@ impl Motorcycle {
         let mut rider = self.rider.derivative(&state.rider, &state.lateral, &gains, feet, command);
         let (mut throttle, mut brake, mut place) = (input.throttle, input.brake, Place::default());
         if let Some(follower) = &self.follower {
-            let (control, feet) = match stage {
-                Stage::Riding => (follower.lean_control(state, ahead), feet),
-                Stage::OffPath | Stage::Fallen => (0.0, 1.0),
-            };
-            rider.lean_rate = self.rider.lean_acceleration(&state.rider, &gains, feet, control);
-            (throttle, brake) = (ahead.throttle, ahead.brake);
+            if !self.obeys(stage) {
+                let (control, feet) = match stage {
+                    Stage::Riding => (follower.lean_control(state, ahead), feet),
+                    Stage::OffPath | Stage::Fallen => (0.0, 1.0),
+                };
+                rider.lean_rate = self.rider.lean_acceleration(&state.rider, &gains, feet, control);
+                (throttle, brake) = (ahead.throttle, ahead.brake);
+            }
             if stage == Stage::Riding {
                 place = follower.place_rate(state, feet);
             }
@@ -364,14 +382,14 @@ impl Motorcycle {
     /// Starts the simulation of the next seconds at the motorcycle's state. None without a path, or
     /// after the path was left or a fall.
     fn begin_forerun(&mut self, input: &Input) {
-        let on_path = self.follower.is_some() && self.run.stage == Stage::Riding;
+        let on_path = self.follower.is_some() && !self.commanded && self.run.stage == Stage::Riding;
         self.forerun = on_path.then(|| Box::new(Forerun::new(self.run, self.record(&self.run, input))));
     }
 
     /// Keeps the simulation of the next seconds ahead of a motorcycle that has
     /// advanced by `step` seconds.
     fn look_ahead(&mut self, input: &Input, step: f64) {
-        if self.follower.is_none() {
+        if self.follower.is_none() || self.commanded {
             return;
         }
         let here = self.run.state;

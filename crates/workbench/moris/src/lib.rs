@@ -7,6 +7,7 @@
 //! - [`measure`] prints a table of the measures of several recordings.
 //! - [`worst_case`] measures the strategies on platforms that differ from the nominal one.
 //! - [`tune`] searches for better parameters.
+//! - [`ride`] writes a page in which the motorcycle is ridden.
 //! - [`frequency_response`] measures a frequency response.
 //! - [`parameters`] lists all parameters.
 //! - [`help`] writes shell completions and man pages.
@@ -24,6 +25,7 @@ pub mod parameters;
 mod progress;
 mod random;
 pub mod recording;
+pub mod ride;
 pub mod rig;
 pub mod schema;
 pub mod setup_options;

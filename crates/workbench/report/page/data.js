@@ -1,14 +1,5 @@
 // Data: the report as it travels in the page, decoded as src/encode.rs encodes it.
 
-const page = JSON.parse(document.getElementById("data").textContent);
-
-/** Bytes from deflated ones in base64. */
-async function inflated(text) {
-  const packed = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
 /** Values of a series from its second differences; null without one. */
 async function decoded(encoded, Numbers = Float32Array) {
   if (encoded === null) return null;

@@ -8,6 +8,18 @@ const WIDE = 100;
 const rounded = (value) => Number(value.toPrecision(3));
 const inWords = (value) => withMinus(String(Number(value.toPrecision(6))));
 
+/** The values with a strategy and the set of its name below the parameters that are given, as the command's --strategy. */
+function withStrategy({ parameters, sets }, values, value) {
+  const strategy = parameters.findIndex(({ name }) => name === "strategy");
+  const setOf = (item) => new Map((sets.find(([name]) => name === parameters[strategy].items[item - 1]) || [null, []])[1]);
+  const [before, after] = [setOf(values[strategy]), setOf(value)];
+  return parameters.map(({ name, base }, slot) => {
+    if (slot === strategy) return value;
+    if (!(before.has(name) || after.has(name))) return values[slot];
+    return values[slot] === (before.get(name) ?? base) ? after.get(name) ?? base : values[slot];
+  });
+}
+
 class ParameterControl {
   /** `changed(value)` is called while a control moves, `done()` when it is let go. */
   constructor(parameter, value, changed, done) {

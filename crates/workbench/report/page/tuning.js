@@ -147,24 +147,12 @@ class Tuning {
   /** A value while its control moves. */
   move(slot, value) {
     if (this.parameters[slot].name === "strategy") {
-      this.takeStrategy(value);
+      this.values = withStrategy(this.simulator.data, this.values, value);
     } else {
       this.values[slot] = value;
       this.controls.get(slot).show(value);
     }
     this.simulate();
-  }
-
-  /** A strategy with the set of its name below the parameters that are given, as the command's --strategy. */
-  takeStrategy(value) {
-    const setOf = (strategy) => new Map((this.simulator.data.sets.find(([name]) => name === strategy) || [null, []])[1]);
-    const before = setOf(this.strategy);
-    this.values[this.slots.get("strategy")] = value;
-    const after = setOf(this.strategy);
-    this.parameters.forEach(({ name, base }, slot) => {
-      if (name === "strategy" || !(before.has(name) || after.has(name))) return;
-      if (this.values[slot] === (before.get(name) ?? base)) this.values[slot] = after.get(name) ?? base;
-    });
   }
 
   /** Ends a change: what undo goes back from. */

@@ -18,11 +18,17 @@ class View {
   }
 
   draw(run, time) {
+    const state = stateAt(run, time);
+    this.drawState(state, colour(run.colour));
+    return state;
+  }
+
+  /** The machine in a state; `felt` is the colour of the felt force. */
+  drawState(state, felt) {
     const { context, width, height } = fitted(this.canvas);
     this.context = context;
     this.camera.aim(width, height);
     this.parts = [];
-    const state = stateAt(run, time);
     context.lineCap = "round";
     context.lineJoin = "round";
     this.drawFloor();
@@ -31,9 +37,8 @@ class View {
     this.addMockUp(state);
     this.addRider(state);
     this.parts.sort((a, b) => b.depth - a.depth).forEach((part) => part.draw());
-    this.drawArrows(run, state);
+    this.drawArrows(state, felt);
     this.drawCompass(height);
-    return state;
   }
 
   // What can be drawn: polygons, rods and balls.
@@ -181,9 +186,9 @@ class View {
   }
 
   /** What is desired and what is felt at the head, less gravity along its vertical. */
-  drawArrows(run, state) {
+  drawArrows(state, felt) {
     const head = headOf(this.rig, state);
-    const cues = [[state.desired, colour("--desired"), 7], [state.felt, colour(run.colour), 3]];
+    const cues = [[state.desired, colour("--desired"), 7], [state.felt, felt, 3]];
     for (const [force, paint, wide] of cues) {
       const cue = minus(force, [0, 0, GRAVITY]);
       if (norm(cue) < ARROW_WORTH_DRAWING) continue;

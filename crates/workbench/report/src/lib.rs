@@ -18,6 +18,12 @@ mod simulator;
 mod thinning;
 mod tilt_limits;
 
+/// Parts of the page for pages of other packages.
+pub mod shared {
+    pub use crate::encode::bytes;
+    pub use crate::page::{ALARM, SHARED as SCRIPTS, STYLE, escaped, filled};
+}
+
 pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Vehicle, Weight};
 pub use events::{Event, Kind, events};

@@ -7,29 +7,36 @@ use crate::data::Report;
 use crate::events::{Event, events};
 
 const TEMPLATE: &str = include_str!("../page/page.html");
-pub(crate) const STYLE: &str = include_str!("../page/style.css");
-const ALARM: &str = include_str!("../page/alarm.js");
+/// The style of a report, whose colours the scripts name.
+pub const STYLE: &str = include_str!("../page/style.css");
+/// Runs before the other scripts, and says if one of them fails.
+pub const ALARM: &str = include_str!("../page/alarm.js");
 const WORKER: &str = include_str!("../page/worker.js");
 
-/// The scripts in the order of their dependencies.
-const SCRIPTS: [&str; 19] = [
-    include_str!("../page/data.js"),
+/// Scripts for any page with a machine and parameters, in the order of their dependencies.
+pub const SHARED: [&str; 9] = [
+    include_str!("../page/payload.js"),
     include_str!("../page/format.js"),
     include_str!("../page/dom.js"),
     include_str!("../page/palette.js"),
-    include_str!("../page/thin.js"),
-    include_str!("../page/chart.js"),
     include_str!("../page/vector.js"),
     include_str!("../page/machine.js"),
     include_str!("../page/camera.js"),
     include_str!("../page/view.js"),
+    include_str!("../page/parameter.js"),
+];
+
+/// The report's own scripts, likewise.
+const SCRIPTS: [&str; 11] = [
+    include_str!("../page/data.js"),
+    include_str!("../page/thin.js"),
+    include_str!("../page/chart.js"),
     include_str!("../page/limits.js"),
     include_str!("../page/gauges.js"),
     include_str!("../page/measures.js"),
     include_str!("../page/overlay.js"),
     include_str!("../page/panels.js"),
     include_str!("../page/simulator.js"),
-    include_str!("../page/parameter.js"),
     include_str!("../page/tuning.js"),
     include_str!("../page/main.js"),
 ];
@@ -68,13 +75,16 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
             ("style", STYLE),
             ("alarm", ALARM),
             ("data", &data),
-            ("script", &SCRIPTS.join("\n")),
+            ("script", &[SHARED.join("\n"), SCRIPTS.join("\n")].join("\n")),
         ],
     ))
 }
 
 /// The template with every `{{name}}` replaced. The inserted text is not expanded again.
-fn filled(template: &str, texts: &[(&str, &str)]) -> String {
+///
+/// # Panics
+/// The template has a name without a text.
+pub fn filled(template: &str, texts: &[(&str, &str)]) -> String {
     let mut parts = template.split("{{");
     let mut page = parts.next().unwrap_or_default().to_owned();
     for part in parts {
@@ -87,7 +97,7 @@ fn filled(template: &str, texts: &[(&str, &str)]) -> String {
 }
 
 /// Text as HTML.
-pub(crate) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

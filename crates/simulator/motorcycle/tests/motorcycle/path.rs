@@ -315,6 +315,30 @@ fn a_bend_that_is_much_too_fast_ends_beside_the_path() {
     assert!(output.off_path && output.orientation.roll.abs() < 0.01);
 }
 
+/// While the tyres hold, the path changes next to nothing about a motorcycle whose rider obeys
+/// commands: rolling resistance is that of the load normal to the road.
+#[test]
+fn a_commanded_rider_moves_as_without_a_path_until_the_path_is_left() {
+    let command = |time: f64| Input { throttle: 0.2, lean: 0.02 * (3.0 * time).sin(), ..Input::default() };
+    let mut on_path = motorcycle(&on(Course::Lap, 10.0)).commanded();
+    let mut free = motorcycle(&on(Course::None, 10.0));
+    for (with, without) in ride(&mut on_path, 6.0, STEP, command).iter().zip(ride(&mut free, 6.0, STEP, command)) {
+        let difference = (with.specific_force - without.specific_force).norm();
+        assert!(difference < 1e-3, "{difference}");
+        assert!(
+            (with.path_deviation - without.position.y).abs() < 1e-3,
+            "{} {}",
+            with.path_deviation,
+            without.position
+        );
+        assert_eq!((with.preview_count, with.off_path), (0, false));
+    }
+    let to_the_left = |_| Input { throttle: 0.2, lean: -0.2, ..Input::default() };
+    ride(&mut on_path, 3.0, STEP, to_the_left);
+    assert!(on_path.output().off_path);
+    assert_comes_to_rest(&mut on_path);
+}
+
 #[test]
 fn ice_in_a_bend_ends_in_a_fall() {
     let mut vehicle = motorcycle(&on(Course::Hairpin, 0.0));

@@ -15,7 +15,7 @@ pub mod index;
 pub mod json;
 pub mod output_table;
 pub mod page;
-mod simulator;
+pub(crate) mod simulator;
 pub mod summary;
 mod vehicle;
 

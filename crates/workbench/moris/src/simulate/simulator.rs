@@ -33,7 +33,7 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
         samples: samples.len(),
         inputs: (0..slots).map(|slot| samples.iter().map(|sample| sample[slot]).collect()).collect(),
         bounds: outcome.evaluated().bounds,
-        parameters: parameters(recording, outcome),
+        parameters: parameters(&outcome.simulation.parameters, &recording.parameters(&outcome.setup.rig_alone)),
         sets: sets(),
         heading: format!(
             "Chosen in the report of {name} on {}, from {}",
@@ -45,7 +45,7 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
 }
 
 /// The sets that strategies have, by the strategies' names.
-fn sets() -> Vec<(String, Vec<(String, f64)>)> {
+pub(crate) fn sets() -> Vec<(String, Vec<(String, f64)>)> {
     let own = |strategy: &&StrategyKind| **strategy != StrategyKind::Classical;
     let set = |strategy: &StrategyKind| {
         let (name, values) = SETS.iter().find(|(name, _)| *name == strategy.name())?;
@@ -55,9 +55,10 @@ fn sets() -> Vec<(String, Vec<(String, f64)>)> {
     StrategyKind::ALL.iter().filter(own).filter_map(set).collect()
 }
 
-fn parameters(recording: &Recording, outcome: &Outcome) -> Vec<Parameter> {
-    let start = slots_of(&outcome.simulation.parameters);
-    let base = slots_of(&recording.parameters(&outcome.setup.rig_alone));
+/// The parameters for a page, slot by slot: with their start values, and those of the rig
+/// with default parameters.
+pub(crate) fn parameters(from: &Parameters, base: &Parameters) -> Vec<Parameter> {
+    let (start, base) = (slots_of(from), slots_of(base));
     let mut parameters: Vec<Parameter> = Vec::with_capacity(start.len());
     for row in Parameters::ROWS {
         for element in 0..row.slots() {
@@ -66,7 +67,7 @@ fn parameters(recording: &Recording, outcome: &Outcome) -> Vec<Parameter> {
         }
     }
     for (group, heading) in HEADINGS {
-        for (slot, range) in ranges_of(&outcome.simulation.parameters, group) {
+        for (slot, range) in ranges_of(from, group) {
             let parameter = &mut parameters[slot];
             parameter.slider = [range[0].min(parameter.start), range[1].max(parameter.start)];
             parameter.group = is_prominent(&parameter.name).then(|| heading.to_owned());

@@ -1,0 +1,164 @@
+// The page: input, steps and pictures, a frame at a time.
+
+const LAMPS = [
+  ["tilt", "Tilt", "Tilt coordination lags behind its target because of its rate, acceleration or angle limit."],
+  ["soft", "Soft limits", "The soft limits change the motion ahead of a limit."],
+  ["safety", "Safety", "A safety unit limits position, velocity or acceleration of the platform."],
+  ["stroke", "Stroke", "A leg is within 5 % of its stroke from an end."],
+  ["leg_speed", "Leg speed", "A leg has more than 90 % of its largest speed."],
+  ["leg_acceleration", "Leg accel.", "A leg has more than 90 % of its largest acceleration."],
+];
+/** Time for which a lamp stays lit, so that it can be seen [s]. */
+const GLOW = 0.4;
+const MESSAGES = {
+  ready: "Ready. Throttle: ↑, W or its button; lean: ← →",
+  off_road: "Off the road. R or Restart for another try",
+  fallen: "Fallen. R or Restart for another try",
+  returning: "The platform goes back to neutral …",
+};
+const SCENE = {
+  sky: "--sky", haze: "--haze", grass: "--grass", farGrass: "--far-grass", hill: "--hill", farHill: "--far-hill", verge: "--verge",
+  tarmac: "--tarmac", tarmacToo: "--tarmac-too", line: "--line", fast: "--leg-near", tooFast: "--too-fast", tyre: "--ink-on-road", trunk: "--trunk",
+  leaves: "--leaves", needles: "--needles", tank: "--tank", bar: "--bar", grip: "--grip", dial: "--dial",
+};
+const STRIP = { desired: "--desired", felt: "--run-1", muted: "--muted", axis: "--axis", rule: "--rule" };
+
+const clock = (seconds) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
+const resolved = (names) => Object.fromEntries(Object.entries(names).map(([key, name]) => [key, colour(name)]));
+
+const engine = await Engine.start(await inflated(page.module), page.parameters.map(({ start }) => start));
+const road = new Road(byId("road"), engine.road(), page.half_width);
+const machine = new View(byId("view"), page.rig);
+const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
+const controls = new Controls();
+const panel = new Panel(byId("panel"), page, {
+  retune: (values) => engine.retune(values),
+  setFriction: (value) => {
+    if (!engine.wasm.set_friction(value)) return "Cannot be used.";
+    road.points = engine.road();
+    return "";
+  },
+});
+let paints = {};
+const now = { view: engine.view(), isPaused: false, shownLaps: 0, toast: "", toastUntil: 0, time: 0, frames: 0, cost: 0, lit: new Map() };
+
+const lamps = new Map(LAMPS.map(([name, label, help]) => {
+  const lamp = element("li", { title: help }, [label]);
+  byId("lamps").append(lamp);
+  return [name, lamp];
+}));
+for (const [label, paint] of [["desired", "--desired"], ["felt", "--run-1"]]) {
+  const mark = element("span", { class: "mark", style: `background: var(${paint})` });
+  byId("legend").append(element("li", {}, [mark, label]));
+}
+letTurn(machine, () => {});
+
+function pause(on = !now.isPaused) {
+  now.isPaused = on;
+  byId("pause").setAttribute("aria-pressed", String(on));
+  byId("pause").textContent = on ? "Continue (P)" : "Pause (P)";
+}
+
+function restart() {
+  pause(false);
+  engine.restart();
+  for (const strip of Object.values(strips)) strip.clear();
+}
+
+const toggle = (id) => { byId(id).checked = !byId(id).checked; };
+
+function save() {
+  const link = element("a", { download: "ride.csv" });
+  link.href = URL.createObjectURL(new Blob([engine.csv()], { type: "text/csv" }));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+/** Adds a row for each whole lap that has none. */
+function showLaps({ laps }) {
+  if (laps < now.shownLaps) now.shownLaps = laps;
+  for (; now.shownLaps < laps; now.shownLaps += 1) {
+    const { time, is_mixed: isMixed, ratings } = engine.lap(now.shownLaps);
+    const cells = [String(now.shownLaps + 1), clock(time), panel.strategy + (isMixed ? ", changed" : "")];
+    const values = (ratings || []).flatMap((one) => [one.rms_error, one.shake, one.jolt, one.peak].map((value) => fixed(value, 2)));
+    byId("lap-rows").append(element("tr", {}, [...cells, ...values].map((text, i) => element(i ? "td" : "th", i > 2 ? { class: "number" } : {}, [text]))));
+    byId("laps").hidden = false;
+    [now.toast, now.toastUntil] = [`Lap ${now.shownLaps + 1}: ${clock(time)}. Its ratings are below.`, now.time + 6];
+  }
+}
+
+function setText(id, text) {
+  const box = byId(id);
+  if (box.textContent !== text) box.textContent = text;
+}
+
+function showNumbers(view) {
+  setText("speed", fixed(3.6 * view.speed, 0));
+  setText("advised", view.stage === "riding" ? `advised ${fixed(3.6 * view.advised, 0)} km/h` : "");
+  byId("advised").classList.toggle("over", view.speed > view.advised + 1);
+  setText("lap-time", clock(view.lap_time));
+  setText("lap-number", `lap ${view.laps + 1}`);
+  const exchange = view.is_exchanging ? "The strategy changes: the cue fades, and comes back" : "";
+  const toast = now.time < now.toastUntil ? now.toast : "";
+  setText("message", now.isPaused ? "Paused" : MESSAGES[view.stage] || exchange || toast);
+  byId("save").disabled = view.time < 1;
+  for (const [name, lamp] of lamps) {
+    if (view[name]) now.lit.set(name, now.time + GLOW);
+    lamp.classList.toggle("lit", now.time < (now.lit.get(name) ?? 0));
+  }
+}
+
+function draw(view, seconds) {
+  road.draw(view, byId("map").checked, paints.scene, seconds);
+  // The platform moves less, and the curves least.
+  if (now.frames % 2 === 0) machine.drawState(machineState(view), paints.strip.felt);
+  else if (now.frames % 6 === 1) for (const strip of Object.values(strips)) strip.draw(paints.strip);
+  showNumbers(view);
+}
+
+/** Rides and draws for so many seconds with these commands. */
+function frame(seconds, commands) {
+  if (!now.isPaused) {
+    engine.advance(seconds, { ...commands, isHelped: byId("helped").checked });
+    now.time = engine.steps / 1000;
+  }
+  const view = engine.view();
+  if (!now.isPaused) {
+    strips.surge.push(now.time, view.desired_x, view.felt_x);
+    strips.sway.push(now.time, view.desired_y, view.felt_y);
+    showLaps(view);
+  }
+  draw(view, seconds);
+  now.view = view;
+  now.frames += 1;
+}
+
+const readPaints = () => { paints = { scene: resolved(SCENE), strip: resolved(STRIP) }; };
+readPaints();
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readPaints);
+byId("map").checked = matchMedia("(prefers-reduced-motion: reduce)").matches;
+byId("restart").addEventListener("click", restart);
+byId("pause").addEventListener("click", () => pause());
+byId("save").addEventListener("click", save);
+controls.listen(document.querySelectorAll("#pedals button"), { r: restart, p: () => pause(), h: () => toggle("helped"), m: () => toggle("map") });
+if (matchMedia("(pointer: coarse)").matches && "DeviceOrientationEvent" in window) {
+  byId("tilt").hidden = false;
+  byId("tilt").addEventListener("click", async () => {
+    const isAllowed = await controls.useTilt().catch(() => false);
+    byId("tilt").textContent = isAllowed ? "Lean: tilt the device" : "The device gives no tilt";
+  });
+}
+
+let before = performance.now();
+function tick(at) {
+  const seconds = Math.max(0, at - before) / 1000;
+  before = at;
+  const begin = performance.now();
+  frame(seconds, controls.after(seconds));
+  now.cost += performance.now() - begin;
+  if (!now.isHeld) requestAnimationFrame(tick);
+}
+requestAnimationFrame(tick);
+document.getElementById("alarm").hidden = true;
+/** For checks: what is shown, and a frame by hand. */
+globalThis.simulationRide = { now, engine, controls, frame, road, machine, strips };

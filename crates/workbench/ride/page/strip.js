@@ -1,0 +1,49 @@
+// A curve of the last seconds: the desired force, and the felt one over it.
+
+const STRIP_TIME = 15;
+/** Force at the ends of the axis, at least [m/s2]. */
+const STRIP_FORCE = 4;
+
+class Strip {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.points = [];
+  }
+
+  clear() {
+    this.points = [];
+  }
+
+  push(time, desired, felt) {
+    this.points.push([time, desired, felt]);
+    const old = this.points.findIndex(([at]) => at >= time - STRIP_TIME);
+    if (old > 60) this.points.splice(0, old);
+  }
+
+  draw(paints) {
+    const { context, width, height } = fitted(this.canvas);
+    const last = this.points.length ? this.points[this.points.length - 1][0] : 0;
+    const most = this.points.reduce((found, [, desired, felt]) => Math.max(found, Math.abs(desired), Math.abs(felt)), STRIP_FORCE);
+    const end = 2 * Math.ceil(most / 2);
+    const xOf = (time) => 30 + (width - 32) * (1 - (last - time) / STRIP_TIME);
+    const yOf = (value) => height / 2 - value / end * (height / 2 - 7);
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    context.fillStyle = paints.muted;
+    for (const value of [-end, 0, end]) {
+      drawSegment(context, [30, yOf(value)], [width, yOf(value)], value === 0 ? paints.axis : paints.rule, 1);
+      context.fillText(fixed(value, 0), 25, yOf(value));
+    }
+    context.beginPath();
+    context.rect(30, 0, width - 30, height);
+    context.clip();
+    for (const [which, paint, thick] of [[1, paints.desired, 4], [2, paints.felt, 2]]) {
+      context.strokeStyle = paint;
+      context.lineWidth = thick;
+      context.lineJoin = "round";
+      context.beginPath();
+      for (const point of this.points) context.lineTo(xOf(point[0]), yOf(point[which]));
+      context.stroke();
+    }
+  }
+}

@@ -1,0 +1,83 @@
+//! The course in the plane: the centre of the road, for drawing, and places beside it.
+
+use moris_motorcycle::path::follower::Follower;
+
+/// Distance between two points of the centre \[m\].
+pub const SPACING: f64 = 2.0;
+/// Parts in which the heading between two points is integrated.
+const PARTS: usize = 8;
+
+/// A place in the plane and the heading there, in m and rad, positive to the left.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    pub x: f64,
+    pub y: f64,
+    pub yaw: f64,
+}
+
+impl Place {
+    /// This place moved ahead and to the left, and turned to the left.
+    pub fn moved(self, ahead: f64, left: f64, turned: f64) -> Place {
+        let (sin, cos) = self.yaw.sin_cos();
+        Place { x: self.x + ahead * cos - left * sin, y: self.y + ahead * sin + left * cos, yaw: self.yaw + turned }
+    }
+}
+
+/// A closed course.
+#[derive(Clone, Debug)]
+pub struct Course {
+    length: f64,
+    centre: Vec<Place>,
+    /// Speed that a rider plans at each point \[m/s\].
+    advised: Vec<f64>,
+}
+
+impl Course {
+    /// The course of a rider on a path.
+    pub fn new(follower: &Follower) -> Course {
+        let table = follower.table();
+        let length = table.length();
+        let count = (length / SPACING).round() as usize;
+        let spacing = length / count as f64;
+        let part = spacing / PARTS as f64;
+        let mut centre = vec![Place::default()];
+        for k in 0..count * PARTS {
+            let here = centre[centre.len() - 1];
+            // Of the model, positive to the right.
+            let turn = -table.curvature_at((k as f64 + 0.5) * part) * part;
+            let next = here.moved(0.0, 0.0, 0.5 * turn).moved(part, 0.0, 0.5 * turn);
+            if k % PARTS == 0 {
+                centre.push(next);
+            } else {
+                let last = centre.len() - 1;
+                centre[last] = next;
+            }
+        }
+        let advised = (0..=count).map(|k| follower.planned_speed(k as f64 * spacing)).collect();
+        Course { length, centre, advised }
+    }
+
+    /// Length of a lap \[m\].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// The points of the centre, the last at the place of the first, and the advised speeds there.
+    pub fn points(&self) -> impl Iterator<Item = (&Place, f64)> {
+        self.centre.iter().zip(self.advised.iter().copied())
+    }
+
+    /// The place of a motorcycle at a distance along the centre, so far to the left of it and
+    /// turned to the left. Headings count all laps.
+    pub fn at(&self, distance: f64, left: f64, turned: f64) -> Place {
+        let laps = (distance / self.length).floor();
+        let last = self.centre.len() - 1;
+        let along = (distance / self.length - laps) * last as f64;
+        let row = (along as usize).min(last - 1);
+        let (from, to) = (&self.centre[row], &self.centre[row + 1]);
+        let t = along - row as f64;
+        let between = |from: f64, to: f64| from + t * (to - from);
+        let yaw = between(from.yaw, to.yaw) + laps * self.centre[last].yaw;
+        Place { x: between(from.x, to.x), y: between(from.y, to.y), yaw }.moved(0.0, left, turned)
+    }
+}

@@ -1,0 +1,20 @@
+//! A ride in the browser: the motorcycle by hand, with the washout and the platform.
+//!
+//! - [`Ride`] steps motorcycle and washout together, a millisecond at a time.
+//! - [`Course`] is the road in the plane.
+//! - [`Recording`] has the ride's measures and its file.
+//! - [`page`] makes the page. The functions for its script are in `exports`, which only the
+//!   WebAssembly has.
+
+mod course;
+#[cfg(target_arch = "wasm32")]
+mod exports;
+#[cfg(not(target_arch = "wasm32"))]
+pub mod page;
+mod recording;
+mod ride;
+mod rider;
+
+pub use course::{Course, Place};
+pub use recording::{Rating, Recording};
+pub use ride::{Command, HALF_WIDTH, Lap, Ride, STEP, Stage};

@@ -1,0 +1,54 @@
+//! The page: a template with the style, the scripts, the module and the data put in.
+
+use moris_report::{Parameter, Rig, shared};
+use serde::Serialize;
+
+const TEMPLATE: &str = include_str!("../page/ride.html");
+const STYLE: &str = include_str!("../page/ride.css");
+
+/// The scripts in the order of their dependencies.
+const SCRIPTS: [&str; 6] = [
+    include_str!("../page/engine.js"),
+    include_str!("../page/controls.js"),
+    include_str!("../page/road.js"),
+    include_str!("../page/strip.js"),
+    include_str!("../page/panel.js"),
+    include_str!("../page/main.js"),
+];
+
+/// What the page needs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Page {
+    /// One line below the heading.
+    pub subtitle: String,
+    /// The compiled crate.
+    #[serde(serialize_with = "shared::bytes")]
+    pub module: Vec<u8>,
+    pub rig: Rig,
+    /// Slot by slot of the washout's parameters.
+    pub parameters: Vec<Parameter>,
+    /// Names and values of the set that each strategy has, by the strategy's name.
+    pub sets: Vec<(String, Vec<(String, f64)>)>,
+    /// \[m\]
+    pub half_width: f64,
+}
+
+/// The whole page as HTML, which needs no network and no other file.
+///
+/// # Panics
+/// Never: plain data always serialise.
+pub fn html(page: &Page) -> String {
+    // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
+    let data = serde_json::to_string(page).expect("plain data serialise").replace('<', "\\u003c");
+    let scripts: Vec<&str> = shared::SCRIPTS.iter().chain(&SCRIPTS).copied().collect();
+    shared::filled(
+        TEMPLATE,
+        &[
+            ("subtitle", &shared::escaped(&page.subtitle)),
+            ("style", &format!("{}\n{STYLE}", shared::STYLE)),
+            ("alarm", shared::ALARM),
+            ("data", &data),
+            ("script", &scripts.join("\n")),
+        ],
+    )
+}

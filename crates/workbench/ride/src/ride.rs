@@ -1,0 +1,373 @@
+//! The ride: motorcycle, washout and platform, a step at a time.
+
+use moris_interface::{Model, ParameterError};
+use moris_motorcycle::{Course as Path, Input as Controls, Motorcycle, Parameters as MotorcycleParameters};
+use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::{ENGAGE_TIME, Input, Parameters, Washout};
+
+use crate::course::{Course, Place};
+use crate::recording::{Rating, Recording};
+use crate::rider;
+
+/// Time of a step \[s\].
+pub const STEP: f64 = 0.001;
+/// Half of the road's width \[m\].
+pub const HALF_WIDTH: f64 = 4.0;
+/// Speed above which the ride has begun \[m/s\].
+const MOVING: f64 = 0.05;
+
+/// The platform counts as neutral within these distances and speeds, in m, rad and s.
+const NEUTRAL: f64 = 2e-3;
+const STILL: f64 = 5e-3;
+/// Longest time to wait for the platform at neutral \[s\].
+const PATIENCE: f64 = 20.0;
+
+/// Fraction of a leg's stroke next to its ends, and fractions of its largest speed and
+/// acceleration, from which on a lamp lights.
+const NEAR_END: f64 = 0.05;
+const NEAR_LIMIT: f64 = 0.9;
+
+/// What the player asks of the rider.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Command {
+    /// From 0 to 1.
+    pub throttle: f64,
+    pub brake: f64,
+    /// From -1, left, to 1, right: the lean that the rider aims at.
+    pub stick: f64,
+    /// True if the rider keeps to the road.
+    pub is_helped: bool,
+}
+
+/// Where a ride is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// At the start, until the throttle opens.
+    Ready,
+    Riding,
+    OffRoad,
+    Fallen,
+    /// The platform goes back to neutral for the next ride.
+    Returning,
+}
+
+/// A whole lap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lap {
+    /// \[s\]
+    pub time: f64,
+    /// Samples of the recording between which it was.
+    pub samples: [usize; 2],
+    /// True if parameters were changed in it.
+    pub is_mixed: bool,
+}
+
+/// Motorcycle, washout and platform.
+#[derive(Clone, Debug)]
+pub struct Ride {
+    motorcycle: Motorcycle,
+    course: Course,
+    parameters: Parameters,
+    washout: Washout,
+    /// The washout that follows as soon as the platform is at neutral.
+    next: Option<Box<Washout>>,
+    /// Time since the washout was disengaged \[s\].
+    disengaged: f64,
+    input: Input,
+    stage: Stage,
+    place: Place,
+    recording: Recording,
+    /// Steps since the ride has begun.
+    steps: u64,
+    laps: Vec<Lap>,
+    /// Steps at the beginning of the lap, and whether parameters were changed since.
+    lap_start: u64,
+    is_mixed: bool,
+    lamps: [bool; 6],
+}
+
+impl Ride {
+    /// A motorcycle at rest at the beginning of the course, with the platform at neutral.
+    ///
+    /// # Errors
+    /// The washout's parameters cannot be used.
+    pub fn new(parameters: &Parameters) -> Result<Ride, ParameterError> {
+        let parameters = in_body_axes(parameters);
+        let motorcycle = motorcycle(None)?;
+        let input = input_of(&motorcycle, true);
+        let washout = Washout::new(&parameters)?.starting_with(&input);
+        let Some(follower) = motorcycle.follower() else { unreachable!("the course is a path") };
+        let felt = washout.output().felt_specific_force;
+        Ok(Ride {
+            course: Course::new(follower),
+            motorcycle,
+            parameters,
+            next: None,
+            disengaged: 0.0,
+            input,
+            stage: Stage::Ready,
+            place: Place::default(),
+            recording: Recording::new(STEP, input, [felt.x, felt.y]),
+            steps: 0,
+            laps: Vec::new(),
+            lap_start: 0,
+            is_mixed: false,
+            lamps: [false; 6],
+            washout,
+        })
+    }
+
+    /// Advances by [`STEP`].
+    pub fn step(&mut self, command: &Command) {
+        if self.stage == Stage::Ready && command.throttle > 0.0 && self.next.is_none() {
+            self.begin();
+        }
+        if !matches!(self.stage, Stage::Ready | Stage::Returning) {
+            self.ride(command);
+        }
+        let is_engaged = matches!(self.stage, Stage::Ready | Stage::Riding) && self.next.is_none();
+        // A ride that is given up ends in the middle of a motion: its last force fades.
+        self.input = match self.stage {
+            Stage::Returning => Input { engaged: false, ..self.input },
+            _ => input_of(&self.motorcycle, is_engaged),
+        };
+        self.washout.step(&self.input, STEP);
+        self.disengaged = if is_engaged { 0.0 } else { self.disengaged + STEP };
+        self.light_lamps();
+        if self.stage == Stage::Riding {
+            self.record();
+        }
+        self.exchange_washout();
+    }
+
+    /// Takes the parameters. Those that cannot change in flight make a new washout, which follows
+    /// when the cue has faded and the platform is at neutral. True for such ones.
+    ///
+    /// # Errors
+    /// They cannot be used; nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<bool, ParameterError> {
+        let parameters = in_body_axes(parameters);
+        if parameters == self.parameters {
+            return Ok(self.next.is_some());
+        }
+        if self.next.is_some() || self.washout.retune(&parameters).is_err() {
+            self.next = Some(Box::new(Washout::new(&parameters)?));
+        }
+        self.parameters = parameters;
+        self.is_mixed = true;
+        Ok(self.next.is_some())
+    }
+
+    /// Sets the friction of the road.
+    ///
+    /// # Errors
+    /// It is out of range.
+    pub fn set_friction(&mut self, friction: f64) -> Result<(), ParameterError> {
+        let mut parameters = *self.motorcycle.parameters();
+        parameters.tyres.friction = friction;
+        self.motorcycle.retune(&parameters)?;
+        // The speed that a rider plans depends on it.
+        if let Some(follower) = self.motorcycle.follower() {
+            self.course = Course::new(follower);
+        }
+        Ok(())
+    }
+
+    /// Ends the ride; the next one is ready when the platform is at neutral.
+    ///
+    /// # Errors
+    /// Never, because the parameters are in use.
+    pub fn restart(&mut self) -> Result<(), ParameterError> {
+        if !matches!(self.stage, Stage::Ready | Stage::Returning) {
+            self.next = Some(Box::new(Washout::new(&self.parameters)?));
+            self.motorcycle = motorcycle(Some(self.motorcycle.parameters()))?;
+            self.place = Place::default();
+            self.stage = Stage::Returning;
+        }
+        Ok(())
+    }
+
+    fn begin(&mut self) {
+        self.stage = Stage::Riding;
+        let felt = self.washout.output().felt_specific_force;
+        self.recording = Recording::new(STEP, self.input, [felt.x, felt.y]);
+        self.laps.clear();
+        (self.steps, self.lap_start, self.is_mixed) = (0, 0, false);
+    }
+
+    fn ride(&mut self, command: &Command) {
+        let Command { throttle, brake, stick, is_helped } = *command;
+        let lean = rider::lean(stick, is_helped, &self.motorcycle);
+        self.motorcycle.step(&Controls { throttle, brake, lean, ..Controls::default() }, STEP);
+        let now = self.motorcycle.output();
+        self.stage = match self.stage {
+            _ if now.fallen => Stage::Fallen,
+            Stage::Riding if now.off_path => Stage::OffRoad,
+            stage => stage,
+        };
+        self.place = if self.stage == Stage::Riding {
+            self.course.at(now.path_distance, now.path_deviation, now.path_heading)
+        } else {
+            // Off the path the model counts no distance along it.
+            let turned = if now.speed > MOVING { now.angular_velocity.z * STEP } else { 0.0 };
+            self.place.moved(now.speed * STEP, now.lateral_velocity * STEP, turned)
+        };
+    }
+
+    fn record(&mut self) {
+        let felt = self.washout.output().felt_specific_force;
+        self.recording.push(&self.input, [felt.x, felt.y]);
+        self.steps += 1;
+        let laps = self.motorcycle.output().path_distance / self.course.length();
+        if laps as usize > self.laps.len() {
+            let from = self.laps.last().map_or(0, |lap| lap.samples[1] - 1);
+            self.laps.push(Lap {
+                time: (self.steps - self.lap_start) as f64 * STEP,
+                samples: [from, self.recording.samples()],
+                is_mixed: self.is_mixed,
+            });
+            (self.lap_start, self.is_mixed) = (self.steps, false);
+        }
+    }
+
+    /// Puts the next washout in place at neutral. It fades in, or begins with a ride at rest.
+    fn exchange_washout(&mut self) {
+        let at_rest = matches!(self.stage, Stage::Ready | Stage::Returning);
+        let has_faded = self.disengaged >= ENGAGE_TIME || self.stage == Stage::Ready;
+        if self.next.is_none() || !(has_faded && self.is_neutral() || self.disengaged > PATIENCE) {
+            return;
+        }
+        let Some(next) = self.next.take() else { return };
+        if at_rest {
+            self.stage = Stage::Ready;
+        }
+        self.input = input_of(&self.motorcycle, at_rest);
+        self.washout = next.starting_with(&self.input);
+    }
+
+    fn is_neutral(&self) -> bool {
+        let now = self.washout.output();
+        let height = self.parameters.rig.neutral_height;
+        let moved = [now.position.x, now.position.y, now.position.z - height];
+        let turn = now.orientation;
+        moved.into_iter().chain([turn.roll, turn.pitch, turn.yaw]).all(|value| value.abs() < NEUTRAL)
+            && now.velocity.norm() < STILL
+            && now.angular_velocity.norm() < STILL
+    }
+
+    fn light_lamps(&mut self) {
+        let (now, rates) = (self.washout.output(), self.washout.output_derivative());
+        let rig = &self.parameters.rig;
+        let any = |values: &[f64; 6], limit: f64| values.iter().any(|value| value.abs() > NEAR_LIMIT * limit);
+        let lit = [
+            now.tilt_limited,
+            now.soft_limited,
+            now.safety_active,
+            now.stroke_margin < NEAR_END * (rig.max_length - rig.min_length),
+            any(&now.leg_velocity, rig.velocity_limit),
+            any(&rates.leg_velocity, rig.acceleration_limit),
+        ];
+        for (lamp, lit) in self.lamps.iter_mut().zip(lit) {
+            *lamp |= lit;
+        }
+    }
+
+    pub fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    pub fn course(&self) -> &Course {
+        &self.course
+    }
+
+    pub fn motorcycle(&self) -> &Motorcycle {
+        &self.motorcycle
+    }
+
+    pub fn washout(&self) -> &Washout {
+        &self.washout
+    }
+
+    /// The ride so far, or the last one.
+    pub fn recording(&self) -> &Recording {
+        &self.recording
+    }
+
+    /// The whole laps of the ride so far, or of the last one.
+    pub fn laps(&self) -> &[Lap] {
+        &self.laps
+    }
+
+    /// Measures of surge and sway of a lap.
+    pub fn ratings(&self, lap: &Lap) -> Option<[Rating; 2]> {
+        self.recording.ratings(lap.samples[0], lap.samples[1])
+    }
+
+    /// What the page shows, by names. Lamps are lit if a limit was near since the last call.
+    pub fn view(&mut self) -> Vec<(&'static str, f64)> {
+        let (bike, out) = (self.motorcycle.output(), self.washout.output());
+        let lamps = std::mem::take(&mut self.lamps).map(f64::from);
+        let desired = self.input.specific_force;
+        let felt = out.felt_specific_force;
+        let mut view = vec![
+            ("stage", f64::from(self.stage as u8)),
+            ("time", self.steps as f64 * STEP),
+            ("lap_time", (self.steps - self.lap_start) as f64 * STEP),
+            ("laps", self.laps.len() as f64),
+            ("is_exchanging", f64::from(self.next.is_some() && self.stage != Stage::Returning)),
+            ("distance", bike.path_distance),
+            ("deviation", bike.path_deviation),
+            ("x", self.place.x),
+            ("y", self.place.y),
+            ("yaw", self.place.yaw),
+            ("roll", bike.orientation.roll),
+            ("pitch", bike.orientation.pitch),
+            ("speed", bike.speed),
+            ("advised", bike.planned_speed),
+            ("steer", bike.steer_angle),
+            ("throttle", bike.throttle),
+            ("brake", bike.brake),
+            ("lean", self.input.lean),
+        ];
+        view.extend(["desired_x", "desired_y", "desired_z"].into_iter().zip([desired.x, desired.y, desired.z]));
+        view.extend(["felt_x", "felt_y", "felt_z"].into_iter().zip([felt.x, felt.y, felt.z]));
+        let turn = out.orientation;
+        view.extend(["platform_x", "platform_y", "platform_z"].into_iter().zip(out.position.iter().copied()));
+        view.extend(
+            ["platform_roll", "platform_pitch", "platform_yaw"].into_iter().zip([turn.roll, turn.pitch, turn.yaw]),
+        );
+        view.extend(["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"].into_iter().zip(out.length));
+        let names = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
+        view.extend(names.into_iter().zip(lamps));
+        view
+    }
+}
+
+/// A motorcycle at the beginning of the lap, whose rider obeys the player.
+fn motorcycle(like: Option<&MotorcycleParameters>) -> Result<Motorcycle, ParameterError> {
+    let mut parameters = like.copied().unwrap_or_default();
+    parameters.path.course = Path::Lap;
+    parameters.path.half_width = HALF_WIDTH;
+    parameters.run.angular_velocity_frame = AngularVelocityFrame::Body;
+    Ok(Motorcycle::new(&parameters, &Controls::default())?.commanded())
+}
+
+/// Recordings have the rates of a gyroscope; so has the ride.
+fn in_body_axes(parameters: &Parameters) -> Parameters {
+    let mut parameters = *parameters;
+    parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;
+    parameters
+}
+
+/// The washout's input.
+fn input_of(motorcycle: &Motorcycle, engaged: bool) -> Input {
+    let now = motorcycle.output();
+    Input {
+        specific_force: now.specific_force,
+        angular_velocity: now.angular_velocity,
+        orientation: now.orientation,
+        speed: now.speed,
+        lean: now.lean,
+        engaged,
+    }
+}

@@ -1,0 +1,241 @@
+"""What the page of `moris ride` does. Run by run.py:
+
+    ride.py CHROMIUM PAGES PICTURES MORIS...
+"""
+
+import json
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+CHROMIUM, PAGES, PICTURES = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+MORIS = sys.argv[4:]
+PAGE = PAGES / "by-hand.html"
+DESKTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
+checks = []
+
+# A player who keeps nine tenths of the advised speed until a condition holds, in steps of 20 ms; pictures are drawn at its
+# end, and now and then. The page's own clock is held.
+PLAYER = """
+window.ride = (isDone, stick, most) => {
+  const { now, engine, frame } = simulationRide;
+  const isHelped = document.getElementById("helped").checked;
+  const commands = () => {
+    const missing = Math.max(3, Math.min(most, 0.9 * now.view.advised)) - now.view.speed;
+    return { throttle: Math.max(0, Math.min(0.3, 0.1 * missing)), brake: Math.max(0, Math.min(0.5, -0.1 * missing)), stick, isHelped };
+  };
+  now.isHeld = true;
+  for (let k = 0; k < 15000 && !isDone(now.view); k += 1) {
+    engine.advance(0.02, commands());
+    now.view = engine.view();
+    if (k % 100 === 0) frame(0.02, commands());
+  }
+  for (let k = 0; k < 2; k += 1) frame(0.001, commands());
+  return isDone(now.view);
+}
+"""
+
+
+def check(function):
+    checks.append(function)
+    return function
+
+
+@contextmanager
+def opened(browser, **options):
+    """The page, running; fails if it says anything on the console or asks for anything but itself."""
+    context = browser.new_context(**{"viewport": DESKTOP, "accept_downloads": True} | options)
+    page = context.new_page()
+    said, asked = [], []
+    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
+    page.on("pageerror", lambda error: said.append(f"error: {error}"))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(PAGE.as_uri())
+    page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
+    page.evaluate(f"{PLAYER}; null")
+    yield page
+    context.close()
+    assert not said, said
+    beyond = [url for url in asked if url != PAGE.as_uri() and not url.startswith(("data:", "blob:"))]
+    assert not beyond, beyond
+
+
+def view(page, name):
+    return page.evaluate(f"simulationRide.now.view.{name}")
+
+
+def ride(page, until, stick=0, most=30):
+    assert page.evaluate(f"ride((view) => {until}, {stick}, {most})"), until
+
+
+def wait(page, condition):
+    """The page forbids texts as scripts, so the polling is done here."""
+    end = time.monotonic() + 60
+    while not page.evaluate(f"(({{now}}) => {condition})(simulationRide)"):
+        assert time.monotonic() < end, condition
+        page.wait_for_timeout(50)
+
+
+def picture(page, selector):
+    """All pixels of a canvas as one text."""
+    return page.evaluate(f"document.querySelector('{selector}').toDataURL()")
+
+
+@check
+def the_page_is_one_small_file(_):
+    assert PAGE.stat().st_size < 4_000_000, PAGE.stat().st_size
+
+
+@check
+def keys_open_the_throttle_lean_and_brake(browser):
+    """In the browser's own time: the motorcycle goes, leans to the side of the key, slows down."""
+    with opened(browser) as page:
+        wait(page, "document.getElementById('message').textContent.startsWith('Ready')")
+        page.keyboard.down("ArrowUp")
+        wait(page, "now.view.speed > 8")
+        page.keyboard.up("ArrowUp")
+        page.locator("#helped").uncheck()
+        for key, sign in (("d", 1), ("ArrowLeft", -1)):
+            page.keyboard.down(key)
+            wait(page, f"{sign} * now.view.roll > 0.05")
+            page.keyboard.up(key)
+        fastest = view(page, "speed")
+        page.keyboard.down("s")
+        wait(page, f"now.view.speed < {fastest - 3}")
+        page.keyboard.up("s")
+        page.keyboard.press("p")
+        wait(page, "document.getElementById('message').textContent === 'Paused'")
+
+
+@check
+def a_gamepad_and_held_buttons_do_the_same(browser):
+    with opened(browser) as page:
+        page.evaluate("""() => { navigator.getGamepads = () => [{ connected: true, axes: [0.5],
+            buttons: Array.from({ length: 10 }, (_, k) => ({ value: k === 7 ? 0.4 : 0, pressed: false })) }]; }""")
+        commands = page.evaluate("simulationRide.controls.after(0.02)")
+        assert commands == {"throttle": 0.4, "brake": 0, "stick": 0.5}, commands
+    with opened(browser, viewport=PHONE, has_touch=True) as page:
+        page.locator("#hold-throttle").hover()
+        page.mouse.down()
+        wait(page, "now.view.speed > 2")
+        page.mouse.up()
+        assert page.evaluate("simulationRide.controls.held.size") == 0
+
+
+@check
+def curves_road_and_platform_move(browser):
+    with opened(browser) as page:
+        ride(page, "view.distance > 20")
+        canvases = ["#road", "#view", "#surge", "#sway"]
+        before = {selector: picture(page, selector) for selector in canvases}
+        ride(page, "view.distance > 300")
+        for selector in canvases:
+            assert picture(page, selector) != before[selector], selector
+        desired, felt = page.evaluate("[0, 1].map((k) => { const p = simulationRide.strips.sway.points; return Math.max(...p.map((one) => Math.abs(one[1 + k]))); })")
+        assert desired > 0.3 and felt > 0.1, (desired, felt)
+
+
+@check
+def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
+    """The measures of the page are those of `moris simulate` on the saved file."""
+    with opened(browser) as page:
+        ride(page, "view.laps === 1")
+        cells = page.locator("#lap-rows tr").first.locator("th, td").all_inner_texts()
+        minutes, seconds = cells[1].split(":")
+        assert 90 < 60 * int(minutes) + float(seconds) < 200, cells
+        with page.expect_download() as download:
+            page.locator("#save").click()
+        file = PAGES / "ridden.csv"
+        download.value.save_as(file)
+    out = subprocess.run([*MORIS, "simulate", file, "--no-bound", "--json", "--fade-in", "0", "--report", PAGES], capture_output=True, text=True)
+    assert out.returncode in (0, 3), out.stderr
+    [measured] = json.loads(out.stdout)
+    [result] = json.loads(out.stdout)
+    rows = {(row["subject"], row["name"]): row["value"] for row in result["results"][0]["measures"]}
+    expected = [rows[f"specific force {axis}", name] for axis in "xy" for name in ("RMS error", "shake", "jolt", "peak")]
+    for shown, measured in zip(map(float, cells[3:]), expected, strict=True):
+        # Two digits are shown, and the file has one sample of ten.
+        assert abs(shown - measured) < 0.006 + 0.02 * measured, (cells, expected)
+    assert (PAGES / "ridden.html").exists()
+
+
+@check
+def leaving_the_road_says_so_and_a_key_restarts(browser):
+    with opened(browser) as page:
+        ride(page, "view.distance > 60")
+        page.locator("#helped").uncheck()
+        ride(page, "view.stage === 'off_road'", stick=1)
+        assert page.locator("#message").inner_text().startswith("Off the road")
+        page.keyboard.press("r")
+        ride(page, "view.stage === 'returning'")
+        assert "neutral" in page.locator("#message").inner_text()
+        for _ in range(20):
+            page.evaluate("for (let k = 0; k < 10; k += 1) simulationRide.frame(0.1, { throttle: 0, brake: 0, stick: 0 })")
+        assert view(page, "stage") == "ready" and view(page, "distance") == 0
+
+
+@check
+def strategy_and_sliders_change_in_flight(browser):
+    with opened(browser) as page:
+        ride(page, "view.distance > 30")
+        page.locator("[id='parameter-scale.specificForce.x']").fill("0.5")
+        page.locator("[id='parameter-scale.specificForce.x']").press("Enter")
+        assert view(page, "is_exchanging") == 0
+        page.locator("#parameter-strategy").select_option(label="optimal")
+        ride(page, "view.is_exchanging === 1", most=8)
+        ride(page, "view.is_exchanging === 0 && view.stage === 'riding'", most=8)
+        page.locator("[id='parameter-friction of the road']").fill("0.25")
+        page.locator("[id='parameter-friction of the road']").press("Enter")
+        # On a slippery road a bend that is too fast ends the ride.
+        page.evaluate("""() => { const { now, engine, frame } = simulationRide;
+            for (let k = 0; k < 3000 && now.view.stage === 'riding'; k += 1) {
+              engine.advance(0.02, { throttle: 0.3, brake: 0, stick: 0, isHelped: true });
+              now.view = engine.view();
+            }
+            frame(0.02, { throttle: 0, brake: 0, stick: 0 }); }""")
+        assert view(page, "stage") in ("fallen", "off_road")
+        assert page.locator("#message").inner_text().startswith(("Fallen", "Off the road"))
+
+
+@check
+def everything_has_a_name_and_fits_a_phone(browser):
+    """Controls and pictures have labels; nothing is wider than the screen; reduced motion begins with the map."""
+    for scheme in ("light", "dark"):
+        for name, viewport in (("desktop", DESKTOP), ("phone", PHONE)):
+            with opened(browser, viewport=viewport, color_scheme=scheme) as page:
+                ride(page, "view.distance > 290")
+                page.screenshot(path=PICTURES / f"ride-{name}-{scheme}.png", full_page=True)
+                wide = page.evaluate("document.documentElement.scrollWidth")
+                assert wide <= viewport["width"], wide
+                nameless = page.evaluate("""[...document.querySelectorAll('button, input, select, canvas')].filter((one) =>
+                    !(one.getAttribute('aria-label') || one.textContent.trim() || [...(one.labels || [])].some((label) => label.textContent.trim()))).map((one) => one.outerHTML)""")
+                assert not nameless, nameless
+    with opened(browser, reduced_motion="reduce") as page:
+        assert page.locator("#map").is_checked()
+
+
+def main():
+    PICTURES.mkdir(parents=True, exist_ok=True)
+    subprocess.run([*MORIS, "ride", "--output", PAGE], check=True)
+    failed = 0
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        for function in checks:
+            name = function.__name__.replace("_", " ")
+            try:
+                function(browser)
+                print(f"{name:65}ok", flush=True)
+            except Exception as failure:  # Whatever went wrong, the other checks still say what they find.
+                failed += 1
+                print(f"{name:65}FAILED: {failure}", flush=True)
+        print(f"{len(checks) - failed} of {len(checks)} checks of the ride ok in Chromium {browser.version}")
+        browser.close()
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
