@@ -60,7 +60,7 @@ impl Glide {
 }
 
 impl Gate {
-    /// What has passed last.
+    /// The motion that has passed last.
     pub fn output(&self) -> &Motion {
         &self.output
     }

@@ -14,6 +14,8 @@
 //! | [`gate`] | change of the washout's source without a jump |
 //! | [`travel`] | the way between the settled pose and neutral |
 //! | [`signs`] | test of the telemetry's signs |
+//! | [`format`](mod@format) | packets of telemetry, described by tables |
+//! | [`frame`] | frames to actuators, described by templates |
 //! | [`log`] | text of a recorded session |
 //!
 //! ```
@@ -38,6 +40,8 @@
 #![forbid(unsafe_code)]
 
 pub mod clock;
+pub mod format;
+pub mod frame;
 pub mod gate;
 pub mod log;
 pub mod motion;

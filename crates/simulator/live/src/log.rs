@@ -33,7 +33,7 @@ pub enum Happening {
 pub struct Entry {
     /// Steps before it.
     pub step: u64,
-    /// What happened.
+    /// The event, sample or end.
     pub happening: Happening,
 }
 
