@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use moris::{frequency_response, help, measure, parameters, rig, schema, simulate, tune, worst_case};
+use moris::{frequency_response, help, live, measure, parameters, rig, schema, simulate, tune, worst_case};
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -21,6 +21,7 @@ enum Command {
     #[command(alias = "run")]
     Simulate(simulate::Options),
     Measure(measure::Options),
+    Live(live::Options),
     WorstCase(worst_case::Options),
     Tune(tune::Options),
     #[command(alias = "respond")]
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
         Command::Rig(command) => rig::main(&command, out),
         Command::Simulate(options) => simulate::main(&options, out),
         Command::Measure(options) => measure::main(&options, out),
+        Command::Live(options) => live::main(&options, out),
         Command::WorstCase(options) => worst_case::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
         Command::FrequencyResponse(options) => frequency_response::main(&options, out),
