@@ -16,6 +16,8 @@ use crate::transitions::Event;
 
 /// First line of a recorded session.
 const FIRST: &str = "moris-live-session,1";
+/// Most steps of a session: eleven days.
+const MOST: u64 = 1_000_000_000;
 
 /// Something from outside that a session has received before a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -182,7 +184,9 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
     let mut digest = Digest::default();
     let mut steps = 0;
     for (place, line) in lines {
-        let entry = Entry::of_line(line).filter(|entry| entry.step >= steps).ok_or(ReplayError::Line(place))?;
+        let entry = Entry::of_line(line)
+            .filter(|entry| (steps..=MOST).contains(&entry.step))
+            .ok_or(ReplayError::Line(place))?;
         while steps < entry.step {
             digest.take(session.step());
             observe(&session);

@@ -14,8 +14,9 @@ use crate::travel::Travel;
 
 /// Length of a step \[s\].
 pub const STEP: f64 = 0.001;
-/// A leg is at neutral within this \[m\] and \[m/s\].
-const AT_NEUTRAL: f64 = 0.003;
+/// A leg is at neutral within this part of its stroke, at this part of it per second. A slow
+/// wash-out of the yaw goes on for long.
+const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
 /// Glide after a gap: twice its length, within these \[s\].
 const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
 
@@ -91,6 +92,7 @@ pub struct Session {
     goes_up: bool,
     settled: [f64; 6],
     neutral: [f64; 6],
+    stroke: f64,
     commands: Commands,
 }
 
@@ -128,6 +130,7 @@ impl Session {
             goes_up: false,
             settled,
             neutral: output.length,
+            stroke: rig.max_length - rig.min_length,
             commands,
             washout,
         })
@@ -275,9 +278,9 @@ impl Session {
     /// The transition that follows if the state's own motion is complete.
     fn arrive(&mut self, output: &Output) {
         let faded = self.steps - self.since >= (ENGAGE_TIME / STEP) as u64;
-        let near = |k: usize| {
-            (output.length[k] - self.neutral[k]).abs() < AT_NEUTRAL && output.leg_velocity[k].abs() < AT_NEUTRAL
-        };
+        let [distance, speed] = AT_NEUTRAL.map(|part| part * self.stroke);
+        let near =
+            |k: usize| (output.length[k] - self.neutral[k]).abs() < distance && output.leg_velocity[k].abs() < speed;
         let at_neutral = (0..6).all(near);
         let arrived = match self.state {
             State::Homing => at_neutral && self.travel.is_up(),

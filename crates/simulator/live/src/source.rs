@@ -91,6 +91,13 @@ impl Source {
     pub fn receive(&mut self, arrival: f64, sample: &Sample) -> Accepted {
         let mut accepted = Accepted { time: None, events: [None; 2], is_new: false };
         self.counts.received += 1;
+        // In a menu a program's clock stands still, and its numbers may be anything.
+        if sample.paused && arrival.is_finite() {
+            self.last_good = arrival;
+            let before = std::mem::replace(&mut self.health, Health::Paused);
+            accepted.events[0] = (before != Health::Paused).then_some(Event::Pause);
+            return accepted;
+        }
         if !sample.is_plausible() || !arrival.is_finite() {
             self.counts.bad += 1;
             return accepted;
@@ -105,13 +112,7 @@ impl Source {
         };
         let since = arrival - self.last_good;
         self.last_good = arrival;
-        let before = self.health;
-        if sample.paused {
-            self.health = Health::Paused;
-            accepted.events[0] = (before != Health::Paused).then_some(Event::Pause);
-            return accepted;
-        }
-        self.health = Health::Running;
+        let before = std::mem::replace(&mut self.health, Health::Running);
         accepted.time = Some(time);
         let elsewhere = restarted || self.last.is_some_and(|last| is_elsewhere(&last, sample, since));
         if before != Health::Running {
@@ -207,7 +208,12 @@ mod tests {
     fn a_pause_is_known_by_its_flag() {
         let mut source = Source::default();
         events(&mut source, 0.0, 1.0, |t| Some(at(t)));
-        let paused = |t| Some(Sample { paused: true, ..at(t) });
+        let paused = |_| {
+            // The clock stands still, and the numbers are none.
+            let mut sample = Sample { paused: true, ..at(1.0) };
+            sample.motion.0.fill(f64::NAN);
+            Some(sample)
+        };
         assert_eq!(events(&mut source, 1.0, 5.0, paused), [Event::Pause]);
         assert_eq!(events(&mut source, 5.0, 6.0, |t| Some(at(t))), [Event::Resume, Event::Teleport]);
     }

@@ -1,5 +1,6 @@
 //! Frames on their way to the device.
 
+use std::io::{Write, stdout};
 use std::net::UdpSocket;
 use std::thread::Thread;
 use std::time::Duration;
@@ -89,10 +90,8 @@ impl Sink {
         match self {
             _ if bytes.is_empty() => true,
             Sink::Udp(socket) => socket.send(bytes).is_ok(),
-            Sink::Dry => {
-                print!("{}", shown(bytes));
-                true
-            }
+            // The reader of the output may be gone.
+            Sink::Dry => stdout().write_all(shown(bytes).as_bytes()).is_ok(),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The journal: events on standard error, and the recorded session.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Write, stderr};
 use std::time::Duration;
 
 use moris_live::log::Entry;
@@ -29,6 +29,20 @@ pub fn state_line(time: f64, state: State) -> String {
     format!("{time:9.3} s  {}", state.name())
 }
 
+/// The line of what happened; none for what is only recorded.
+fn line(note: &Note) -> Option<String> {
+    Some(match note {
+        Note::Entry(_) => return None,
+        Note::State(time, state) => state_line(*time, *state),
+        Note::Refused(time, refusal) => format!("{time:9.3} s  refused: {refusal}"),
+        Note::Sign(time, check, Verdict::Contradicts) => {
+            format!("{time:9.3} s  WRONG SIGN, expected: {}", check.text())
+        }
+        Note::Sign(time, check, _) => format!("{time:9.3} s  sign agrees: {}", check.text()),
+        Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),
+    })
+}
+
 /// Keeps the journal until the loop has ended.
 ///
 /// # Errors
@@ -40,14 +54,8 @@ pub fn keep(mut notes: Consumer<Note>, record: Option<File>) -> io::Result<()> {
         while let Ok(note) = notes.pop() {
             match (note, &mut record) {
                 (Note::Entry(entry), Some(file)) => writeln!(file, "{entry}")?,
-                (Note::Entry(_), None) => (),
-                (Note::State(time, state), _) => eprintln!("{}", state_line(time, state)),
-                (Note::Refused(time, refusal), _) => eprintln!("{time:9.3} s  refused: {refusal}"),
-                (Note::Sign(time, check, Verdict::Contradicts), _) => {
-                    eprintln!("{time:9.3} s  WRONG SIGN, expected: {}", check.text());
-                }
-                (Note::Sign(time, check, _), _) => eprintln!("{time:9.3} s  sign agrees: {}", check.text()),
-                (Note::Slipped(time, late), _) => eprintln!("{time:9.3} s  the computer was late by {late:.3} s"),
+                // The reader of the lines may be gone.
+                _ => drop(line(&note).map(|line| writeln!(stderr(), "{line}"))),
             }
         }
         if ended {
