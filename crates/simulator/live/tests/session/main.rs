@@ -25,8 +25,12 @@ fn run(session: &mut Session, ride: &mut Ride, events: &[(f64, RideEvent)], mut 
 
 /// At neutral with a running source.
 fn at_neutral(parameters: &Parameters) -> (Session, Ride) {
+    at_neutral_with(parameters, Ride::default())
+}
+
+/// As [`at_neutral`], with telemetry of this kind.
+fn at_neutral_with(parameters: &Parameters, mut ride: Ride) -> (Session, Ride) {
     let mut session = Session::new(parameters, &Settings::default()).unwrap();
-    let mut ride = Ride::default();
     run(&mut session, &mut ride, &[(12.0, RideEvent::Person(Event::Start))], |_| ());
     assert_eq!(session.state(), State::Neutral);
     (session, ride)
@@ -176,8 +180,8 @@ fn any_event() -> impl Strategy<Value = (f64, RideEvent)> {
 
 /// Worst shake and jolt of the felt force on any axis \[m/s2\], beyond those of a force that does
 /// not change at all.
-fn discomfort(parameters: &Parameters, events: &[(f64, RideEvent)]) -> [f64; 2] {
-    let (mut session, mut ride) = at_neutral(parameters);
+fn discomfort(parameters: &Parameters, ride: Ride, events: &[(f64, RideEvent)]) -> [f64; 2] {
+    let (mut session, mut ride) = at_neutral_with(parameters, ride);
     let mut felt: [Vec<f64>; 3] = Default::default();
     run(&mut session, &mut ride, events, |session| {
         let Commands { washout, .. } = session.commands();
@@ -193,13 +197,39 @@ fn discomfort(parameters: &Parameters, events: &[(f64, RideEvent)]) -> [f64; 2] 
 
 const MOST: [f64; 2] = [0.1, 1.0];
 
+/// The sets whose soft limits are on.
+const SETS: &[(&str, &[(&str, f64)])] = &[
+    ("default", &[]),
+    ("motorcycle", presets::MOTORCYCLE),
+    ("car", presets::CAR),
+    ("adaptive", presets::ADAPTIVE),
+    ("optimal", presets::OPTIMAL),
+    ("robust", presets::ROBUST),
+    ("predictive", presets::PREDICTIVE),
+];
+
+/// Telemetry of 20 to 400 Hz, with samples left out, with a clock or without.
+fn any_ride() -> impl Strategy<Value = Ride> {
+    (prop::sample::select(vec![20.0, 60.0, 100.0, 400.0]), 1..4_u64, any::<bool>()).prop_map(
+        |(rate, most, has_clock)| {
+            let mut ride = Ride::default();
+            (ride.rate, ride.most, ride.has_clock) = (rate, if rate > 20.0 { most } else { 1 }, has_clock);
+            ride
+        },
+    )
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn no_sequence_of_events_is_felt_as_a_jolt(events in prop::collection::vec(any_event(), 20..40)) {
-        let [shake, jolt] = discomfort(&Parameters::default(), &events);
-        prop_assert!(shake <= MOST[0] && jolt <= MOST[1], "shake {shake}, jolt {jolt} m/s2");
+    fn no_sequence_of_events_is_felt_as_a_jolt(
+        events in prop::collection::vec(any_event(), 20..40),
+        set in prop::sample::select(SETS),
+        ride in any_ride(),
+    ) {
+        let [shake, jolt] = discomfort(&presets::parameters(set.1), ride, &events);
+        prop_assert!(shake <= MOST[0] && jolt <= MOST[1], "{}: shake {shake}, jolt {jolt} m/s2", set.0);
     }
 
     #[test]
@@ -240,7 +270,7 @@ fn no_sequence_of_a_million_events_is_felt_as_a_jolt() {
     let mut violations: Range<usize> = 0..0;
     for case in 0..count {
         let events = sequences.new_tree(&mut runner).unwrap().current();
-        let [shake, jolt] = discomfort(&Parameters::default(), &events);
+        let [shake, jolt] = discomfort(&Parameters::default(), Ride::default(), &events);
         if shake > worst[0] || jolt > worst[1] {
             worst = [worst[0].max(shake), worst[1].max(jolt)];
             println!("sequence {case}: shake {shake:.3}, jolt {jolt:.3}; worst {worst:.3?}");

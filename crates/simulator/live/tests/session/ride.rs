@@ -1,4 +1,4 @@
-//! Emulator of a vehicle's telemetry: a smooth ride at 60 Hz, and what games do to it.
+//! Emulator of a vehicle's telemetry: a smooth ride, and what games do to it.
 
 use moris_live::log::{Entry, Happening};
 use moris_live::{Event, Motion, STEP, Sample, Session};
@@ -24,12 +24,19 @@ pub enum RideEvent {
     Repeat,
 }
 
+#[derive(Clone, Debug)]
 pub struct Ride {
     kind: RideEvent,
     /// Time by which the ride is ahead of the session \[s\].
     ahead: f64,
     place: f64,
     next: f64,
+    /// Samples a second, and most intervals from one to the next: a game leaves some out.
+    pub rate: f64,
+    pub most: u64,
+    /// True if the packets have a clock.
+    pub has_clock: bool,
+    random: u64,
     /// The clock of the last sample that is not repeated \[s\].
     stopped: f64,
     /// The recorded session.
@@ -38,7 +45,18 @@ pub struct Ride {
 
 impl Default for Ride {
     fn default() -> Self {
-        Ride { kind: RideEvent::Run, ahead: 0.0, place: 0.0, next: 0.0, stopped: 0.0, log: None }
+        Ride {
+            kind: RideEvent::Run,
+            ahead: 0.0,
+            place: 0.0,
+            next: 0.0,
+            rate: 60.0,
+            most: 1,
+            has_clock: true,
+            random: 1,
+            stopped: 0.0,
+            log: None,
+        }
     }
 }
 
@@ -79,11 +97,19 @@ impl Ride {
         if now < self.next || self.kind == RideEvent::Silence {
             return;
         }
-        self.next = now.max(self.next + 1.0 / 60.0 - STEP);
+        // Knuth's generator: its high bits are random enough.
+        self.random = self.random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let intervals = 1 + (self.random >> 33) % self.most;
+        self.next = now.max(self.next + intervals as f64 / self.rate - STEP);
         let time = now + self.ahead;
         let position = Some(Vector3::new(20.0 * time, 0.0, self.place));
-        let mut sample =
-            Sample { time: Some(now), motion: Self::motion(time), position, paused: false, has_angles: true };
+        let mut sample = Sample {
+            time: self.has_clock.then_some(now),
+            motion: Self::motion(time),
+            position,
+            paused: false,
+            has_angles: true,
+        };
         if self.kind != RideEvent::Repeat {
             self.stopped = now;
         }
@@ -93,7 +119,7 @@ impl Ride {
                 sample.motion.0.fill(0.0);
             }
             RideEvent::NotANumber => sample.motion.0[(now * 1e3) as usize % 10] = f64::NAN,
-            RideEvent::Repeat => sample.time = Some(self.stopped),
+            RideEvent::Repeat => sample.time = sample.time.and(Some(self.stopped)),
             _ => (),
         }
         self.record(session, Happening::Sample(now, sample));
