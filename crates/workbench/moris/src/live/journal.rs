@@ -6,6 +6,7 @@ use std::time::Duration;
 
 use moris_live::log::Entry;
 use moris_live::signs::{Check, Verdict};
+use moris_live::source::Health;
 use moris_live::{Refusal, State};
 use rtrb::Consumer;
 
@@ -16,6 +17,8 @@ pub enum Note {
     Entry(Entry),
     /// A new state.
     State(f64, State),
+    /// A new health of the source.
+    Source(f64, Health),
     /// A command was refused.
     Refused(f64, Refusal),
     /// A check of the signs has decided.
@@ -34,6 +37,7 @@ fn line(note: &Note) -> Option<String> {
     Some(match note {
         Note::Entry(_) => return None,
         Note::State(time, state) => state_line(*time, *state),
+        Note::Source(time, health) => format!("{time:9.3} s  telemetry: {}", health.name()),
         Note::Refused(time, refusal) => format!("{time:9.3} s  refused: {refusal}"),
         Note::Sign(time, check, Verdict::Contradicts) => {
             format!("{time:9.3} s  WRONG SIGN, expected: {}", check.text())

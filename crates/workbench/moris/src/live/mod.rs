@@ -152,6 +152,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (commands, commanded) = RingBuffer::new(64);
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
+    eprintln!("commands: {COMMANDS}; Ctrl-C parks and ends");
     // It waits for a line for ever: nobody joins it.
     thread::spawn(move || read_commands(commands));
     let interval = if options.dry { template.interval.max(0.1) } else { template.interval };
@@ -197,6 +198,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
+/// The commands of a person.
+const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
+
 /// Passes lines on as commands.
 fn read_commands(mut commands: Producer<Event>) {
     for line in stdin().lines().map_while(Result::ok) {
@@ -204,7 +208,7 @@ fn read_commands(mut commands: Producer<Event>) {
         match event {
             Some(event) => drop(commands.push(event)),
             None if line.trim().is_empty() => (),
-            None => eprintln!("commands are start, engage, disengage, park, stop and clear"),
+            None => eprintln!("commands: {COMMANDS}"),
         }
     }
 }

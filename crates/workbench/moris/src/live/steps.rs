@@ -63,6 +63,7 @@ impl Steps<'_> {
         let mut summary = Summary::default();
         let mut digest = Digest::default();
         let mut state = self.session.state();
+        let mut health = self.session.source().health();
         let mut signs = [Verdict::Unknown; Check::ALL.len()];
         // The time of the clock at the session's time 0.
         let mut zero = pace::now();
@@ -105,6 +106,10 @@ impl Steps<'_> {
             if commands.state != state {
                 state = commands.state;
                 self.note(Note::State(commands.time, state), &mut summary);
+            }
+            if self.session.source().health() != health {
+                health = self.session.source().health();
+                self.note(Note::Source(commands.time, health), &mut summary);
             }
             if summary.steps.is_multiple_of(LOOK) {
                 self.look_at_signs(&mut signs, &mut summary);
