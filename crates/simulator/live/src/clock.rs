@@ -9,19 +9,23 @@ const REORDERED: f64 = 0.5;
 /// Rate at which the least lag may grow: a source's clock may be slower than this one's.
 const DRIFT: f64 = 1e-3;
 
+/// A sample that would have to be so much later than its arrival, to be later than the one before
+/// it, is one of too many \[s\].
+const AHEAD: f64 = 0.005;
+
 /// Time of a sample as the clock sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stamp {
     /// The sample's time \[s\].
     At(f64),
-    /// The time of an earlier sample: the sample is dropped.
+    /// The time of an earlier sample, or one of too many at once: the sample is dropped.
     Repeated,
     /// The clock has been started again, or has jumped; the sample's time \[s\].
     Restarted(f64),
 }
 
 /// The clock of a source. Times of samples are of the receiver's clock, increase, and are never
-/// later than the arrival.
+/// later than the arrival by more than 5 ms.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Clock {
     last: Option<Last>,
@@ -40,27 +44,27 @@ impl Clock {
     /// The time of a sample with this packet's clock that arrived then.
     pub fn stamp(&mut self, arrival: f64, clock: Option<f64>) -> Stamp {
         let behind = clock.map_or(0.0, |clock| arrival - clock);
-        let anew = |stamp: f64| Last { arrival, clock, lag: behind, stamp };
         let Some(last) = self.last else {
-            self.last = Some(anew(arrival));
+            self.last = Some(Last { arrival, clock, lag: behind, stamp: arrival });
             return Stamp::At(arrival);
         };
-        let [Some(now), Some(before)] = [clock, last.clock] else {
-            let stamp = arrival.max(last.stamp + 1e-3);
-            self.last = Some(anew(stamp));
-            return Stamp::At(stamp);
+        let anew = arrival.max(last.stamp + 1e-3);
+        let (stamp, lag, restarted) = match [clock, last.clock] {
+            [Some(now), Some(before)] if now <= before && now > before - REORDERED => return Stamp::Repeated,
+            [Some(now), Some(before)] => {
+                let lag = behind.min(last.lag + DRIFT * (arrival - last.arrival));
+                match now < before || behind - lag > LATEST {
+                    true => (anew, behind, true),
+                    false => ((now + lag).max(last.stamp + 1e-4), lag, false),
+                }
+            }
+            _ => (anew, behind, false),
         };
-        if now <= before && now > before - REORDERED {
+        if stamp > arrival + AHEAD {
             return Stamp::Repeated;
         }
-        let lag = behind.min(last.lag + DRIFT * (arrival - last.arrival));
-        if now < before || behind - lag > LATEST {
-            self.last = Some(anew(arrival.max(last.stamp + 1e-3)));
-            return Stamp::Restarted(arrival.max(last.stamp + 1e-3));
-        }
-        let stamp = (now + lag).max(last.stamp + 1e-4);
         self.last = Some(Last { arrival, clock, lag, stamp });
-        Stamp::At(stamp)
+        if restarted { Stamp::Restarted(stamp) } else { Stamp::At(stamp) }
     }
 }
 
@@ -99,5 +103,24 @@ mod tests {
         assert_eq!(clock.stamp(1.0, None), Stamp::At(1.0));
         assert_eq!(clock.stamp(1.5, None), Stamp::At(1.5));
         assert_eq!(clock.stamp(1.5, None), Stamp::At(1.501));
+    }
+
+    #[test]
+    fn a_flood_does_not_run_ahead() {
+        for clock_of in [|_: i32| None, |k| Some(f64::from(k)), |k| Some(-f64::from(k))] {
+            let mut clock = Clock::default();
+            let mut taken = 0;
+            for k in 0..100_000 {
+                let arrival = f64::from(k) * 1e-5;
+                match clock.stamp(arrival, clock_of(k)) {
+                    Stamp::At(stamp) | Stamp::Restarted(stamp) => {
+                        assert!(stamp <= arrival + 0.005 + 1e-9);
+                        taken += 1;
+                    }
+                    Stamp::Repeated => (),
+                }
+            }
+            assert!((1000..=10_100).contains(&taken), "{taken}");
+        }
     }
 }

@@ -57,7 +57,7 @@ impl Resampler {
                 let change = motion.0[k] - last.motion.0[k];
                 motion.0[k] -= std::f64::consts::TAU * (change / std::f64::consts::TAU).round();
             }
-            let gap = arrival - last.time;
+            let gap = (arrival - last.time).max(0.0);
             if gap < DELAY[1] {
                 self.longest = gap.max(self.longest * libm::exp(-gap / MEMORY));
             }
