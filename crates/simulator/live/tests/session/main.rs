@@ -134,6 +134,20 @@ fn a_fault_brings_the_platform_to_neutral_and_stays() {
 }
 
 #[test]
+fn parking_on_the_way_up_turns_round_at_once() {
+    let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+    let mut ride = Ride::default();
+    let mut highest = 0.0_f64;
+    let person = RideEvent::Person;
+    run(&mut session, &mut ride, &[(1.0, person(Event::Start)), (8.0, person(Event::Park))], |session| {
+        highest = highest.max(session.commands().length[0]);
+    });
+    assert_eq!(session.state(), State::Settled);
+    // Three lags at 1.9 1/s answer a pulse of 1 s with 0.48 of the way from 1.012 m to 1.30 m.
+    assert!((highest - 1.151).abs() < 0.005, "{highest} m");
+}
+
+#[test]
 fn a_step_allocates_nothing() {
     let (mut session, _) = at_neutral(&Parameters::default());
     let sample = Sample { motion: Ride::motion(1.0), ..Sample::default() };
