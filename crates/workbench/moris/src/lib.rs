@@ -6,6 +6,7 @@
 //! - [`simulate`] simulates recordings on it.
 //! - [`measure`] prints a table of the measures of several recordings.
 //! - [`worst_case`] measures the strategies on platforms that differ from the nominal one.
+//! - [`live`] steps the washout beside a running vehicle.
 //! - [`tune`] searches for better parameters.
 //! - [`ride`] writes a page in which the motorcycle is ridden.
 //! - [`frequency_response`] measures a frequency response.
@@ -20,6 +21,7 @@
 
 pub mod frequency_response;
 pub mod help;
+pub mod live;
 pub mod measure;
 pub mod parameters;
 mod progress;

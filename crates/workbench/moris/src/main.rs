@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use moris::{frequency_response, help, measure, parameters, ride, rig, schema, simulate, tune, worst_case};
+use moris::{frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune, worst_case};
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -22,6 +22,7 @@ enum Command {
     Simulate(simulate::Options),
     Measure(measure::Options),
     Ride(ride::Options),
+    Live(live::Options),
     WorstCase(worst_case::Options),
     Tune(tune::Options),
     #[command(alias = "respond")]
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
         Command::Simulate(options) => simulate::main(&options, out),
         Command::Measure(options) => measure::main(&options, out),
         Command::Ride(options) => ride::main(&options, out),
+        Command::Live(options) => live::main(&options, out),
         Command::WorstCase(options) => worst_case::main(&options, out),
         Command::Tune(options) => tune::main(&options, out),
         Command::FrequencyResponse(options) => frequency_response::main(&options, out),

@@ -1,0 +1,274 @@
+//! Packets of telemetry, described by tables in TOML.
+//!
+//! A table says where a packet holds which quantity. Field names are those of the washout's axes: x
+//! forward, y left, z up, positive pitch nose down. The sign of a field's `scale` turns the
+//! source's axis to these.
+//!
+//! ```
+//! let format: moris_live::format::Format = r#"
+//!     name = "own"
+//!     about = "three floats"
+//!     note = "an example"
+//!     layout = "binary"
+//!     gravity = "removed"
+//!     lengths = [12]
+//!     [fields]
+//!     ax = { at = 0, type = "f32", unit = "g" }
+//!     ay = { at = 4, type = "f32", unit = "g", scale = -1 }
+//!     az = { at = 8, type = "f32", unit = "g" }
+//! "#.parse()?;
+//! let sample = format.decode(&[0, 0, 0, 63, 0, 0, 0, 0, 0, 0, 0, 0])?;
+//! assert_eq!(sample.motion.force().x, 0.5 * 9.80665);
+//! assert_eq!(sample.motion.force().z, 9.80665);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod decode;
+
+use std::collections::BTreeMap;
+use std::str::FromStr;
+
+use serde::Deserialize;
+
+/// Most fields of a table, and largest offset.
+const MOST: usize = 4096;
+
+/// A table of a packet's fields.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Format {
+    /// Name of the format.
+    pub name: String,
+    /// The program that sends it.
+    pub about: String,
+    /// Sources of the table, and what no real packet has verified.
+    pub note: String,
+    /// Layout of a packet.
+    pub layout: Layout,
+    /// Port to which the program sends by default.
+    pub port: Option<u16>,
+    /// Lengths that a packet may have \[bytes\]; any if empty.
+    #[serde(default)]
+    pub lengths: Vec<usize>,
+    /// First characters of a packet.
+    #[serde(default)]
+    pub head: String,
+    /// Byte order of numbers.
+    #[serde(default)]
+    pub byte_order: ByteOrder,
+    /// Gravity in the acceleration.
+    pub gravity: Gravity,
+    /// Axes of the acceleration.
+    #[serde(default)]
+    pub force_axes: Axes,
+    /// Axes of the angular velocity.
+    #[serde(default)]
+    pub rate_axes: Axes,
+    /// Subscription that the program must receive first.
+    pub subscribe: Option<Subscribe>,
+    /// The fields.
+    pub fields: BTreeMap<Quantity, Field>,
+}
+
+/// Layout of a packet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Layout {
+    /// Numbers at offsets.
+    Binary,
+    /// A head, then pairs of an i32 and an f32; `at` is the i32.
+    Pairs,
+    /// Text with commas; `at` is the column, from 0.
+    Csv,
+    /// An object; `at` is the key.
+    Json,
+}
+
+/// Byte order of numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ByteOrder {
+    /// Least significant byte first.
+    #[default]
+    Little,
+    /// Most significant byte first.
+    Big,
+}
+
+/// Gravity in the acceleration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Gravity {
+    /// As an accelerometer measures: +g upward at rest.
+    Included,
+    /// Zero at rest; gravity's reaction is added by the attitude.
+    Removed,
+}
+
+/// Axes of a vector.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axes {
+    /// The vehicle's.
+    #[default]
+    Body,
+    /// The world's, in which the attitude is given.
+    World,
+}
+
+/// Request by which a program is asked for values, as X-Plane's RREF.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Subscribe {
+    /// Port to which it is sent.
+    pub port: u16,
+    /// Values a second.
+    pub rate: i32,
+}
+
+/// A field of a packet.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Field {
+    /// Offset \[bytes\], column, number or key.
+    pub at: Place,
+    /// Type of a binary number.
+    #[serde(rename = "type", default)]
+    pub kind: Number,
+    /// Unit; that of the washout if none is given.
+    pub unit: Option<Unit>,
+    /// Factor; a negative one turns the axis round.
+    #[serde(default = "one")]
+    pub scale: f64,
+    /// Name by which X-Plane is asked for the value.
+    pub dataref: Option<String>,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Place of a field.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Place {
+    /// An offset, a column or a number.
+    Index(usize),
+    /// A key.
+    Key(String),
+}
+
+macro_rules! words {
+    ($(#[$attribute:meta])* $type:ident { $( $(#[$item_attribute:meta])* $item:ident $word:literal, )+ }) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+        pub enum $type { $( #[doc = $word] #[serde(rename = $word)] $(#[$item_attribute])* $item, )+ }
+    };
+}
+
+words! {
+    /// Quantity of a field.
+    Quantity {
+        Time "time", Ax "ax", Ay "ay", Az "az", Wx "wx", Wy "wy", Wz "wz", Roll "roll", Pitch "pitch", Yaw "yaw",
+        X "x", Y "y", Z "z", Vx "vx", Vy "vy", Vz "vz", Speed "speed", Paused "paused", Running "running",
+    }
+}
+
+/// Number of quantities.
+const QUANTITIES: usize = Quantity::Running as usize + 1;
+
+words! {
+    /// Type of a binary number.
+    #[derive(Default)]
+    Number {
+        U8 "u8", I8 "i8", U16 "u16", I16 "i16", U32 "u32", I32 "i32", U64 "u64",
+        #[default]
+        F32 "f32",
+        F64 "f64",
+    }
+}
+
+words! {
+    /// Unit of a field.
+    Unit {
+        MetrePerSecond2 "m/s2", G "g", RadianPerSecond "rad/s", DegreePerSecond "deg/s", Radian "rad", Degree "deg",
+        MetrePerSecond "m/s", KilometrePerHour "km/h", MilePerHour "mph", Metre "m", Second "s", Millisecond "ms",
+    }
+}
+
+/// Reason for which a table cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FormatError {
+    /// It is not TOML, or has unknown words.
+    #[error("{0}")]
+    Toml(#[from] toml::de::Error),
+    /// A field does not fit the layout.
+    #[error("field {0:?}: {1}")]
+    Field(Quantity, &'static str),
+    /// The whole does not fit together.
+    #[error("{0}")]
+    Whole(&'static str),
+}
+
+impl FromStr for Format {
+    type Err = FormatError;
+
+    fn from_str(text: &str) -> Result<Self, FormatError> {
+        let format: Format = toml::from_str(text)?;
+        for (quantity, field) in &format.fields {
+            let refuse = |reason| Err(FormatError::Field(*quantity, reason));
+            match (&field.at, format.layout) {
+                (Place::Key(_), Layout::Json) => (),
+                (Place::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MOST => (),
+                (_, Layout::Json) => return refuse("`at` must be a key"),
+                _ => return refuse("`at` must be a number below 4096"),
+            }
+            if !field.scale.is_finite() || field.scale == 0.0 {
+                return refuse("`scale` must be a number other than zero");
+            }
+        }
+        let has = |quantity| format.fields.contains_key(&quantity);
+        if !(has(Quantity::Ax) && has(Quantity::Ay)) {
+            return Err(FormatError::Whole("fields ax and ay are needed"));
+        }
+        let turned = format.force_axes == Axes::World || format.rate_axes == Axes::World;
+        if turned && ![Quantity::Roll, Quantity::Pitch, Quantity::Yaw].into_iter().all(has) {
+            return Err(FormatError::Whole("vectors in the world's axes need roll, pitch and yaw"));
+        }
+        Ok(format)
+    }
+}
+
+/// The shipped tables, each with its name and text.
+pub const SHIPPED: [(&str, &str); 8] = [
+    ("json", include_str!("tables/json.toml")),
+    ("csv", include_str!("tables/csv.toml")),
+    ("packed", include_str!("tables/packed.toml")),
+    ("outsim", include_str!("tables/outsim.toml")),
+    ("motionsim", include_str!("tables/motionsim.toml")),
+    ("forza", include_str!("tables/forza.toml")),
+    ("codemasters", include_str!("tables/codemasters.toml")),
+    ("x-plane", include_str!("tables/x-plane.toml")),
+];
+
+/// The text of a shipped table.
+pub fn shipped(name: &str) -> Option<&'static str> {
+    SHIPPED.iter().find(|(of, _)| *of == name).map(|(_, text)| *text)
+}
+
+impl Format {
+    /// The packets that ask the program for values; empty if it sends them by itself.
+    pub fn subscriptions(&self) -> Vec<Vec<u8>> {
+        let Some(subscribe) = &self.subscribe else { return Vec::new() };
+        let request = |field: &Field| {
+            let (Place::Index(index), Some(dataref)) = (&field.at, &field.dataref) else { return None };
+            let mut packet = b"RREF\0".to_vec();
+            packet.extend(subscribe.rate.to_le_bytes());
+            packet.extend((*index as i32).to_le_bytes());
+            packet.extend(dataref.bytes().take(399));
+            packet.resize(413, 0);
+            Some(packet)
+        };
+        self.fields.values().filter_map(request).collect()
+    }
+}

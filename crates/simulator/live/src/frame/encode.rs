@@ -1,0 +1,221 @@
+//! A template's tokens to bytes.
+
+use std::io::Write;
+use std::ops::Range;
+
+use super::{Frames, FramesError};
+use crate::session::Commands;
+
+/// Quantities of a frame besides the actuators' positions, in SI units.
+pub const QUANTITIES: [&str; 22] = [
+    "time",
+    "length1",
+    "length2",
+    "length3",
+    "length4",
+    "length5",
+    "length6",
+    "velocity1",
+    "velocity2",
+    "velocity3",
+    "velocity4",
+    "velocity5",
+    "velocity6",
+    "x",
+    "y",
+    "z",
+    "roll",
+    "pitch",
+    "yaw",
+    "fx",
+    "fy",
+    "fz",
+];
+/// Most bytes of a template.
+const MOST: usize = 4096;
+/// Most decimals of a quantity.
+const DECIMALS: usize = 15;
+
+/// Values of a frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Values {
+    /// Time \[s\].
+    pub time: f64,
+    /// Lengths of the actuators \[m\].
+    pub length: [f64; 6],
+    /// Their velocities \[m/s\].
+    pub velocity: [f64; 6],
+    /// Position of the platform \[m\], its roll, pitch and yaw \[rad\].
+    pub pose: [f64; 6],
+    /// Felt specific force \[m/s2\].
+    pub force: [f64; 3],
+}
+
+impl From<&Commands> for Values {
+    fn from(commands: &Commands) -> Self {
+        let Commands { time, length, velocity, washout, .. } = commands;
+        let (p, o) = (washout.position, washout.orientation);
+        Values {
+            time: *time,
+            length: *length,
+            velocity: *velocity,
+            pose: [p.x, p.y, p.z, o.roll, o.pitch, o.yaw],
+            force: washout.felt_specific_force.into(),
+        }
+    }
+}
+
+impl Values {
+    fn quantity(&self, place: usize) -> f64 {
+        let values = self.length.iter().chain(&self.velocity).chain(&self.pose).chain(&self.force);
+        std::iter::once(&self.time).chain(values).nth(place).copied().unwrap_or_default()
+    }
+}
+
+/// A part of a frame.
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    Bytes(Vec<u8>),
+    /// These bytes of an actuator's number of so many bytes, the most significant first.
+    Binary {
+        leg: usize,
+        width: usize,
+        sent: Range<usize>,
+        little: bool,
+    },
+    Decimal {
+        leg: usize,
+    },
+    Quantity {
+        place: usize,
+        decimals: usize,
+    },
+}
+
+/// A template, ready to be filled in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Encoder {
+    start: Vec<Token>,
+    frame: Vec<Token>,
+    park: Vec<Token>,
+    stop: Vec<Token>,
+    range: [f64; 2],
+    reversed: [bool; 6],
+    stroke: [f64; 2],
+}
+
+impl Encoder {
+    /// The encoder for actuators of these shortest and longest lengths \[m\].
+    ///
+    /// # Errors
+    /// A token is unknown.
+    pub fn new(frames: &Frames, stroke: [f64; 2]) -> Result<Self, FramesError> {
+        Ok(Encoder {
+            start: tokens(&frames.start)?,
+            frame: tokens(&frames.frame)?,
+            park: tokens(&frames.park)?,
+            stop: tokens(&frames.stop)?,
+            range: frames.range.map(|end| end as f64),
+            reversed: std::array::from_fn(|leg| frames.reversed.contains(&(leg + 1))),
+            stroke,
+        })
+    }
+
+    /// Replaces `out` by the start string.
+    pub fn start(&self, values: &Values, out: &mut Vec<u8>) {
+        self.fill(&self.start, values, out);
+    }
+
+    /// Replaces `out` by a frame.
+    pub fn frame(&self, values: &Values, out: &mut Vec<u8>) {
+        self.fill(&self.frame, values, out);
+    }
+
+    /// Replaces `out` by the park string.
+    pub fn park(&self, values: &Values, out: &mut Vec<u8>) {
+        self.fill(&self.park, values, out);
+    }
+
+    /// Replaces `out` by the stop string.
+    pub fn stop(&self, values: &Values, out: &mut Vec<u8>) {
+        self.fill(&self.stop, values, out);
+    }
+
+    fn fill(&self, tokens: &[Token], values: &Values, out: &mut Vec<u8>) {
+        out.clear();
+        for token in tokens {
+            match token {
+                Token::Bytes(bytes) => out.extend(bytes),
+                Token::Binary { leg, width, sent, little } => {
+                    let number = self.number(*leg, values).clamp(0, (1 << (8 * width)) - 1);
+                    let digits = number.to_be_bytes();
+                    let digits = &digits[digits.len() - width..][sent.clone()];
+                    if *little { out.extend(digits.iter().rev()) } else { out.extend(digits) }
+                }
+                // Writing to a vector cannot fail.
+                Token::Decimal { leg } => drop(write!(out, "{}", self.number(*leg, values))),
+                Token::Quantity { place, decimals } => {
+                    drop(write!(out, "{:.decimals$}", values.quantity(*place)));
+                }
+            }
+        }
+    }
+
+    /// The number for an actuator's length.
+    fn number(&self, leg: usize, values: &Values) -> i64 {
+        let [shortest, longest] = self.stroke;
+        let part = ((values.length[leg] - shortest) / (longest - shortest)).clamp(0.0, 1.0);
+        let part = if self.reversed[leg] { 1.0 - part } else { part };
+        // A length that is not a number counts as the shortest.
+        (self.range[0] + part * (self.range[1] - self.range[0])).round() as i64
+    }
+}
+
+/// The tokens of a template.
+fn tokens(template: &str) -> Result<Vec<Token>, FramesError> {
+    let mut tokens = Vec::new();
+    let mut rest = template.trim_start();
+    if template.len() > MOST {
+        return Err(FramesError::Range("a template has at most 4096 characters"));
+    }
+    while !rest.is_empty() {
+        let (token, after) = match rest.strip_prefix('\'') {
+            Some(text) => {
+                let (text, after) = text.split_once('\'').ok_or_else(|| FramesError::Token(rest.to_owned()))?;
+                (Token::Bytes(text.into()), after)
+            }
+            None => {
+                let end = rest.find(|c: char| c.is_whitespace() || c == '\'').unwrap_or(rest.len());
+                let (word, after) = rest.split_at(end);
+                (token(word).ok_or_else(|| FramesError::Token(word.to_owned()))?, after)
+            }
+        };
+        tokens.push(token);
+        rest = after.trim_start();
+    }
+    Ok(tokens)
+}
+
+fn token(word: &str) -> Option<Token> {
+    let Some((name, form)) = word.split_once(':') else {
+        let byte = u8::from_str_radix(word, 16).ok().filter(|_| word.len() == 2)?;
+        return Some(Token::Bytes(vec![byte]));
+    };
+    let Some(leg) = name.strip_prefix("leg") else {
+        let place = QUANTITIES.iter().position(|quantity| *quantity == name)?;
+        return Some(Token::Quantity { place, decimals: form.parse().ok().filter(|count| *count <= DECIMALS)? });
+    };
+    let leg = leg.parse::<usize>().ok().filter(|leg| (1..=6).contains(leg))? - 1;
+    let (kind, little) = form.strip_suffix("le").map_or((form, false), |kind| (kind, true));
+    let (width, sent) = match kind {
+        "dec" if !little => return Some(Token::Decimal { leg }),
+        "hi" if !little => (2, 0..1),
+        "lo" if !little => (2, 1..2),
+        "u8" => (1, 0..1),
+        "u16" => (2, 0..2),
+        "u24" => (3, 0..3),
+        "u32" => (4, 0..4),
+        _ => return None,
+    };
+    Some(Token::Binary { leg, width, sent, little })
+}

@@ -1,0 +1,57 @@
+//! The washout beside a running vehicle.
+//!
+//! Telemetry and the commands of a person go in, actuator lengths come out, a step a millisecond.
+//! There is no clock, no socket, no file and no thread here. A [`Session`] that receives the same
+//! events at the same steps computes the same bits.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`transitions`] | states, events and the table of transitions |
+//! | [`session`] | the whole: events in, commands out, one step |
+//! | [`source`] | health of the telemetry: pause, silence, bad samples, teleports |
+//! | [`clock`] | time of a sample from its packet's clock or its arrival |
+//! | [`resampler`] | linear interpolation of irregular samples, with a delay |
+//! | [`gate`] | change of the washout's source without a jump |
+//! | [`travel`] | the way between the settled pose and neutral |
+//! | [`signs`] | test of the telemetry's signs |
+//! | [`format`](mod@format) | packets of telemetry, described by tables |
+//! | [`frame`] | frames to actuators, described by templates |
+//! | [`log`] | text of a recorded session |
+//!
+//! ```
+//! use moris_live::{Event, Motion, Sample, Session, Settings, State};
+//! use moris_washout::Parameters;
+//!
+//! let mut session = Session::new(&Parameters::default(), &Settings::default())?;
+//! session.handle(Event::Start)?;
+//! for step in 0..10_000 {
+//!     if step % 10 == 0 {
+//!         let sample = Sample { motion: Motion::at_rest(), ..Sample::default() };
+//!         session.receive(session.time(), &sample);
+//!     }
+//!     session.step();
+//! }
+//! assert_eq!(session.state(), State::Neutral);
+//! session.handle(Event::Engage)?;
+//! assert_eq!(session.state(), State::Engaging);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+#![forbid(unsafe_code)]
+
+pub mod clock;
+pub mod format;
+pub mod frame;
+pub mod gate;
+pub mod log;
+pub mod motion;
+pub mod resampler;
+pub mod session;
+pub mod signs;
+pub mod source;
+pub mod transitions;
+pub mod travel;
+
+pub use motion::{Motion, Sample};
+pub use session::{Commands, Refusal, STEP, Session, Settings};
+pub use transitions::{Event, State};

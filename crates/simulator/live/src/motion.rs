@@ -1,0 +1,109 @@
+//! Motion of the vehicle, as the washout takes it.
+
+use moris_washout::Input;
+use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
+use nalgebra::{SVector, Vector3};
+
+/// Numbers in a [`Motion`].
+pub const CHANNELS: usize = 10;
+
+/// All numbers of a [`Motion`], or their slopes.
+pub type Channels = SVector<f64, CHANNELS>;
+
+/// Specific force \[m/s2\], angular velocity \[rad/s\], roll, pitch and yaw \[rad\] and speed
+/// \[m/s\] of the vehicle. Force and angular velocity are in the vehicle's axes: x forward, y left,
+/// z up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion(pub Channels);
+
+/// Places of the angles.
+pub const ANGLES: std::ops::Range<usize> = 6..9;
+
+/// Size of each channel that is small, but felt.
+pub const FELT: [f64; CHANNELS] = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 1.0];
+
+impl Motion {
+    /// A motion from its parts.
+    pub fn new(force: Vector3<f64>, rates: Vector3<f64>, angles: RollPitchYaw, speed: f64) -> Self {
+        let mut all = Channels::zeros();
+        all.fixed_rows_mut::<3>(0).copy_from(&force);
+        all.fixed_rows_mut::<3>(3).copy_from(&rates);
+        all.fixed_rows_mut::<3>(6).copy_from(&angles.to_vector());
+        all[9] = speed;
+        Motion(all)
+    }
+
+    /// Rest on a level road.
+    pub fn at_rest() -> Self {
+        Self::new(Vector3::z() * STANDARD_GRAVITY, Vector3::zeros(), RollPitchYaw::default(), 0.0)
+    }
+
+    /// The specific force \[m/s2\].
+    pub fn force(&self) -> Vector3<f64> {
+        self.0.fixed_rows::<3>(0).into()
+    }
+
+    /// The angular velocity \[rad/s\].
+    pub fn rates(&self) -> Vector3<f64> {
+        self.0.fixed_rows::<3>(3).into()
+    }
+
+    /// Roll, pitch and yaw \[rad\].
+    pub fn angles(&self) -> RollPitchYaw {
+        RollPitchYaw::new(self.0[6], self.0[7], self.0[8])
+    }
+
+    /// The forward speed \[m/s\].
+    pub fn speed(&self) -> f64 {
+        self.0[9]
+    }
+
+    /// The washout's input.
+    pub fn input(&self, engaged: bool) -> Input {
+        Input {
+            specific_force: self.force(),
+            angular_velocity: self.rates(),
+            orientation: self.angles(),
+            speed: self.speed(),
+            lean: 0.0,
+            engaged,
+        }
+    }
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Motion::at_rest()
+    }
+}
+
+/// A sample of telemetry.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// The packet's clock \[s\].
+    pub time: Option<f64>,
+    /// The motion.
+    pub motion: Motion,
+    /// The place in the world, in any axes \[m\].
+    pub position: Option<Vector3<f64>>,
+    /// True if the packet says that the vehicle does not run.
+    pub paused: bool,
+    /// True if the packet has the vehicle's angles.
+    pub has_angles: bool,
+}
+
+impl Sample {
+    /// True if all of it is finite and none of it absurd.
+    pub fn is_plausible(&self) -> bool {
+        const LARGEST_FORCE: f64 = 1e3;
+        const LARGEST_RATE: f64 = 100.0;
+        const LARGEST: f64 = 1e4;
+        let finite = |mut values: std::slice::Iter<f64>| values.all(|value| value.is_finite());
+        finite(self.motion.0.as_slice().iter())
+            && self.motion.force().amax() <= LARGEST_FORCE
+            && self.motion.rates().amax() <= LARGEST_RATE
+            && self.motion.0.amax() <= LARGEST
+            && self.position.is_none_or(|position| finite(position.as_slice().iter()))
+            && self.time.is_none_or(f64::is_finite)
+    }
+}

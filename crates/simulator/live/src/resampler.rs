@@ -1,0 +1,166 @@
+//! Irregular samples at the times of the steps: linear between them, with a delay.
+//!
+//! The delay must be as long as the time from a sample to the arrival of the next. Where it is not,
+//! the last sample is held until the next one arrives.
+
+use crate::motion::{ANGLES, Channels, Motion};
+
+/// Samples that are kept: 0.6 s at 400 Hz.
+const KEPT: usize = 256;
+/// Shortest and longest delay that is chosen by itself \[s\].
+pub const DELAY: [f64; 2] = [0.002, 0.25];
+/// Reserve of the delay beyond the longest time between samples.
+const RESERVE: f64 = 1.1;
+/// Time constant with which a long time between samples is forgotten \[s\].
+const MEMORY: f64 = 20.0;
+
+/// The samples of the last moments.
+#[derive(Clone, Debug)]
+pub struct Resampler {
+    samples: [Stamped; KEPT],
+    /// Place of the newest.
+    newest: usize,
+    count: usize,
+    /// Longest time from a sample to the next one's arrival, lately \[s\].
+    longest: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Stamped {
+    time: f64,
+    motion: Motion,
+}
+
+/// The motion at a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// The motion.
+    pub motion: Motion,
+    /// Its slope.
+    pub slope: Channels,
+    /// Time of the sample from which on nothing is known, if that is past: it is held \[s\].
+    pub held_from: Option<f64>,
+}
+
+impl Default for Resampler {
+    fn default() -> Self {
+        Resampler { samples: [Stamped::default(); KEPT], newest: 0, count: 0, longest: 0.0 }
+    }
+}
+
+impl Resampler {
+    /// Adds a sample of this time, later than the last one's.
+    pub fn push(&mut self, arrival: f64, time: f64, mut motion: Motion) {
+        if self.count > 0 {
+            let last = self.samples[self.newest];
+            for k in ANGLES {
+                let change = motion.0[k] - last.motion.0[k];
+                motion.0[k] -= std::f64::consts::TAU * (change / std::f64::consts::TAU).round();
+            }
+            let gap = (arrival - last.time).max(0.0);
+            if gap < DELAY[1] {
+                self.longest = gap.max(self.longest * libm::exp(-gap / MEMORY));
+            }
+        }
+        self.newest = (self.newest + 1) % KEPT;
+        self.samples[self.newest] = Stamped { time, motion };
+        self.count = (self.count + 1).min(KEPT);
+    }
+
+    /// Forgets all samples: the next one has nothing to do with them.
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// The shortest delay with which no sample of late would have come too late \[s\].
+    pub fn delay(&self) -> f64 {
+        (RESERVE * self.longest).clamp(DELAY[0], DELAY[1])
+    }
+
+    /// The motion at a time; none without a sample.
+    pub fn at(&self, time: f64) -> Option<At> {
+        if self.count == 0 {
+            return None;
+        }
+        let mut after = self.sample(0);
+        let still = |motion: Motion, held_from| At { motion, slope: Channels::zeros(), held_from };
+        if time >= after.time {
+            return Some(still(after.motion, Some(after.time)));
+        }
+        for age in 1..self.count {
+            let before = self.sample(age);
+            if before.time <= time {
+                let slope = (after.motion.0 - before.motion.0) / (after.time - before.time);
+                let motion = Motion(before.motion.0 + slope * (time - before.time));
+                return Some(At { motion, slope, held_from: None });
+            }
+            after = before;
+        }
+        Some(still(after.motion, None))
+    }
+
+    fn sample(&self, age: usize) -> &Stamped {
+        &self.samples[(self.newest + KEPT - age) % KEPT]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surge(value: f64) -> Motion {
+        let mut motion = Motion::at_rest();
+        motion.0[0] = value;
+        motion
+    }
+
+    #[test]
+    fn irregular_samples_of_a_line_are_that_line_with_the_delay() {
+        for rate in [20.0, 60.0, 100.0, 400.0] {
+            let mut resampler = Resampler::default();
+            let (mut next, mut sent) = (0.0, 0);
+            for k in 0..8_000 {
+                let now = f64::from(k) * 1e-3;
+                while next <= now {
+                    resampler.push(now, next, surge(0.5 * next));
+                    sent += 1;
+                    // Every third interval is half as long again.
+                    next += if sent % 3 == 0 { 1.5 } else { 0.75 } / rate;
+                }
+                if now > 2.0 {
+                    let delay = resampler.delay();
+                    let at = resampler.at(now - delay).unwrap();
+                    assert!((at.motion.0[0] - 0.5 * (now - delay)).abs() < 1e-9 && at.held_from.is_none(), "{rate} Hz");
+                    assert!((at.slope[0] - 0.5).abs() < 1e-9);
+                    assert!(delay <= 1.7 / rate + 1.3e-3, "{rate} Hz: {delay} s");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_does_not_come_is_held() {
+        let mut resampler = Resampler::default();
+        assert!(resampler.at(0.0).is_none());
+        resampler.push(1.0, 1.0, surge(1.0));
+        assert_eq!(resampler.at(0.5).unwrap().motion, surge(1.0));
+        resampler.push(1.1, 1.1, surge(2.0));
+        let held = resampler.at(1.3).unwrap();
+        assert_eq!((held.motion, held.held_from), (surge(2.0), Some(1.1)));
+        assert_eq!(held.slope, Channels::zeros());
+    }
+
+    #[test]
+    fn an_angle_goes_on_through_half_a_turn() {
+        let turned = |yaw: f64| {
+            let mut motion = Motion::at_rest();
+            motion.0[8] = yaw;
+            motion
+        };
+        let mut resampler = Resampler::default();
+        resampler.push(0.0, 0.0, turned(3.1));
+        resampler.push(0.1, 0.1, turned(-3.1));
+        let middle = resampler.at(0.05).unwrap();
+        assert!((middle.motion.0[8] - std::f64::consts::PI).abs() < 1e-9 && middle.slope[8] < 1.0);
+    }
+}

@@ -1,0 +1,190 @@
+//! Test of the telemetry's signs over the first minute of motion.
+//!
+//! Each check compares two quantities that must have the same sign: what the vehicle does, by two
+//! different channels. It decides by their correlation, once there is motion enough.
+
+use crate::motion::Sample;
+
+/// Time for which samples are taken \[s\].
+pub const TIME: f64 = 60.0;
+/// Shortest and longest time between samples that are compared \[s\].
+const INTERVAL: [f64; 2] = [1e-3, 0.2];
+/// Correlation from which on a check decides.
+const DECIDES: f64 = 0.5;
+/// Samples from which on it decides.
+const ENOUGH: f64 = 40.0;
+/// Angles up to which a body's rates are those of its angles, about \[rad\].
+const LEVEL: f64 = 0.3;
+
+/// A check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Check {
+    /// Braking is a backward force.
+    Braking,
+    /// A left turn pushes to the right: its specific force is to the left.
+    LeftTurn,
+    /// Angular velocity about x is the rate of roll.
+    Roll,
+    /// Angular velocity about y is the rate of pitch.
+    Pitch,
+    /// Angular velocity about z is the rate of yaw.
+    Yaw,
+}
+
+/// Result of a check.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Too little motion, or the channels are missing.
+    Unknown,
+    /// The signs agree.
+    Agrees,
+    /// The signs contradict each other.
+    Contradicts,
+}
+
+impl Check {
+    /// All checks.
+    pub const ALL: [Check; 5] = [Check::Braking, Check::LeftTurn, Check::Roll, Check::Pitch, Check::Yaw];
+
+    /// Its meaning.
+    pub fn text(self) -> &'static str {
+        match self {
+            Check::Braking => "braking is a backward force (ax against the change of speed)",
+            Check::LeftTurn => "a left turn pushes to the right (ay against speed times wz)",
+            Check::Roll => "wx is the rate of roll",
+            Check::Pitch => "wy is the rate of pitch, positive nose down",
+            Check::Yaw => "wz is the rate of yaw, positive to the left",
+        }
+    }
+
+    /// Least mean square of both quantities with which it decides.
+    fn least(self) -> [f64; 2] {
+        match self {
+            Check::Braking => [0.05, 0.05],
+            Check::LeftTurn => [0.05, 0.05],
+            _ => [4e-5, 4e-5],
+        }
+    }
+}
+
+/// The sums of all checks.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Signs {
+    sums: [Sums; 5],
+    last: Option<(f64, Sample)>,
+    time: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Sums {
+    count: f64,
+    xx: f64,
+    yy: f64,
+    xy: f64,
+}
+
+impl Signs {
+    /// Takes a sample of this time.
+    pub fn take(&mut self, time: f64, sample: &Sample) {
+        if self.time >= TIME {
+            return;
+        }
+        let before = self.last.replace((time, *sample));
+        let Some((earlier, before)) = before else { return };
+        let interval = time - earlier;
+        if !(INTERVAL[0]..=INTERVAL[1]).contains(&interval) {
+            return;
+        }
+        self.time += interval;
+        let (now, then) = (&sample.motion, &before.motion);
+        let mean = 0.5 * (now.0 + then.0);
+        let slope = (now.0 - then.0) / interval;
+        self.add(Check::Braking, mean[0], slope[9]);
+        self.add(Check::LeftTurn, mean[1], mean[9] * mean[5]);
+        let level = mean[6].abs() < LEVEL && mean[7].abs() < LEVEL;
+        if sample.has_angles && level {
+            self.add(Check::Roll, mean[3], slope[6]);
+            self.add(Check::Pitch, mean[4], slope[7]);
+            // At half a turn the yaw jumps.
+            if slope[8].abs() * interval < 1.0 {
+                self.add(Check::Yaw, mean[5], slope[8]);
+            }
+        }
+    }
+
+    fn add(&mut self, check: Check, x: f64, y: f64) {
+        let sums = &mut self.sums[check as usize];
+        sums.count += 1.0;
+        sums.xx += x * x;
+        sums.yy += y * y;
+        sums.xy += x * y;
+    }
+
+    /// The result of a check so far.
+    pub fn verdict(&self, check: Check) -> Verdict {
+        let Sums { count, xx, yy, xy } = self.sums[check as usize];
+        let [x, y] = check.least();
+        let correlation = xy / (xx * yy).sqrt();
+        if count < ENOUGH || xx < x * count || yy < y * count || correlation.abs() < DECIDES {
+            Verdict::Unknown
+        } else if correlation > 0.0 {
+            Verdict::Agrees
+        } else {
+            Verdict::Contradicts
+        }
+    }
+
+    /// The first check whose signs contradict each other.
+    pub fn contradiction(&self) -> Option<Check> {
+        Check::ALL.into_iter().find(|check| self.verdict(*check) == Verdict::Contradicts)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_washout::interface::RollPitchYaw;
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::motion::Motion;
+
+    /// A car that brakes, accelerates and turns for a minute, level but for small angles.
+    fn drive(t: f64) -> Sample {
+        let speed = 15.0 + 5.0 * (0.4 * t).sin();
+        let rate = 0.3 * (0.7 * t).sin();
+        let angles = RollPitchYaw::new(0.05 * t.sin(), 0.04 * (1.3 * t).sin(), -0.3 / 0.7 * (0.7 * t).cos());
+        let rates = Vector3::new(0.05 * t.cos(), 0.04 * 1.3 * (1.3 * t).cos(), rate);
+        let force = Vector3::new(5.0 * 0.4 * (0.4 * t).cos(), speed * rate, 9.8);
+        Sample { motion: Motion::new(force, rates, angles, speed), has_angles: true, ..Sample::default() }
+    }
+
+    fn tested(change: impl Fn(&mut Sample)) -> Signs {
+        let mut signs = Signs::default();
+        for k in 0..3600 {
+            let mut sample = drive(f64::from(k) / 60.0);
+            change(&mut sample);
+            signs.take(f64::from(k) / 60.0, &sample);
+        }
+        signs
+    }
+
+    #[test]
+    fn right_signs_agree_and_each_wrong_one_is_found() {
+        let right = tested(|_| ());
+        for check in Check::ALL {
+            assert_eq!(right.verdict(check), Verdict::Agrees, "{check:?}");
+        }
+        for (channel, check) in
+            [(0, Check::Braking), (1, Check::LeftTurn), (6, Check::Roll), (7, Check::Pitch), (8, Check::Yaw)]
+        {
+            let wrong = tested(|sample| sample.motion.0[channel] *= -1.0);
+            assert_eq!(wrong.contradiction(), Some(check));
+        }
+    }
+
+    #[test]
+    fn a_vehicle_at_rest_says_nothing() {
+        let still = tested(|sample| sample.motion = Motion::at_rest());
+        assert!(Check::ALL.iter().all(|check| still.verdict(*check) == Verdict::Unknown));
+    }
+}

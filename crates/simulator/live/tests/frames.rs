@@ -1,0 +1,104 @@
+//! Frames written out by hand from each device's layout.
+
+use moris_live::frame::{Encoder, Frames, SHIPPED, Values, shipped};
+use proptest::prelude::*;
+
+/// Legs at 0, 1/4, 1/2, 3/4 and 1 of a stroke of 1.0 to 1.6 m, and one beyond it.
+const LENGTH: [f64; 6] = [1.0, 1.15, 1.3, 1.45, 1.6, 9.0];
+
+fn frame(text: &str) -> Vec<u8> {
+    let encoder = Encoder::new(&text.parse::<Frames>().unwrap(), [1.0, 1.6]).unwrap();
+    let mut out = vec![1, 2, 3];
+    encoder.frame(&Values { length: LENGTH, ..Values::default() }, &mut out);
+    out
+}
+
+#[test]
+fn amc_aasd15a() {
+    // 16 bits, big-endian: 0, 16384 (of 16383.75), 32768 (of 32767.5), 49151, 65535, 65535.
+    let expected =
+        [0xFF, 0xFF, 0x00, 0x00, 0x40, 0x00, 0x80, 0x00, 0xBF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0, 0, 0x0A, 0x0D];
+    assert_eq!(frame(shipped("amc-aasd15a").unwrap()), expected);
+}
+
+#[test]
+fn motion4sim() {
+    let expected = [
+        0xFF, 0xFF, 0x00, 0x00, 0x00, 0x40, 0x00, 0x00, 0x80, 0x00, 0x00, 0xBF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF,
+        0xFF, 0xFF, 0, 0, 0, 0x0A, 0x0D,
+    ];
+    assert_eq!(frame(shipped("motion4sim").unwrap()), expected);
+}
+
+#[test]
+fn bff() {
+    let expected = [b'B', b'C', 0, 0x00, 0x40, 0x80, 0xBF, 0xFF, 0xFF, 0x00, 0x00, 0x00, 0xFF, 0xFF, 0xFF, 0x0D];
+    assert_eq!(frame(shipped("bff").unwrap()), expected);
+}
+
+#[test]
+fn simtools() {
+    assert_eq!(frame(shipped("simtools").unwrap()), b"0,16384,32768,49151,65535,65535X");
+}
+
+#[test]
+fn text() {
+    let line = String::from_utf8(frame(shipped("csv").unwrap())).unwrap();
+    assert!(line.starts_with("0.000,1.000000,1.150000,") && line.ends_with(",0.000000\n"), "{line}");
+    assert_eq!(line.split(',').count(), 22);
+    let object: serde_json::Value = serde_json::from_slice(&frame(shipped("json").unwrap())).unwrap();
+    assert_eq!(object["length"][1], 1.15);
+    assert_eq!(object["force"].as_array().unwrap().len(), 3);
+}
+
+const TEMPLATE: &str = "name = 'own'\nabout = ''\nnote = ''\n";
+
+#[test]
+fn reversed_legs_and_other_ranges() {
+    let own = |rest: &str| frame(&format!("{TEMPLATE}{rest}"));
+    assert_eq!(
+        own("range = [1000, 2000]\nreversed = [2]\nframe = 'leg1:dec leg2:dec leg3:u16le 0A'"),
+        b"10001750\xDC\x05\n"
+    );
+    assert_eq!(own("range = [255, 0]\nframe = 'leg1:u8 leg4:u8 leg5:u8'"), [255, 64, 0]);
+    assert_eq!(own("frame = 'leg4:u32'\nrange = [0, 4294967295]"), [0xBF, 0xFF, 0xFF, 0xFF]);
+    assert_eq!(own("frame = \"'a b'FF'c'\""), b"a b\xFFc");
+}
+
+#[test]
+fn templates_that_make_no_sense_are_refused() {
+    for (rest, reason) in [
+        ("frame = 'leg7:u16'", "leg7:u16"),
+        ("frame = 'leg1:u17'", "leg1:u17"),
+        ("frame = 'F'", "the token F"),
+        ("frame = 'FFF'", "the token FFF"),
+        ("frame = 'length1:99'", "length1:99"),
+        ("frame = \"'open\"", "'open"),
+        ("frame = ''\nstop = 'rest:1'", "rest:1"),
+        ("frame = ''\ninterval = 0", "interval"),
+        ("frame = ''\nreversed = [0]", "reversed"),
+        ("frame = ''\nrange = [0, 9000000000000]", "range"),
+    ] {
+        let error = format!("{TEMPLATE}{rest}").parse::<Frames>().unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn any_values_are_encoded_without_a_panic(length in prop::array::uniform6(any::<f64>()), time in any::<f64>()) {
+        for (name, text) in SHIPPED {
+            let frames: Frames = text.parse().unwrap();
+            assert_eq!(frames.name, name);
+            let encoder = Encoder::new(&frames, [1.0, 1.6]).unwrap();
+            let mut out = Vec::new();
+            encoder.frame(&Values { length, time, ..Values::default() }, &mut out);
+            prop_assert!(!out.is_empty());
+        }
+    }
+
+    #[test]
+    fn any_template_is_read_without_a_panic(text in "[0-9A-Fa-f':a-z ]*") {
+        let _ = format!("{TEMPLATE}frame = \"{text}\"").parse::<Frames>();
+    }
+}

@@ -1,0 +1,331 @@
+//! A session: any events at any time, with telemetry of a smooth ride.
+
+mod ride;
+
+use std::ops::Range;
+
+use moris_live::log::{self, Digest, Entry, Happening};
+use moris_live::{Commands, Event, STEP, Sample, Session, Settings, State};
+use moris_measures::comfort::comfort;
+use moris_washout::{Parameters, presets};
+use proptest::prelude::*;
+use ride::{Ride, RideEvent};
+
+/// Steps a session with these events, each with the time since the one before it \[s\].
+fn run(session: &mut Session, ride: &mut Ride, events: &[(f64, RideEvent)], mut observe: impl FnMut(&Session)) {
+    for (after, event) in events {
+        ride.apply(*event, session);
+        for _ in 0..(after / STEP) as u64 {
+            ride.send(session);
+            session.step();
+            observe(session);
+        }
+    }
+}
+
+/// At neutral with a running source.
+fn at_neutral(parameters: &Parameters) -> (Session, Ride) {
+    at_neutral_with(parameters, Ride::default())
+}
+
+/// As [`at_neutral`], with telemetry of this kind.
+fn at_neutral_with(parameters: &Parameters, mut ride: Ride) -> (Session, Ride) {
+    let mut session = Session::new(parameters, &Settings::default()).unwrap();
+    run(&mut session, &mut ride, &[(12.0, RideEvent::Person(Event::Start))], |_| ());
+    assert_eq!(session.state(), State::Neutral);
+    (session, ride)
+}
+
+#[test]
+fn a_ride_from_off_to_off() {
+    let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+    let mut ride = Ride::default();
+    let mut states = vec![State::Off];
+    let person = RideEvent::Person;
+    let plan = [
+        (12.0, person(Event::Start)),
+        (15.0, person(Event::Engage)),
+        (3.0, RideEvent::Pause),
+        (15.0, RideEvent::Run),
+        (1.0, RideEvent::Silence),
+        (15.0, RideEvent::Run),
+        (15.0, RideEvent::Teleport),
+        (40.0, RideEvent::Silence),
+        (5.0, RideEvent::Run),
+        (15.0, person(Event::Engage)),
+        (60.0, person(Event::Park)),
+        (0.1, person(Event::Stop)),
+    ];
+    let mut before = session.commands().length;
+    run(&mut session, &mut ride, &plan, |session| {
+        if session.state() != *states.last().unwrap() {
+            states.push(session.state());
+        }
+        let now = session.commands().length;
+        if session.state() != State::Off {
+            assert!(now.iter().zip(before).all(|(now, before)| (now - before).abs() < 1e-3), "{:?}", session.state());
+        }
+        before = now;
+    });
+    use State::*;
+    let resumed = [Frozen, Engaging, Engaged];
+    let expected = [
+        &[Off, Homing, Neutral, Engaging, Engaged][..],
+        &resumed,
+        &resumed,
+        &[Engaging, Engaged],
+        &[Frozen, Disengaging, Neutral, Engaging, Engaged],
+        &[Parking, Settled, Off],
+    ]
+    .concat();
+    assert_eq!(states, expected);
+}
+
+#[test]
+fn engaged_telemetry_passes_as_it_is_with_the_delay() {
+    let (mut session, mut ride) = at_neutral(&Parameters::default());
+    run(&mut session, &mut ride, &[(20.0, RideEvent::Person(Event::Engage))], |_| ());
+    assert_eq!(session.state(), State::Engaged);
+    let mut count = 0;
+    run(&mut session, &mut ride, &[(5.0, RideEvent::Run)], |session| {
+        let expected = Ride::motion(session.time() - session.delay());
+        let error = (session.passed().0 - expected.0).amax();
+        // Linear interpolation between samples 1/60 s apart.
+        assert!(error < 2e-3, "{error}");
+        count += 1;
+    });
+    assert_eq!(count, 5000);
+    assert!((0.015..0.04).contains(&session.delay()), "{} s", session.delay());
+}
+
+#[test]
+fn engage_is_refused_with_the_reason() {
+    let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+    let refused = |session: &mut Session| session.handle(Event::Engage).unwrap_err().to_string();
+    assert_eq!(refused(&mut session), "engage does nothing in the state off");
+    session.handle(Event::Start).unwrap();
+    for _ in 0..20_000 {
+        session.step();
+    }
+    assert_eq!(refused(&mut session), "engage needs telemetry of a running vehicle; the source is waiting");
+    // A source whose surge has the wrong sign.
+    for k in 0..40_000 {
+        if k % 10 == 0 {
+            let mut sample = Sample { motion: Ride::motion(session.time()), ..Sample::default() };
+            sample.motion.0[0] *= -1.0;
+            session.receive(session.time(), &sample);
+        }
+        session.step();
+    }
+    assert!(refused(&mut session).contains("braking is a backward force"), "{}", refused(&mut session));
+}
+
+#[test]
+fn a_fault_brings_the_platform_to_neutral_and_stays() {
+    let (mut session, mut ride) = at_neutral(&Parameters::default());
+    let person = RideEvent::Person;
+    run(&mut session, &mut ride, &[(20.0, person(Event::Engage)), (40.0, person(Event::Fault))], |_| ());
+    assert_eq!(session.state(), State::Fault);
+    let felt = session.commands().washout.felt_specific_force;
+    assert!(felt.xy().amax() < 0.05, "{felt}");
+    assert!(session.handle(Event::Engage).is_err() && session.state() == State::Fault);
+    run(&mut session, &mut ride, &[(10.0, person(Event::Clear))], |_| ());
+    assert_eq!(session.state(), State::Neutral);
+}
+
+#[test]
+fn parking_on_the_way_up_turns_round_at_once() {
+    let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+    let mut ride = Ride::default();
+    let mut highest = 0.0_f64;
+    let person = RideEvent::Person;
+    run(&mut session, &mut ride, &[(1.0, person(Event::Start)), (8.0, person(Event::Park))], |session| {
+        highest = highest.max(session.commands().length[0]);
+    });
+    assert_eq!(session.state(), State::Settled);
+    // Three lags at 1.9 1/s answer a pulse of 1 s with 0.48 of the way from 1.012 m to 1.30 m.
+    assert!((highest - 1.151).abs() < 0.005, "{highest} m");
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let (mut session, _) = at_neutral(&Parameters::default());
+    let sample = Sample { motion: Ride::motion(1.0), ..Sample::default() };
+    session.receive(session.time(), &sample);
+    let count = allocation_counter::measure(|| {
+        for event in [Event::Engage, Event::Disengage, Event::Engage, Event::Park, Event::Fault, Event::Clear] {
+            let _ = session.handle(event);
+            for k in 0..3000 {
+                if k % 7 == 0 && k < 1000 {
+                    session.receive(session.time(), &Sample { motion: Ride::motion(session.time()), ..sample });
+                }
+                session.step();
+            }
+        }
+    });
+    assert_eq!(count.count_total, 0);
+}
+
+/// An event, and the time after it.
+fn any_event() -> impl Strategy<Value = (f64, RideEvent)> {
+    use RideEvent::*;
+    // Without `stop`: it leaves the platform to the device at once.
+    let person = prop::sample::select(vec![
+        Event::Start,
+        Event::Engage,
+        Event::Disengage,
+        Event::Park,
+        Event::Fault,
+        Event::Clear,
+    ]);
+    let event = prop_oneof![
+        4 => Just(Person(Event::Engage)),
+        2 => person.prop_map(Person),
+        3 => Just(Run),
+        2 => Just(Pause),
+        2 => Just(Silence),
+        2 => Just(Teleport),
+        1 => Just(NotANumber),
+        1 => Just(Repeat),
+    ];
+    // Most within a glide, some long enough for a new state.
+    (prop_oneof![3 => 0.05..1.0, 2 => 1.0..8.0], event)
+}
+
+/// Worst shake and jolt of the felt force on any axis \[m/s2\], beyond those of a force that does
+/// not change at all.
+fn discomfort(parameters: &Parameters, ride: Ride, events: &[(f64, RideEvent)]) -> [f64; 2] {
+    let (mut session, mut ride) = at_neutral_with(parameters, ride);
+    let mut felt: [Vec<f64>; 3] = Default::default();
+    run(&mut session, &mut ride, events, |session| {
+        let Commands { washout, .. } = session.commands();
+        felt.iter_mut().zip(washout.felt_specific_force.iter()).for_each(|(axis, value)| axis.push(*value));
+    });
+    let mut worst = [0.0_f64; 2];
+    for axis in &felt {
+        let found = comfort(&vec![0.0; axis.len()], axis, 0.0, STEP).values();
+        worst = [worst[0].max(found[0]), worst[1].max(found[1])];
+    }
+    worst
+}
+
+const MOST: [f64; 2] = [0.1, 1.0];
+
+/// The sets whose soft limits are on.
+const SETS: &[(&str, &[(&str, f64)])] = &[
+    ("default", &[]),
+    ("motorcycle", presets::MOTORCYCLE),
+    ("car", presets::CAR),
+    ("adaptive", presets::ADAPTIVE),
+    ("optimal", presets::OPTIMAL),
+    ("robust", presets::ROBUST),
+    ("predictive", presets::PREDICTIVE),
+];
+
+/// Telemetry of 20 to 400 Hz, with samples left out, with a clock or without.
+fn any_ride() -> impl Strategy<Value = Ride> {
+    (prop::sample::select(vec![20.0, 60.0, 100.0, 400.0]), 1..4_u64, any::<bool>()).prop_map(
+        |(rate, most, has_clock)| {
+            let mut ride = Ride::default();
+            (ride.rate, ride.most, ride.has_clock) = (rate, if rate > 20.0 { most } else { 1 }, has_clock);
+            ride
+        },
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn no_sequence_of_events_is_felt_as_a_jolt(
+        events in prop::collection::vec(any_event(), 20..40),
+        set in prop::sample::select(SETS),
+        ride in any_ride(),
+    ) {
+        let [shake, jolt] = discomfort(&presets::parameters(set.1), ride, &events);
+        prop_assert!(shake <= MOST[0] && jolt <= MOST[1], "{}: shake {shake}, jolt {jolt} m/s2", set.0);
+    }
+
+    #[test]
+    fn a_recorded_session_repeats_to_the_bit(events in prop::collection::vec(any_event(), 1..12)) {
+        let (parameters, settings) = (presets::parameters(presets::CAR), Settings::default());
+        let mut text = log::header(&parameters, &settings);
+        let mut session = Session::new(&parameters, &settings).unwrap();
+        let mut ride = Ride::default();
+        ride.log = Some(String::new());
+        let mut digest = Digest::default();
+        run(&mut session, &mut ride, &[(6.0, RideEvent::Person(Event::Start))], |s| digest.take(s.commands()));
+        run(&mut session, &mut ride, &events, |session| digest.take(session.commands()));
+        let step = (session.time() / STEP).round() as u64;
+        text += &ride.log.unwrap();
+        text += &format!("{}\n", Entry { step, happening: Happening::End(digest.0) });
+        let replayed = log::replay(&text, |_| ()).unwrap();
+        prop_assert_eq!(replayed.recorded, Some(digest.0));
+        prop_assert_eq!((replayed.steps, replayed.digest), (step, digest.0));
+    }
+
+    #[test]
+    fn no_text_is_replayed_with_a_panic(text in "(moris-live-session,1\nsettings,\\{\\}\n)?[0-9a-z,.\n]*") {
+        let _ = log::replay(&text, |_| ());
+    }
+}
+
+/// A million events, in sequences of hundreds:
+/// `MORIS_ALL_CASES=1 cargo test -p moris-live -- --ignored`.
+#[test]
+#[ignore = "takes half an hour"]
+fn no_sequence_of_a_million_events_is_felt_as_a_jolt() {
+    use proptest::strategy::ValueTree;
+    use proptest::test_runner::TestRunner;
+    let count: usize = if std::env::var_os("MORIS_ALL_CASES").is_some() { 10_000 } else { 100 };
+    let mut runner = TestRunner::deterministic();
+    let sequences = prop::collection::vec(any_event(), 100);
+    let mut worst = [0.0_f64; 2];
+    let mut violations: Range<usize> = 0..0;
+    for case in 0..count {
+        let events = sequences.new_tree(&mut runner).unwrap().current();
+        let [shake, jolt] = discomfort(&Parameters::default(), Ride::default(), &events);
+        if shake > worst[0] || jolt > worst[1] {
+            worst = [worst[0].max(shake), worst[1].max(jolt)];
+            println!("sequence {case}: shake {shake:.3}, jolt {jolt:.3}; worst {worst:.3?}");
+        }
+        violations.end += usize::from(shake > MOST[0] || jolt > MOST[1]);
+    }
+    assert!(violations.is_empty(), "{} of {count} sequences, worst {worst:?}", violations.len());
+}
+
+#[test]
+fn the_state_after_any_event_is_that_of_the_table() {
+    for state in State::ALL {
+        for event in Event::ALL.iter().filter(|event| event.is_external()) {
+            let Some(mut session) = in_state(*state) else { panic!("{state:?} is not reached") };
+            let result = session.handle(*event);
+            assert_eq!(session.state(), state.after(*event), "{state:?} {event:?}");
+            assert_eq!(result.is_err(), state.after(*event) == *state && *event != Event::Fault, "{state:?} {event:?}");
+        }
+    }
+}
+
+/// A session in this state, with a running source.
+fn in_state(state: State) -> Option<Session> {
+    let person = RideEvent::Person;
+    let (mut session, mut ride) = at_neutral(&Parameters::default());
+    let way: &[(f64, RideEvent)] = match state {
+        State::Off => &[(0.1, person(Event::Stop))],
+        State::Settled => &[(30.0, person(Event::Park))],
+        State::Homing => &[(30.0, person(Event::Park)), (0.1, person(Event::Start))],
+        State::Neutral => &[],
+        State::Engaging => &[(0.1, person(Event::Engage))],
+        State::Engaged => &[(20.0, person(Event::Engage))],
+        State::Frozen => &[(0.1, person(Event::Engage)), (0.1, RideEvent::Pause)],
+        State::Disengaging => &[(5.0, person(Event::Engage)), (0.1, person(Event::Disengage))],
+        State::Parking => &[(0.1, person(Event::Park))],
+        State::Fault => &[(0.1, person(Event::Fault))],
+    };
+    run(&mut session, &mut ride, way, |_| ());
+    // Whatever the state, the source runs.
+    if state != State::Frozen {
+        assert_eq!(session.source().health(), moris_live::source::Health::Running);
+    }
+    (session.state() == state).then_some(session)
+}

@@ -1,0 +1,246 @@
+//! `moris live`: steps the washout beside a running vehicle and commands a platform.
+//!
+//! `moris_live` decides; here are its clock, its sockets and its threads:
+//!
+//! - `telemetry` receives packets, or plays a recording.
+//! - `steps` is the loop of 1 kHz; `pace` its clock.
+//! - `frames` sends frames, `journal` prints what happens and records the session.
+//! - `tables` lists formats and templates.
+//!
+//! Threads exchange values through rings without locks. The loop waits for none of them.
+
+mod frames;
+mod journal;
+mod pace;
+mod steps;
+mod tables;
+mod telemetry;
+
+use std::fs::{self, File};
+use std::io::{Write, stdin};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
+use std::thread;
+
+use anyhow::{Context, Result, bail};
+use moris_live::frame::{Encoder, Values};
+use moris_live::{Event, STEP, Session, Settings, log};
+use rtrb::{Producer, RingBuffer};
+
+use crate::setup_options::SetupOptions;
+use frames::Sink;
+
+/// Step the washout beside a running vehicle, and command a platform
+///
+/// Receives telemetry, steps the washout at 1 kHz and sends frames to the actuators. Lines on
+/// standard input are commands: start, engage, disengage, park, stop, clear. Ctrl-C parks the
+/// platform and ends; a second Ctrl-C ends at once. Not a safety device: an emergency stop and
+/// limits of power belong outside of this program.
+#[derive(Clone, Debug, clap::Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct Options {
+    #[command(subcommand)]
+    list: Option<tables::List>,
+
+    /// Telemetry: udp:PORT, or a recording, which is played in real time once the platform engages
+    #[arg(long, value_name = "udp:PORT|RECORDING", required_unless_present = "replay")]
+    from: Option<String>,
+
+    /// Format of the packets: a name of `moris live formats`, or a TOML file; of a recording: its
+    /// logger, as for simulate
+    #[arg(long, value_name = "NAME|FILE")]
+    format: Option<String>,
+
+    /// Receive from other machines, too; otherwise from this one alone
+    #[arg(long)]
+    listen: bool,
+
+    /// Device to which frames are sent
+    #[arg(long, value_name = "udp:HOST:PORT", required_unless_present_any = ["dry", "replay"])]
+    to: Option<String>,
+
+    /// Template of the frames: a name of `moris live frames`, or a TOML file
+    #[arg(long, value_name = "NAME|FILE", default_value = "csv")]
+    frames: String,
+
+    /// Print ten frames a second instead of sending them
+    #[arg(long, conflicts_with = "to")]
+    dry: bool,
+
+    #[command(flatten)]
+    setup: SetupOptions,
+
+    /// Delay of the telemetry [default: as short as its gaps permit]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    delay: Option<f64>,
+
+    /// Start at once, and engage whenever the vehicle runs, until a command says otherwise
+    #[arg(long)]
+    engage: bool,
+
+    /// Engage although signs of the telemetry contradict each other
+    #[arg(long)]
+    ignore_signs: bool,
+
+    /// Park and end after this time
+    #[arg(long = "for", value_name = "SECONDS", value_parser = seconds)]
+    duration: Option<f64>,
+
+    /// Record the session to a file
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+
+    /// Repeat a recorded session, as fast as possible, and check that each command is the same
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "record"])]
+    replay: Option<PathBuf>,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let value = text.parse::<f64>().ok().filter(|value| (0.0..=1e6).contains(value));
+    value.ok_or_else(|| "a number of seconds from 0 to 1e6".to_owned())
+}
+
+/// Values that all threads read.
+#[derive(Debug, Default)]
+struct Shared {
+    /// The session's state.
+    state: AtomicU8,
+    /// Number of times that Ctrl-C has been pressed.
+    interrupts: AtomicU32,
+    /// The recording that is played has ended.
+    played: AtomicBool,
+    /// The loop has ended.
+    done: AtomicBool,
+    /// Packets that are not of the format.
+    dropped: AtomicU32,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// An option, file or socket cannot be used, or the session cannot be repeated.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    if let Some(list) = &options.list {
+        return tables::main(list, out);
+    }
+    if let Some(file) = &options.replay {
+        return replay(options, &fs::read_to_string(file).with_context(|| file.display().to_string())?, out);
+    }
+    let setup = options.setup.load()?;
+    let settings = Settings { delay: options.delay, ignore_signs: options.ignore_signs, ..Settings::default() };
+    let mut session = Session::new(&setup.parameters, &settings)?;
+    let template = tables::frames(&options.frames)?;
+    let rig = &setup.parameters.rig;
+    let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
+    let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
+    let input =
+        telemetry::Input::open(options.from.as_deref().unwrap_or_default(), options.format.as_deref(), options.listen)?;
+    let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
+    if let Some(file) = &mut record {
+        file.write_all(log::header(&setup.parameters, &settings).as_bytes())?;
+    }
+    let shared = Arc::new(Shared::default());
+    let pressed = Arc::clone(&shared);
+    let count = move || {
+        pressed.interrupts.fetch_add(1, Ordering::Relaxed);
+    };
+    ctrlc::set_handler(count).context("cannot listen for Ctrl-C")?;
+
+    let (samples, received) = RingBuffer::new(1024);
+    let (commands, commanded) = RingBuffer::new(64);
+    let (to_device, to_send) = RingBuffer::new(256);
+    let (to_journal, journal) = RingBuffer::new(8192);
+    eprintln!("commands: {COMMANDS}; Ctrl-C parks and ends");
+    // It waits for a line for ever: nobody joins it.
+    thread::spawn(move || read_commands(commands));
+    let interval = if options.dry { template.interval.max(0.1) } else { template.interval };
+    let summary = thread::scope(|scope| {
+        let sender = scope.spawn(move || frames::send(to_send, &encoder, sink));
+        let printer = scope.spawn(move || journal::keep(journal, record));
+        scope.spawn(|| input.run(samples, &shared));
+        let mut steps = steps::Steps {
+            session: &mut session,
+            shared: &shared,
+            received,
+            commanded,
+            frames: frames::Frames::new(to_device, sender.thread().clone(), interval),
+            journal: to_journal,
+            engages: options.engage,
+            ends_at: options.duration,
+        };
+        // In a thread of its own, so that its panic leaves the others to end.
+        let summary = thread::Builder::new().name("steps".to_owned()).spawn_scoped(scope, move || steps.run());
+        let summary = summary.map(thread::ScopedJoinHandle::join);
+        shared.done.store(true, Ordering::Relaxed);
+        let sent = sender.join();
+        let kept = printer.join();
+        (summary, sent, kept)
+    });
+    let (Ok(Ok(summary)), Ok(sent), Ok(kept)) = summary else {
+        bail!("the loop has ended by an error of this program; the stop string has been sent");
+    };
+    kept.context("cannot record the session")?;
+    write!(out, "{summary}")?;
+    let counts = session.source().counts();
+    writeln!(
+        out,
+        "telemetry: {} packets, {} of another format, {} bad, {} repeated, {} teleports; delay {:.1} ms",
+        counts.received,
+        shared.dropped.load(Ordering::Relaxed),
+        counts.bad,
+        counts.repeated,
+        counts.teleports,
+        1e3 * session.delay()
+    )?;
+    writeln!(out, "frames: {} sent, {} not", sent.sent, sent.failed + summary.lost_frames)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// The commands of a person.
+const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
+
+/// Passes lines on as commands.
+fn read_commands(mut commands: Producer<Event>) {
+    for line in stdin().lines().map_while(Result::ok) {
+        let event = Event::named(line.trim()).filter(|event| event.is_external() && *event != Event::Fault);
+        match event {
+            Some(event) => drop(commands.push(event)),
+            None if line.trim().is_empty() => (),
+            None => eprintln!("commands: {COMMANDS}"),
+        }
+    }
+}
+
+/// Repeats a recorded session.
+fn replay(options: &Options, text: &str, out: &mut dyn Write) -> Result<ExitCode> {
+    let mut state = None;
+    let template = tables::frames(&options.frames)?;
+    let rig = options.setup.load()?.parameters.rig;
+    let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
+    let mut bytes = Vec::new();
+    let mut lines = String::new();
+    let replayed = log::replay(text, |session| {
+        let commands = session.commands();
+        if state.replace(commands.state) != Some(commands.state) {
+            lines += &format!("{}\n", journal::state_line(commands.time, commands.state));
+        }
+        if options.dry && ((commands.time / STEP).round() as u64).is_multiple_of(100) {
+            encoder.frame(&Values::from(commands), &mut bytes);
+            lines += &frames::shown(&bytes);
+        }
+    })?;
+    write!(out, "{lines}")?;
+    match replayed.recorded {
+        Some(recorded) if recorded == replayed.digest => {
+            writeln!(out, "{} steps, the same commands to the bit", replayed.steps)?;
+            Ok(ExitCode::SUCCESS)
+        }
+        Some(_) => bail!("the commands differ from the recorded ones"),
+        None => {
+            writeln!(out, "{} steps; the recording has no end to compare with", replayed.steps)?;
+            Ok(ExitCode::SUCCESS)
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Telemetry from a socket, or from a recording in real time.
+
+use std::net::UdpSocket;
+use std::path::Path;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use clap::ValueEnum;
+use moris_live::format::Format;
+use moris_live::{Motion, Sample, State};
+use moris_washout::Input as Sampled;
+use moris_washout::interface::AngularVelocityFrame;
+use moris_washout::motion::orientation::Orientation;
+use rtrb::Producer;
+
+use super::{Shared, pace, tables};
+use crate::recording::{ConventionOptions, FADE_IN, Recording};
+
+/// A sample, and when it arrived.
+#[derive(Clone, Copy, Debug)]
+pub struct Received {
+    /// Time of [`pace::now`].
+    pub arrival: Duration,
+    /// The sample.
+    pub sample: Sample,
+}
+
+/// Largest packet \[bytes\].
+const LARGEST: usize = 65_536;
+/// Time after which a quiet socket is left to see whether all has ended.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// A source of telemetry.
+pub enum Input {
+    /// Packets of a format.
+    Udp(UdpSocket, Box<Format>),
+    /// A recording.
+    Played(Box<Recording>),
+}
+
+impl Input {
+    /// The source that an option names.
+    ///
+    /// # Errors
+    /// The port, the format or the recording cannot be used.
+    pub fn open(from: &str, format: Option<&str>, listen: bool) -> Result<Input> {
+        let Some(port) = from.strip_prefix("udp:") else {
+            let logger = format.map(|name| ValueEnum::from_str(name, true)).transpose();
+            let format = logger.map_err(|_| anyhow::anyhow!("--format of a recording is a logger's name"))?;
+            let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
+            return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
+        };
+        let port: u16 = port.parse().context("--from is udp:PORT or a recording")?;
+        let format = tables::format(format.context("--format names the packets' format; see moris live formats")?)?;
+        let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
+        let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;
+        socket.set_read_timeout(Some(PATIENCE))?;
+        Ok(Input::Udp(socket, Box::new(format)))
+    }
+
+    /// Passes samples on until all has ended.
+    pub fn run(self, samples: Producer<Received>, shared: &Shared) {
+        match self {
+            Input::Udp(socket, format) => receive(&socket, &format, samples, shared),
+            Input::Played(recording) => play(&recording, samples, shared),
+        }
+    }
+}
+
+fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared) {
+    let mut packet = vec![0; LARGEST];
+    let mut quiet = 0;
+    let requests = format.subscriptions();
+    while !shared.done.load(Ordering::Relaxed) {
+        let Ok(length) = socket.recv(&mut packet) else {
+            // At first, and about once a second while nothing comes.
+            if let Some(subscribe) = format.subscribe.as_ref().filter(|_| quiet % 10 == 0) {
+                for request in &requests {
+                    let _ = socket.send_to(request, ("127.0.0.1", subscribe.port));
+                }
+            }
+            quiet += 1;
+            continue;
+        };
+        let arrival = pace::now();
+        quiet = 0;
+        match format.decode(&packet[..length]) {
+            // A loop that is so late that the ring is full has no use for it.
+            Ok(sample) => drop(samples.push(Received { arrival, sample })),
+            Err(_) => {
+                shared.dropped.fetch_add(1, Ordering::Relaxed);
+            }
+        }
+    }
+}
+
+/// Plays a recording once the platform engages; until then it repeats the first sample.
+fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared) {
+    let step = Duration::from_secs_f64(recording.step());
+    let begin = pace::now();
+    let (mut sent, mut played) = (0_u32, 0);
+    let engaging = [State::Engaging, State::Engaged].map(|state| state as u8);
+    while !shared.done.load(Ordering::Relaxed) {
+        let Some(input) = recording.inputs().get(played) else {
+            shared.played.store(true, Ordering::Relaxed);
+            return;
+        };
+        let time = step * sent;
+        pace::wait_until(begin + time);
+        let sample = sample(input, recording, time.as_secs_f64());
+        let _ = samples.push(Received { arrival: pace::now(), sample });
+        sent += 1;
+        played += usize::from(played > 0 || engaging.contains(&shared.state.load(Ordering::Relaxed)));
+    }
+}
+
+fn sample(input: &Sampled, recording: &Recording, time: f64) -> Sample {
+    let rates = match recording.angular_velocity_frame {
+        AngularVelocityFrame::Body => input.angular_velocity,
+        AngularVelocityFrame::World => Orientation::new(input.orientation).rotation.tr_mul(&input.angular_velocity),
+    };
+    Sample {
+        time: Some(time),
+        motion: Motion::new(input.specific_force, rates, input.orientation, input.speed),
+        has_angles: recording.has_orientation,
+        ..Sample::default()
+    }
+}

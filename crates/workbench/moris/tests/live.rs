@@ -1,0 +1,213 @@
+//! `moris live` between an emulated vehicle and an emulated device, in real time.
+
+#![cfg(unix)]
+
+use std::io::{BufRead, BufReader, Write};
+use std::net::UdpSocket;
+use std::path::Path;
+use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+/// The command with its lines of standard error, and the device that receives its frames.
+struct Live {
+    child: Child,
+    lines: std::io::Lines<BufReader<ChildStderr>>,
+    device: thread::JoinHandle<Vec<String>>,
+}
+
+impl Live {
+    /// Starts the command. The device receives until `stop`.
+    fn start(directory: &Path, from: &str, arguments: &[&str]) -> Live {
+        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+        // A command that fails leaves no test waiting for ever.
+        socket.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
+        let to = format!("udp:{}", socket.local_addr().unwrap());
+        let device = thread::spawn(move || {
+            let mut frames: Vec<String> = Vec::new();
+            while frames.last().is_none_or(|frame| frame != "stop\n") {
+                let mut packet = [0; 2000];
+                let length = socket.recv(&mut packet).unwrap();
+                frames.push(String::from_utf8(packet[..length].to_vec()).unwrap());
+            }
+            frames
+        });
+        let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
+            .args(["live", "--from", from, "--to", &to])
+            .args(arguments)
+            .current_dir(directory)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let lines = BufReader::new(child.stderr.take().unwrap()).lines();
+        Live { child, lines, device }
+    }
+
+    fn wait_for(&mut self, word: &str) {
+        let found = self.lines.by_ref().map_while(Result::ok).any(|line| line.trim_end().ends_with(word));
+        assert!(found, "moris live has ended before: {word}");
+    }
+
+    fn command(&mut self, line: &str) {
+        writeln!(self.child.stdin.as_mut().unwrap(), "{line}").unwrap();
+    }
+
+    fn interrupt(&self) {
+        assert!(Command::new("kill").args(["-INT", &self.child.id().to_string()]).status().unwrap().success());
+    }
+
+    /// The exit status, what has been printed, and all frames.
+    fn end(self) -> (ExitStatus, String, Vec<String>) {
+        let output = self.child.wait_with_output().unwrap();
+        (output.status, String::from_utf8(output.stdout).unwrap(), self.device.join().unwrap())
+    }
+}
+
+/// A port that is free now.
+fn free_port() -> u16 {
+    UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
+}
+
+/// Sends a drive at 100 Hz to the port while `runs`.
+fn vehicle(port: u16, runs: &AtomicBool) {
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let mut k = 0;
+    while runs.load(Ordering::Relaxed) {
+        let t = f64::from(k) * 0.01;
+        let line = format!("{t},{},0.3,9.80665,0,0,{}", 1.5 * (0.9 * t).sin(), 0.05 * (0.7 * t).sin());
+        socket.send_to(line.as_bytes(), ("127.0.0.1", port)).unwrap();
+        thread::sleep(Duration::from_millis(10));
+        k += 1;
+    }
+}
+
+/// The six lengths in a frame.
+fn lengths(frame: &str) -> Vec<f64> {
+    frame.split(',').skip(1).take(6).map(|field| field.parse().unwrap()).collect()
+}
+
+#[test]
+fn from_telemetry_to_frames_and_back_to_rest() {
+    let directory = tempfile::tempdir().unwrap();
+    let port = free_port();
+    let runs = AtomicBool::new(true);
+    let arguments = ["--format", "csv", "--engage", "--record", "session.csv"];
+    let mut live = Live::start(directory.path(), &format!("udp:{port}"), &arguments);
+    thread::scope(|scope| {
+        scope.spawn(|| vehicle(port, &runs));
+        live.wait_for("engaged");
+        runs.store(false, Ordering::Relaxed);
+    });
+    // The source is killed: the platform comes to neutral by itself.
+    for state in ["frozen", "disengaging", "neutral"] {
+        live.wait_for(state);
+    }
+    live.interrupt();
+    for state in ["parking", "settled", "off"] {
+        live.wait_for(state);
+    }
+    let (status, printed, frames) = live.end();
+    assert!(status.success(), "{printed}");
+    assert!(printed.contains("late by more than one") && printed.contains("0 of another format"), "{printed}");
+    assert_eq!(frames.first().unwrap(), "start\n");
+    assert_eq!(frames[frames.len() - 2..], ["park\n", "stop\n"]);
+    // In the default rig's stroke at all times, and at rest at its lowest at the end.
+    let moves: Vec<Vec<f64>> = frames[1..frames.len() - 2].iter().map(|frame| lengths(frame)).collect();
+    assert!(moves.iter().flatten().all(|length| (1.0..=1.6).contains(length)));
+    assert!(moves.last().unwrap().iter().all(|length| (1.0..1.02).contains(length)), "{:?}", moves.last());
+    let highest = moves.iter().map(|lengths| lengths[0]).fold(0.0, f64::max);
+    assert!(highest > 1.25, "{highest} m");
+    let surges =
+        frames[1..frames.len() - 2].iter().map(|frame| frame.split(',').nth(19).unwrap().parse::<f64>().unwrap());
+    assert!(surges.map(f64::abs).fold(0.0, f64::max) > 0.3, "no cue");
+
+    // The recorded session gives the same commands to the bit.
+    let replay = |file: &str| {
+        Command::new(env!("CARGO_BIN_EXE_moris"))
+            .args(["live", "--replay", file])
+            .current_dir(directory.path())
+            .output()
+            .unwrap()
+    };
+    let replayed = replay("session.csv");
+    let text = String::from_utf8(replayed.stdout).unwrap();
+    assert!(replayed.status.success() && text.contains("engaged\n") && text.contains("to the bit"), "{text}");
+    // With another sample it does not.
+    let recorded = std::fs::read_to_string(directory.path().join("session.csv")).unwrap();
+    let samples: Vec<_> = recorded.lines().enumerate().filter(|(_, line)| line.contains(",sample,")).collect();
+    // Of the last ones: while the platform was engaged.
+    let (place, line) = samples[samples.len() * 3 / 4];
+    let mut lines: Vec<String> = recorded.lines().map(str::to_owned).collect();
+    lines[place] = line.replacen(",0.3,", ",0.4,", 1);
+    assert_ne!(lines[place], line);
+    std::fs::write(directory.path().join("other.csv"), lines.join("\n")).unwrap();
+    assert!(!replay("other.csv").status.success());
+}
+
+#[test]
+fn a_second_interrupt_ends_at_once_and_lines_are_commands() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut live = Live::start(directory.path(), &format!("udp:{}", free_port()), &["--format", "motionsim"]);
+    live.command("engage");
+    live.wait_for("refused: engage does nothing in the state off");
+    live.command("start");
+    live.wait_for("homing");
+    live.interrupt();
+    live.wait_for("parking");
+    live.interrupt();
+    live.wait_for("off");
+    let (status, _, frames) = live.end();
+    assert!(status.success());
+    assert_eq!(frames.last().unwrap(), "stop\n");
+    assert!(!frames.contains(&"park\n".to_owned()));
+}
+
+#[test]
+fn a_recording_is_played_and_the_platform_parks_after_it() {
+    let directory = tempfile::tempdir().unwrap();
+    let line = |k: i32| format!("{},{},0,9.80665,0,0,0\n", f64::from(k) * 0.01, (f64::from(k) * 0.02).sin());
+    let text = "time,ax,ay,az,wx,wy,wz\n".to_owned() + &(0..600).map(line).collect::<String>();
+    std::fs::write(directory.path().join("ride.csv"), text).unwrap();
+    let mut live = Live::start(directory.path(), "ride.csv", &["--engage"]);
+    for state in ["homing", "neutral", "engaging", "engaged", "parking", "settled", "off"] {
+        live.wait_for(state);
+    }
+    let (status, printed, frames) = live.end();
+    assert!(status.success() && printed.contains("telemetry: "), "{printed}");
+    assert_eq!(frames.last().unwrap(), "stop\n");
+}
+
+#[test]
+fn what_cannot_be_used_is_said() {
+    let directory = tempfile::tempdir().unwrap();
+    let run = |arguments: &[&str]| {
+        let output =
+            Command::new(env!("CARGO_BIN_EXE_moris")).arg("live").args(arguments).current_dir(&directory).output();
+        let output = output.unwrap();
+        (output.status.success(), String::from_utf8([output.stdout, output.stderr].concat()).unwrap())
+    };
+    for (arguments, text) in [
+        (&["formats"][..], "motionsim    BeamNG.drive"),
+        (&["formats", "forza"], "[fields]"),
+        (&["frames", "bff"], "leg1:hi"),
+    ] {
+        let (fine, printed) = run(arguments);
+        assert!(fine && printed.contains(text), "{printed}");
+    }
+    for (arguments, text) in [
+        (&["formats", "doom"][..], "there is no doom, only json, csv"),
+        (&["--from", "udp:0x", "--format", "csv", "--dry"], "--from is udp:PORT or a recording"),
+        (&["--from", "udp:4444", "--dry"], "--format names the packets' format"),
+        (&["--from", "udp:4444", "--format", "own.toml", "--dry"], "own.toml"),
+        (&["--from", "udp:4444", "--format", "csv"], "--to"),
+        (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT"),
+        (&["--from", "nothing.csv", "--dry"], "nothing.csv"),
+        (&["--from", "udp:4444", "--format", "csv", "--dry", "--for", "soon"], "a number of seconds"),
+    ] {
+        let (fine, printed) = run(arguments);
+        assert!(!fine && printed.contains(text), "{arguments:?}: {printed}");
+    }
+}
