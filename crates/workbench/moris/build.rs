@@ -1,4 +1,5 @@
-//! Compiles the simulation for the report's page, and the ride, to WebAssembly, and finds the commit.
+//! Compiles the simulation for the report's page, and the ride, to WebAssembly,
+//! and finds the commit.
 //!
 //! Where the target is not installed the files are empty. The report's page then does not simulate,
 //! and there is no ride. Without git the version is that of the package alone.

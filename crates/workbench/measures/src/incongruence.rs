@@ -1,10 +1,10 @@
-//! Incongruence: how wrong the platform's forces feel at the worst moment, relative to a platform at
-//! rest.
+//! Incongruence: how wrong the platform's forces feel at the worst moment, relative
+//! to a platform at rest.
 //!
 //! Continuous ratings of car drivers follow a low-pass of the mismatch of lateral and longitudinal
-//! force, weighted 66 and 34 % (Kolff and others, on 60 drivers and three cueing algorithms). The maximum of the rating goes with what a driver says of a manoeuvre.
-//! The time constant is not published. [`incongruence`] takes 3 s, and 1 and 6 s for the range.
-//! Only ratios mean something.
+//! force, weighted 66 and 34 % (Kolff and others, on 60 drivers and three cueing algorithms). The
+//! maximum of the rating goes with what a driver says of a manoeuvre. The time constant is not
+//! published. [`incongruence`] takes 3 s, and 1 and 6 s for the range. Only ratios mean something.
 
 /// Weights of the longitudinal and the lateral mismatch.
 const WEIGHTS: [f64; 2] = [0.34, 0.66];

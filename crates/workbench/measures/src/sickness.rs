@@ -1,9 +1,9 @@
 //! Motion sickness: what share of people a ride would make sick, by the conflict between the sensed
 //! and the expected vertical, and the dose of ISO 2631-1.
 //!
-//! The first is the model "6DoF-SVC (IN1)" of Inoue, Liu and Wada (SAE Technical Paper 2023-01-0176)
-//! with its parameters. With f the specific force at the head, gravity's reaction included, and w
-//! its angular velocity:
+//! The first is the model "6DoF-SVC (IN1)" of Inoue, Liu and Wada (SAE Technical Paper
+//! 2023-01-0176) with its parameters. With f the specific force at the head, gravity's reaction
+//! included, and w its angular velocity:
 //!
 //! - sensed angular velocity: w_s = (1/td + 1/ta) x' + x/(td ta) + w, where x'' = -(1/td + 1/ta) x'
 //!   \- x/(td ta) - w;
@@ -15,8 +15,8 @@
 //! - conflict: H = h/(1 + h), h = |v_s - v^|²/b².
 //!
 //! The share of people who are sick follows tau_I² M'' = -2 tau_I M' - M + P H from M = 0. With
-//! tau_I of twelve minutes a ride of one or two minutes says little. [`share_sick`] therefore takes
-//! the mean of H over the ride for the H of half an hour of such riding.
+//! tau_I of twelve minutes a ride of one or two minutes says little. So [`share_sick`] repeats the
+//! ride for half an hour, with its mean H.
 //!
 //! The model has no vision, and its data are of passengers.
 
