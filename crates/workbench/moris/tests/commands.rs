@@ -370,6 +370,25 @@ fn a_felt_jolt_is_found_directly_after_the_limits() {
     assert!(rough[1..=count].iter().all(|text| comfort(&text)), "{rough:?}");
 }
 
+/// The last finding has the shares of the measures, of which the vehicle's is large here.
+#[test]
+fn motion_sickness_is_the_last_finding() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = simulate_smooth_and_rough(directory.path());
+    let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rough = &all[1]["results"][0];
+    let share = |name: &str| {
+        let measures = rough["measures"].as_array().unwrap();
+        measures.iter().find(|measure| measure["name"] == name).unwrap()["value"].as_f64().unwrap()
+    };
+    let [vehicle, platform] = ["sick in the vehicle", "sick on the platform"].map(share);
+    assert!(vehicle > 10.0, "{vehicle}");
+    let finding = rough["findings"].as_array().unwrap().last().unwrap().as_str().unwrap();
+    for part in ["Motion sickness: ", &format!(" makes {vehicle:.0} % "), &format!(" motion {platform:.0} % ")] {
+        assert!(finding.contains(part), "{finding}");
+    }
+}
+
 /// Noise makes the tilt lag in nearly every step, and no limit of it matters.
 #[test]
 fn noise_does_not_count_as_limited_tilt() {

@@ -29,6 +29,11 @@ const LEAST_SHAKE: f64 = 0.1;
 const LEAST_JOLT: f64 = 1.0;
 const LEAST_PEAK: f64 = 1.0;
 
+/// Least share of sick people that is worth a sentence \[%\], and the share by which the platform may
+/// exceed the vehicle without a warning.
+const LEAST_SICK: f64 = 1.0;
+const SICKER: f64 = 2.0;
+
 /// Largest fraction of the time with soft limits at which a recording fits the rig.
 const SELDOM: f64 = 0.01;
 /// The cost of soft limits.
@@ -39,7 +44,7 @@ const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 
 /// The findings, the most important first: fit, comfort, channels worse than at rest, limits of the
-/// tilt, other channels.
+/// tilt, other channels, motion sickness.
 pub fn of(outcome: &Evaluated) -> Vec<Finding> {
     let mut findings = vec![fits(outcome)];
     findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
@@ -50,6 +55,7 @@ pub fn of(outcome: &Evaluated) -> Vec<Finding> {
     findings.extend(worse);
     findings.extend(tilt(outcome));
     findings.extend(others);
+    findings.extend(sickness(outcome.measures));
     findings
 }
 
@@ -142,6 +148,21 @@ fn soft_limited_time(simulation: &Simulation) -> Option<String> {
     Some(match spans.count() {
         1 => format!("{all}, from {from:.2} to {to:.2} s."),
         _ => format!("{all}, first at {first:.2} s, for longest from {from:.2} to {to:.2} s."),
+    })
+}
+
+/// Motion sickness in the vehicle and on the platform.
+fn sickness(measures: &Measures) -> Option<Finding> {
+    let [vehicle, platform] = measures.rider.sick;
+    let weight = if platform > vehicle + SICKER { Weight::Warning } else { Weight::Note };
+    (vehicle.max(platform) >= LEAST_SICK).then(|| {
+        finding(
+            weight,
+            format!(
+                "Motion sickness: half an hour of this ride makes {vehicle:.0} % of people sick, the same of the platform's motion \
+                 {platform:.0} % (a model of passengers, without vision)."
+            ),
+        )
     })
 }
 

@@ -65,6 +65,9 @@ impl Loop {
 fn no_set_step_or_get_touches_memory() {
     let path = moris_fmu_host::example_library("counting_library");
     let mut running = Loop::new(&open_library(&path));
+    // A message takes memory: the one about inputs beyond their range comes with this call.
+    assert_eq!(running.instance.set_real(&running.inputs, &[1e6; 11]), Status::Ok);
+    assert!(running.instance.messages().iter().any(|message| message.text.contains("the model uses")));
     // SAFETY: the library is the one just opened, and the function is declared as it is defined there.
     let library = unsafe { Library::new(&path) }.unwrap();
     // SAFETY: as above.
