@@ -430,10 +430,10 @@ fn soft_limits_are_named_with_their_times_and_their_cost() {
     let narrow = rigs().join("narrow.toml").display().to_string();
     let output =
         moris(directory.path(), &["simulate", "ride.csv", "rough.csv", "--rig", &narrow, "--no-bound", "--json"]);
-    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stderr));
+    assert!(output.status.success(), "{}", text(&output.stderr));
     let all: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     let result = |recording: usize| &all[recording]["results"][0];
-    assert_eq!((&result(0)["fits"], &result(1)["fits"]), (&true.into(), &false.into()));
+    assert_eq!((&result(0)["fits"], &result(1)["fits"]), (&true.into(), &true.into()));
     let smooth = result(0)["findings"][0].as_str().unwrap();
     assert!(smooth.starts_with("The recording fits the rig: ") && !smooth.contains("oft limits"), "{smooth}");
 

@@ -28,7 +28,7 @@ const resolved = (names) => Object.fromEntries(Object.entries(names).map(([key, 
 
 const engine = await Engine.start(await inflated(page.module), page.parameters.map(({ start }) => start));
 const road = new Road(byId("road"), engine.road(), page.half_width);
-const machine = new View(byId("view"), page.rig);
+const machine = new View(byId("view"), page.rig, "motorcycle");
 const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
 const controls = new Controls();
 const panel = new Panel(byId("panel"), page, {

@@ -64,7 +64,7 @@ impl Evaluated<'_> {
     /// True if the recording fits the rig and no channel has a larger error than a platform at
     /// rest.
     pub fn is_good(&self) -> bool {
-        findings::fits_the_rig(self.measures) && findings::is_better_than_rest(self)
+        findings::fits_freely(self.measures) && findings::is_better_than_rest(self)
     }
 
     /// Fit and cues in a few words.

@@ -29,8 +29,8 @@ const LEAST_SHAKE: f64 = 0.1;
 const LEAST_JOLT: f64 = 1.0;
 const LEAST_PEAK: f64 = 1.0;
 
-/// Least share of sick people that is worth a sentence \[%\], and the share by which the platform may
-/// exceed the vehicle without a warning.
+/// Least share of sick people that is worth a sentence \[%\], and the share by which the platform
+/// may exceed the vehicle without a warning.
 const LEAST_SICK: f64 = 1.0;
 const SICKER: f64 = 2.0;
 
@@ -83,7 +83,7 @@ fn fits(outcome: &Evaluated) -> Finding {
     let good = if is_better_than_rest(outcome) { Weight::Good } else { Weight::Note };
     match (hard.as_slice(), soft) {
         ([], None) => finding(good, format!("The recording fits the rig: {used}.")),
-        ([], Some(soft)) if fits_the_rig(outcome.measures) => {
+        ([], Some(soft)) if fits_freely(outcome.measures) => {
             finding(good, format!("The recording fits the rig: {used}. {soft}"))
         }
         ([], Some(soft)) => finding(
@@ -97,11 +97,14 @@ fn fits(outcome: &Evaluated) -> Finding {
     }
 }
 
-/// True if neither a safety unit nor an actuator's limit was active, and soft limits, which keep
-/// these from acting, hardly ever.
+/// True if neither a safety unit nor an actuator's limit was active.
 pub fn fits_the_rig(measures: &Measures) -> bool {
-    let effort = &measures.effort;
-    effort.safety_active == 0.0 && effort.actuator_limited == 0.0 && effort.soft_limited <= SELDOM
+    measures.effort.safety_active == 0.0 && measures.effort.actuator_limited == 0.0
+}
+
+/// True if soft limits, which keep these from acting, were hardly ever active, either.
+pub fn fits_freely(measures: &Measures) -> bool {
+    fits_the_rig(measures) && measures.effort.soft_limited <= SELDOM
 }
 
 /// True if no channel is worse than on a platform at rest.
@@ -111,16 +114,15 @@ pub fn is_better_than_rest(outcome: &Evaluated) -> bool {
 
 /// Fit and cues in a few words.
 pub fn verdict(outcome: &Evaluated) -> String {
-    let effort = &outcome.measures.effort;
     let channels = channels(outcome);
     let worse: Vec<String> = channels
         .iter()
         .filter(|channel| channel.is_worse_than_rest())
         .map(|channel| channel.name.to_lowercase())
         .collect();
-    let fit = if fits_the_rig(outcome.measures) {
+    let fit = if fits_freely(outcome.measures) {
         "fits"
-    } else if effort.safety_active == 0.0 && effort.actuator_limited == 0.0 {
+    } else if fits_the_rig(outcome.measures) {
         "within the rig by soft limits alone"
     } else {
         "does not fit"
