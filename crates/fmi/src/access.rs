@@ -196,14 +196,15 @@ impl<M: Model> Instance<M> {
         })
     }
 
-    /// Notes the first value beyond its input's range, unless the host has been told of one.
+    /// Notes the first value beyond its input's range, unless the host has been told of one. Zero
+    /// does not count: hosts set inputs to zero for which they have no value yet.
     fn note_range<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
         if self.out_of_range != OutOfRange::Never {
             return;
         }
         let beyond = one_by_one(variables, values)
             .map(|(slot, value)| (slot, value.to_slot()))
-            .find(|&(slot, value)| self.tables.infos[slot as usize].replacement(value).is_some());
+            .find(|&(slot, value)| value != 0.0 && self.tables.infos[slot as usize].replacement(value).is_some());
         if let Some((slot, value)) = beyond {
             self.out_of_range = OutOfRange::Now(slot, value);
         }

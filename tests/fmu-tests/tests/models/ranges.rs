@@ -91,7 +91,14 @@ fn an_input_beyond_its_range_is_a_warning_once() {
                     assert_eq!(instance.set(slot, max), OK);
                     assert_eq!(instance.set(slot, max + 1e-12 * (max - min)), OK);
                 }
-                assert!(messages.borrow().is_empty(), "rounding is no reason to warn: {:?}", messages.borrow());
+                for &slot in &inputs {
+                    assert_eq!(instance.set(slot, 0.0), OK);
+                }
+                assert!(
+                    messages.borrow().is_empty(),
+                    "rounding and zero are no reason to warn: {:?}",
+                    messages.borrow()
+                );
                 for &slot in &inputs {
                     let (_, max) = model.identity.row(slot).bounds();
                     assert_eq!(instance.set(slot, 3.0 * max), OK);
