@@ -68,8 +68,11 @@ def test_comments_tell_the_values():
 
 SBATCH = """#!/bin/sh
 # Runs a batch script at once in the background, as a scheduler with free machines does.
+# The submitter deletes its script as soon as the job is taken, so the job runs a copy.
 for script; do :; done
-sh "$script" > "$script.log" 2>&1 &
+job=$(mktemp "$0.XXXXXX")
+cp "$script" "$job"
+sh "$job" > "$job.log" 2>&1 &
 echo "Submitted batch job $!"
 """
 SCANCEL = """#!/bin/sh
