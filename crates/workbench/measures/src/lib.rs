@@ -20,7 +20,6 @@
 
 #![forbid(unsafe_code)]
 
-#[cfg(feature = "bound")]
 pub mod bound;
 pub mod comfort;
 pub mod cues;

@@ -17,13 +17,17 @@
 //! - [`Bound::attained`] is the RMS error of a motion that keeps all limits. The true optimum
 //!   lies between the two.
 
+mod barrier;
 mod certificate;
-mod quadratic_program;
+mod interior_point;
+mod program;
+mod projection;
+mod small_matrix;
 mod trajectory;
 
-use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
-
-use quadratic_program::{Kind, Projection, QuadraticProgram};
+use interior_point::{NotSolved, Solution, solve};
+use projection::Projection;
+use trajectory::Knot;
 pub use trajectory::Trajectory;
 
 /// The limits of one axis of the platform.
@@ -128,20 +132,45 @@ pub fn bound(desired: &[f64], step: f64, limits: &AxisLimits, interval: f64) -> 
     if desired.len() <= steps {
         return Err(BoundError::TooShort { samples: desired.len(), needed: steps + 1 });
     }
-    let projections: Vec<Projection> = desired.windows(steps + 1).step_by(steps).map(Projection::of_line).collect();
+    let desired_over: Vec<Projection> = desired.windows(steps + 1).step_by(steps).map(Projection::of_line).collect();
     let interval = steps as f64 * step;
     let duration = (desired.len() - 1) as f64 * step;
 
-    let relaxed = QuadraticProgram::new(&projections, interval, limits, Kind::Relaxed);
-    let multipliers = solve(&relaxed)?.z;
-    let least = certificate::dual_value(&relaxed, &multipliers);
-    let restricted = QuadraticProgram::new(&projections, interval, limits, Kind::Restricted);
-    let trajectory = restricted.trajectory(&solve(&restricted)?.x);
+    let (least, arm, knots) = match &limits.tilt {
+        None => {
+            let relaxed = program::relaxed(&desired_over, interval, limits);
+            let restricted = program::restricted(&desired_over, interval, limits);
+            let least = certificate::lower_bound(&relaxed, &solve(&relaxed)?);
+            (least, 0.0, knots(&solve(&restricted)?))
+        }
+        Some(tilt) => {
+            let relaxed = program::relaxed_with_tilt(&desired_over, interval, limits, tilt);
+            let restricted = program::restricted_with_tilt(&desired_over, interval, limits, tilt);
+            let least = certificate::lower_bound(&relaxed, &solve(&relaxed)?);
+            (least, tilt.head_height / tilt.gravity, knots(&solve(&restricted)?))
+        }
+    };
+    let trajectory = Trajectory { interval, arm, knots };
     Ok(Bound {
         rms_error: (2.0 * least * interval / duration).max(0.0).sqrt(),
         attained: trajectory.rms_error(desired, step),
         trajectory,
     })
+}
+
+/// The states of a solution, without tilt where there is none.
+fn knots<const N: usize, const U: usize, const E: usize>(solution: &Solution<N, U, E>) -> Vec<Knot> {
+    let knot = |state: &[f64; N]| {
+        let at = |index: usize| state.get(index).copied().unwrap_or(0.0);
+        Knot { position: at(0), velocity: at(1), tilt_force: at(2), tilt_force_rate: at(3) }
+    };
+    solution.states.iter().map(knot).collect()
+}
+
+impl From<NotSolved> for BoundError {
+    fn from(NotSolved { value, least }: NotSolved) -> Self {
+        BoundError::Solver(format!("its error stayed between {least:.3e} and {value:.3e}"))
+    }
 }
 
 fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
@@ -164,25 +193,4 @@ fn check_limits(limits: &AxisLimits) -> Result<(), BoundError> {
     limit("tilt acceleration", acceleration, acceleration > 0.0, "above 0")?;
     limit("head height", head_height, true, "a finite number")?;
     limit("gravity", gravity, gravity > 0.0, "above 0")
-}
-
-/// A solution and its multipliers.
-struct Solution {
-    x: Vec<f64>,
-    z: Vec<f64>,
-}
-
-fn solve(program: &QuadraticProgram) -> Result<Solution, BoundError> {
-    let settings = DefaultSettings { verbose: false, max_iter: 200, ..DefaultSettings::default() };
-    let QuadraticProgram { quadratic, linear, matrix, right, cones, .. } = program;
-    let mut solver = DefaultSolver::new(quadratic, linear, matrix, right, cones, settings)
-        .map_err(|error| BoundError::Solver(error.to_string()))?;
-    solver.solve();
-    match solver.solution.status {
-        // A less accurate solution is accepted, because its value is computed afterwards.
-        SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress => {
-            Ok(Solution { x: solver.solution.x, z: solver.solution.z })
-        }
-        status => Err(BoundError::Solver(status.to_string())),
-    }
 }
