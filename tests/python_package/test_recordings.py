@@ -1,4 +1,4 @@
-"""Recordings from DataFrames, dicts and files, by the workbench's import code."""
+"""Recordings from tables, dicts and files, by the workbench's import code."""
 
 import pickle
 import subprocess
@@ -42,6 +42,40 @@ def test_a_dict_a_frame_and_a_csv_file_are_the_same_recording(ride, frame, expec
     assert np.array_equal(columns["vehicle.specificForce"], np.column_stack([ride["ax"], ride["ay"], ride["az"]]))
     assert np.array_equal(columns["vehicle.angularVelocity.z"], ride["wz"])
     assert np.allclose(columns.time, ride["time"], rtol=0, atol=1e-12)
+
+
+class Stream:
+    """A table that is known by Arrow's stream alone, as one of polars."""
+
+    def __init__(self, table):
+        self.table = table
+
+    def __arrow_c_stream__(self, requested_schema=None):
+        return self.table.__arrow_c_stream__(requested_schema)
+
+
+class Interchange:
+    """A table that is known by the dataframe interchange protocol alone."""
+
+    def __init__(self, frame):
+        self.frame = frame
+
+    def __dataframe__(self, **options):
+        return self.frame.__dataframe__(**options)
+
+
+def test_tables_of_other_packages_are_the_same_recording(ride, frame, expected):
+    import pyarrow
+
+    structured = np.zeros(len(ride["time"]), dtype=[(name, float) for name in NAMES])
+    for name in NAMES:
+        structured[name] = ride[name]
+    arrow = pyarrow.table({**ride, "remark": ["a"] * len(structured)})
+    for table in (structured, arrow, Stream(arrow), Interchange(frame)):
+        assert np.array_equal(inputs(moris.Recording(table)), expected)
+        assert moris.sweep(table, [{}], reduce=lambda found, result: 1.0).done == 1
+    with pytest.raises(TypeError, match="a recording is a table, a dict of arrays or a path, not ndarray"):
+        moris.Recording(np.zeros((5, 7)))
 
 
 def test_parquet_excel_matlab_and_mdf_files(ride, frame, expected, tmp_path):
@@ -123,7 +157,7 @@ def test_no_message_names_an_option_of_the_command():
 
 
 def test_what_is_no_recording_is_refused(tmp_path):
-    with pytest.raises(TypeError, match="a recording is a DataFrame, a dict of arrays or a path, not int"):
+    with pytest.raises(TypeError, match="a recording is a table, a dict of arrays or a path, not int"):
         moris.Recording(7)
     with pytest.raises(TypeError, match="there is no option forse_unit"):
         moris.Recording({}, forse_unit="g")

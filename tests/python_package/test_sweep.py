@@ -54,6 +54,14 @@ def test_a_sweep_has_the_measures_of_single_simulations(here, recordings):
         here.value[0]["platform stroke usd"]
 
 
+def test_a_preview_is_an_error_of_the_sets_without_the_predictive_strategy(recordings):
+    swept = moris.sweep(recordings[0], ["car", "predictive"], preview=2.0)
+    assert [result.error for result in swept.value] == [
+        'preview is for the predictive strategy alone; add strategy="predictive"',
+        None,
+    ]
+
+
 def test_a_sweep_previews_the_recordings(recordings):
     swept = moris.sweep(recordings[0], ["preview", "predictive"], preview=2.0)
     for result in swept.value:

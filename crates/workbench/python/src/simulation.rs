@@ -55,10 +55,7 @@ impl PySimulation {
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let host = host(preview)?;
-        if preview > 0.0 && setup.parameters.structure.strategy != StrategyKind::Predictive {
-            let reason = "preview is for the predictive strategy alone; add strategy=\"predictive\"";
-            return Err(PyValueError::new_err(reason));
-        }
+        check_preview(&setup, preview).map_err(PyValueError::new_err)?;
         let recording = Arc::clone(&recording.inner);
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
@@ -189,6 +186,18 @@ pub fn host(preview: f64) -> PyResult<Host> {
         )));
     }
     Ok(Host { preview, ..Host::default() })
+}
+
+/// Whether these parameters use a preview, where there is one.
+///
+/// # Errors
+/// Why not, and the argument that helps.
+pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), &'static str> {
+    match setup.parameters.structure.strategy {
+        StrategyKind::Predictive => Ok(()),
+        _ if preview > 0.0 => Err("preview is for the predictive strategy alone; add strategy=\"predictive\""),
+        _ => Ok(()),
+    }
 }
 
 fn measure(row: Row) -> Measure {

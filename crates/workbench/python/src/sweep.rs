@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use crate::recording::PyRecording;
 use crate::setup;
-use crate::simulation::host;
+use crate::simulation::{check_preview, host};
 
 /// All measures of a sweep, on every axis: subject, name and unit.
 static MEASURES: LazyLock<Vec<(String, &'static str, &'static str)>> =
@@ -50,7 +50,10 @@ pub fn sweep_chunk<'py>(
     let mut setups = Vec::with_capacity(sets.len());
     for set in &sets {
         match setup::load(py, rig, Some(set), strategy) {
-            Ok(setup) => (setups.push(Some(setup)), errors.push(None)),
+            Ok(setup) => match check_preview(&setup, preview) {
+                Ok(()) => (setups.push(Some(setup)), errors.push(None)),
+                Err(reason) => (setups.push(None), errors.push(Some(reason.to_owned()))),
+            },
             Err(error) if error.is_instance(py, &refused) => {
                 (setups.push(None), errors.push(Some(error.value(py).to_string())))
             }

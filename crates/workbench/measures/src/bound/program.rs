@@ -23,11 +23,11 @@
 //!
 //! The relaxed program limits p1 - p0 and q1 - q0 to T times the limits of |p'| and |q'|.
 //!
-//! In the restricted program, accelerations are constant over an interval. Their slopes and the
-//! skew are then zero, and sag = -T²/12 q''. Positions and tilts are parabolas within an interval. A
-//! parabola lies between the least and the greatest of its two ends and the point where the
-//! tangents at its ends meet, p0 + v0 T/2. So the restricted program keeps this point within the
-//! limits.
+//! In the restricted program, accelerations are constant over an interval. Their slopes and
+//! the skew are then zero, and sag = -T²/12 q''. Positions and tilts are parabolas within an
+//! interval. A parabola lies between the least and the greatest of its two ends and the point
+//! where the tangents at its ends meet, p0 + v0 T/2. So the restricted program keeps this
+//! point within the limits.
 
 use super::projection::Projection;
 use super::{AxisLimits, TiltLimits};
@@ -107,7 +107,8 @@ impl Integrator {
         Integrator { min, max, rate: velocity, acceleration }
     }
 
-    /// The tilt q = g s with s = sin(tilt): |s'| <= |tilt'| and |s''| <= |tilt''| + sin(angle) tilt'^2.
+    /// The tilt q = g s with s = sin(tilt): |s'| <= |tilt'| and |s''| <=
+    /// |tilt''| + sin(angle) tilt'^2.
     fn tilt(limits: &TiltLimits) -> Self {
         let TiltLimits { angle, rate, acceleration, gravity, .. } = *limits;
         Integrator {
@@ -135,8 +136,8 @@ pub fn restricted(desired: &[Projection], interval: f64, limits: &AxisLimits) ->
     program
 }
 
-/// Surge or sway with its tilt in any motion. The inputs are the mean and the slope of p'', those of
-/// q'', sag and skew.
+/// Surge or sway with its tilt in any motion. The inputs are the mean and the slope of p'', those
+/// of q'', sag and skew.
 pub fn relaxed_with_tilt(
     desired: &[Projection],
     interval: f64,

@@ -1,4 +1,4 @@
-"""Recordings: DataFrames, dicts of arrays, and files."""
+"""Recordings: tables, dicts of arrays, and files."""
 
 import re
 from pathlib import Path
@@ -37,8 +37,9 @@ FLAGS = ("repair",)
 class Recording:
     """A recorded ride, in the washout's frames and units and at equal steps.
 
-    source: a pandas.DataFrame, a dict of arrays of shape (N,), or the path of a file: CSV (also .csv.gz), Parquet, Excel,
-        MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time,
+    source: a table (pandas.DataFrame, one of polars, a pyarrow.Table or another with __arrow_c_stream__ or __dataframe__, a
+        structured array such as FMPy's result), a dict of arrays of shape (N,), or the path of a file: CSV (also .csv.gz),
+        Parquet, Excel, MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time,
         ax, ay, az (specific force) and wx, wy, wz (angular velocity) at the rider's head, and, where there are any, roll,
         pitch, yaw, speed and lean. Units in the brackets of a name are read: "ax [g]". A DataFrame whose index is called
         time needs no such column.
@@ -117,7 +118,7 @@ def recording_of(source, options):
 
 def recordings_of(sources, options):
     """A list of recordings, of one source or of several; those that are not read yet are read with these options."""
-    if isinstance(sources, (Recording, str, Path, dict)) or hasattr(sources, "columns"):
+    if isinstance(sources, (Recording, str, Path, dict)) or _is_table(sources):
         sources = [sources]
     return [source if isinstance(source, Recording) else Recording(source, **options) for source in sources]
 
@@ -133,11 +134,33 @@ def _read(source, name, options):
         if not path.exists():
             raise RecordingError(f"cannot read {path}: there is no such file")
         return _of_columns(name or path.stem, reader(path), options)
-    if hasattr(source, "columns") and hasattr(source, "index"):
-        source = _columns_of_frame(source)
+    if _is_table(source):
+        source = _columns_of_table(source)
     if not hasattr(source, "items"):
-        raise TypeError(f"a recording is a DataFrame, a dict of arrays or a path, not {type(source).__name__}")
+        raise TypeError(f"a recording is a table, a dict of arrays or a path, not {type(source).__name__}")
     return _of_columns(name or "recording", source, options)
+
+
+def _is_table(source):
+    if isinstance(source, np.ndarray):
+        return source.dtype.names is not None
+    return _is_pandas(source) or hasattr(source, "__arrow_c_stream__") or hasattr(source, "__dataframe__")
+
+
+def _is_pandas(source):
+    return hasattr(source, "columns") and hasattr(source, "index") and hasattr(source, "iloc")
+
+
+def _columns_of_table(table):
+    if isinstance(table, np.ndarray):
+        return {name: table[name] for name in table.dtype.names}
+    if _is_pandas(table):
+        return _columns_of_frame(table)
+    kind = f"a {type(table).__name__}"
+    if hasattr(table, "__arrow_c_stream__"):
+        arrow = need("pyarrow", kind).table(table)
+        return {name: arrow[name].to_numpy() for name in arrow.column_names}
+    return _columns_of_frame(need("pandas", kind).api.interchange.from_dataframe(table))
 
 
 def _of_columns(name, columns, options):

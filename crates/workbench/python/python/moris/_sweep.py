@@ -115,7 +115,8 @@ def sweep(
         Washout; it is read as far as needed, so that a generator of 1e5 sets takes no memory.
     reduce: reduce(accumulated, result) -> accumulated, called with each Result in the order of the sets, first with
         `initial`; None collects the Results in a list. moris.best(10, cost) keeps the best.
-    rig, base, strategy: what every set is laid over. preview: as for simulate [s].
+    rig, base, strategy: what every set is laid over. preview: as for simulate [s]; a set without the predictive strategy then
+        has an error.
     client: a dask.distributed.Client, whose workers then simulate; without it, the cores of this machine do. The results
         are the same to the bit.
     chunk: sets in a task; by default chosen by the recordings' length.
