@@ -67,7 +67,7 @@ pub const CHORD: f64 = 0.985;
 /// A small weight of tilt acceleration keeps the program strictly convex.
 const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
 /// Weight of the dropped force's slope, relative to that of the dropped force \[s2\].
-const SLOPE_WEIGHT: f64 = 3e-2;
+const SLOPE_WEIGHT: f64 = 6e-2;
 /// Time in which the tilt's acceleration goes from one block's value to the next \[s\].
 pub const RAMP: f64 = 0.04;
 /// Weight of the slope of the tilt's acceleration, relative to that of the dropped force, with the

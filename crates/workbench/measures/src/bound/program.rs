@@ -1,10 +1,11 @@
 //! The quadratic program: the least sum of squared errors over intervals of time, with a state at
 //! each interval's ends and inputs within it, all of them within limits.
 //!
-//! The state is the position p, the velocity v, the tilt q and its rate q'. The tilt is expressed
-//! as the force that it adds, q = g sin(tilt). Over an interval of length T, the inputs are the
-//! means and slopes of p'' and q'' ([`Projection`]). Two more are what the tilt's mean and slope have
-//! beyond those of a straight line between its ends, `sag` and `skew`. By parts, for any motion:
+//! The state is the position p, the velocity v, the tilt q and its rate q'. The tilt is
+//! expressed as the force that it adds, q = g sin(tilt). Over an interval of length T, the
+//! inputs are the means and slopes of p'' and q'' ([`Projection`]). Two more are what the tilt's
+//! mean and slope have beyond those of a straight line between its ends, `sag` and `skew`. By
+//! parts, for any motion:
 //!
 //! - v1 = v0 + T mean(p'');
 //! - p1 = p0 + T v0 + T²/2 mean(p'') - T²/sqrt(12) slope(p'').
