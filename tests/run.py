@@ -50,11 +50,12 @@ def pytest(options, *arguments):
     chosen = ["-k", options.k] if options.k else []
     allowed = (0, NO_TESTS) if options.k else (0,)
     command = [python(), "-m", "pytest", "--quiet", "--numprocesses", "2", *chosen, *arguments]
-    # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile.
+    # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile. Without a
+    # package, cargo takes the features of all, so that each library is compiled once.
     compiled = {
         "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
-        "CARGO_ALIAS_MORIS": "run --package moris --",
-        "CARGO_ALIAS_HUNTER": "run --package moris-hunter --",
+        "CARGO_ALIAS_MORIS": "run --bin moris --",
+        "CARGO_ALIAS_HUNTER": "run --bin moris-hunter --",
     }
     run(*command, allowed=allowed, **compiled)
 
@@ -102,7 +103,7 @@ def docs(options):
 @cache
 def install_package(optimised):
     """Optimised as users get it, or compiled as the tests are."""
-    profile = {} if optimised else {"MATURIN_PEP517_ARGS": "--profile dev"}
+    profile = {} if optimised else {"MATURIN_PEP517_ARGS": "--profile dev --features as-tested"}
     run(python(), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", ".", **profile)
 
 
@@ -131,7 +132,7 @@ def pages(options):
     examples()
     if options.install:
         run("rustup", "target", "add", "wasm32-unknown-unknown")
-    run("cargo", "build", "--package", "moris")
+    run("cargo", "build", "--bin", "moris")
     os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
     run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
 

@@ -1,0 +1,1 @@
+//! No code: only dependencies, for their features.
