@@ -188,7 +188,7 @@ pub fn host(preview: f64) -> PyResult<Host> {
     Ok(Host { preview, ..Host::default() })
 }
 
-/// Whether these parameters use a preview, where there is one.
+/// Checks that these parameters use a preview, where there is one.
 ///
 /// # Errors
 /// Why not, and the argument that helps.

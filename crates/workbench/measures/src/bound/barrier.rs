@@ -50,7 +50,7 @@ impl<const M: usize> Multipliers<M> {
         Multipliers { lower: range.min.map(|min| product / -min), upper: range.max.map(|max| product / max) }
     }
 
-    /// Upper less lower ones: what the limits add to the gradient.
+    /// Upper less lower ones.
     pub fn net(&self) -> [f64; M] {
         std::array::from_fn(|k| self.upper[k] - self.lower[k])
     }
@@ -79,12 +79,12 @@ impl<const M: usize> Bounded<'_, M> {
         self.sum(|k, limit| limit.uncentred_product(change[k]))
     }
 
-    /// What the limits add to the diagonal of the Hessian.
+    /// Terms that the limits add to the diagonal of the Hessian.
     pub fn weights(&self) -> [f64; M] {
         std::array::from_fn(|k| self.limits(k).iter().map(|limit| limit.multiplier / limit.slack).sum())
     }
 
-    /// What the limits add to the gradient.
+    /// Terms that the limits add to the gradient.
     pub fn gradient(&self, uncentred: &[f64; M], target: f64) -> [f64; M] {
         let of = |k: usize, limit: &Limit| -limit.sign * limit.target(uncentred[k], target) / limit.slack;
         std::array::from_fn(|k| self.limits(k).iter().map(|limit| of(k, limit)).sum())

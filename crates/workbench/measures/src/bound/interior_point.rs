@@ -44,7 +44,7 @@ const RELATIVE_GAP: f64 = 1e-6;
 const GAP: f64 = 1e-10;
 /// Distances this many times as large are accepted where rounding prevents smaller ones.
 const ACCEPTED: f64 = 1000.0;
-/// Iterations after which there is no hope. Rides take 10 to 50.
+/// Iterations after which the solver gives up. Rides take 10 to 50.
 const MOST_ITERATIONS: usize = 200;
 /// Part of the way to the nearest limit that a step goes.
 const TO_THE_LIMIT: f64 = 0.98;
@@ -52,7 +52,7 @@ const TO_THE_LIMIT: f64 = 0.98;
 /// solution is the same, because a step's gradient is exact.
 const REGULARISATION: f64 = 1e-11;
 
-/// What the recursion keeps of an interval: with the state's change x, the best input's change
+/// The recursion's result for an interval: with the state's change x, the best input's change
 /// solves L' u = -(gain x + offset).
 #[derive(Clone, Copy)]
 struct Feedback<const N: usize, const U: usize> {
