@@ -1,53 +1,23 @@
-"""What a report's page shows, held against the data it was made of. Run by run.py:
-
-    checks.py CHROMIUM PAGES PICTURES MORIS...
-"""
+"""What a report's page shows, held against the data it was made of. Run by run.py."""
 
 import json
 import math
 import subprocess
-import sys
 from contextlib import contextmanager
-from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from runner import MORIS, PAGES, PHONE, PICTURES, check, run_all, watched
 
-CHROMIUM, PAGES, PICTURES = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
-MORIS = sys.argv[4:]
-LAPTOP = {"width": 1366, "height": 768}
 # Half of what an eye can tell on the screen, and what 32-bit numbers leave of lengths [m].
 PIXEL, ROUNDING = 0.5, 1e-6
-checks = []
 
 
-def check(function):
-    checks.append(function)
-    return function
-
-
-@contextmanager
-def opened(browser, name, *, quiet=True, text=None, **options):
-    """A page from its file, drawn; fails if it says anything on the console or asks for anything but itself."""
-    context = browser.new_context(viewport=options.pop("viewport", LAPTOP), **options)
-    page = context.new_page()
-    said, asked = [], []
-    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
-    page.on("pageerror", lambda error: said.append(f"error: {error}"))
-    page.on("dialog", lambda dialog: (said.append(f"dialog: {dialog.message}"), dialog.dismiss()))
-    page.on("request", lambda request: asked.append(request.url))
+def opened(browser, name, *, text=None, **options):
+    """The page of this name, or another text in its place."""
     file = PAGES / f"{name}.html"
     if text is not None:
         file = PAGES / f"{name}-changed.html"
         file.write_text(text)
-    page.goto(file.as_uri())
-    if options.get("java_script_enabled", True):
-        page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
-    yield page
-    context.close()
-    if quiet:
-        assert not said, f"{name} says {said}"
-    beyond = [url for url in asked if url != file.as_uri() and not url.startswith(("data:", "blob:"))]
-    assert not beyond, f"{name} asks for {beyond}"
+    return watched(browser, file, **options)
 
 
 def plain(name):
@@ -313,7 +283,7 @@ def chosen_channels_share_a_chart(browser):
 @check
 def the_machine_is_in_sight_where_it_plays(browser):
     """On a phone, too, wherever the page is scrolled to."""
-    with opened(browser, "two-runs", viewport={"width": 390, "height": 844}) as page:
+    with opened(browser, "two-runs", viewport=PHONE) as page:
         box, play = (page.locator(name).bounding_box() for name in ("#view", "#play"))
         assert 0 <= box["y"] and box["y"] + box["height"] <= play["y"], (box, play)
         page.get_by_role("button", name="Play").click()
@@ -629,7 +599,7 @@ def parameters_that_cannot_be_used_are_said_to_be(browser):
 def the_panel_fits_a_phone(browser):
     """Every control has a label, and the page is not wider than the phone."""
     for scheme in ("light", "dark"):
-        with tuned(browser, viewport={"width": 390, "height": 844}, color_scheme=scheme, reduced_motion="reduce") as page:
+        with tuned(browser, viewport=PHONE, color_scheme=scheme, reduced_motion="reduce") as page:
             move(page, "scale.specificForce.y", 100)
             assert page.evaluate("document.documentElement.scrollWidth") <= 390
             box = page.locator("#tuning").bounding_box()
@@ -651,23 +621,5 @@ def without_webassembly_the_page_still_shows(browser):
         assert page.locator(".chart").count() > 5 and not page.locator("#alarm").is_visible()
 
 
-def main():
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    failed = 0
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        for function in checks:
-            name = function.__name__.replace("_", " ")
-            try:
-                function(browser)
-                print(f"{name:45}ok", flush=True)
-            except Exception as failure:  # Whatever went wrong, the other checks still say what they find.
-                failed += 1
-                print(f"{name:45}FAILED: {failure}", flush=True)
-        print(f"{len(checks) - failed} of {len(checks)} checks ok in Chromium {browser.version}; pictures in {PICTURES}")
-        browser.close()
-    sys.exit(1 if failed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    run_all("the report")

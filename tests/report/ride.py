@@ -1,22 +1,13 @@
-"""What the page of `moris ride` does. Run by run.py:
-
-    ride.py CHROMIUM PAGES PICTURES MORIS...
-"""
+"""What the page of `moris ride` does. Run by run.py."""
 
 import json
 import subprocess
-import sys
 import time
 from contextlib import contextmanager
-from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, run_all, watched
 
-CHROMIUM, PAGES, PICTURES = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
-MORIS = sys.argv[4:]
 PAGE = PAGES / "by-hand.html"
-DESKTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
-checks = []
 
 # A player who keeps nine tenths of the advised speed until a condition holds, in steps of 20 ms; pictures are drawn at its
 # end, and now and then. The page's own clock is held.
@@ -40,28 +31,12 @@ window.ride = (isDone, stick, most) => {
 """
 
 
-def check(function):
-    checks.append(function)
-    return function
-
-
 @contextmanager
 def opened(browser, **options):
-    """The page, running; fails if it says anything on the console or asks for anything but itself."""
-    context = browser.new_context(**{"viewport": DESKTOP, "accept_downloads": True} | options)
-    page = context.new_page()
-    said, asked = [], []
-    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
-    page.on("pageerror", lambda error: said.append(f"error: {error}"))
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto(PAGE.as_uri())
-    page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
-    page.evaluate(f"{PLAYER}; null")
-    yield page
-    context.close()
-    assert not said, said
-    beyond = [url for url in asked if url != PAGE.as_uri() and not url.startswith(("data:", "blob:"))]
-    assert not beyond, beyond
+    """The page, running, with the player."""
+    with watched(browser, PAGE, **options) as page:
+        page.evaluate(f"{PLAYER}; null")
+        yield page
 
 
 def view(page, name):
@@ -153,7 +128,6 @@ def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
         download.value.save_as(file)
     out = subprocess.run([*MORIS, "simulate", file, "--no-bound", "--json", "--fade-in", "0", "--report", PAGES], capture_output=True, text=True)
     assert out.returncode in (0, 3), out.stderr
-    [measured] = json.loads(out.stdout)
     [result] = json.loads(out.stdout)
     rows = {(row["subject"], row["name"]): row["value"] for row in result["results"][0]["measures"]}
     expected = [rows[f"specific force {axis}", name] for axis in "xy" for name in ("RMS error", "shake", "jolt", "peak")]
@@ -205,7 +179,7 @@ def strategy_and_sliders_change_in_flight(browser):
 def everything_has_a_name_and_fits_a_phone(browser):
     """Controls and pictures have labels; nothing is wider than the screen; reduced motion begins with the map."""
     for scheme in ("light", "dark"):
-        for name, viewport in (("desktop", DESKTOP), ("phone", PHONE)):
+        for name, viewport in (("desktop", LAPTOP), ("phone", PHONE)):
             with opened(browser, viewport=viewport, color_scheme=scheme) as page:
                 ride(page, "view.distance > 290")
                 page.screenshot(path=PICTURES / f"ride-{name}-{scheme}.png", full_page=True)
@@ -218,24 +192,6 @@ def everything_has_a_name_and_fits_a_phone(browser):
         assert page.locator("#map").is_checked()
 
 
-def main():
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    subprocess.run([*MORIS, "ride", "--output", PAGE], check=True)
-    failed = 0
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        for function in checks:
-            name = function.__name__.replace("_", " ")
-            try:
-                function(browser)
-                print(f"{name:65}ok", flush=True)
-            except Exception as failure:  # Whatever went wrong, the other checks still say what they find.
-                failed += 1
-                print(f"{name:65}FAILED: {failure}", flush=True)
-        print(f"{len(checks) - failed} of {len(checks)} checks of the ride ok in Chromium {browser.version}")
-        browser.close()
-    sys.exit(1 if failed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    subprocess.run([*MORIS, "ride", "--output", PAGE], check=True)
+    run_all("the ride")
