@@ -370,7 +370,7 @@ def another_run_can_be_chosen(browser):
         set_slider(page, 38.0)
         page.get_by_role("button", name="soft").click()
         assert_legs_are_drawn(page, data, data["runs"][1], 3800, "soft")
-        assert page.locator("#runs button[aria-pressed=true]").all_text_contents() == ["soft"]
+        assert shown_run(page) == "soft"
         page.get_by_role("button", name="small-motions").click()
         assert page.locator(".events tr", has_text="safety unit").count() > 0
         page.screenshot(path=PICTURES / "small-motions.png")
@@ -480,20 +480,20 @@ def move(page, name, place):
     settled(page)
 
 
-def saved(page):
+def saved(page, name="ride.toml"):
     """The parameter file that the page saves."""
     with page.expect_download() as download:
         page.get_by_role("button", name="Save parameters").click()
     file = PAGES / "saved.toml"
     download.value.save_as(file)
-    assert download.value.suggested_filename == "ride.toml"
+    assert download.value.suggested_filename == name, download.value.suggested_filename
     return file
 
 
 def assert_same(page, command, what):
-    """Measures to the last digits but one of a double, cells to their digits, findings to the letter."""
-    runs = page.evaluate("simulationReport.runs().map(({ measures, findings }) => ({ measures, findings: findings.map(({ text }) => text) }))")
-    shown = {(measure["group"].lower(), measure["name"]): measure["value"] for measure in runs[-1]["measures"]}
+    """Of the shown run: measures to the last digits but one of a double, cells to their digits, findings to the letter."""
+    run = page.evaluate("(({ measures, findings }) => ({ measures, findings: findings.map(({ text }) => text) }))(simulationReport.now.run)")
+    shown = {(measure["group"].lower(), measure["name"]): measure["value"] for measure in run["measures"]}
     assert len(command["measures"]) > 40
     for measure in command["measures"]:
         found, expected = shown[measure["subject"].lower(), measure["name"]], measure["value"]
@@ -503,7 +503,7 @@ def assert_same(page, command, what):
             near(found, expected, 1e-9 * max(1.0, abs(expected)), f"{what}, {measure['subject']}, {measure['name']}")
         cells = page.evaluate("([a, b]) => [a, b].map((value) => simulationReport.cellText(value))", [found, expected])
         assert cells[0] == cells[1], (what, measure, cells)
-    assert runs[-1]["findings"] == command["findings"], (what, runs[-1]["findings"], command["findings"])
+    assert run["findings"] == command["findings"], (what, run["findings"], command["findings"])
 
 
 @check
@@ -558,15 +558,16 @@ def changes_are_undone_and_compared(browser):
         page.keyboard.press("ArrowLeft")
         settled(page)
         assert float(field.input_value()) < float(changed), "the slider lost the focus"
-        page.keyboard.press("Control+z")
-        settled(page)
-        assert field.input_value() == changed
-        assert page.locator("#runs button[aria-pressed=true]").inner_text() == "by hand"
-        compare = page.get_by_role("button", name="Show the original")
-        compare.click()
-        assert page.locator("#runs button[aria-pressed=true]").inner_text() == "default"
-        compare.click()
-        assert page.locator("#runs button[aria-pressed=true]").inner_text() == "by hand"
+        twice = field.input_value()
+        for key, expected in (("Control+z", changed), ("Control+Shift+z", twice), ("Control+z", changed)):
+            page.keyboard.press(key)
+            settled(page)
+            assert field.input_value() == expected, (key, field.input_value())
+        assert shown_run(page) == "by hand"
+        compare = page.get_by_role("button", name="Compare")
+        for expected in ("default", "by hand"):
+            compare.click()
+            assert shown_run(page) == expected
         slider.focus()
         page.keyboard.press("Control+z")
         settled(page)
@@ -578,6 +579,52 @@ def changes_are_undone_and_compared(browser):
         page.get_by_label("Find another parameter").fill("damping splitter.x")
         assert page.get_by_role("slider", name="splitter.x.zeta1", exact=True).is_visible()
         page.screenshot(path=PICTURES / "panel.png")
+
+
+def shown_run(page):
+    return page.locator("#runs button[aria-pressed=true]").inner_text()
+
+
+@check
+def variants_are_kept_by_name(browser):
+    """Kept, chosen, compared, renamed and deleted; the panel and the saved file are the shown one's."""
+    with tuned(browser) as page:
+        field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+        name, runs = page.get_by_label("Name", exact=True), page.locator("#runs button")
+        values = {}
+        for kept, place in (("strong one", 300), ("weak", 100)):
+            move(page, "scale.specificForce.x", place)
+            values[kept] = field.input_value()
+            name.fill(kept)
+            name.press("Enter")
+        assert runs.all_inner_texts() == ["default", "by hand", "strong one", "weak"]
+        assert values["strong one"] != values["weak"] and shown_run(page) == "weak"
+        name.fill("weak")
+        page.get_by_role("button", name="Keep").click()
+        assert "already" in page.locator("#tuning [role=status]").inner_text() and runs.count() == 4
+        runs.filter(has_text="strong one").click()
+        assert field.input_value() == values["strong one"]
+        assert_same(page, of_command("--parameters", saved(page, "ride-strong-one.toml")), "a kept variant")
+        assert page.evaluate("simulationReport.tuning.command()").endswith(" ride-strong-one.toml")
+        page.get_by_label("Compare with").select_option("weak")
+        for expected in ("weak", "strong one"):
+            page.get_by_role("button", name="Compare").click()
+            assert shown_run(page) == expected and field.input_value() == values[expected]
+        # A change goes to the run by hand; what is kept stays.
+        move(page, "scale.specificForce.x", 200)
+        assert shown_run(page) == "by hand"
+        runs.filter(has_text="strong one").click()
+        assert field.input_value() == values["strong one"]
+        name.fill("first")
+        page.get_by_role("button", name="Rename").click()
+        assert runs.all_inner_texts() == ["default", "by hand", "first", "weak"] and shown_run(page) == "first"
+        page.locator("#charts .chart").first.scroll_into_view_if_needed()
+        page.screenshot(path=PICTURES / "variants.png")
+        page.get_by_role("button", name="Delete").click()
+        assert runs.all_inner_texts() == ["default", "by hand", "weak"] and shown_run(page) == "by hand"
+        heads = page.locator("#measures .channel").first.locator("thead th").all_inner_texts()
+        assert heads == ["default", "by hand", "weak"], heads
+        assert page.get_by_role("button", name="Delete").is_disabled() and page.get_by_role("button", name="Rename").is_disabled()
 
 
 @check

@@ -69,7 +69,7 @@ function play(on) {
 function select(index) {
   now.run = report.runs[index];
   showRunChoice();
-  if (tuning) tuning.showChoice(now.run);
+  if (tuning) tuning.see(now.run);
   timeLine.select(now.run);
   showKey();
   showFindings();
@@ -81,11 +81,13 @@ function select(index) {
 /** A button for each run, where there are several. */
 function showRunChoice() {
   const box = byId("runs");
-  while (report.runs.length > 1 && box.children.length < report.runs.length) {
-    const run = report.runs[box.children.length];
-    const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
-    button.addEventListener("click", () => select(run.index));
-    box.append(button);
+  const names = report.runs.map(({ name }) => name);
+  if (names.length > 1 && names.join("\n") !== [...box.children].map(({ textContent }) => textContent).join("\n")) {
+    box.replaceChildren(...report.runs.map((run, i) => {
+      const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
+      button.addEventListener("click", () => select(i));
+      return button;
+    }));
   }
   [...box.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === now.run.index)));
 }
@@ -168,20 +170,19 @@ function setUpPlayer() {
   });
 }
 
-/** The panel of parameters, if this page can simulate. Its run stands behind those of the page. */
+/** Shows one of the runs that there are now. */
+function showRun(run) {
+  showMeasures(byId("measures"), report.runs);
+  select(run.index);
+}
+
+/** The panel of parameters, if this page can simulate. */
 async function setUpTuning() {
   if (!report.simulator) return;
-  const index = report.runs.length;
   const simulator = new Simulator(report.simulator, page.worker);
   await simulator.prepare();
-  tuning = new Tuning(byId("tuning"), simulator, {
-    show: (run) => {
-      report.runs[index] = { ...run, index, ...runStyle(index) };
-      showMeasures(byId("measures"), report.runs);
-      select(index);
-    },
-    choose: (original) => select(original ? 0 : index),
-  });
+  tuning = new Tuning(byId("tuning"), simulator, showRun);
+  tuning.see(now.run);
 }
 
 function redraw() {

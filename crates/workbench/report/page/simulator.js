@@ -47,7 +47,7 @@ class Simulator {
   }
 
   /** A run with these parameters as the page's others are; or `reason`, why there is none. */
-  async run(values, name) {
+  async run(values) {
     const answer = await this.ask({ values: Float64Array.from(values) });
     if (answer.reason) return answer;
     const { samples } = this;
@@ -60,7 +60,7 @@ class Simulator {
     const cues = () => ({ specific_force: series(3), angular_velocity: series(3) });
     const flags = () => Uint8Array.from(next());
     const run = {
-      name, ...answer, times: this.times,
+      ...answer, times: this.times,
       desired: cues(), felt: cues(), position: series(3), orientation: series(3), legs: series(6), tilt: series(2),
       tilt_rate: series(2), lean: answer.leans ? next() : null,
       limited: { tilt: flags(), safety: flags(), actuator: flags() },

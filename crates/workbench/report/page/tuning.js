@@ -1,6 +1,5 @@
 // The panel with the parameters: each change simulates the recording again and redraws the page.
 
-const BY_HAND = "by hand";
 /** Most parameters that a search shows. */
 const MOST_FOUND = 12;
 
@@ -23,14 +22,16 @@ function parameterFile({ parameters, heading }, values) {
 }
 
 class Tuning {
-  /** `show(run)` shows a simulated run; `choose(original)` chooses between it and the original. */
-  constructor(box, simulator, { show: showRun, choose }) {
-    Object.assign(this, { box, simulator, showRun, choose });
+  /** `show(run)` shows a run, and every curve and measure anew. */
+  constructor(box, simulator, show) {
+    Object.assign(this, { box, simulator, show });
     this.parameters = simulator.data.parameters;
     this.slots = new Map(this.parameters.map(({ name }, slot) => [name, slot]));
     this.values = this.parameters.map(({ start }) => start);
+    report.runs[0].values = [...this.values];
     this.settled = [...this.values];
     this.history = [];
+    this.future = [];
     this.controls = new Map();
     this.isBusy = false;
     this.build();
@@ -42,36 +43,32 @@ class Tuning {
   }
 
   build() {
-    const button = (text, title, act) => {
-      const made = element("button", { type: "button", title }, [text]);
-      made.addEventListener("click", act);
-      return made;
-    };
-    this.undoButton = button("Undo", "Take the last change back (control and Z)", () => this.undo());
-    this.resetButton = button("Start values", "Set every parameter to its start", () => this.change(this.parameters.map(({ start }) => start)));
-    this.compareButton = button("Show the original", "Show the original or the changed one", () => this.compare());
-    this.saveButton = button("Save parameters", `Save as ${this.simulator.data.file}`, () => this.save());
-    this.copyButton = button("Copy command", this.command(), () => this.copy());
+    this.variants = new Variants(this.show, (text) => this.say(text));
+    this.undoButton = panelButton("Undo", "Take the last change back (control and Z)", () => this.undo());
+    this.redoButton = panelButton("Redo", "Make the change again (control, shift and Z)", () => this.redo());
+    this.resetButton = panelButton("Start values", "Set every parameter to its start", () => this.change(this.parameters.map(({ start }) => start)));
+    this.saveButton = panelButton("Save parameters", "Save the shown run's parameters as a file", () => this.save());
+    this.copyButton = panelButton("Copy command", "Copy the command that simulates with the saved file", () => this.copy());
     this.message = element("p", { class: "summary", role: "status" });
     this.groups = element("div");
     this.search = element("input", { type: "search", id: "search", placeholder: "name or description" });
     this.found = element("div");
     this.search.addEventListener("input", () => this.showFound());
-    const tools = element("div", { class: "tools" }, [this.undoButton, this.resetButton, this.compareButton, this.saveButton, this.copyButton]);
+    const tools = element("div", { class: "tools" }, [this.undoButton, this.redoButton, this.resetButton, this.saveButton, this.copyButton]);
     const search = element("p", { class: "search" }, [element("label", { for: "search" }, ["Find another parameter"]), " ", this.search]);
-    this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.message, search, this.found, this.groups]));
+    this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.variants.element, this.message, search, this.found, this.groups]));
     this.box.addEventListener("keydown", (event) => {
-      if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && event.target !== this.search) {
-        event.preventDefault();
-        this.undo();
-      }
+      const isText = event.target === this.search || event.target === this.variants.name;
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || isText) return;
+      event.preventDefault();
+      if (event.shiftKey) this.redo();
+      else this.undo();
     });
     this.box.addEventListener("toggle", () => {
       document.body.classList.toggle("tuning", this.box.open);
       // On a narrow screen the panel stands over the page, which then shows its curves.
       if (this.box.open && getComputedStyle(this.box).position === "fixed") document.querySelector("#charts .chart")?.scrollIntoView();
     });
-    this.showChoice(null);
     this.say(`Every change simulates ${this.subject} again, in this page.`);
     this.showControls();
     this.box.hidden = false;
@@ -141,6 +138,7 @@ class Tuning {
     for (const [slot, control] of this.controls) control.show(this.values[slot]);
     const isStart = this.values.every((value, slot) => value === this.parameters[slot].start);
     this.undoButton.disabled = this.history.length === 0;
+    this.redoButton.disabled = this.future.length === 0;
     this.resetButton.disabled = isStart;
   }
 
@@ -159,6 +157,7 @@ class Tuning {
   settle() {
     if (this.values.every((value, slot) => value === this.settled[slot])) return;
     this.history.push(this.settled);
+    this.future = [];
     this.settled = [...this.values];
     this.showControls();
   }
@@ -170,8 +169,18 @@ class Tuning {
   }
 
   undo() {
-    if (this.history.length === 0) return;
-    this.values = this.history.pop();
+    this.go(this.history, this.future);
+  }
+
+  redo() {
+    this.go(this.future, this.history);
+  }
+
+  /** Goes to the last of some settled values, and puts the present ones to others. */
+  go(from, to) {
+    if (from.length === 0) return;
+    to.push(this.settled);
+    this.values = from.pop();
     this.settled = [...this.values];
     this.showControls();
     this.simulate();
@@ -185,37 +194,49 @@ class Tuning {
     while (this.isStale) {
       this.isStale = false;
       const begin = performance.now();
-      const run = await this.simulator.run(this.values, BY_HAND);
+      const values = [...this.values];
+      const run = await this.simulator.run(values);
       if (run.reason) {
         this.say(`These parameters cannot be used: ${run.reason}`);
       } else {
-        this.isChanged = true;
-        this.showRun(run);
+        this.show(this.variants.putByHand({ ...run, values }));
         this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
       }
     }
     this.isBusy = false;
   }
 
-  compare() {
-    this.choose(this.compareButton.getAttribute("aria-pressed") !== "true");
+  /** Takes note of the shown run, and takes its parameters where they are known; not while a slider moves. */
+  see(run) {
+    this.variants.see(run);
+    this.saveButton.disabled = !run.values;
+    this.copyButton.disabled = !run.values;
+    if (this.isBusy || !run.values) return;
+    this.values = [...run.values];
+    this.showControls();
   }
 
-  /** Says whether the run that is shown is another than the changed one. */
-  showChoice(run) {
-    this.compareButton.disabled = !this.isChanged;
-    this.compareButton.setAttribute("aria-pressed", String(Boolean(this.isChanged) && run !== report.runs.at(-1)));
+  /** Name of the shown run's file. */
+  get fileName() {
+    const { file } = this.simulator.data;
+    const { isKept, name } = this.variants.shown;
+    return isKept ? file.replace(/\.toml$/, `-${name.replace(/[^\p{L}\p{N}_.-]+/gu, "-")}.toml`) : file;
   }
 
   command() {
-    const { command, file } = this.simulator.data;
+    const file = this.fileName;
     const plain = /^[\w./-]+$/.test(file) ? file : `'${file.replaceAll("'", "'\\''")}'`;
-    return `${command} ${plain}`;
+    return `${this.simulator.data.command} ${plain}`;
+  }
+
+  /** Text of the shown run's file. */
+  file() {
+    return parameterFile(this.simulator.data, this.variants.shown.values);
   }
 
   save() {
-    const link = element("a", { download: this.simulator.data.file });
-    link.href = URL.createObjectURL(new Blob([parameterFile(this.simulator.data, this.values)], { type: "application/toml" }));
+    const link = element("a", { download: this.fileName });
+    link.href = URL.createObjectURL(new Blob([this.file()], { type: "application/toml" }));
     link.click();
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   }
