@@ -523,6 +523,42 @@ def the_page_simulates_as_the_command(browser):
 
 
 @check
+def the_rig_is_judged_as_by_the_command(browser):
+    """Rig sliders: the verdict is that of `rig check` with the saved rig, the run that of `simulate` with it."""
+    with tuned(browser) as page:
+        verdict = page.locator("#verdict")
+        for name, place in (("actuator.maxLength", 150), ("actuator.velocityLimit", 100), ("safety.x.positionLimit", 60)):
+            move(page, name, place)
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Save rig").click()
+        rig = PAGES / "saved.rig.toml"
+        download.value.save_as(rig)
+        assert download.value.suggested_filename == "ride.rig.toml"
+        done = subprocess.run([*MORIS, "rig", "check", rig, "--samples", "1000", "--report", PAGES], capture_output=True, text=True)
+        assert done.returncode == 0 and "m³" in done.stdout, done.stderr
+        said = [" ".join(line.split()) for line in done.stdout.splitlines()]
+        rows = verdict.locator("tr").evaluate_all("rows => rows.map((row) => [...row.children].map((cell) => cell.textContent).join(' '))")
+        texts = verdict.locator("p").evaluate_all("texts => texts.map((one) => one.textContent)")
+        lines = rows + [" ".join(line.split()) for text in texts for line in text.splitlines()]
+        assert len(rows) == 7 and len(lines) >= 13, lines
+        missing = [line for line in lines if line not in said]
+        assert not missing, (missing, said)
+        assert page.get_by_text("The rig is sound.").is_visible()
+        assert_same(page, of_command("--no-bound", "--rig", rig, "--parameters", saved(page)), "another rig")
+        assert_same(page, of_command("--no-bound", "--rig", rig), "the rig's file alone")
+        longest = page.evaluate("simulationReport.now.run.rig.stroke[1]")
+        assert 1.3 < longest < 1.6 and f"{longest:.3f} m" in texts[0], (longest, texts)
+        page.locator("#tuning").get_by_text("free of singularities").scroll_into_view_if_needed()
+        page.screenshot(path=PICTURES / "rig.png")
+        # Legs that do not reach neutral.
+        field = page.get_by_label("rig.neutralHeight", exact=True).and_(page.get_by_role("spinbutton"))
+        field.fill("2")
+        field.press("Enter")
+        settled(page)
+        assert page.get_by_text("This rig cannot be used: ").is_visible() and verdict.inner_text() == ""
+
+
+@check
 def the_start_is_the_original(browser):
     """With the start values, every curve and measure is that of the page's own run."""
     with tuned(browser) as page:
@@ -601,7 +637,7 @@ def variants_are_kept_by_name(browser):
         assert values["strong one"] != values["weak"] and shown_run(page) == "weak"
         name.fill("weak")
         page.get_by_role("button", name="Keep").click()
-        assert "already" in page.locator("#tuning [role=status]").inner_text() and runs.count() == 4
+        assert "already" in page.locator("#tuning .panel > [role=status]").inner_text() and runs.count() == 4
         runs.filter(has_text="strong one").click()
         assert field.input_value() == values["strong one"]
         assert_same(page, of_command("--parameters", saved(page, "ride-strong-one.toml")), "a kept variant")
@@ -638,7 +674,7 @@ def parameters_that_cannot_be_used_are_said_to_be(browser):
         field.fill("9")
         field.press("Enter")
         settled(page)
-        assert "cannot be used: head.torsoLength" in page.locator("#tuning [role=status]").inner_text()
+        assert "cannot be used: head.torsoLength" in page.locator("#tuning .panel > [role=status]").inner_text()
         assert page.evaluate("simulationReport.runs()[1].measures") == before
 
 

@@ -10,7 +10,9 @@ use moris_interface::{Group, Reader, slot_count};
 use moris_measures::References;
 use moris_page_memory::{group, say, with_numbers};
 use moris_report::{Chart, Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
+use moris_simulation::capabilities::{AxisAlone, Capabilities};
 use moris_simulation::{Evaluated, Simulation, measures_with};
+use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
 use serde::Serialize;
 
@@ -38,9 +40,20 @@ struct Answer {
     findings: Vec<Finding>,
     measures: Vec<Measure>,
     limits: Limits,
+    rig: Rig,
     events: Vec<Event>,
     leans: bool,
     charts: Vec<ChartHead>,
+}
+
+/// What `moris rig check` says, but for the size of the workspace.
+#[derive(Serialize)]
+struct Verdict {
+    is_sound: bool,
+    heads: [&'static str; 5],
+    /// Cells for each axis.
+    rows: [Vec<String>; 6],
+    texts: [String; 4],
 }
 
 /// A chart of one line, whose values are among the curves.
@@ -83,6 +96,18 @@ pub extern "C" fn simulate() -> bool {
     say(run.map(|run| {
         CURVES.set(curves_of(&run));
         answer(&run, &parameters)
+    }))
+}
+
+/// The verdict on the rig of the parameters that the numbers hold; before them the diameter of its
+/// legs, which is not a number where it is not known. True if the text is the verdict; false if it
+/// is the reason why there is none.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn check_rig() -> bool {
+    say(with_numbers(|numbers| {
+        let given: Parameters = Parameters::read(&mut Reader::new(&numbers[1..]));
+        verdict(&given, Some(numbers[0]).filter(|diameter| diameter.is_finite()))
     }))
 }
 
@@ -134,11 +159,38 @@ impl Recorded {
     }
 }
 
+fn verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> {
+    given.check_ranges().map_err(|error| error.to_string())?;
+    // As the command has them: the rig's, all others the default's.
+    let defaults = Parameters::default();
+    let structure = StructureParameters {
+        head_height: given.structure.head_height,
+        torso_length: given.structure.torso_length,
+        ..defaults.structure
+    };
+    let alone = Parameters { rig: given.rig, safety: given.safety, structure, ..defaults };
+    let capabilities = Capabilities::of(&alone, diameter).map_err(|error| error.to_string())?;
+    let texts = [
+        capabilities.legs(),
+        capabilities.safety().join("\n"),
+        capabilities.clearance.to_string(),
+        capabilities.singularities.to_string(),
+    ];
+    let verdict = Verdict {
+        is_sound: capabilities.is_sound(),
+        heads: AxisAlone::HEADS,
+        rows: capabilities.axes.each_ref().map(AxisAlone::row),
+        texts: texts.map(|text| text.trim_end().to_owned()),
+    };
+    serde_json::to_string(&verdict).map_err(|error| error.to_string())
+}
+
 fn answer(run: &Run, parameters: &Parameters) -> String {
     let answer = Answer {
         findings: run.findings.clone(),
         measures: run.measures.clone(),
         limits: run.limits,
+        rig: Rig::from(parameters),
         events: events(run, &Rig::from(parameters)),
         leans: !run.lean.is_empty(),
         charts: run.charts.iter().map(head).collect(),

@@ -41,6 +41,7 @@ async function decodedRun(run, events, index) {
   const times = await decoded(run.times, Float64Array);
   return {
     ...run,
+    rig: page.report.rig,
     index,
     events,
     times,

@@ -9,7 +9,7 @@ const recording = {
 const now = { time: recording.from, run: report.runs[report.selected], shown: [recording.from, recording.to], playing: false, speed: 1 };
 
 const view = new View(byId("view"), report.rig, report.vehicle);
-const gauges = new Gauges(byId("gauges"), report.rig.stroke);
+const gauges = new Gauges(byId("gauges"));
 const chips = new Chips(byId("chips"));
 const shown = () => now.shown;
 const handlers = { seek, show, hover };
@@ -118,8 +118,9 @@ function drawCharts() {
 }
 
 function drawMachine() {
+  view.rig = now.run.rig;
   const state = view.draw(now.run, now.time);
-  gauges.update(state);
+  gauges.update(state, now.run.rig.stroke);
   chips.update(state);
 }
 

@@ -46,6 +46,11 @@ class Simulator {
     this.times = Float64Array.from({ length: this.samples }, (_, k) => k * data.step);
   }
 
+  /** The verdict on the rig of these parameters; or `reason`, why there is none. */
+  check(values) {
+    return this.ask({ rig: Float64Array.of(this.data.actuator_diameter ?? NaN, ...values) });
+  }
+
   /** A run with these parameters as the page's others are; or `reason`, why there is none. */
   async run(values) {
     const answer = await this.ask({ values: Float64Array.from(values) });

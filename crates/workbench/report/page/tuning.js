@@ -11,6 +11,9 @@ function written({ kind, items }, value) {
   return kind === "real" && /^-?\d+$/.test(text) ? `${text}.0` : text;
 }
 
+/** A text as a comment or a name may have it. */
+const asComment = (text) => text.replace(/[\u0000-\u001f\u007f]/g, " ");
+
 /** Text of the parameter file: what differs from the rig with default parameters. */
 function parameterFile({ parameters, heading }, values) {
   const lines = parameters.flatMap((parameter, slot) => {
@@ -18,7 +21,15 @@ function parameterFile({ parameters, heading }, values) {
     const unit = parameter.unit ? ` [${parameter.unit}]` : "";
     return [`\n# ${parameter.text}${unit}\n"${parameter.name}" = ${written(parameter, values[slot])}\n`];
   });
-  return `# ${heading.replace(/[\u0000-\u001f\u007f]/g, " ")}\n${lines.join("")}`;
+  return `# ${asComment(heading)}\n${lines.join("")}`;
+}
+
+/** Gives a text to save as a file. */
+function saveAs(name, text) {
+  const link = element("a", { download: name });
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/toml" }));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 class Tuning {
@@ -49,6 +60,8 @@ class Tuning {
     this.resetButton = panelButton("Start values", "Set every parameter to its start", () => this.change(this.parameters.map(({ start }) => start)));
     this.saveButton = panelButton("Save parameters", "Save the shown run's parameters as a file", () => this.save());
     this.copyButton = panelButton("Copy command", "Copy the command that simulates with the saved file", () => this.copy());
+    this.saveRigButton = panelButton("Save rig", "Save the shown run's rig as a file for --rig", () => saveAs(this.rigFileName, this.rigFile()));
+    this.verdict = new RigVerdict();
     this.message = element("p", { class: "summary", role: "status" });
     this.groups = element("div");
     this.search = element("input", { type: "search", id: "search", placeholder: "name or description" });
@@ -66,6 +79,7 @@ class Tuning {
     });
     this.box.addEventListener("toggle", () => {
       document.body.classList.toggle("tuning", this.box.open);
+      this.work();
       // On a narrow screen the panel stands over the page, which then shows its curves.
       if (this.box.open && getComputedStyle(this.box).position === "fixed") document.querySelector("#charts .chart")?.scrollIntoView();
     });
@@ -118,8 +132,11 @@ class Tuning {
       headings.get(group).push(this.control(slot));
     });
     const focused = document.activeElement;
+    const ofRig = headings.get("Rig");
+    headings.delete("Rig");
     const parts = [...headings].filter(([, rows]) => rows.length > 0);
-    this.groups.replaceChildren(...parts.flatMap(([heading, rows]) => [element("h3", {}, [heading]), ...rows]));
+    const rig = [element("h3", {}, ["Rig"]), this.verdict.state, ...ofRig, element("div", { class: "tools" }, [this.saveRigButton]), this.verdict.details];
+    this.groups.replaceChildren(...parts.flatMap(([heading, rows]) => [element("h3", {}, [heading]), ...rows]), ...rig);
     this.showFound();
     if (this.box.contains(focused)) focused.focus();
   }
@@ -187,23 +204,50 @@ class Tuning {
   }
 
   /** Simulates with the values as they are; those that come meanwhile are next. */
-  async simulate() {
+  simulate() {
     this.isStale = true;
+    this.work();
+  }
+
+  /** Simulates, and then checks the rig, until both have the values as they are. */
+  async work() {
     if (this.isBusy) return;
     this.isBusy = true;
-    while (this.isStale) {
-      this.isStale = false;
-      const begin = performance.now();
-      const values = [...this.values];
-      const run = await this.simulator.run(values);
-      if (run.reason) {
-        this.say(`These parameters cannot be used: ${run.reason}`);
-      } else {
-        this.show(this.variants.putByHand({ ...run, values }));
-        this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
-      }
+    while (this.isStale || this.rigKey !== this.checkedRig) {
+      if (this.isStale) await this.simulateOnce();
+      else await this.checkRig();
     }
     this.isBusy = false;
+  }
+
+  async simulateOnce() {
+    this.isStale = false;
+    const begin = performance.now();
+    const values = [...this.values];
+    const run = await this.simulator.run(values);
+    if (run.reason) {
+      this.say(`These parameters cannot be used: ${run.reason}`);
+      return;
+    }
+    this.isShowing = true;
+    this.show(this.variants.putByHand({ ...run, values }));
+    this.isShowing = false;
+    // Another run may have been chosen meanwhile; the panel is again that of this one.
+    if (!this.isStale) {
+      this.values = values;
+      this.showControls();
+    }
+    this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
+  }
+
+  /** The values that the verdict depends on, as one text. */
+  get rigKey() {
+    return this.values.filter((_, slot) => /^(rig|actuator|safety|head)\./.test(this.parameters[slot].name)).join(" ");
+  }
+
+  async checkRig() {
+    this.checkedRig = this.rigKey;
+    this.verdict.show(await this.simulator.check(this.values));
   }
 
   /** Takes note of the shown run, and takes its parameters where they are known; not while a slider moves. */
@@ -211,7 +255,8 @@ class Tuning {
     this.variants.see(run);
     this.saveButton.disabled = !run.values;
     this.copyButton.disabled = !run.values;
-    if (this.isBusy || !run.values) return;
+    this.saveRigButton.disabled = !run.values;
+    if (this.isShowing || !run.values) return;
     this.values = [...run.values];
     this.showControls();
   }
@@ -229,16 +274,22 @@ class Tuning {
     return `${this.simulator.data.command} ${plain}`;
   }
 
+  get rigFileName() {
+    return this.fileName.replace(/\.toml$/, ".rig.toml");
+  }
+
+  /** Text of the shown run's rig file. */
+  rigFile() {
+    return rigFile(this.simulator.data, (name) => this.variants.shown.values[this.slots.get(name)]);
+  }
+
   /** Text of the shown run's file. */
   file() {
     return parameterFile(this.simulator.data, this.variants.shown.values);
   }
 
   save() {
-    const link = element("a", { download: this.fileName });
-    link.href = URL.createObjectURL(new Blob([this.file()], { type: "application/toml" }));
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    saveAs(this.fileName, this.file());
   }
 
   async copy() {

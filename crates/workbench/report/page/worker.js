@@ -9,6 +9,11 @@ function simulated(values) {
   return { ...JSON.parse(simulation.text()), curves };
 }
 
+function checked(rig) {
+  simulation.hand(rig);
+  return simulation.calls.check_rig() ? JSON.parse(simulation.text()) : { reason: simulation.text() };
+}
+
 async function prepare({ module, recorded }) {
   simulation = await Module.start(module);
   simulation.hand(recorded);
@@ -18,7 +23,7 @@ async function prepare({ module, recorded }) {
 onmessage = async ({ data }) => {
   try {
     const begin = performance.now();
-    const answer = data.module ? await prepare(data) : simulated(data.values);
+    const answer = data.module ? await prepare(data) : data.rig ? checked(data.rig) : simulated(data.values);
     postMessage({ ...answer, took: performance.now() - begin }, answer.curves ? [answer.curves.buffer] : []);
   } catch (error) {
     postMessage({ failure: String(error) });

@@ -30,7 +30,7 @@ const SHARED: [&str; 10] = [
 ];
 
 /// The report's own scripts, likewise.
-const SCRIPTS: [&str; 12] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("../page/data.js"),
     include_str!("../page/thin.js"),
     include_str!("../page/chart.js"),
@@ -41,6 +41,7 @@ const SCRIPTS: [&str; 12] = [
     include_str!("../page/panels.js"),
     include_str!("../page/simulator.js"),
     include_str!("../page/variants.js"),
+    include_str!("../page/rig.js"),
     include_str!("../page/tuning.js"),
     include_str!("../page/main.js"),
 ];
