@@ -39,9 +39,13 @@ class TimeLine {
     }).filter(Boolean);
     this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
     this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "No limit was active.";
+    this.element.querySelector(".events").hidden = this.events.length === 0;
+  }
+
+  /** Fills the list; a long one takes a while. */
+  showList() {
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
     this.printed.textContent = this.events.length > PRINTED ? `The first ${PRINTED} of ${this.events.length}.` : "";
-    this.element.querySelector(".events").hidden = this.events.length === 0;
   }
 
   row(event) {

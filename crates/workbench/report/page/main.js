@@ -66,15 +66,17 @@ function play(on) {
   requestAnimationFrame(tick);
 }
 
-function select(index) {
+/** Shows a run; while a slider moves, what is out of sight waits until it rests. */
+function select(index, isMoving = false) {
   now.run = report.runs[index];
   showRunChoice();
   if (tuning) tuning.see(now.run);
   timeLine.select(now.run);
+  if (!isMoving) timeLine.showList();
   showKey();
   showFindings();
   buildCharts();
-  drawCharts();
+  drawCharts(isMoving);
   seek(now.time);
 }
 
@@ -92,12 +94,26 @@ function showRunChoice() {
   [...box.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === now.run.index)));
 }
 
+/** What the elements of charts depend on, as one text; their curves and limits change within them. */
+const shapeOf = (built) => JSON.stringify([now.run.name, built], (key, value) => {
+  if (key === "limits") return value.length;
+  return ["times", "values", "others"].includes(key) ? undefined : value;
+});
+
+/** Makes the charts of the shown run, or puts its curves into those that there are. */
 function buildCharts() {
+  const wanted = sections(now.run);
+  const shape = shapeOf(wanted);
+  if (shape === buildCharts.shape) {
+    wanted.flatMap(({ charts: listed }) => listed).forEach((one, i) => charts[i].take(one));
+    return;
+  }
+  buildCharts.shape = shape;
   const box = byId("charts");
   const of = report.runs.length > 1 ? ` (${now.run.name})` : "";
   const lane = element("section", {}, [element("h2", {}, ["Active limits" + of]), timeLine.element]);
   charts = [];
-  const built = sections(now.run).map(({ heading, charts: listed, note, of_run: ofRun }) => {
+  const built = wanted.map(({ heading, charts: listed, note, of_run: ofRun }) => {
     const made = listed.map((one) => new Chart(one, shown, handlers));
     charts.push(...made);
     const parts = made.map((chart) => chart.element);
@@ -113,9 +129,32 @@ function buildCharts() {
   box.replaceChildren(lane, ...built, choice);
 }
 
-function drawCharts() {
-  for (const chart of [timeLine, ...charts]) chart.draw();
+/** Time without a change after which the rest is drawn [ms]. */
+const REST = 250;
+
+function isInSight(part) {
+  const { top, bottom } = part.getBoundingClientRect();
+  return bottom > 0 && top < innerHeight;
 }
+
+/** Draws all charts; while a slider moves, first those in sight. */
+function drawCharts(isMoving = false) {
+  clearTimeout(drawCharts.timer);
+  const all = [timeLine, ...charts];
+  // All are measured before any is drawn, so that the page is laid out once.
+  const due = isMoving ? all.filter(({ plot }) => isInSight(plot.box)) : all;
+  for (const chart of due) chart.draw();
+  if (isMoving) drawCharts.timer = setTimeout(showRest, REST);
+}
+
+/** What waits while a slider moves. */
+function showRest() {
+  timeLine.showList();
+  showAllMeasures();
+  drawCharts();
+}
+
+const showAllMeasures = () => showMeasures(byId("measures"), report.runs);
 
 function drawMachine() {
   view.rig = now.run.rig;
@@ -172,9 +211,9 @@ function setUpPlayer() {
 }
 
 /** Shows one of the runs that there are now. */
-function showRun(run) {
-  showMeasures(byId("measures"), report.runs);
-  select(run.index);
+function showRun(run, isMoving = false) {
+  if (!isMoving || isInSight(byId("measures"))) showAllMeasures();
+  select(run.index, isMoving);
 }
 
 /** The panel of parameters, if this page can simulate. */
@@ -192,7 +231,7 @@ function redraw() {
   seek(now.time);
 }
 
-showMeasures(byId("measures"), report.runs);
+showAllMeasures();
 byId("provenance").append(...report.provenance.map(([name, text]) => element("span", {}, [element("b", {}, [name]), " ", text])));
 setUpPlayer();
 letTurn(view, drawMachine);

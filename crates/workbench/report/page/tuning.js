@@ -230,10 +230,10 @@ class Tuning {
       return;
     }
     this.isShowing = true;
-    this.show(this.variants.putByHand({ ...run, values }));
+    this.show(this.variants.putByHand({ ...run, values }), true);
     this.isShowing = false;
     // Another run may have been chosen meanwhile; the panel is again that of this one.
-    if (!this.isStale) {
+    if (!this.isStale && values.some((value, slot) => value !== this.values[slot])) {
       this.values = values;
       this.showControls();
     }
