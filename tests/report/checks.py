@@ -376,6 +376,55 @@ def another_run_can_be_chosen(browser):
         page.screenshot(path=PICTURES / "small-motions.png")
 
 
+LANES = {"tilt": "tilt limited", "soft": "soft limits", "safety": "safety unit", "actuator": "actuator guard"}
+
+
+def assert_lanes(page, limited, times, what):
+    """Each lane has its colour where its flags are up and nowhere else, and the list has its rows; returns how often."""
+    rows = page.locator(".events td:nth-child(2)").all_text_contents()
+    seen = {}
+    for lane, (kind, name) in enumerate(LANES.items()):
+        flags = limited[kind]
+        assert (name in rows) == any(flags), (what, kind)
+        # Not within 0.2 s of an edge: stretches closer than 0.1 s are one, and a pixel has up to 0.1 s.
+        inside = [k for k in range(20, len(flags) - 20, 7) if len(set(flags[k - 20:k + 21])) == 1]
+        painted = page.evaluate("""([kind, lane, shares]) => {
+            const canvas = document.querySelector("#charts canvas");
+            const [ratio, width] = [canvas.width / canvas.clientWidth, canvas.clientWidth];
+            const text = getComputedStyle(document.documentElement).getPropertyValue(`--${kind}`).trim();
+            const wanted = [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16));
+            return shares.map((share) => {
+                const at = [52 + (width - 62) * share, 8 + 20 * lane + 10].map((place) => Math.floor(place * ratio));
+                // Two stretches may meet in one of the pixels.
+                const { data } = canvas.getContext("2d").getImageData(at[0] - 1, at[1], 3, 1);
+                return [0, 4, 8].some((from) => wanted.every((part, i) => Math.abs(part - data[from + i]) < 4));
+            });
+        }""", [kind, lane, [times[k] / times[-1] for k in inside]])
+        wrong = [k for k, paint in zip(inside, painted) if paint != bool(flags[k])]
+        assert not wrong, (what, kind, wrong[:5])
+        seen[kind] = sum(painted)
+    return seen
+
+
+@check
+def every_limit_has_its_lane(browser):
+    """Chromium advises against reading a canvas often; that is the only message."""
+    data = plain("two-runs")
+    with opened(browser, "two-runs", quiet=False) as page:
+        for run in data["runs"]:
+            page.get_by_role("button", name=run["name"]).click()
+            seen = assert_lanes(page, run["limited"], run["times"], run["name"])
+        assert all(seen[kind] > 5 for kind in ("tilt", "safety", "actuator")), seen
+    with tuned(browser, quiet=False) as page:
+        # A short stroke.
+        move(page, "actuator.maxLength", 60)
+        page.wait_for_timeout(400)
+        limited = page.evaluate("Object.fromEntries(Object.entries(simulationReport.now.run.limited).map(([kind, flags]) => [kind, [...flags]]))")
+        seen = assert_lanes(page, limited, [0.01 * k for k in range(2001)], "by hand")
+        page.screenshot(path=PICTURES / "lanes.png")
+        assert seen["soft"] > 5, seen
+
+
 @check
 def the_table_holds_the_measures(browser):
     data = plain("two-runs")
@@ -569,12 +618,12 @@ def the_start_is_the_original(browser):
             const [own, again] = simulationReport.runs();
             const all = (run) => [...run.desired.specific_force, ...run.desired.angular_velocity, ...run.felt.specific_force,
                 ...run.felt.angular_velocity, ...run.position, ...run.orientation, ...run.legs, ...run.tilt, ...run.tilt_rate,
-                run.limited.tilt, run.limited.safety, run.limited.actuator];
+                run.limited.tilt, run.limited.soft, run.limited.safety, run.limited.actuator];
             const [before, after] = [all(own), all(again)];
             return before.map((series, i) => series.length !== after[i].length ? Infinity
                 : series.reduce((most, value, k) => Math.max(most, Math.abs(value - after[i][k])), 0));
         }""")
-        assert len(apart) == 31 and max(apart) < 1e-5, apart
+        assert len(apart) == 32 and max(apart) < 1e-5, apart
         own, again = page.evaluate("simulationReport.runs().map(({ measures }) => measures.map(({ value }) => value === null ? null : simulationReport.cellText(value)))")
         assert own == again and len(own) > 40
 

@@ -218,7 +218,7 @@ fn curves_of(run: &Run) -> Vec<f32> {
     ];
     let values = groups.into_iter().flatten().flatten().map(|&value| value as f32);
     let limited = &run.limited;
-    let flags = [&limited.tilt, &limited.safety, &limited.actuator]
+    let flags = [&limited.tilt, &limited.soft, &limited.safety, &limited.actuator]
         .into_iter()
         .flatten()
         .map(|&flag| f32::from(u8::from(flag)));

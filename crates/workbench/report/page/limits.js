@@ -2,6 +2,7 @@
 
 const KINDS = {
   tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit." },
+  soft: { label: "soft", long: "soft limits", colour: "--soft", help: "The soft limits changed the motion ahead of a limit of a leg or a safety unit." },
   safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit limited the platform from its position, velocity or acceleration limit." },
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };

@@ -68,7 +68,7 @@ class Simulator {
       ...answer, times: this.times,
       desired: cues(), felt: cues(), position: series(3), orientation: series(3), legs: series(6), tilt: series(2),
       tilt_rate: series(2), lean: answer.leans ? next() : null,
-      limited: { tilt: flags(), safety: flags(), actuator: flags() },
+      limited: { tilt: flags(), soft: flags(), safety: flags(), actuator: flags() },
     };
     const chart = ({ title, quantity, label }) => ({ title, quantity, times: this.times, lines: [{ label, values: next() }], limits: [] });
     return { ...run, charts: answer.charts.map(chart) };
