@@ -5,7 +5,7 @@ import subprocess
 import time
 from contextlib import contextmanager
 
-from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, run_all, watched
+from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, check_everywhere, run_all, watched
 
 PAGE = PAGES / "by-hand.html"
 
@@ -65,7 +65,7 @@ def the_page_is_one_small_file(_):
     assert PAGE.stat().st_size < 4_000_000, PAGE.stat().st_size
 
 
-@check
+@check_everywhere
 def keys_open_the_throttle_lean_and_brake(browser):
     """In the browser's own time: the motorcycle goes, leans to the side of the key, slows down."""
     with opened(browser) as page:
@@ -86,7 +86,7 @@ def keys_open_the_throttle_lean_and_brake(browser):
         wait(page, "document.getElementById('message').textContent === 'Paused'")
 
 
-@check
+@check_everywhere
 def a_gamepad_and_held_buttons_do_the_same(browser):
     with opened(browser) as page:
         page.evaluate("""() => { navigator.getGamepads = () => [{ connected: true, axes: [0.5],
@@ -101,7 +101,7 @@ def a_gamepad_and_held_buttons_do_the_same(browser):
         assert page.evaluate("simulationRide.controls.held.size") == 0
 
 
-@check
+@check_everywhere
 def curves_road_and_platform_move(browser):
     with opened(browser) as page:
         ride(page, "view.distance > 20")
@@ -137,7 +137,7 @@ def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
     assert (PAGES / "ridden.html").exists()
 
 
-@check
+@check_everywhere
 def leaving_the_road_says_so_and_a_key_restarts(browser):
     with opened(browser) as page:
         ride(page, "view.distance > 60")
