@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes a picture of a report's first screen: a page of `cargo moris simulate` in, an SVG with the browser's picture in it out.
+"""Makes a picture of a report that is tuned by hand: a page of `cargo moris simulate` in, an SVG with the browser's picture in it out.
 
     cargo moris simulate ride.csv --report report
     python3 tests/report/run.py --install          # once: Chromium and Playwright
@@ -16,14 +16,29 @@ from run import browser
 SIZE = {"width": 1366, "height": 768}
 
 
+def tune(page):
+    """Opens the panel, keeps a variant, and changes the scale of surge."""
+    page.locator("#tuning summary").click()
+    page.get_by_label("strategy", exact=True).select_option(label="predictive")
+    page.wait_for_timeout(2000)
+    page.get_by_label("Name", exact=True).fill("planned")
+    page.get_by_role("button", name="Keep").click()
+    field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+    field.fill("0.5")
+    field.press("Enter")
+    page.wait_for_timeout(2000)
+    page.locator("#charts section").nth(1).evaluate("section => section.scrollIntoView()")
+
+
 def picture(page_file, time):
-    """The first screen of a page at a time of the ride, as a JPEG."""
+    """A page at a time of the ride, as a JPEG."""
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser())
         page = chromium.new_page(viewport=SIZE)
         page.goto(Path(page_file).resolve().as_uri())
-        page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
-        slider = page.locator("input[type=range]").first
+        page.wait_for_selector("#tuning:not([hidden])", state="attached")
+        tune(page)
+        slider = page.locator("#slider")
         slider.evaluate("(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }", time)
         page.wait_for_timeout(500)
         return page.screenshot(type="jpeg", quality=75)
