@@ -29,6 +29,10 @@ def set_slider(page, time):
     page.locator("#slider").evaluate(script, time)
 
 
+def choose(page, run):
+    page.locator("#runs").get_by_role("button", name=run, exact=True).click()
+
+
 def near(found, expected, tolerance, what):
     assert abs(found - expected) <= tolerance, f"{what}: {found} is not {expected} (to {tolerance})"
 
@@ -160,7 +164,7 @@ def stroke_colour(page, data, length):
     return [a + (place - low) * (b - a) for a, b in zip(colours[low], colours[low + 1])]
 
 
-@check_everywhere
+@check
 def the_charts_follow(browser):
     """The cursor stands at its time in every chart, and the legend gives the values there."""
     run = plain("two-runs")["runs"][0]
@@ -259,7 +263,7 @@ def findings_and_axes_are_those_of_all_runs(browser):
         ranges = lambda: page.evaluate("simulationReport.ranges()")
         before = ranges()
         for name, text in (("soft", "four seconds less"), ("small-motions", "hold the platform back"), ("default", "No leg comes")):
-            page.get_by_role("button", name=name).click()
+            choose(page, name)
             found = page.locator("#findings li").all_inner_texts()
             assert text in found[0] and "computed" in found[1] and len(found) == 2, found
             # The runs' limits of the tilt's rate differ in the seventh digit.
@@ -364,15 +368,15 @@ def it_plays_at_real_speed(browser):
         assert page.locator("#play").inner_text() == "Play"
 
 
-@check_everywhere
+@check
 def another_run_can_be_chosen(browser):
     data = plain("two-runs")
     with opened(browser, "two-runs") as page:
         set_slider(page, 38.0)
-        page.get_by_role("button", name="soft").click()
+        choose(page, "soft")
         assert_legs_are_drawn(page, data, data["runs"][1], 3800, "soft")
         assert shown_run(page) == "soft"
-        page.get_by_role("button", name="small-motions").click()
+        choose(page, "small-motions")
         assert page.locator(".events tr", has_text="safety unit").count() > 0
         page.screenshot(path=PICTURES / "small-motions.png")
 
@@ -413,7 +417,7 @@ def every_limit_has_its_lane(browser):
     data = plain("two-runs")
     with opened(browser, "two-runs", quiet=False) as page:
         for run in data["runs"]:
-            page.get_by_role("button", name=run["name"]).click()
+            choose(page, run["name"])
             seen = assert_lanes(page, run["limited"], run["times"], run["name"])
         assert all(seen[kind] > 5 for kind in ("tilt", "safety", "actuator")), seen
     with tuned(browser, quiet=False) as page:
@@ -468,7 +472,7 @@ def no_peak_is_lost(browser):
         assert top < 20 and bottom > 90 and rows > 60, f"the bump is drawn from {top} to {bottom} px, in {rows} rows"
 
 
-@check_everywhere
+@check
 def hostile_text_stays_text(browser):
     data = plain("hostile")
     with opened(browser, "hostile") as page:
@@ -694,7 +698,7 @@ def variants_are_kept_by_name(browser):
         name.fill("weak")
         page.get_by_role("button", name="Keep").click()
         assert "already" in page.locator("#tuning .panel > [role=status]").inner_text() and runs.count() == 4
-        runs.filter(has_text="strong one").click()
+        choose(page, "strong one")
         assert field.input_value() == values["strong one"]
         assert_same(page, of_command("--parameters", saved(page, "ride-strong-one.toml")), "a kept variant")
         assert page.evaluate("simulationReport.tuning.command()").endswith(" ride-strong-one.toml")
@@ -705,7 +709,7 @@ def variants_are_kept_by_name(browser):
         # A change goes to the run by hand; what is kept stays.
         move(page, "scale.specificForce.x", 200)
         assert shown_run(page) == "by hand"
-        runs.filter(has_text="strong one").click()
+        choose(page, "strong one")
         assert field.input_value() == values["strong one"]
         name.fill("first")
         page.get_by_role("button", name="Rename").click()
@@ -749,7 +753,67 @@ def the_panel_fits_a_phone(browser):
             page.screenshot(path=PICTURES / f"panel-phone-{scheme}.png")
 
 
-@check_everywhere
+@check
+def the_keyboard_is_enough(browser):
+    """Tab reaches every control, each with a name and in sight of its focus; keys play, seek, tune, keep and choose."""
+    with tuned(browser, reduced_motion="reduce") as page:
+        reached = page.evaluate_handle("new Set()")
+        controls = """[...document.querySelectorAll("button, input, select, summary, [tabindex='0']")]
+            .filter((one) => one.checkVisibility() && !one.disabled && !one.closest("details:not([open]) > :not(summary)"))"""
+        page.evaluate("document.activeElement.blur()")
+        for _ in range(page.evaluate(f"{controls}.length") + 30):
+            page.keyboard.press("Tab")
+            page.evaluate("""(reached) => {
+                const one = document.activeElement;
+                const style = getComputedStyle(one);
+                if (one !== document.body) reached.add(style.outlineStyle === "none" ? null : one);
+            }""", reached)
+        missed = page.evaluate(f"(reached) => {controls}.filter((one) => !reached.has(one)).map((one) => one.outerHTML)", reached)
+        assert not missed, missed[:3]
+        nameless = page.evaluate(f"""{controls}.filter((one) => !(one.ariaLabel || one.textContent.trim()
+            || [...(one.labels || [])].some((label) => label.textContent.trim()))).map((one) => one.outerHTML)""")
+        assert not nameless, nameless[:3]
+        assert not page.evaluate("simulationReport.now.playing")
+        page.evaluate("document.activeElement.blur()")
+        page.keyboard.press("Space")
+        assert page.evaluate("simulationReport.now.playing")
+        page.keyboard.press("Space")
+        row = page.locator(".events button").nth(1)
+        row.focus()
+        page.keyboard.press("Enter")
+        near(page.evaluate("simulationReport.now.time"), float(row.inner_text().split()[0]), 0.01, "time of the second row")
+        page.get_by_role("slider", name="scale.specificForce.x", exact=True).focus()
+        page.keyboard.press("ArrowLeft")
+        settled(page)
+        page.get_by_label("Name", exact=True).focus()
+        page.keyboard.type("kept")
+        page.keyboard.press("Enter")
+        assert shown_run(page) == "kept"
+        page.locator("#runs button").first.focus()
+        page.keyboard.press("Enter")
+        assert shown_run(page) == "default"
+
+
+@check
+def text_stands_out(browser):
+    """Contrast of 4.5 for text on its ground, in light and dark (WCAG 2, 1.4.3)."""
+    def luminance(colour):
+        parts = [int(colour[at:at + 2], 16) / 255 for at in (1, 3, 5)]
+        linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+        return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear))
+
+    for scheme in ("light", "dark"):
+        with opened(browser, "two-runs", color_scheme=scheme) as page:
+            names = ["--ink", "--muted", "--accent", "--limit", "--card", "--paper"]
+            values = page.evaluate("names => names.map((name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim())", names)
+            of = {name: luminance(value) for name, value in zip(names, values, strict=True)}
+            for text in names[:4]:
+                for ground in names[4:]:
+                    low, high = sorted((of[text], of[ground]))
+                    assert (high + 0.05) / (low + 0.05) >= 4.5, (scheme, text, ground, (high + 0.05) / (low + 0.05))
+
+
+@check
 def without_webassembly_the_page_still_shows(browser):
     """A panel that cannot simulate says so, and everything else is drawn."""
     text = (PAGES / "ride.html").read_text().replace("(async () => {", "delete window.Worker;\n(async () => {", 1)

@@ -87,18 +87,60 @@ def keys_open_the_throttle_lean_and_brake(browser):
 
 
 @check_everywhere
-def a_gamepad_and_held_buttons_do_the_same(browser):
+def a_gamepad_rides(browser):
+    """A pad that the test moves: triggers, stick and start."""
     with opened(browser) as page:
-        page.evaluate("""() => { navigator.getGamepads = () => [{ connected: true, axes: [0.5],
-            buttons: Array.from({ length: 10 }, (_, k) => ({ value: k === 7 ? 0.4 : 0, pressed: false })) }]; }""")
-        commands = page.evaluate("simulationRide.controls.after(0.02)")
-        assert commands == {"throttle": 0.4, "brake": 0, "stick": 0.5}, commands
-    with opened(browser, viewport=PHONE, has_touch=True) as page:
-        page.locator("#hold-throttle").hover()
-        page.mouse.down()
-        wait(page, "now.view.speed > 2")
-        page.mouse.up()
+        page.evaluate("""() => {
+            window.pad = { connected: true, axes: [0], buttons: Array.from({ length: 10 }, () => ({ value: 0, pressed: false })) };
+            navigator.getGamepads = () => [null, window.pad];
+        }""")
+        page.locator("#helped").uncheck()
+        page.evaluate("pad.buttons[7].value = 0.4")
+        wait(page, "now.view.speed > 6")
+        page.evaluate("pad.axes[0] = 0.5")
+        assert page.evaluate("simulationRide.controls.after(0.02)") == {"throttle": 0.4, "brake": 0, "stick": 0.5}
+        wait(page, "now.view.roll > 0.05")
+        fastest = view(page, "speed")
+        page.evaluate("Object.assign(pad.buttons[7], { value: 0 }); Object.assign(pad.buttons[6], { value: 0.5 }); pad.axes[0] = 0.05; null")
+        assert page.evaluate("simulationRide.controls.after(0.02).stick") == 0, "the dead zone"
+        wait(page, f"now.view.speed < {fastest - 2}")
+        page.evaluate("pad.buttons[9].pressed = true")
+        wait(page, "now.view.stage === 'returning'")
+
+
+@check
+def a_phone_rides_by_touch_and_tilt(browser):
+    """Two fingers hold two buttons; then a tilt of the device leans, upright and on its side."""
+    with opened(browser, viewport=PHONE, has_touch=True, is_mobile=True, device_scale_factor=3) as page:
+        assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+        session = page.context.new_cdp_session(page)
+
+        def touch(*names):
+            boxes = [page.locator(name).bounding_box() for name in names]
+            points = [{"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2, "id": k} for k, box in enumerate(boxes)]
+            session.send("Input.dispatchTouchEvent", {"type": "touchStart" if points else "touchEnd", "touchPoints": points})
+
+        def tilt(beta, gamma):
+            page.evaluate("([beta, gamma]) => dispatchEvent(new DeviceOrientationEvent('deviceorientation', { beta, gamma }))", [beta, gamma])
+
+        page.locator("#helped").uncheck()
+        page.locator("#pedals").scroll_into_view_if_needed()
+        page.screenshot(path=PICTURES / "ride-touch.png")
+        touch("#hold-throttle")
+        wait(page, "now.view.speed > 6")
+        touch("#hold-throttle", "#hold-left")
+        wait(page, "now.view.roll < -0.05")
+        touch()
         assert page.evaluate("simulationRide.controls.held.size") == 0
+        page.locator("#tilt").tap()
+        assert page.locator("#tilt").inner_text() == "Lean: tilt the device"
+        tilt(40, 15)
+        assert page.evaluate("simulationRide.controls.tilt") == 0.5
+        wait(page, "now.view.roll > 0.05")
+        size = {"width": PHONE["height"], "height": PHONE["width"], "deviceScaleFactor": 3, "mobile": True}
+        session.send("Emulation.setDeviceMetricsOverride", size | {"screenOrientation": {"type": "landscapePrimary", "angle": 90}})
+        tilt(-60, 15)
+        assert page.evaluate("[screen.orientation.angle, simulationRide.controls.tilt]") == [90, -1]
 
 
 @check_everywhere
@@ -137,7 +179,7 @@ def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
     assert (PAGES / "ridden.html").exists()
 
 
-@check_everywhere
+@check
 def leaving_the_road_says_so_and_a_key_restarts(browser):
     with opened(browser) as page:
         ride(page, "view.distance > 60")

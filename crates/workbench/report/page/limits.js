@@ -52,8 +52,9 @@ class TimeLine {
   row(event) {
     const { long, colour: paint } = KINDS[event.kind];
     const mark = element("span", { class: "mark", style: `background: var(${paint})` });
+    const times = `${fixed(event.from, 2)} to ${fixed(event.to, 2)} s`;
     const row = element("tr", { title: "Go there" }, [
-      element("td", { class: "number" }, [`${fixed(event.from, 2)} to ${fixed(event.to, 2)} s`]),
+      element("td", { class: "number" }, [element("button", { type: "button", "aria-label": `Go to ${times}, ${long}` }, [times])]),
       element("td", {}, [mark, long]),
       element("td", {}, [event.why]),
     ]);
