@@ -95,7 +95,7 @@ function showRunChoice() {
 }
 
 /** What the elements of charts depend on, as one text; their curves and limits change within them. */
-const shapeOf = (built) => JSON.stringify([now.run.name, built], (key, value) => {
+const shapeOf = (built) => JSON.stringify([now.run.name, report.runs.length > 1, built], (key, value) => {
   if (key === "limits") return value.length;
   return ["times", "values", "others"].includes(key) ? undefined : value;
 });
