@@ -128,7 +128,7 @@ def platforms(options):
 
 
 def pages(options):
-    """the reports in Chromium"""
+    """the reports in Chromium and Firefox"""
     examples()
     if options.install:
         run("rustup", "target", "add", "wasm32-unknown-unknown")

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Makes a picture of a report's first screen: a page of `cargo moris simulate` in, an SVG with the browser's picture in it out.
+"""Makes a picture of a report: a page of `cargo moris simulate` in, an SVG with the browser's picture in it out.
 
     cargo moris simulate ride.csv --report report
     python3 tests/report/run.py --install          # once: Chromium and Playwright
-    target/report/venv/bin/python tests/report/picture.py report/ride.html docs/report.svg --time 34.5
+    target/report/venv/bin/python tests/report/picture.py report/ride.html docs/report.svg --time 34.5 --tuned
 """
 
 import argparse
@@ -16,14 +16,31 @@ from run import browser
 SIZE = {"width": 1366, "height": 768}
 
 
-def picture(page_file, time):
-    """The first screen of a page at a time of the ride, as a JPEG."""
+def tune(page):
+    """Opens the panel, keeps a variant, and changes the scale of surge."""
+    page.locator("#tuning summary").click()
+    page.get_by_label("strategy", exact=True).select_option(label="predictive")
+    page.wait_for_timeout(2000)
+    page.get_by_label("Name", exact=True).fill("planned")
+    page.get_by_role("button", name="Keep").click()
+    field = page.get_by_label("scale.specificForce.x", exact=True).and_(page.get_by_role("spinbutton"))
+    field.fill("0.5")
+    field.press("Enter")
+    page.wait_for_timeout(2000)
+    page.locator("#charts section").nth(1).evaluate("section => section.scrollIntoView()")
+
+
+def picture(page_file, time, is_tuned):
+    """A page at a time of the ride, as a JPEG."""
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser())
         page = chromium.new_page(viewport=SIZE)
         page.goto(Path(page_file).resolve().as_uri())
         page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
-        slider = page.locator("input[type=range]").first
+        if is_tuned:
+            page.wait_for_selector("#tuning:not([hidden])", state="attached")
+            tune(page)
+        slider = page.locator("#slider")
         slider.evaluate("(slider, time) => { slider.value = time; slider.dispatchEvent(new Event('input')); }", time)
         page.wait_for_timeout(500)
         return page.screenshot(type="jpeg", quality=75)
@@ -33,9 +50,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("page", help="a report, as cargo moris simulate makes it")
     parser.add_argument("picture", help="the SVG to write")
+    parser.add_argument("--tuned", action="store_true", help="with the panel of parameters, a variant and a change")
     parser.add_argument("--time", type=float, default=0.0, help="time of the ride in seconds")
     arguments = parser.parse_args()
-    image = base64.b64encode(picture(arguments.page, arguments.time)).decode()
+    image = base64.b64encode(picture(arguments.page, arguments.time, arguments.tuned)).decode()
     width, height = SIZE["width"], SIZE["height"]
     Path(arguments.picture).write_text(
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}">\n'

@@ -1,22 +1,13 @@
-"""What the page of `moris ride` does. Run by run.py:
-
-    ride.py CHROMIUM PAGES PICTURES MORIS...
-"""
+"""What the page of `moris ride` does. Run by run.py."""
 
 import json
 import subprocess
-import sys
 import time
 from contextlib import contextmanager
-from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, check_everywhere, run_all, watched
 
-CHROMIUM, PAGES, PICTURES = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
-MORIS = sys.argv[4:]
 PAGE = PAGES / "by-hand.html"
-DESKTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
-checks = []
 
 # A player who keeps nine tenths of the advised speed until a condition holds, in steps of 20 ms; pictures are drawn at its
 # end, and now and then. The page's own clock is held.
@@ -40,28 +31,12 @@ window.ride = (isDone, stick, most) => {
 """
 
 
-def check(function):
-    checks.append(function)
-    return function
-
-
 @contextmanager
 def opened(browser, **options):
-    """The page, running; fails if it says anything on the console or asks for anything but itself."""
-    context = browser.new_context(**{"viewport": DESKTOP, "accept_downloads": True} | options)
-    page = context.new_page()
-    said, asked = [], []
-    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
-    page.on("pageerror", lambda error: said.append(f"error: {error}"))
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto(PAGE.as_uri())
-    page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
-    page.evaluate(f"{PLAYER}; null")
-    yield page
-    context.close()
-    assert not said, said
-    beyond = [url for url in asked if url != PAGE.as_uri() and not url.startswith(("data:", "blob:"))]
-    assert not beyond, beyond
+    """The page, running, with the player."""
+    with watched(browser, PAGE, **options) as page:
+        page.evaluate(f"{PLAYER}; null")
+        yield page
 
 
 def view(page, name):
@@ -90,7 +65,7 @@ def the_page_is_one_small_file(_):
     assert PAGE.stat().st_size < 4_000_000, PAGE.stat().st_size
 
 
-@check
+@check_everywhere
 def keys_open_the_throttle_lean_and_brake(browser):
     """In the browser's own time: the motorcycle goes, leans to the side of the key, slows down."""
     with opened(browser) as page:
@@ -111,22 +86,64 @@ def keys_open_the_throttle_lean_and_brake(browser):
         wait(page, "document.getElementById('message').textContent === 'Paused'")
 
 
-@check
-def a_gamepad_and_held_buttons_do_the_same(browser):
+@check_everywhere
+def a_gamepad_rides(browser):
+    """A pad that the test moves: triggers, stick and start."""
     with opened(browser) as page:
-        page.evaluate("""() => { navigator.getGamepads = () => [{ connected: true, axes: [0.5],
-            buttons: Array.from({ length: 10 }, (_, k) => ({ value: k === 7 ? 0.4 : 0, pressed: false })) }]; }""")
-        commands = page.evaluate("simulationRide.controls.after(0.02)")
-        assert commands == {"throttle": 0.4, "brake": 0, "stick": 0.5}, commands
-    with opened(browser, viewport=PHONE, has_touch=True) as page:
-        page.locator("#hold-throttle").hover()
-        page.mouse.down()
-        wait(page, "now.view.speed > 2")
-        page.mouse.up()
-        assert page.evaluate("simulationRide.controls.held.size") == 0
+        page.evaluate("""() => {
+            window.pad = { connected: true, axes: [0], buttons: Array.from({ length: 10 }, () => ({ value: 0, pressed: false })) };
+            navigator.getGamepads = () => [null, window.pad];
+        }""")
+        page.locator("#helped").uncheck()
+        page.evaluate("pad.buttons[7].value = 0.4")
+        wait(page, "now.view.speed > 6")
+        page.evaluate("pad.axes[0] = 0.5")
+        assert page.evaluate("simulationRide.controls.after(0.02)") == {"throttle": 0.4, "brake": 0, "stick": 0.5}
+        wait(page, "now.view.roll > 0.05")
+        fastest = view(page, "speed")
+        page.evaluate("Object.assign(pad.buttons[7], { value: 0 }); Object.assign(pad.buttons[6], { value: 0.5 }); pad.axes[0] = 0.05; null")
+        assert page.evaluate("simulationRide.controls.after(0.02).stick") == 0, "the dead zone"
+        wait(page, f"now.view.speed < {fastest - 2}")
+        page.evaluate("pad.buttons[9].pressed = true")
+        wait(page, "now.view.stage === 'returning'")
 
 
 @check
+def a_phone_rides_by_touch_and_tilt(browser):
+    """Two fingers hold two buttons; then a tilt of the device leans, upright and on its side."""
+    with opened(browser, viewport=PHONE, has_touch=True, is_mobile=True, device_scale_factor=3) as page:
+        assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+        session = page.context.new_cdp_session(page)
+
+        def touch(*names):
+            boxes = [page.locator(name).bounding_box() for name in names]
+            points = [{"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2, "id": k} for k, box in enumerate(boxes)]
+            session.send("Input.dispatchTouchEvent", {"type": "touchStart" if points else "touchEnd", "touchPoints": points})
+
+        def tilt(beta, gamma):
+            page.evaluate("([beta, gamma]) => dispatchEvent(new DeviceOrientationEvent('deviceorientation', { beta, gamma }))", [beta, gamma])
+
+        page.locator("#helped").uncheck()
+        page.locator("#pedals").scroll_into_view_if_needed()
+        page.screenshot(path=PICTURES / "ride-touch.png")
+        touch("#hold-throttle")
+        wait(page, "now.view.speed > 6")
+        touch("#hold-throttle", "#hold-left")
+        wait(page, "now.view.roll < -0.05")
+        touch()
+        assert page.evaluate("simulationRide.controls.held.size") == 0
+        page.locator("#tilt").tap()
+        assert page.locator("#tilt").inner_text() == "Lean: tilt the device"
+        tilt(40, 15)
+        assert page.evaluate("simulationRide.controls.tilt") == 0.5
+        wait(page, "now.view.roll > 0.05")
+        size = {"width": PHONE["height"], "height": PHONE["width"], "deviceScaleFactor": 3, "mobile": True}
+        session.send("Emulation.setDeviceMetricsOverride", size | {"screenOrientation": {"type": "landscapePrimary", "angle": 90}})
+        tilt(-60, 15)
+        assert page.evaluate("[screen.orientation.angle, simulationRide.controls.tilt]") == [90, -1]
+
+
+@check_everywhere
 def curves_road_and_platform_move(browser):
     with opened(browser) as page:
         ride(page, "view.distance > 20")
@@ -153,7 +170,6 @@ def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
         download.value.save_as(file)
     out = subprocess.run([*MORIS, "simulate", file, "--no-bound", "--json", "--fade-in", "0", "--report", PAGES], capture_output=True, text=True)
     assert out.returncode in (0, 3), out.stderr
-    [measured] = json.loads(out.stdout)
     [result] = json.loads(out.stdout)
     rows = {(row["subject"], row["name"]): row["value"] for row in result["results"][0]["measures"]}
     expected = [rows[f"specific force {axis}", name] for axis in "xy" for name in ("RMS error", "shake", "jolt", "peak")]
@@ -205,7 +221,7 @@ def strategy_and_sliders_change_in_flight(browser):
 def everything_has_a_name_and_fits_a_phone(browser):
     """Controls and pictures have labels; nothing is wider than the screen; reduced motion begins with the map."""
     for scheme in ("light", "dark"):
-        for name, viewport in (("desktop", DESKTOP), ("phone", PHONE)):
+        for name, viewport in (("desktop", LAPTOP), ("phone", PHONE)):
             with opened(browser, viewport=viewport, color_scheme=scheme) as page:
                 ride(page, "view.distance > 290")
                 page.screenshot(path=PICTURES / f"ride-{name}-{scheme}.png", full_page=True)
@@ -218,24 +234,6 @@ def everything_has_a_name_and_fits_a_phone(browser):
         assert page.locator("#map").is_checked()
 
 
-def main():
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    subprocess.run([*MORIS, "ride", "--output", PAGE], check=True)
-    failed = 0
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        for function in checks:
-            name = function.__name__.replace("_", " ")
-            try:
-                function(browser)
-                print(f"{name:65}ok", flush=True)
-            except Exception as failure:  # Whatever went wrong, the other checks still say what they find.
-                failed += 1
-                print(f"{name:65}FAILED: {failure}", flush=True)
-        print(f"{len(checks) - failed} of {len(checks)} checks of the ride ok in Chromium {browser.version}")
-        browser.close()
-    sys.exit(1 if failed else 0)
-
-
 if __name__ == "__main__":
-    main()
+    subprocess.run([*MORIS, "ride", "--output", PAGE], check=True)
+    run_all("the ride")

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Opens the report's pages in a headless Chromium and holds what they show against the data they were made of.
+"""Opens the report's pages in Chromium and Firefox without a window, and holds what they show against the data they were made of.
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and that of `moris ride`. Without Chromium or Playwright nothing is run, and that is said; with --require it
-is an error. With --install both are installed first (apt and pip; for Debian and Ubuntu). Pictures are left in target/report/.
+The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and that of `moris ride`. In Firefox the most
+important checks are run. Without a browser or Playwright its checks are not run, and that is said; with --require it is an
+error. With --install all are installed first (apt and pip; for Debian). Pictures are left in target/report/.
 """
 
 import argparse
@@ -23,9 +24,10 @@ WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "report"
 VENV = WORK / "venv"
 PYTHON = VENV / "bin" / "python"
 
-APT = ["chromium"]
-PIP = ["playwright==1.65.2"]
-BROWSERS = ["chromium", "chromium-browser", "google-chrome"]
+# Packages, and the commands that they bring.
+BROWSERS = {"chromium": ["chromium", "chromium-browser", "google-chrome"], "firefox-esr": ["firefox-esr", "firefox"]}
+# Later ones send commands that Firefox 153 does not know.
+PIP = ["playwright==1.60.0"]
 
 
 def check_call(*command):
@@ -34,17 +36,18 @@ def check_call(*command):
 
 
 def install():
-    if not browser():
+    missing = [package for package in BROWSERS if not browser(package)]
+    if missing:
         become_root = [] if os.geteuid() == 0 else ["sudo"]
         check_call(*become_root, "apt-get", "update", "-qq")
-        check_call(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *APT)
+        check_call(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *missing)
     if not PYTHON.exists():
         venv.create(VENV, with_pip=True)
     check_call(PYTHON, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP)
 
 
-def browser():
-    return next(filter(None, map(shutil.which, BROWSERS)), None)
+def browser(package="chromium"):
+    return next(filter(None, map(shutil.which, BROWSERS[package])), None)
 
 
 def playwright():
@@ -76,19 +79,25 @@ def main():
     arguments = parser.parse_args()
     if arguments.install:
         install()
-    chromium, interpreter = browser(), playwright()
-    if not chromium or not interpreter:
-        what = "Chromium: apt-get install chromium" if not chromium else "Playwright: pip install playwright"
-        print(f"report pages: not run, missing ({what}; or run with --install)")
-        sys.exit(1 if arguments.require else 0)
+    interpreter = playwright()
+    found = [browser(package) for package in BROWSERS if browser(package)]
+    missing = [f"{package}: apt-get install {package}" for package in BROWSERS if not browser(package)]
+    missing += [] if interpreter else [f"Playwright: pip install {PIP[0]}"]
+    if missing:
+        print(f"report pages: missing ({'; '.join(missing)}; or run with --install)")
+        if arguments.require:
+            sys.exit(1)
+    if not found or not interpreter:
+        print("report pages: not run")
+        return
     pages = WORK / "pages"
     compile_and_run = ["cargo", "run", "--release", "--package", "moris-report", "--example", "pages", "--"]
     check_call(*([os.environ["MORIS_PAGES"]] if "MORIS_PAGES" in os.environ else compile_and_run), pages)
     moris = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--release", "--quiet", "--package", "moris", "--"]
     write_ride(pages / "ride.csv")
     check_call(*moris, "simulate", pages / "ride.csv", "--report", pages)
-    failed = [script for script in ("checks.py", "ride.py")
-              if subprocess.run([interpreter, HERE / script, chromium, pages, WORK / "pictures", *moris], cwd=ROOT).returncode]
+    failed = [script for chosen in found for script in ("checks.py", "ride.py")
+              if subprocess.run([interpreter, HERE / script, chosen, pages, WORK / "pictures" / Path(chosen).name, *moris], cwd=ROOT).returncode]
     sys.exit(1 if failed else 0)
 
 

@@ -1,15 +1,18 @@
 //! Simulation of a recording in a report's page: plain functions over linear memory.
 //!
-//! The page writes numbers to [`numbers`], calls [`record`] once, and [`simulate`] for each set of
-//! parameters. The result is a text of JSON and the curves.
+//! The page writes [numbers](moris_page_memory::numbers), calls [`record`] once, and [`simulate`]
+//! for each set of parameters. The result is a text of JSON and the curves.
 
 use std::cell::RefCell;
 
 use moris_batch::{Manoeuvre, Replay};
 use moris_interface::{Group, Reader, slot_count};
 use moris_measures::References;
+use moris_page_memory::{group, say, with_numbers};
 use moris_report::{Chart, Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
+use moris_simulation::capabilities::{AxisAlone, Capabilities};
 use moris_simulation::{Evaluated, Simulation, measures_with};
+use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
 use serde::Serialize;
 
@@ -26,17 +29,9 @@ struct Recorded {
     references: References,
 }
 
-/// Memory that the page reads and writes.
-#[derive(Default)]
-struct Exchange {
-    numbers: Vec<f64>,
-    recorded: Option<Recorded>,
-    text: String,
-    curves: Vec<f32>,
-}
-
 thread_local! {
-    static EXCHANGE: RefCell<Exchange> = RefCell::default();
+    static RECORDED: RefCell<Option<Recorded>> = RefCell::default();
+    static CURVES: RefCell<Vec<f32>> = RefCell::default();
 }
 
 /// All but the curves.
@@ -45,9 +40,20 @@ struct Answer {
     findings: Vec<Finding>,
     measures: Vec<Measure>,
     limits: Limits,
+    rig: Rig,
     events: Vec<Event>,
     leans: bool,
     charts: Vec<ChartHead>,
+}
+
+/// What `moris rig check` says, but for the size of the workspace.
+#[derive(Serialize)]
+struct Verdict {
+    is_sound: bool,
+    heads: [&'static str; 5],
+    /// Cells for each axis.
+    rows: [Vec<String>; 6],
+    texts: [String; 4],
 }
 
 /// A chart of one line, whose values are among the curves.
@@ -58,84 +64,65 @@ struct ChartHead {
     label: String,
 }
 
-/// Memory for so many numbers, which the page writes.
-// SAFETY: no other function of this module has the name.
-#[unsafe(no_mangle)]
-pub extern "C" fn numbers(count: usize) -> *mut f64 {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        exchange.numbers.clear();
-        exchange.numbers.resize(count, 0.0);
-        exchange.numbers.as_mut_ptr()
-    })
-}
-
 /// Takes a recording from the numbers: the time between samples, the bounds of the three axes, the
 /// parameters for which they hold, and each sample's inputs. The result is the number of samples.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn record() -> usize {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        let (head, samples) = exchange.numbers.split_at(4 + PARAMETERS);
-        let inputs: Vec<Input> =
-            samples.chunks_exact(INPUTS).map(|slots| Input::read(&mut Reader::new(slots))).collect();
-        let count = inputs.len();
-        exchange.recorded = Some(Recorded {
-            manoeuvre: Manoeuvre::new(head[0], inputs),
+    let recorded = with_numbers(|numbers| {
+        let (head, samples) = numbers.split_at(4 + PARAMETERS);
+        let input = |slots| Input::read(&mut Reader::new(slots));
+        Recorded {
+            manoeuvre: Manoeuvre::new(head[0], samples.chunks_exact(INPUTS).map(input).collect()),
             start: Parameters::read(&mut Reader::new(&head[4..])),
             bounds: [head[1], head[2], head[3]],
             references: References::default(),
-        });
-        count
-    })
+        }
+    });
+    let count = recorded.manoeuvre.inputs().len();
+    RECORDED.set(Some(recorded));
+    count
 }
 
-/// Simulates with the parameters that the numbers hold. True if [`text`] is the answer and the
+/// Simulates with the parameters that the numbers hold. True if the text is the answer and the
 /// curves are written; false if it is the reason why the parameters cannot be used.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn simulate() -> bool {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        let parameters = Parameters::read(&mut Reader::new(&exchange.numbers));
-        match exchange.recorded.as_mut().ok_or_else(|| "no recording".to_owned()).and_then(|one| one.run(&parameters)) {
-            Ok(run) => {
-                exchange.text = answer(&run, &parameters);
-                exchange.curves = curves_of(&run);
-                true
-            }
-            Err(reason) => {
-                exchange.text = reason;
-                false
-            }
-        }
-    })
+    let parameters: Parameters = group();
+    let run = RECORDED.with_borrow_mut(|recorded| {
+        recorded.as_mut().ok_or_else(|| "no recording".to_owned()).and_then(|one| one.run(&parameters))
+    });
+    say(run.map(|run| {
+        CURVES.set(curves_of(&run));
+        answer(&run, &parameters)
+    }))
 }
 
-/// Address of the text.
+/// The verdict on the rig of the parameters that the numbers hold; before them the diameter of its
+/// legs, which is not a number where it is not known. True if the text is the verdict; false if it
+/// is the reason why there is none.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
-pub extern "C" fn text() -> *const u8 {
-    EXCHANGE.with_borrow(|exchange| exchange.text.as_ptr())
-}
-
-/// Length of the text in bytes.
-// SAFETY: no other function of this module has the name.
-#[unsafe(no_mangle)]
-pub extern "C" fn text_length() -> usize {
-    EXCHANGE.with_borrow(|exchange| exchange.text.len())
+pub extern "C" fn check_rig() -> bool {
+    say(with_numbers(|numbers| {
+        let given: Parameters = Parameters::read(&mut Reader::new(&numbers[1..]));
+        verdict(&given, Some(numbers[0]).filter(|diameter| diameter.is_finite()))
+    }))
 }
 
 /// Address of the curves: series one after the other, in the order of the page's `simulator.js`.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn curves() -> *const f32 {
-    EXCHANGE.with_borrow(|exchange| exchange.curves.as_ptr())
+    CURVES.with_borrow(|curves| curves.as_ptr())
 }
 
 /// Number of the curves' values.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn curves_length() -> usize {
-    EXCHANGE.with_borrow(|exchange| exchange.curves.len())
+    CURVES.with_borrow(Vec::len)
 }
 
 impl Recorded {
@@ -172,11 +159,38 @@ impl Recorded {
     }
 }
 
+fn verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> {
+    given.check_ranges().map_err(|error| error.to_string())?;
+    // As the command has them: the rig's, all others the default's.
+    let defaults = Parameters::default();
+    let structure = StructureParameters {
+        head_height: given.structure.head_height,
+        torso_length: given.structure.torso_length,
+        ..defaults.structure
+    };
+    let alone = Parameters { rig: given.rig, safety: given.safety, structure, ..defaults };
+    let capabilities = Capabilities::of(&alone, diameter).map_err(|error| error.to_string())?;
+    let texts = [
+        capabilities.legs(),
+        capabilities.safety().join("\n"),
+        capabilities.clearance.to_string(),
+        capabilities.singularities.to_string(),
+    ];
+    let verdict = Verdict {
+        is_sound: capabilities.is_sound(),
+        heads: AxisAlone::HEADS,
+        rows: capabilities.axes.each_ref().map(AxisAlone::row),
+        texts: texts.map(|text| text.trim_end().to_owned()),
+    };
+    serde_json::to_string(&verdict).map_err(|error| error.to_string())
+}
+
 fn answer(run: &Run, parameters: &Parameters) -> String {
     let answer = Answer {
         findings: run.findings.clone(),
         measures: run.measures.clone(),
         limits: run.limits,
+        rig: Rig::from(parameters),
         events: events(run, &Rig::from(parameters)),
         leans: !run.lean.is_empty(),
         charts: run.charts.iter().map(head).collect(),
@@ -204,7 +218,7 @@ fn curves_of(run: &Run) -> Vec<f32> {
     ];
     let values = groups.into_iter().flatten().flatten().map(|&value| value as f32);
     let limited = &run.limited;
-    let flags = [&limited.tilt, &limited.safety, &limited.actuator]
+    let flags = [&limited.tilt, &limited.soft, &limited.safety, &limited.actuator]
         .into_iter()
         .flatten()
         .map(|&flag| f32::from(u8::from(flag)));

@@ -40,6 +40,7 @@ fn unchecked(rig: Option<&Bound<PyAny>>, parameters: Option<&Bound<PyAny>>, stra
         parameters_name: String::new(),
         parameters: rig_alone,
         rig_alone,
+        actuator_diameter: rig.as_ref().and_then(|rig| rig.actuator.diameter),
     };
     if let Some(parameters) = parameters {
         overlay(&mut setup, parameters)?;
@@ -61,6 +62,7 @@ pub fn values(parameters: &Bound<PyAny>) -> PyResult<NamedValues> {
         parameters_name: String::new(),
         parameters: Parameters::default(),
         rig_alone: Parameters::default(),
+        actuator_diameter: None,
     };
     let mut given = NamedValues::new();
     each(parameters, &mut |_, values| given.extend(values))?;

@@ -157,7 +157,7 @@ impl PySimulation {
         let [parameters, rig_alone] = parameters;
         let felt_within_steps = felt.into_iter().map(Into::into).collect();
         let simulation = Simulation { step, parameters, inputs, outputs, felt_within_steps };
-        let setup = Setup { rig_name, parameters_name, parameters, rig_alone };
+        let setup = Setup { rig_name, parameters_name, parameters, rig_alone, actuator_diameter: None };
         let mut outcome = Outcome::measured(simulation, &setup).map_err(|_| refused())?;
         if has_bounds {
             outcome.bounds =

@@ -39,15 +39,15 @@ pub fn survey(py: Python, rig: Option<&Bound<PyAny>>, samples: u32) -> PyResult<
     };
     let survey =
         py.detach(|| Survey::of(&file, samples)).map_err(|error| error::refused(py, &error, &file.values()))?;
-    let axes = survey.axes.iter();
+    let axes = survey.capabilities.axes.iter();
     let axes = axes.map(|axis| (axis.axis.name(), axis.range.min, axis.range.max, axis.speed, axis.acceleration));
-    let (condition, singular_at) = match survey.singularities {
+    let (condition, singular_at) = match survey.capabilities.singularities {
         Singularities::None(found) => (Some((found.smallest_singular_value, found.worst_condition)), None),
         Singularities::At(lengths) => (None, Some(lengths)),
     };
     let volumes = [survey.workspace.level, survey.workspace.tilted].map(|volume| (volume.size, volume.standard_error));
     let axes = axes.collect();
-    let closest = survey.clearance.approaches[0];
+    let closest = survey.capabilities.clearance.approaches[0];
     let closest = (closest.legs.map(|leg| leg + 1), closest.distance);
     Ok((survey.name.clone(), axes, volumes, condition, singular_at, closest, survey.to_string(), picture::svg(&survey)))
 }

@@ -41,7 +41,9 @@ fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
         .runs
         .iter()
         .map(|run| {
+            let Limited { tilt, soft, safety, actuator, .. } = &run.limited;
             json!({
+                "limited": { "tilt": tilt, "soft": soft, "safety": safety, "actuator": actuator },
                 "name": run.name, "times": run.times, "position": run.position, "orientation": run.orientation,
                 "legs": run.legs, "lean": run.lean, "felt": run.felt.specific_force, "measures": run.measures,
             })
@@ -157,7 +159,7 @@ fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -
     const STEP: f64 = 0.001;
     let mut washout = Washout::new(parameters).expect("the shipped parameters are good");
     let mut run = Run { name: name.into(), limits: parameters.into(), ..Run::default() };
-    let mut limited = [false; 3];
+    let mut limited = [false; 4];
     let steps = (duration / STEP).round() as usize;
     for k in 0..=steps {
         let time = k as f64 * STEP;
@@ -165,8 +167,9 @@ fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -
             washout.step_between(&input(time - STEP), &input(time), STEP);
             let output = washout.output();
             limited[0] |= output.tilt_limited;
-            limited[1] |= output.safety_active;
-            limited[2] |= output.actuator_limited;
+            limited[1] |= output.soft_limited;
+            limited[2] |= output.safety_active;
+            limited[3] |= output.actuator_limited;
         }
         if k % every == 0 {
             keep(&mut run, time, &input(time), &washout, std::mem::take(&mut limited));
@@ -181,7 +184,7 @@ fn simulated(name: &str, parameters: &Parameters, duration: f64, every: usize) -
     run
 }
 
-fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bool; 3]) {
+fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bool; 4]) {
     let output = washout.output();
     run.times.push(time);
     let turn = [output.orientation.roll, output.orientation.pitch, output.orientation.yaw];
@@ -201,10 +204,10 @@ fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bo
     run.tilt_rate[0].push(output.tilt_roll_rate);
     run.tilt_rate[1].push(output.tilt_pitch_rate);
     run.lean.push(input.lean);
-    let Limited { tilt, safety, actuator, .. } = &mut run.limited;
-    tilt.push(limited[0]);
-    safety.push(limited[1]);
-    actuator.push(limited[2]);
+    let Limited { tilt, soft, safety, actuator, .. } = &mut run.limited;
+    for (flags, flag) in [tilt, soft, safety, actuator].into_iter().zip(limited) {
+        flags.push(flag);
+    }
 }
 
 /// A few rows for the table.

@@ -141,11 +141,19 @@ class Chart {
     const legend = element("ul", { class: "legend" }, this.legend.map(({ entry }) => entry));
     this.element = element("figure", { class: "chart" }, [element("figcaption", {}, [heading, legend]), this.plot.box]);
     this.element.dataset.title = title;
-    this.plot.canvas.setAttribute("aria-label", this.spoken(title, unit));
+    this.spoken = () => this.inWords(title, unit);
+    this.plot.canvas.setAttribute("aria-label", this.spoken());
+  }
+
+  /** Takes other curves and limits, as many as there are. */
+  take({ lines, others = [], limits = [] }) {
+    Object.assign(this, { lines, others, limits });
+    lines.forEach((line, i) => { this.legend[i].line = line; });
+    this.plot.canvas.setAttribute("aria-label", this.spoken());
   }
 
   /** The chart in words, for readers of screens. */
-  spoken(title, unit) {
+  inWords(title, unit) {
     const [from, to] = this.shown();
     const ranges = this.lines.map(({ label, times, values }) => {
       const found = extent(times, values, from, to);

@@ -41,6 +41,7 @@ async function decodedRun(run, events, index) {
   const times = await decoded(run.times, Float64Array);
   return {
     ...run,
+    rig: page.report.rig,
     index,
     events,
     times,
@@ -55,6 +56,7 @@ async function decodedRun(run, events, index) {
     lean: await decoded(run.lean),
     limited: {
       tilt: await inflated(run.limited.tilt),
+      soft: await inflated(run.limited.soft),
       safety: await inflated(run.limited.safety),
       actuator: await inflated(run.limited.actuator),
     },

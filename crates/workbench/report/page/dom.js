@@ -14,9 +14,11 @@ const byId = (id) => document.getElementById(id);
 function fitted(canvas) {
   const { width, height } = canvas.getBoundingClientRect();
   const ratio = window.devicePixelRatio || 1;
-  canvas.width = Math.max(1, Math.round(width * ratio));
-  canvas.height = Math.max(1, Math.round(height * ratio));
+  const size = { width: Math.max(1, Math.round(width * ratio)), height: Math.max(1, Math.round(height * ratio)) };
   const context = canvas.getContext("2d");
+  // Another size makes a new picture, which is slow.
+  if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
+  else context.reset();
   context.setTransform(ratio, 0, 0, ratio, 0, 0);
   context.font = "11px system-ui, sans-serif";
   return { context, width, height };

@@ -1,8 +1,8 @@
 // The legs against their stroke, as six gauges.
 
 class Gauges {
-  constructor(box, [shortest, longest]) {
-    this.stroke = [shortest, longest];
+  constructor(box) {
+    this.box = box;
     this.gauges = Array.from({ length: 6 }, (_, i) => {
       const needle = element("div", { class: "needle" });
       const value = element("span", { class: "value" });
@@ -10,15 +10,15 @@ class Gauges {
       box.append(element("div", { class: "gauge" }, [element("span", {}, [`leg ${i + 1}`]), track, value]));
       return { needle, value };
     });
-    box.title = `Length of each leg between ${fixed(shortest, 3)} and ${fixed(longest, 3)} m`;
   }
 
-  update(state) {
-    const [shortest, longest] = this.stroke;
+  update(state, stroke) {
+    const [shortest, longest] = stroke;
+    this.box.title = `Length of each leg between ${fixed(shortest, 3)} and ${fixed(longest, 3)} m`;
     this.gauges.forEach(({ needle, value }, i) => {
       const fraction = (state.legs[i] - shortest) / (longest - shortest);
       needle.style.left = `${100 * Math.min(1, Math.max(0, fraction))}%`;
-      needle.style.background = rgb(strokeColour(state.legs[i], this.stroke));
+      needle.style.background = rgb(strokeColour(state.legs[i], stroke));
       value.textContent = `${fixed(state.legs[i], 3)} m`;
     });
   }

@@ -2,6 +2,7 @@
 
 const KINDS = {
   tilt: { label: "tilt", long: "tilt limited", colour: "--tilt", help: "Tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit." },
+  soft: { label: "soft", long: "soft limits", colour: "--soft", help: "The soft limits changed the motion ahead of a limit of a leg or a safety unit." },
   safety: { label: "safety", long: "safety unit", colour: "--safety", help: "A safety unit limited the platform from its position, velocity or acceleration limit." },
   actuator: { label: "legs", long: "actuator guard", colour: "--actuator", help: "The actuator guard limited a leg's stroke, speed or acceleration." },
 };
@@ -39,16 +40,21 @@ class TimeLine {
     }).filter(Boolean);
     this.plot.canvas.setAttribute("aria-label", `Times of active limits: ${this.events.length} in all, listed below`);
     this.summary.textContent = fractions.length > 0 ? `Of ${fixed(last - first, 1)} s: ${fractions.join(", ")}.` : "No limit was active.";
+    this.element.querySelector(".events").hidden = this.events.length === 0;
+  }
+
+  /** Fills the list; a long one takes a while. */
+  showList() {
     this.list.replaceChildren(...this.events.map((event) => this.row(event)));
     this.printed.textContent = this.events.length > PRINTED ? `The first ${PRINTED} of ${this.events.length}.` : "";
-    this.element.querySelector(".events").hidden = this.events.length === 0;
   }
 
   row(event) {
     const { long, colour: paint } = KINDS[event.kind];
     const mark = element("span", { class: "mark", style: `background: var(${paint})` });
+    const times = `${fixed(event.from, 2)} to ${fixed(event.to, 2)} s`;
     const row = element("tr", { title: "Go there" }, [
-      element("td", { class: "number" }, [`${fixed(event.from, 2)} to ${fixed(event.to, 2)} s`]),
+      element("td", { class: "number" }, [element("button", { type: "button", "aria-label": `Go to ${times}, ${long}` }, [times])]),
       element("td", {}, [mark, long]),
       element("td", {}, [event.why]),
     ]);

@@ -12,7 +12,7 @@ function stateAt(run, time) {
     legs: run.legs.map(at),
     desired: run.desired.specific_force.map(at),
     felt: run.felt.specific_force.map(at),
-    limited: { tilt: run.limited.tilt[i], safety: run.limited.safety[i], actuator: run.limited.actuator[i] },
+    limited: { tilt: run.limited.tilt[i], soft: run.limited.soft[i], safety: run.limited.safety[i], actuator: run.limited.actuator[i] },
   };
 }
 

@@ -9,7 +9,7 @@ const recording = {
 const now = { time: recording.from, run: report.runs[report.selected], shown: [recording.from, recording.to], playing: false, speed: 1 };
 
 const view = new View(byId("view"), report.rig, report.vehicle);
-const gauges = new Gauges(byId("gauges"), report.rig.stroke);
+const gauges = new Gauges(byId("gauges"));
 const chips = new Chips(byId("chips"));
 const shown = () => now.shown;
 const handlers = { seek, show, hover };
@@ -66,36 +66,54 @@ function play(on) {
   requestAnimationFrame(tick);
 }
 
-function select(index) {
+/** Shows a run; while a slider moves, what is out of sight waits until it rests. */
+function select(index, isMoving = false) {
   now.run = report.runs[index];
   showRunChoice();
-  if (tuning) tuning.showChoice(now.run);
+  if (tuning) tuning.see(now.run);
   timeLine.select(now.run);
+  if (!isMoving) timeLine.showList();
   showKey();
   showFindings();
   buildCharts();
-  drawCharts();
+  drawCharts(isMoving);
   seek(now.time);
 }
 
 /** A button for each run, where there are several. */
 function showRunChoice() {
   const box = byId("runs");
-  while (report.runs.length > 1 && box.children.length < report.runs.length) {
-    const run = report.runs[box.children.length];
-    const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
-    button.addEventListener("click", () => select(run.index));
-    box.append(button);
+  const names = report.runs.map(({ name }) => name);
+  if (names.length > 1 && names.join("\n") !== [...box.children].map(({ textContent }) => textContent).join("\n")) {
+    box.replaceChildren(...report.runs.map((run, i) => {
+      const button = element("button", { type: "button", style: `--run: var(${run.colour})` }, [run.name]);
+      button.addEventListener("click", () => select(i));
+      return button;
+    }));
   }
   [...box.children].forEach((button, i) => button.setAttribute("aria-pressed", String(i === now.run.index)));
 }
 
+/** What the elements of charts depend on, as one text; their curves and limits change within them. */
+const shapeOf = (built) => JSON.stringify([now.run.name, report.runs.length > 1, built], (key, value) => {
+  if (key === "limits") return value.length;
+  return ["times", "values", "others"].includes(key) ? undefined : value;
+});
+
+/** Makes the charts of the shown run, or puts its curves into those that there are. */
 function buildCharts() {
+  const wanted = sections(now.run);
+  const shape = shapeOf(wanted);
+  if (shape === buildCharts.shape) {
+    wanted.flatMap(({ charts: listed }) => listed).forEach((one, i) => charts[i].take(one));
+    return;
+  }
+  buildCharts.shape = shape;
   const box = byId("charts");
   const of = report.runs.length > 1 ? ` (${now.run.name})` : "";
   const lane = element("section", {}, [element("h2", {}, ["Active limits" + of]), timeLine.element]);
   charts = [];
-  const built = sections(now.run).map(({ heading, charts: listed, note, of_run: ofRun }) => {
+  const built = wanted.map(({ heading, charts: listed, note, of_run: ofRun }) => {
     const made = listed.map((one) => new Chart(one, shown, handlers));
     charts.push(...made);
     const parts = made.map((chart) => chart.element);
@@ -111,13 +129,37 @@ function buildCharts() {
   box.replaceChildren(lane, ...built, choice);
 }
 
-function drawCharts() {
-  for (const chart of [timeLine, ...charts]) chart.draw();
+/** Time without a change after which the rest is drawn [ms]. */
+const REST = 250;
+
+function isInSight(part) {
+  const { top, bottom } = part.getBoundingClientRect();
+  return bottom > 0 && top < innerHeight;
 }
 
+/** Draws all charts; while a slider moves, first those in sight. */
+function drawCharts(isMoving = false) {
+  clearTimeout(drawCharts.timer);
+  const all = [timeLine, ...charts];
+  // All are measured before any is drawn, so that the page is laid out once.
+  const due = isMoving ? all.filter(({ plot }) => isInSight(plot.box)) : all;
+  for (const chart of due) chart.draw();
+  if (isMoving) drawCharts.timer = setTimeout(showRest, REST);
+}
+
+/** What waits while a slider moves. */
+function showRest() {
+  timeLine.showList();
+  showAllMeasures();
+  drawCharts();
+}
+
+const showAllMeasures = () => showMeasures(byId("measures"), report.runs);
+
 function drawMachine() {
+  view.rig = now.run.rig;
   const state = view.draw(now.run, now.time);
-  gauges.update(state);
+  gauges.update(state, now.run.rig.stroke);
   chips.update(state);
 }
 
@@ -168,20 +210,19 @@ function setUpPlayer() {
   });
 }
 
-/** The panel of parameters, if this page can simulate. Its run stands behind those of the page. */
+/** Shows one of the runs that there are now. */
+function showRun(run, isMoving = false) {
+  if (!isMoving || isInSight(byId("measures"))) showAllMeasures();
+  select(run.index, isMoving);
+}
+
+/** The panel of parameters, if this page can simulate. */
 async function setUpTuning() {
   if (!report.simulator) return;
-  const index = report.runs.length;
   const simulator = new Simulator(report.simulator, page.worker);
   await simulator.prepare();
-  tuning = new Tuning(byId("tuning"), simulator, {
-    show: (run) => {
-      report.runs[index] = { ...run, index, ...runStyle(index) };
-      showMeasures(byId("measures"), report.runs);
-      select(index);
-    },
-    choose: (original) => select(original ? 0 : index),
-  });
+  tuning = new Tuning(byId("tuning"), simulator, showRun);
+  tuning.see(now.run);
 }
 
 function redraw() {
@@ -190,7 +231,7 @@ function redraw() {
   seek(now.time);
 }
 
-showMeasures(byId("measures"), report.runs);
+showAllMeasures();
 byId("provenance").append(...report.provenance.map(([name, text]) => element("span", {}, [element("b", {}, [name]), " ", text])));
 setUpPlayer();
 letTurn(view, drawMachine);

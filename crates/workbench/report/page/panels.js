@@ -54,8 +54,7 @@ const bothWays = (limit) => (limit > 0 ? [-limit, limit] : []);
 
 /** The sections of the page for a run: heading, charts, and a note where something is left out. */
 function sections(run) {
-  const { rig } = report;
-  const position = ({ position: [x, y, z] }) => [x, y, z.map((value) => value - rig.neutral_height)];
+  const position = ({ position: [x, y, z], rig }) => [x, y, z.map((value) => value - rig.neutral_height)];
   const forces = AXES.map(([name, axis]) => `${name}, ${axis}`);
   const rates = TURNS.map((name, i) => `${name} rate, ${AXES[i][1]}`);
   return [
@@ -70,7 +69,7 @@ function sections(run) {
       { title: "Tilt rate", unit: "\u00b0/s", ...series(run, ({ tilt_rate: rate }) => rate, ["roll", "pitch"], THREE, inDegrees), limits: bothWays(run.limits.tilt_rate * DEGREES), least: 1 },
     ] },
     { heading: "Legs", of_run: true, charts: [
-      { title: "Length", unit: "m", ...series(run, ({ legs }) => legs, ["1", "2", "3", "4", "5", "6"], LEGS), limits: rig.stroke, height: 190, digits: 3 },
+      { title: "Length", unit: "m", ...series(run, ({ legs }) => legs, ["1", "2", "3", "4", "5", "6"], LEGS), limits: run.rig.stroke, height: 190, digits: 3 },
     ] },
     ...furtherSections(),
     ...overlaid(run),

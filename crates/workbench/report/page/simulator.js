@@ -46,8 +46,13 @@ class Simulator {
     this.times = Float64Array.from({ length: this.samples }, (_, k) => k * data.step);
   }
 
+  /** The verdict on the rig of these parameters; or `reason`, why there is none. */
+  check(values) {
+    return this.ask({ rig: Float64Array.of(this.data.actuator_diameter ?? NaN, ...values) });
+  }
+
   /** A run with these parameters as the page's others are; or `reason`, why there is none. */
-  async run(values, name) {
+  async run(values) {
     const answer = await this.ask({ values: Float64Array.from(values) });
     if (answer.reason) return answer;
     const { samples } = this;
@@ -60,10 +65,10 @@ class Simulator {
     const cues = () => ({ specific_force: series(3), angular_velocity: series(3) });
     const flags = () => Uint8Array.from(next());
     const run = {
-      name, ...answer, times: this.times,
+      ...answer, times: this.times,
       desired: cues(), felt: cues(), position: series(3), orientation: series(3), legs: series(6), tilt: series(2),
       tilt_rate: series(2), lean: answer.leans ? next() : null,
-      limited: { tilt: flags(), safety: flags(), actuator: flags() },
+      limited: { tilt: flags(), soft: flags(), safety: flags(), actuator: flags() },
     };
     const chart = ({ title, quantity, label }) => ({ title, quantity, times: this.times, lines: [{ label, values: next() }], limits: [] });
     return { ...run, charts: answer.charts.map(chart) };

@@ -1,6 +1,5 @@
 // The panel with the parameters: each change simulates the recording again and redraws the page.
 
-const BY_HAND = "by hand";
 /** Most parameters that a search shows. */
 const MOST_FOUND = 12;
 
@@ -12,6 +11,9 @@ function written({ kind, items }, value) {
   return kind === "real" && /^-?\d+$/.test(text) ? `${text}.0` : text;
 }
 
+/** A text as a comment or a name may have it. */
+const asComment = (text) => text.replace(/[\u0000-\u001f\u007f]/g, " ");
+
 /** Text of the parameter file: what differs from the rig with default parameters. */
 function parameterFile({ parameters, heading }, values) {
   const lines = parameters.flatMap((parameter, slot) => {
@@ -19,18 +21,28 @@ function parameterFile({ parameters, heading }, values) {
     const unit = parameter.unit ? ` [${parameter.unit}]` : "";
     return [`\n# ${parameter.text}${unit}\n"${parameter.name}" = ${written(parameter, values[slot])}\n`];
   });
-  return `# ${heading.replace(/[\u0000-\u001f\u007f]/g, " ")}\n${lines.join("")}`;
+  return `# ${asComment(heading)}\n${lines.join("")}`;
+}
+
+/** Gives a text to save as a file. */
+function saveAs(name, text) {
+  const link = element("a", { download: name });
+  link.href = URL.createObjectURL(new Blob([text], { type: "application/toml" }));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 class Tuning {
-  /** `show(run)` shows a simulated run; `choose(original)` chooses between it and the original. */
-  constructor(box, simulator, { show: showRun, choose }) {
-    Object.assign(this, { box, simulator, showRun, choose });
+  /** `show(run)` shows a run, and every curve and measure anew. */
+  constructor(box, simulator, show) {
+    Object.assign(this, { box, simulator, show });
     this.parameters = simulator.data.parameters;
     this.slots = new Map(this.parameters.map(({ name }, slot) => [name, slot]));
     this.values = this.parameters.map(({ start }) => start);
+    report.runs[0].values = [...this.values];
     this.settled = [...this.values];
     this.history = [];
+    this.future = [];
     this.controls = new Map();
     this.isBusy = false;
     this.build();
@@ -42,36 +54,35 @@ class Tuning {
   }
 
   build() {
-    const button = (text, title, act) => {
-      const made = element("button", { type: "button", title }, [text]);
-      made.addEventListener("click", act);
-      return made;
-    };
-    this.undoButton = button("Undo", "Take the last change back (control and Z)", () => this.undo());
-    this.resetButton = button("Start values", "Set every parameter to its start", () => this.change(this.parameters.map(({ start }) => start)));
-    this.compareButton = button("Show the original", "Show the original or the changed one", () => this.compare());
-    this.saveButton = button("Save parameters", `Save as ${this.simulator.data.file}`, () => this.save());
-    this.copyButton = button("Copy command", this.command(), () => this.copy());
+    this.variants = new Variants(this.show, (text) => this.say(text));
+    this.undoButton = panelButton("Undo", "Take the last change back (control and Z)", () => this.undo());
+    this.redoButton = panelButton("Redo", "Make the change again (control, shift and Z)", () => this.redo());
+    this.resetButton = panelButton("Start values", "Set every parameter to its start", () => this.change(this.parameters.map(({ start }) => start)));
+    this.saveButton = panelButton("Save parameters", "Save the shown run's parameters as a file", () => this.save());
+    this.copyButton = panelButton("Copy command", "Copy the command that simulates with the saved file", () => this.copy());
+    this.saveRigButton = panelButton("Save rig", "Save the shown run's rig as a file for --rig", () => saveAs(this.rigFileName, this.rigFile()));
+    this.verdict = new RigVerdict();
     this.message = element("p", { class: "summary", role: "status" });
     this.groups = element("div");
     this.search = element("input", { type: "search", id: "search", placeholder: "name or description" });
     this.found = element("div");
     this.search.addEventListener("input", () => this.showFound());
-    const tools = element("div", { class: "tools" }, [this.undoButton, this.resetButton, this.compareButton, this.saveButton, this.copyButton]);
+    const tools = element("div", { class: "tools" }, [this.undoButton, this.redoButton, this.resetButton, this.saveButton, this.copyButton]);
     const search = element("p", { class: "search" }, [element("label", { for: "search" }, ["Find another parameter"]), " ", this.search]);
-    this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.message, search, this.found, this.groups]));
+    this.box.append(element("summary", {}, ["Change parameters"]), element("div", { class: "panel" }, [tools, this.variants.element, this.message, search, this.found, this.groups]));
     this.box.addEventListener("keydown", (event) => {
-      if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z" && event.target !== this.search) {
-        event.preventDefault();
-        this.undo();
-      }
+      const isText = event.target === this.search || event.target === this.variants.name;
+      if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z" || isText) return;
+      event.preventDefault();
+      if (event.shiftKey) this.redo();
+      else this.undo();
     });
     this.box.addEventListener("toggle", () => {
       document.body.classList.toggle("tuning", this.box.open);
+      this.work();
       // On a narrow screen the panel stands over the page, which then shows its curves.
       if (this.box.open && getComputedStyle(this.box).position === "fixed") document.querySelector("#charts .chart")?.scrollIntoView();
     });
-    this.showChoice(null);
     this.say(`Every change simulates ${this.subject} again, in this page.`);
     this.showControls();
     this.box.hidden = false;
@@ -121,8 +132,11 @@ class Tuning {
       headings.get(group).push(this.control(slot));
     });
     const focused = document.activeElement;
+    const ofRig = headings.get("Rig");
+    headings.delete("Rig");
     const parts = [...headings].filter(([, rows]) => rows.length > 0);
-    this.groups.replaceChildren(...parts.flatMap(([heading, rows]) => [element("h3", {}, [heading]), ...rows]));
+    const rig = [element("h3", {}, ["Rig"]), this.verdict.state, ...ofRig, element("div", { class: "tools" }, [this.saveRigButton]), this.verdict.details];
+    this.groups.replaceChildren(...parts.flatMap(([heading, rows]) => [element("h3", {}, [heading]), ...rows]), ...rig);
     this.showFound();
     if (this.box.contains(focused)) focused.focus();
   }
@@ -141,6 +155,7 @@ class Tuning {
     for (const [slot, control] of this.controls) control.show(this.values[slot]);
     const isStart = this.values.every((value, slot) => value === this.parameters[slot].start);
     this.undoButton.disabled = this.history.length === 0;
+    this.redoButton.disabled = this.future.length === 0;
     this.resetButton.disabled = isStart;
   }
 
@@ -159,6 +174,7 @@ class Tuning {
   settle() {
     if (this.values.every((value, slot) => value === this.settled[slot])) return;
     this.history.push(this.settled);
+    this.future = [];
     this.settled = [...this.values];
     this.showControls();
   }
@@ -170,54 +186,110 @@ class Tuning {
   }
 
   undo() {
-    if (this.history.length === 0) return;
-    this.values = this.history.pop();
+    this.go(this.history, this.future);
+  }
+
+  redo() {
+    this.go(this.future, this.history);
+  }
+
+  /** Goes to the last of some settled values, and puts the present ones to others. */
+  go(from, to) {
+    if (from.length === 0) return;
+    to.push(this.settled);
+    this.values = from.pop();
     this.settled = [...this.values];
     this.showControls();
     this.simulate();
   }
 
   /** Simulates with the values as they are; those that come meanwhile are next. */
-  async simulate() {
+  simulate() {
     this.isStale = true;
+    this.work();
+  }
+
+  /** Simulates, and then checks the rig, until both have the values as they are. */
+  async work() {
     if (this.isBusy) return;
     this.isBusy = true;
-    while (this.isStale) {
-      this.isStale = false;
-      const begin = performance.now();
-      const run = await this.simulator.run(this.values, BY_HAND);
-      if (run.reason) {
-        this.say(`These parameters cannot be used: ${run.reason}`);
-      } else {
-        this.isChanged = true;
-        this.showRun(run);
-        this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
-      }
+    while (this.isStale || this.rigKey !== this.checkedRig) {
+      if (this.isStale) await this.simulateOnce();
+      else await this.checkRig();
     }
     this.isBusy = false;
   }
 
-  compare() {
-    this.choose(this.compareButton.getAttribute("aria-pressed") !== "true");
+  async simulateOnce() {
+    this.isStale = false;
+    const begin = performance.now();
+    const values = [...this.values];
+    const run = await this.simulator.run(values);
+    if (run.reason) {
+      this.say(`These parameters cannot be used: ${run.reason}`);
+      return;
+    }
+    this.isShowing = true;
+    this.show(this.variants.putByHand({ ...run, values }), true);
+    this.isShowing = false;
+    // Another run may have been chosen meanwhile; the panel is again that of this one.
+    if (!this.isStale && values.some((value, slot) => value !== this.values[slot])) {
+      this.values = values;
+      this.showControls();
+    }
+    this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
   }
 
-  /** Says whether the run that is shown is another than the changed one. */
-  showChoice(run) {
-    this.compareButton.disabled = !this.isChanged;
-    this.compareButton.setAttribute("aria-pressed", String(Boolean(this.isChanged) && run !== report.runs.at(-1)));
+  /** The values that the verdict depends on, as one text. */
+  get rigKey() {
+    return this.values.filter((_, slot) => /^(rig|actuator|safety|head)\./.test(this.parameters[slot].name)).join(" ");
+  }
+
+  async checkRig() {
+    this.checkedRig = this.rigKey;
+    this.verdict.show(await this.simulator.check(this.values));
+  }
+
+  /** Takes note of the shown run, and takes its parameters where they are known; not while a slider moves. */
+  see(run) {
+    this.variants.see(run);
+    this.saveButton.disabled = !run.values;
+    this.copyButton.disabled = !run.values;
+    this.saveRigButton.disabled = !run.values;
+    if (this.isShowing || !run.values) return;
+    this.values = [...run.values];
+    this.showControls();
+  }
+
+  /** Name of the shown run's file. */
+  get fileName() {
+    const { file } = this.simulator.data;
+    const { isKept, name } = this.variants.shown;
+    return isKept ? file.replace(/\.toml$/, `-${name.replace(/[^\p{L}\p{N}_.-]+/gu, "-")}.toml`) : file;
   }
 
   command() {
-    const { command, file } = this.simulator.data;
+    const file = this.fileName;
     const plain = /^[\w./-]+$/.test(file) ? file : `'${file.replaceAll("'", "'\\''")}'`;
-    return `${command} ${plain}`;
+    return `${this.simulator.data.command} ${plain}`;
+  }
+
+  get rigFileName() {
+    return this.fileName.replace(/\.toml$/, ".rig.toml");
+  }
+
+  /** Text of the shown run's rig file. */
+  rigFile() {
+    return rigFile(this.simulator.data, (name) => this.variants.shown.values[this.slots.get(name)]);
+  }
+
+  /** Text of the shown run's file. */
+  file() {
+    return parameterFile(this.simulator.data, this.variants.shown.values);
   }
 
   save() {
-    const link = element("a", { download: this.simulator.data.file });
-    link.href = URL.createObjectURL(new Blob([parameterFile(this.simulator.data, this.values)], { type: "application/toml" }));
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    saveAs(this.fileName, this.file());
   }
 
   async copy() {

@@ -1,34 +1,29 @@
 // Simulates beside the page, so that sliders do not wait. The first message brings the module and the recording, every
 // other one a set of parameters.
-"use strict";
 let simulation = null;
 
-/** Writes numbers for the module to read. Its memory may move when it grows, and is asked for after that. */
-function hand(values) {
-  const address = simulation.numbers(values.length);
-  new Float64Array(simulation.memory.buffer, address, values.length).set(values);
+function simulated(values) {
+  simulation.hand(values);
+  if (!simulation.calls.simulate()) return { reason: simulation.text() };
+  const curves = simulation.view(Float32Array, simulation.calls.curves(), simulation.calls.curves_length()).slice();
+  return { ...JSON.parse(simulation.text()), curves };
 }
 
-const answerText = () => new TextDecoder().decode(new Uint8Array(simulation.memory.buffer, simulation.text(), simulation.text_length()));
-
-function simulated(values) {
-  hand(values);
-  if (!simulation.simulate()) return { reason: answerText() };
-  const curves = new Float32Array(simulation.memory.buffer, simulation.curves(), simulation.curves_length()).slice();
-  return { ...JSON.parse(answerText()), curves };
+function checked(rig) {
+  simulation.hand(rig);
+  return simulation.calls.check_rig() ? JSON.parse(simulation.text()) : { reason: simulation.text() };
 }
 
 async function prepare({ module, recorded }) {
-  const { instance } = await WebAssembly.instantiate(module, {});
-  simulation = instance.exports;
-  hand(recorded);
-  return { samples: simulation.record() };
+  simulation = await Module.start(module);
+  simulation.hand(recorded);
+  return { samples: simulation.calls.record() };
 }
 
 onmessage = async ({ data }) => {
   try {
     const begin = performance.now();
-    const answer = data.module ? await prepare(data) : simulated(data.values);
+    const answer = data.module ? await prepare(data) : data.rig ? checked(data.rig) : simulated(data.values);
     postMessage({ ...answer, took: performance.now() - begin }, answer.curves ? [answer.curves.buffer] : []);
   } catch (error) {
     postMessage({ failure: String(error) });

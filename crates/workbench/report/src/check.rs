@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::data::{Report, Run};
+use crate::data::{Limited, Report, Run};
 
 /// Why no page can be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -82,9 +82,8 @@ fn series_of(run: &Run) -> Vec<(String, usize)> {
         .iter()
         .flat_map(|(name, group)| group.iter().enumerate().map(move |(i, one)| (format!("{name}[{i}]"), one.len())))
         .collect();
-    for (name, flags) in
-        [("tilt", &run.limited.tilt), ("safety", &run.limited.safety), ("actuator", &run.limited.actuator)]
-    {
+    let Limited { tilt, soft, safety, actuator, .. } = &run.limited;
+    for (name, flags) in [("tilt", tilt), ("soft", soft), ("safety", safety), ("actuator", actuator)] {
         lengths.push((format!("limited.{name}"), flags.len()));
     }
     if !run.lean.is_empty() {
@@ -96,7 +95,7 @@ fn series_of(run: &Run) -> Vec<(String, usize)> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::data::{Chart, Cues, Limited, Line, Rig};
+    use crate::data::{Chart, Cues, Line, Rig};
 
     /// The smallest report that there can be: two samples of one run.
     pub(crate) fn smallest() -> Report {
@@ -116,6 +115,7 @@ pub(crate) mod tests {
             tilt_rate: zeros(),
             limited: Limited {
                 tilt: vec![false; 2],
+                soft: vec![false; 2],
                 safety: vec![false; 2],
                 actuator: vec![false; 2],
                 ..Limited::default()

@@ -153,6 +153,9 @@ pub struct Limited {
     /// Which limit, of roll and of pitch.
     #[serde(skip)]
     pub tilt_by: TiltFlags,
+    /// The soft limits changed the motion ahead of a hard limit.
+    #[serde(serialize_with = "flags")]
+    pub soft: Vec<bool>,
     /// A safety unit limited the platform.
     #[serde(serialize_with = "flags")]
     pub safety: Vec<bool>,

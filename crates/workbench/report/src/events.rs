@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::data::{Rig, Run};
+use crate::data::{Limited, Rig, Run};
 use crate::tilt_limits::TiltLimit;
 
 /// A stretch of time in which something was limited.
@@ -22,6 +22,7 @@ pub struct Event {
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     Tilt,
+    Soft,
     Safety,
     Actuator,
 }
@@ -46,11 +47,17 @@ impl Utilisation {
     fn new(who: impl Into<String>, value: f64, limit: f64, text: String) -> Self {
         Utilisation { fraction: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
     }
+
+    /// How much of the limit is used.
+    fn share(&self) -> String {
+        format!("{} at {:.0} % of the {}", self.who, 100.0 * self.fraction, self.limit)
+    }
 }
 
 /// Everything that was limited in a run, in the order of time.
 pub fn events(run: &Run, rig: &Rig) -> Vec<Event> {
-    let flags = [(Kind::Safety, &run.limited.safety), (Kind::Actuator, &run.limited.actuator)];
+    let Limited { soft, safety, actuator, .. } = &run.limited;
+    let flags = [(Kind::Soft, soft), (Kind::Safety, safety), (Kind::Actuator, actuator)];
     let mut events: Vec<Event> = flags
         .iter()
         .flat_map(|(kind, flags)| stretches(&run.times, flags).map(|at| event(*kind, run, rig, at)))
@@ -94,8 +101,9 @@ fn stretches(times: &[f64], flags: &[bool]) -> impl Iterator<Item = (usize, usiz
 fn event(kind: Kind, run: &Run, rig: &Rig, (first, last): (usize, usize)) -> Event {
     let at = Stretch { times: &run.times[first..=last], first, last };
     let why = match kind {
-        Kind::Actuator => actuator_reason(run, rig, &at),
-        _ => safety_reason(run, rig, &at),
+        Kind::Actuator => reason(of_actuators(run, rig, &at)),
+        Kind::Soft => soft_reason(run, rig, &at),
+        _ => reason(of_safety(run, rig, &at)),
     };
     Event { kind, from: run.times[first], to: run.times[last], why }
 }
@@ -130,7 +138,14 @@ impl Stretch<'_> {
     }
 }
 
-fn safety_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
+/// The limit that came closest, which the soft limits act ahead of.
+fn soft_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
+    let utilisations = of_safety(run, rig, at).into_iter().chain(of_actuators(run, rig, at)).flatten();
+    closest(utilisations).map_or_else(|| UNKNOWN.into(), |one| format!("ahead of a limit; {}", one.share()))
+}
+
+/// Of the limits of the safety units: of position, velocity and acceleration.
+fn of_safety(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
     let limits = &run.limits;
     let axes = [(0, "surge", 0.0), (1, "sway", 0.0), (2, "heave", rig.neutral_height)];
     let positions = axes.map(|(i, axis, neutral)| {
@@ -147,10 +162,11 @@ fn safety_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
         let text = format!("acceleration limit of {limit:.1} m/s²");
         Utilisation::new(axis, at.peak_second_rate(&run.position[i]), limit, text)
     });
-    reason([positions.into(), velocities.into(), accelerations.into()])
+    [positions.into(), velocities.into(), accelerations.into()]
 }
 
-fn actuator_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
+/// Of the limits of the legs: of length, speed and acceleration.
+fn of_actuators(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
     let limits = &run.limits;
     let [shortest, longest] = rig.stroke;
     let (middle, half) = (0.5 * (shortest + longest), 0.5 * (longest - shortest));
@@ -170,7 +186,7 @@ fn actuator_reason(run: &Run, rig: &Rig, at: &Stretch) -> String {
         let limit = limits.actuator_acceleration;
         Utilisation::new(name, at.peak_second_rate(leg), limit, format!("acceleration limit of {limit:.1} m/s²"))
     });
-    reason([short.chain(long).collect(), velocities.collect(), accelerations.collect()])
+    [short.chain(long).collect(), velocities.collect(), accelerations.collect()]
 }
 
 /// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
@@ -181,11 +197,16 @@ fn reason(kinds: [Vec<Utilisation>; 3]) -> String {
             return limits_reached(&reached);
         }
     }
-    let known = kinds.iter().flatten().filter(|one| one.fraction.is_finite());
-    known.max_by(|a, b| a.fraction.total_cmp(&b.fraction)).map_or_else(
-        || "no limit is known".into(),
-        |one| format!("braking or catching up; {} at {:.0} % of the {}", one.who, 100.0 * one.fraction, one.limit),
-    )
+    closest(kinds.into_iter().flatten())
+        .map_or_else(|| UNKNOWN.into(), |one| format!("braking or catching up; {}", one.share()))
+}
+
+const UNKNOWN: &str = "no limit is known";
+
+/// The one closest to its limit; none if no limit is known.
+fn closest(utilisations: impl Iterator<Item = Utilisation>) -> Option<Utilisation> {
+    let known = utilisations.filter(|one| one.fraction.is_finite());
+    known.max_by(|a, b| a.fraction.total_cmp(&b.fraction))
 }
 
 /// Who is at which limit: those at the same one together.
@@ -201,7 +222,7 @@ fn limits_reached(reached: &[&Utilisation]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::data::{Limited, Limits};
+    use crate::data::Limits;
 
     const RIG: Rig = Rig {
         base: [[0.0; 3]; 6],
@@ -221,7 +242,12 @@ mod tests {
             legs: std::array::from_fn(|_| all(1.3)),
             tilt: [all(0.0), all(0.0)],
             tilt_rate: [all(0.0), all(0.0)],
-            limited: Limited { safety: vec![false; 201], actuator: vec![false; 201], ..Limited::default() },
+            limited: Limited {
+                soft: vec![false; 201],
+                safety: vec![false; 201],
+                actuator: vec![false; 201],
+                ..Limited::default()
+            },
             limits: Limits {
                 tilt_angle: 0.38,
                 tilt_rate: 3_f64.to_radians(),
@@ -279,6 +305,17 @@ mod tests {
             reason(Kind::Actuator),
             Some("leg 4 at the shortest length of 1.000 m; leg 5, leg 6 at the greatest length of 1.600 m")
         );
+    }
+
+    #[test]
+    fn soft_limits_name_the_limit_that_is_closest() {
+        let mut run = still();
+        run.limited.soft = (0..201).map(|k| (90..=100).contains(&k)).collect();
+        run.position[0].fill(0.36);
+        run.legs[2].fill(1.57);
+        let [event] = &events(&run, &RIG)[..] else { panic!("one event") };
+        assert_eq!((event.kind, event.from, event.to), (Kind::Soft, 0.89, 1.0));
+        assert_eq!(event.why, "ahead of a limit; leg 3 at 90 % of the greatest length of 1.600 m");
     }
 
     #[test]

@@ -21,7 +21,7 @@ mod tilt_limits;
 /// Parts of the page for pages of other packages.
 pub mod shared {
     pub use crate::encode::bytes;
-    pub use crate::page::{ALARM, SHARED as SCRIPTS, STYLE, escaped, filled};
+    pub use crate::page::{STYLE, assembled, escaped};
 }
 
 pub use check::{ReportError, check};

@@ -7,15 +7,18 @@ use crate::data::Report;
 use crate::events::{Event, events};
 
 const TEMPLATE: &str = include_str!("../page/page.html");
+/// The end of every template.
+const END: &str = include_str!("../page/scripts.html");
 /// The style of a report, whose colours the scripts name.
 pub const STYLE: &str = include_str!("../page/style.css");
 /// Runs before the other scripts, and says if one of them fails.
-pub const ALARM: &str = include_str!("../page/alarm.js");
-const WORKER: &str = include_str!("../page/worker.js");
+const ALARM: &str = include_str!("../page/alarm.js");
+const WORKER: &str = concat!("\"use strict\";\n", include_str!("../page/module.js"), include_str!("../page/worker.js"));
 
 /// Scripts for any page with a machine and parameters, in the order of their dependencies.
-pub const SHARED: [&str; 9] = [
+const SHARED: [&str; 10] = [
     include_str!("../page/payload.js"),
+    include_str!("../page/module.js"),
     include_str!("../page/format.js"),
     include_str!("../page/dom.js"),
     include_str!("../page/palette.js"),
@@ -27,7 +30,7 @@ pub const SHARED: [&str; 9] = [
 ];
 
 /// The report's own scripts, likewise.
-const SCRIPTS: [&str; 11] = [
+const SCRIPTS: [&str; 13] = [
     include_str!("../page/data.js"),
     include_str!("../page/thin.js"),
     include_str!("../page/chart.js"),
@@ -37,6 +40,8 @@ const SCRIPTS: [&str; 11] = [
     include_str!("../page/overlay.js"),
     include_str!("../page/panels.js"),
     include_str!("../page/simulator.js"),
+    include_str!("../page/variants.js"),
+    include_str!("../page/rig.js"),
     include_str!("../page/tuning.js"),
     include_str!("../page/main.js"),
 ];
@@ -65,26 +70,25 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
         events: report.runs.iter().map(|run| events(run, &report.rig)).collect(),
         worker: report.simulator.is_some().then_some(WORKER),
     };
-    // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
-    let data = serde_json::to_string(&page).expect("plain data serialise").replace('<', "\\u003c");
-    Ok(filled(
-        TEMPLATE,
-        &[
-            ("title", &escaped(&report.title)),
-            ("subtitle", &escaped(&report.subtitle)),
-            ("style", STYLE),
-            ("alarm", ALARM),
-            ("data", &data),
-            ("script", &[SHARED.join("\n"), SCRIPTS.join("\n")].join("\n")),
-        ],
-    ))
+    let texts =
+        [("title", escaped(&report.title)), ("subtitle", escaped(&report.subtitle)), ("style", STYLE.to_owned())];
+    Ok(assembled(TEMPLATE, &texts, &page, &SCRIPTS))
 }
 
-/// The template with every `{{name}}` replaced. The inserted text is not expanded again.
+/// A page: a template with the texts, then the data and the scripts, after those that pages share.
 ///
 /// # Panics
 /// The template has a name without a text.
-pub fn filled(template: &str, texts: &[(&str, &str)]) -> String {
+pub fn assembled(template: &str, texts: &[(&str, String)], data: &impl Serialize, scripts: &[&str]) -> String {
+    // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
+    let data = serde_json::to_string(data).expect("plain data serialise").replace('<', "\\u003c");
+    let script = [&SHARED, scripts].concat().join("\n");
+    let of_end = [("alarm", ALARM.to_owned()), ("data", data), ("script", script)];
+    filled(template, texts) + &filled(END, &of_end)
+}
+
+/// The template with every `{{name}}` replaced. The inserted text is not expanded again.
+fn filled(template: &str, texts: &[(&str, String)]) -> String {
     let mut parts = template.split("{{");
     let mut page = parts.next().unwrap_or_default().to_owned();
     for part in parts {

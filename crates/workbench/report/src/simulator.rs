@@ -29,6 +29,10 @@ pub struct Simulator {
     pub command: String,
     /// Name of the saved file.
     pub file: String,
+    /// Name of the rig.
+    pub rig_name: String,
+    /// Diameter of its legs, where it is known \[m\].
+    pub actuator_diameter: Option<f64>,
 }
 
 /// A parameter to choose.

@@ -5,32 +5,22 @@ const STAGES = ["ready", "riding", "off_road", "fallen", "returning"];
 const LONGEST_FRAME = 0.1;
 
 class Engine {
-  static async start(module, values) {
-    const { instance } = await WebAssembly.instantiate(module, {});
-    const engine = new Engine();
-    engine.wasm = instance.exports;
-    engine.hand(values);
-    if (!engine.wasm.create()) throw new Error(engine.text());
-    engine.names = JSON.parse(engine.text());
-    engine.left = 0;
-    engine.steps = 0;
+  static async start(bytes, values) {
+    const engine = Object.assign(new Engine(), { module: await Module.start(bytes), left: 0, steps: 0 });
+    engine.module.hand(values);
+    if (!engine.calls.create()) throw new Error(engine.module.text());
+    engine.names = JSON.parse(engine.module.text());
     return engine;
   }
 
-  /** Writes numbers for the module to read. Its memory may move when it grows, and is asked for after that. */
-  hand(values) {
-    const address = this.wasm.numbers(values.length);
-    new Float64Array(this.wasm.memory.buffer, address, values.length).set(values);
-  }
-
-  text() {
-    return new TextDecoder().decode(new Uint8Array(this.wasm.memory.buffer, this.wasm.text(), this.wasm.text_length()));
+  get calls() {
+    return this.module.calls;
   }
 
   /** Takes parameters; the reason why it cannot, or nothing. */
   retune(values) {
-    this.hand(values);
-    return this.wasm.retune() ? "" : this.text();
+    this.module.hand(values);
+    return this.calls.retune() ? "" : this.module.text();
   }
 
   /** Rides for so many seconds in whole milliseconds. */
@@ -39,21 +29,20 @@ class Engine {
     const steps = Math.floor(1000 * this.left);
     this.left -= steps / 1000;
     this.steps += steps;
-    this.wasm.advance(steps, throttle, brake, stick, isHelped);
+    this.calls.advance(steps, throttle, brake, stick, isHelped);
   }
 
   /** What is shown, by names. */
   view() {
-    const address = this.wasm.view();
-    const values = new Float64Array(this.wasm.memory.buffer, address, this.names.length);
+    const values = this.module.view(Float64Array, this.calls.view(), this.names.length);
     const shown = Object.fromEntries(this.names.map((name, i) => [name, values[i]]));
     return { ...shown, stage: STAGES[shown.stage] };
   }
 
   /** Points of the road's centre: x, y, heading and the speed that a rider plans there. */
   road() {
-    const count = this.wasm.road();
-    const values = new Float64Array(this.wasm.memory.buffer, this.wasm.written(), 4 * count);
+    const count = this.calls.road_length();
+    const values = this.module.view(Float64Array, this.calls.road(), 4 * count);
     return Array.from({ length: count }, (_, k) => {
       const [x, y, yaw, advised] = values.subarray(4 * k, 4 * k + 4);
       return { x, y, yaw, advised };
@@ -61,15 +50,15 @@ class Engine {
   }
 
   restart() {
-    this.wasm.restart();
+    this.calls.restart();
   }
 
   lap(number) {
-    return this.wasm.lap(number) ? JSON.parse(this.text()) : null;
+    return this.calls.lap(number) ? JSON.parse(this.module.text()) : null;
   }
 
   csv() {
-    return this.wasm.csv() ? this.text() : "";
+    return this.calls.csv() ? this.module.text() : "";
   }
 }
 

@@ -34,7 +34,7 @@ const controls = new Controls();
 const panel = new Panel(byId("panel"), page, {
   retune: (values) => engine.retune(values),
   setFriction: (value) => {
-    if (!engine.wasm.set_friction(value)) return "Cannot be used.";
+    if (!engine.calls.set_friction(value)) return "Cannot be used.";
     road.points = engine.road();
     return "";
   },

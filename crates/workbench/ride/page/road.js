@@ -267,25 +267,15 @@ class Road {
       context.moveTo(0, -7 * unit);
       context.bezierCurveTo(side * 14 * unit, -6 * unit, side * 16 * unit, -11 * unit, side * 33 * unit, -5 * unit);
       context.stroke();
-      context.lineWidth = 0.9 * unit;
-      context.beginPath();
-      context.moveTo(side * 24 * unit, -8 * unit);
-      context.lineTo(side * 30 * unit, -15 * unit);
-      context.stroke();
-      context.strokeStyle = paints.grip;
-      context.lineWidth = 3 * unit;
-      context.beginPath();
-      context.moveTo(side * 27 * unit, -7 * unit);
-      context.lineTo(side * 34 * unit, -4.6 * unit);
-      context.stroke();
-      context.fillStyle = paints.grip;
-      context.beginPath();
-      context.ellipse(side * 31 * unit, -16.5 * unit, 5 * unit, 2.8 * unit, side * 0.1, 0, 2 * Math.PI);
-      context.fill();
-      context.fillStyle = paints.haze;
-      context.beginPath();
-      context.ellipse(side * 31 * unit, -16.5 * unit, 4.3 * unit, 2.2 * unit, side * 0.1, 0, 2 * Math.PI);
-      context.fill();
+      const beside = (x, y) => [side * x * unit, y * unit];
+      drawSegment(context, beside(24, -8), beside(30, -15), paints.bar, 0.9 * unit);
+      drawSegment(context, beside(27, -7), beside(34, -4.6), paints.grip, 3 * unit);
+      for (const [paint, wide, high] of [[paints.grip, 5, 2.8], [paints.haze, 4.3, 2.2]]) {
+        context.fillStyle = paint;
+        context.beginPath();
+        context.ellipse(...beside(31, -16.5), wide * unit, high * unit, side * 0.1, 0, 2 * Math.PI);
+        context.fill();
+      }
     }
     this.drawDial(view, unit);
     context.restore();

@@ -3,50 +3,18 @@
 
 use std::cell::RefCell;
 
-use moris_interface::{Group, Reader};
-use moris_washout::Parameters;
+use moris_page_memory::{group, say, write};
 use serde_json::json;
 
 use crate::ride::{Command, Ride};
 
-/// Memory that the page reads and writes, and the ride.
-#[derive(Default)]
-struct Exchange {
-    numbers: Vec<f64>,
-    text: String,
-    ride: Option<Ride>,
-}
-
 thread_local! {
-    static EXCHANGE: RefCell<Exchange> = RefCell::default();
-}
-
-impl Exchange {
-    /// Puts a text for the page; true for a good one.
-    fn say(&mut self, text: Result<String, impl ToString>) -> bool {
-        let is_good = text.is_ok();
-        self.text = text.unwrap_or_else(|reason| reason.to_string());
-        is_good
-    }
+    static RIDE: RefCell<Option<Ride>> = RefCell::default();
 }
 
 /// Calls with the ride; does nothing without one.
-fn with_ride<T: Default>(act: impl FnOnce(&mut Ride, &mut Vec<f64>) -> T) -> T {
-    EXCHANGE.with_borrow_mut(|Exchange { ride, numbers, .. }| match ride {
-        Some(ride) => act(ride, numbers),
-        None => T::default(),
-    })
-}
-
-/// Memory for so many numbers, which the page writes.
-// SAFETY: no other function of this module has the name.
-#[unsafe(no_mangle)]
-pub extern "C" fn numbers(count: usize) -> *mut f64 {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        exchange.numbers.clear();
-        exchange.numbers.resize(count, 0.0);
-        exchange.numbers.as_mut_ptr()
-    })
+fn with_ride<T: Default>(act: impl FnOnce(&mut Ride) -> T) -> T {
+    RIDE.with_borrow_mut(|ride| ride.as_mut().map(act).unwrap_or_default())
 }
 
 /// Begins with the parameters that the numbers hold. True if the text has the names of what
@@ -54,34 +22,25 @@ pub extern "C" fn numbers(count: usize) -> *mut f64 {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn create() -> bool {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        let made = Ride::new(&Parameters::read(&mut Reader::new(&exchange.numbers)));
-        let named = made.map(|mut ride| {
-            let names: Vec<&str> = ride.view().into_iter().map(|(name, _)| name).collect();
-            exchange.ride = Some(ride);
-            json!(names).to_string()
-        });
-        exchange.say(named)
-    })
+    say(Ride::new(&group()).map(|mut ride| {
+        let names: Vec<&str> = ride.view().into_iter().map(|(name, _)| name).collect();
+        RIDE.set(Some(ride));
+        json!(names).to_string()
+    }))
 }
 
 /// Takes the parameters that the numbers hold. False if the text is the reason why it cannot.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn retune() -> bool {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        let parameters = Parameters::read(&mut Reader::new(&exchange.numbers));
-        let Some(ride) = exchange.ride.as_mut() else { return false };
-        let done = ride.retune(&parameters).map(|_| String::new());
-        exchange.say(done)
-    })
+    with_ride(|ride| say(ride.retune(&group()).map(|_| String::new())))
 }
 
 /// Sets the friction of the road; false if it is out of range.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn set_friction(friction: f64) -> bool {
-    with_ride(|ride, _| ride.set_friction(friction).is_ok())
+    with_ride(|ride| ride.set_friction(friction).is_ok())
 }
 
 /// Rides so many milliseconds.
@@ -89,56 +48,52 @@ pub extern "C" fn set_friction(friction: f64) -> bool {
 #[unsafe(no_mangle)]
 pub extern "C" fn advance(milliseconds: u32, throttle: f64, brake: f64, stick: f64, is_helped: bool) {
     let command = Command { throttle, brake, stick, is_helped };
-    with_ride(|ride, _| (0..milliseconds).for_each(|_| ride.step(&command)));
+    with_ride(|ride| (0..milliseconds).for_each(|_| ride.step(&command)));
 }
 
 /// Ends the ride for the next one.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn restart() -> bool {
-    with_ride(|ride, _| ride.restart().is_ok())
+    with_ride(|ride| ride.restart().is_ok())
 }
 
 /// Writes what the page shows to the numbers, and returns their address.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn view() -> *const f64 {
-    EXCHANGE.with_borrow_mut(|Exchange { ride, numbers, .. }| {
-        numbers.clear();
-        numbers.extend(ride.iter_mut().flat_map(Ride::view).map(|(_, value)| value));
-        numbers.as_ptr()
-    })
+    write(with_ride(|ride| ride.view().into_iter().map(|(_, value)| value).collect::<Vec<f64>>()).into_iter())
 }
 
-/// Writes the road to the numbers: x, y, heading and advised speed of each point. The result is the
-/// number of points.
+/// Writes the road to the numbers: x, y, heading and advised speed of each point. Returns their
+/// address.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
-pub extern "C" fn road() -> usize {
-    with_ride(|ride, numbers| {
-        numbers.clear();
-        numbers.extend(ride.course().points().flat_map(|(place, advised)| [place.x, place.y, place.yaw, advised]));
-        numbers.len() / 4
-    })
+pub extern "C" fn road() -> *const f64 {
+    write(with_ride(|ride| points(ride)).into_iter())
 }
 
-/// Address of the numbers.
+/// Number of the road's points.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
-pub extern "C" fn written() -> *const f64 {
-    EXCHANGE.with_borrow(|exchange| exchange.numbers.as_ptr())
+pub extern "C" fn road_length() -> usize {
+    with_ride(|ride| points(ride).len() / 4)
+}
+
+fn points(ride: &Ride) -> Vec<f64> {
+    ride.course().points().flat_map(|(place, advised)| [place.x, place.y, place.yaw, advised]).collect()
 }
 
 /// Makes a text of a lap's time and measures; false without such a lap.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn lap(number: usize) -> bool {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        let Some(ride) = &exchange.ride else { return false };
-        let Some(lap) = ride.laps().get(number) else { return false };
-        let text = json!({ "time": lap.time, "is_mixed": lap.is_mixed, "ratings": ride.ratings(lap) });
-        exchange.text = text.to_string();
-        true
+    with_ride(|ride| {
+        let lap = ride.laps().get(number).ok_or("no such lap");
+        say(lap.map(|lap| {
+            let ratings = ride.ratings(lap);
+            json!({ "time": lap.time, "is_mixed": lap.is_mixed, "ratings": ratings }).to_string()
+        }))
     })
 }
 
@@ -146,23 +101,5 @@ pub extern "C" fn lap(number: usize) -> bool {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn csv() -> bool {
-    EXCHANGE.with_borrow_mut(|exchange| {
-        let Some(ride) = &exchange.ride else { return false };
-        exchange.text = ride.recording().csv();
-        ride.recording().samples() > 1
-    })
-}
-
-/// Address of the text.
-// SAFETY: no other function of this module has the name.
-#[unsafe(no_mangle)]
-pub extern "C" fn text() -> *const u8 {
-    EXCHANGE.with_borrow(|exchange| exchange.text.as_ptr())
-}
-
-/// Length of the text in bytes.
-// SAFETY: no other function of this module has the name.
-#[unsafe(no_mangle)]
-pub extern "C" fn text_length() -> usize {
-    EXCHANGE.with_borrow(|exchange| exchange.text.len())
+    with_ride(|ride| say(Ok::<_, &str>(ride.recording().csv())) && ride.recording().samples() > 1)
 }

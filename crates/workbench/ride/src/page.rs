@@ -38,17 +38,6 @@ pub struct Page {
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(page: &Page) -> String {
-    // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
-    let data = serde_json::to_string(page).expect("plain data serialise").replace('<', "\\u003c");
-    let scripts: Vec<&str> = shared::SCRIPTS.iter().chain(&SCRIPTS).copied().collect();
-    shared::filled(
-        TEMPLATE,
-        &[
-            ("subtitle", &shared::escaped(&page.subtitle)),
-            ("style", &format!("{}\n{STYLE}", shared::STYLE)),
-            ("alarm", shared::ALARM),
-            ("data", &data),
-            ("script", &scripts.join("\n")),
-        ],
-    )
+    let texts = [("subtitle", shared::escaped(&page.subtitle)), ("style", format!("{}\n{STYLE}", shared::STYLE))];
+    shared::assembled(TEMPLATE, &texts, page, &SCRIPTS)
 }

@@ -22,6 +22,8 @@ pub struct Setup {
     pub parameters: Parameters,
     /// Those of the rig with default parameters.
     pub rig_alone: Parameters,
+    /// Diameter of the rig's legs, where its file gives it \[m\].
+    pub actuator_diameter: Option<f64>,
 }
 
 /// Name of the default rig.
@@ -42,6 +44,7 @@ impl Setup {
         }
         check(&parameters)?;
         Ok(Setup {
+            actuator_diameter: rig.as_ref().and_then(|rig| rig.actuator.diameter),
             rig_name: rig.map_or_else(|| DEFAULT_RIG.to_owned(), |rig| rig.name),
             parameters_name: if sets.is_empty() { "default".to_owned() } else { names_of(sets) },
             parameters,

@@ -101,6 +101,7 @@ impl Evaluated<'_> {
             limited: Limited {
                 tilt: thinning.any(|k| tilt_limits.iter().flatten().any(|flags| flags[k])),
                 tilt_by: tilt_limits.each_ref().map(|axis| axis.each_ref().map(|flags| thinning.any(|k| flags[k]))),
+                soft: thinning.any(|k| outputs[k].soft_limited),
                 safety: thinning.any(|k| outputs[k].safety_active),
                 actuator: thinning.any(|k| outputs[k].actuator_limited),
             },

@@ -4,10 +4,13 @@
 //! the same numbers and sentences: no threads, no files.
 //!
 //! - [`Simulation`] steps the washout; [`preview`] gives it the recording's future.
+//! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
 
 #![forbid(unsafe_code)]
 
+pub mod capabilities;
+pub mod clearance;
 mod evaluated;
 pub mod findings;
 mod measured;

@@ -3,10 +3,8 @@
 //! - [`new`] writes a rig file.
 //! - [`survey`] gathers what there is to know of a rig.
 //! - [`workspace`] measures where it can go.
-//! - [`clearance`] measures how close its legs come to each other.
 //! - [`picture`] draws it.
 
-pub mod clearance;
 pub mod new;
 pub mod picture;
 mod section;
@@ -78,5 +76,5 @@ fn check(options: &CheckOptions, out: &mut dyn Write) -> Result<ExitCode> {
     let picture = options.report.join(format!("{stem}.svg"));
     fs::write(&picture, picture::svg(&survey)).with_context(|| format!("cannot write {}", picture.display()))?;
     writeln!(out, "\nwrote {}", picture.display())?;
-    Ok(if survey.is_sound() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+    Ok(if survey.capabilities.is_sound() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

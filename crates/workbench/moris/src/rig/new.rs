@@ -10,7 +10,7 @@ use std::str::FromStr;
 use anyhow::{Context, Result, bail};
 use moris_setup::rig_file;
 
-use super::clearance::Clearance;
+use moris_simulation::clearance::Clearance;
 
 /// A new rig file.
 #[derive(Clone, Debug, clap::Args)]

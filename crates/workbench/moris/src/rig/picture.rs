@@ -3,11 +3,11 @@
 
 use moris_washout::platform::Pose;
 
-use super::clearance::Approach;
 use super::section::{MARGINS, PLANES, section};
 use super::survey::{Singularities, Survey};
 use super::svg::{PANEL, escaped};
 use super::view::view;
+use moris_simulation::clearance::Approach;
 
 /// Room above the panels and below them \[px\].
 const HEADER: f64 = 64.0;
@@ -25,7 +25,7 @@ stroke-width:2}.torso{stroke:#1b9e77;stroke-width:4;stroke-linecap:round}.head{f
 
 /// The picture as SVG.
 pub fn svg(survey: &Survey) -> String {
-    let parameters = &survey.parameters;
+    let parameters = &survey.capabilities.parameters;
     let (width, height) = (2.0 * PANEL[0], HEADER + 3.0 * PANEL[1] + FOOTER);
     let mut text = format!(
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" width="{width}" height="{height}"><title>{0}</title><style>{STYLE}</style><rect width="{width}" height="{height}" fill="#fff"/><text x="24" y="34" class="title">{0}</text>"##,
@@ -35,7 +35,7 @@ pub fn svg(survey: &Survey) -> String {
     let drawn = PLANES.iter().map(|plane| {
         (plane.title, section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit))
     });
-    let closest = &survey.clearance.approaches[0];
+    let closest = &survey.capabilities.clearance.approaches[0];
     let [first, second] = closest.legs.map(|leg| leg + 1);
     let close_title = format!("Legs {first} and {second} where they are closest: {:.0} mm", 1000.0 * closest.distance);
     let drawn = drawn.map(|(title, body)| (title.to_owned(), body));
@@ -62,19 +62,19 @@ fn distances(survey: &Survey) -> String {
     };
     let mut text: String = (1..6).map(|leg| cell(at(leg - 1, 0), "", &format!("leg {leg}"))).collect();
     text += &(2..=6).map(|leg| cell([64.0, at(0, leg - 1)[1]], "", &format!("leg {leg}"))).collect::<String>();
-    for Approach { legs: [first, second], distance, .. } in &survey.clearance.approaches {
-        let class = if survey.clearance.collides(*distance) { "collision" } else { "" };
+    for Approach { legs: [first, second], distance, .. } in &survey.capabilities.clearance.approaches {
+        let class = if survey.capabilities.clearance.collides(*distance) { "collision" } else { "" };
         text += &cell(at(*first, *second), class, &format!("{:.0}", 1000.0 * distance));
     }
-    let diameter = 1000.0 * survey.clearance.diameter;
+    let diameter = 1000.0 * survey.capabilities.clearance.diameter;
     let [_, y] = at(0, 7);
     text + &format!(r#"<text x="40" y="{y}">Legs are taken as {diameter:.0} mm thick.</text>"#)
 }
 
 fn verdict(survey: &Survey) -> String {
     let volume = survey.workspace.level;
-    let collision = if survey.clearance.collisions().next().is_some() { "; LEGS COLLIDE" } else { "" };
-    let regular = match &survey.singularities {
+    let collision = if survey.capabilities.clearance.collisions().next().is_some() { "; LEGS COLLIDE" } else { "" };
+    let regular = match &survey.capabilities.singularities {
         Singularities::None(found) => format!(
             "Workspace {:.3} m³ level; free of singularities: condition number at most {:.1}",
             volume.size, found.worst_condition

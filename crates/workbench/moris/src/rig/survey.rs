@@ -4,12 +4,9 @@ use std::fmt;
 
 use moris_interface::Group;
 use moris_setup::rig_file::RigFile;
-use moris_washout::interface::Parameters;
-use moris_washout::platform::reach::{Axis, Range, single_axis_range, stroke_margin};
-use moris_washout::platform::{self, Geometry, Pose, jacobian, leg_lengths};
-use moris_washout::{ParameterError, Rig, warnings};
+pub use moris_simulation::capabilities::{AxisAlone, Capabilities, Singularities};
+use moris_washout::ParameterError;
 
-use super::clearance::Clearance;
 use super::workspace::{TILT, Volume, Workspace};
 use crate::text_table::TextTable;
 
@@ -18,51 +15,13 @@ use crate::text_table::TextTable;
 pub struct Survey {
     /// Name.
     pub name: String,
-    /// The washout's parameters on it.
-    pub parameters: Parameters,
-    /// Capabilities along each axis alone.
-    pub axes: [AxisAlone; 6],
+    /// What it can do.
+    pub capabilities: Capabilities,
     /// Where it can go.
     pub workspace: Workspace,
-    /// Result of the search for singularities.
-    pub singularities: Singularities,
-    /// How close the legs come to each other.
-    pub clearance: Clearance,
-}
-
-/// Capabilities of the platform along one axis alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AxisAlone {
-    pub axis: Axis,
-    /// Reach from neutral \[m or rad\].
-    pub range: Range,
-    /// Speed through neutral, by the legs' speed \[m/s or rad/s\]; none where the
-    /// legs do not limit it.
-    pub speed: Option<f64>,
-    /// Acceleration at rest at neutral, by the legs' acceleration \[m/s2 or rad/s2\]; none as the
-    /// speed.
-    pub acceleration: Option<f64>,
-}
-
-/// Speed of a leg for a unit of speed along an axis, below which the legs do not set the platform's
-/// speed: the platform is singular there.
-const SINGULAR: f64 = 1e-6;
-
-/// Result of the survey over all leg lengths.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Singularities {
-    /// None, and this is how far from one it is.
-    None(platform::Survey),
-    /// One at or near these leg lengths \[m\].
-    At([f64; 6]),
 }
 
 impl Survey {
-    /// True for a rig that can be built and used.
-    pub fn is_sound(&self) -> bool {
-        matches!(self.singularities, Singularities::None(_)) && self.clearance.collisions().next().is_none()
-    }
-
     /// Surveys a rig, with `samples` points for the volume of its workspace.
     ///
     /// # Errors
@@ -71,97 +30,13 @@ impl Survey {
     pub fn of(file: &RigFile, samples: u32) -> Result<Self, ParameterError> {
         let parameters = file.parameters();
         parameters.check_ranges()?;
-        let rig = &parameters.rig;
-        let singularities = match (file.check(), platform::survey(rig)) {
-            (Ok(()), Ok(survey)) => Singularities::None(survey),
-            (Err(_), Err(failed)) if can_stand(rig) => Singularities::At(failed.lengths),
-            (Err(error), _) => return Err(error),
-            (Ok(()), Err(failed)) => Singularities::At(failed.lengths),
-        };
         Ok(Survey {
             name: file.name.clone(),
-            axes: Axis::ALL.map(|axis| AxisAlone::of(rig, axis)),
-            workspace: Workspace::of(rig, samples),
-            singularities,
-            clearance: Clearance::of(&file.rig(), file.actuator.diameter),
-            parameters,
+            capabilities: Capabilities::of(&parameters, file.actuator.diameter)?,
+            workspace: Workspace::of(&parameters.rig, samples),
         })
     }
-}
 
-/// True if the legs reach neutral.
-fn can_stand(rig: &Rig) -> bool {
-    stroke_margin(rig, &Pose::neutral(rig)) > 0.0
-}
-
-impl AxisAlone {
-    fn of(rig: &Rig, axis: Axis) -> Self {
-        let jacobian = jacobian(&Geometry::from(rig), &Pose::neutral(rig));
-        let fastest_leg = jacobian.column(axis as usize).amax();
-        AxisAlone {
-            axis,
-            range: single_axis_range(rig, axis),
-            speed: (fastest_leg > SINGULAR).then(|| rig.velocity_limit / fastest_leg),
-            acceleration: (fastest_leg > SINGULAR).then(|| rig.acceleration_limit / fastest_leg),
-        }
-    }
-
-    fn row(&self) -> Vec<String> {
-        let (factor, unit, decimals, rates) =
-            if self.axis.is_rotation() { (1f64.to_degrees(), "°", 1, 0) } else { (1.0, " m", 3, 1) };
-        let signed = |value: f64| format!("{:+.decimals$}{unit}", factor * value);
-        let rate = |value: Option<f64>, per: &str| {
-            value.map_or_else(|| "singular".to_owned(), |value| format!("{:.rates$}{unit}{per}", factor * value))
-        };
-        vec![
-            self.axis.name().to_owned(),
-            signed(self.range.min),
-            signed(self.range.max),
-            rate(self.speed, "/s"),
-            rate(self.acceleration, "/s²"),
-        ]
-    }
-}
-
-impl fmt::Display for Survey {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let rig = &self.parameters.rig;
-        writeln!(f, "{}\n", self.name)?;
-        let neutral = leg_lengths(&Geometry::from(rig), &Pose::neutral(rig)).map(|length| format!("{length:.3}"));
-        let neutral = if neutral.iter().all(|length| *length == neutral[0]) { &neutral[..1] } else { &neutral };
-        writeln!(
-            f,
-            "legs of {:.3} to {:.3} m, {} m at neutral; {} m/s, {} m/s²\n",
-            rig.min_length,
-            rig.max_length,
-            neutral.join(", "),
-            rig.velocity_limit,
-            rig.acceleration_limit
-        )?;
-        let mut table = TextTable::new(["alone, from neutral", "from", "to", "speed", "acceleration"]);
-        self.axes.iter().for_each(|axis| table.push(axis.row()));
-        writeln!(f, "{table}")?;
-        self.write_workspace(f)?;
-        self.write_safety(f)?;
-        writeln!(f, "{}", self.clearance)?;
-        match &self.singularities {
-            Singularities::None(survey) => writeln!(
-                f,
-                "free of singularities over the whole box of leg lengths (4 lengths a leg, 4096 poses):\n  smallest singular \
-                 value {:.2}, worst condition number {:.1}",
-                survey.smallest_singular_value, survey.worst_condition
-            ),
-            Singularities::At(lengths) => writeln!(
-                f,
-                "SINGULAR inside the stroke of its legs, at or near lengths of\n  {} m\n  Choose other joints, or a shorter \
-                 stroke; the washout refuses this rig.",
-                lengths.map(|length| format!("{length:.3}")).join(", ")
-            ),
-        }
-    }
-}
-
-impl Survey {
     fn write_workspace(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let Workspace { level, tilted, samples, .. } = &self.workspace;
         let volume = |volume: &Volume| format!("{:.4} m³ ± {:.4}", volume.size, volume.standard_error);
@@ -169,16 +44,18 @@ impl Survey {
         writeln!(f, "  level                           {}", volume(level))?;
         writeln!(f, "  tilted by {:.0}° in any direction  {}\n", TILT.to_degrees(), volume(tilted))
     }
+}
 
-    /// The safety units' limits beside what the rig reaches.
-    fn write_safety(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let limits = self.parameters.safety.position_limit;
-        let texts: Vec<String> =
-            ["x", "y", "z"].iter().enumerate().map(|(i, name)| format!("±{:.3} m in {name}", limits[i])).collect();
-        writeln!(f, "safety units: {}", texts.join(", "))?;
-        for doubt in warnings(&self.parameters) {
-            writeln!(f, "  {doubt}")?;
-        }
-        writeln!(f)
+impl fmt::Display for Survey {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let Survey { name, capabilities, .. } = self;
+        writeln!(f, "{name}\n\n{}\n", capabilities.legs())?;
+        let mut table = TextTable::new(AxisAlone::HEADS);
+        capabilities.axes.iter().for_each(|axis| table.push(axis.row()));
+        writeln!(f, "{table}")?;
+        self.write_workspace(f)?;
+        writeln!(f, "{}\n", capabilities.safety().join("\n"))?;
+        writeln!(f, "{}", capabilities.clearance)?;
+        write!(f, "{}", capabilities.singularities)
     }
 }

@@ -4,8 +4,8 @@ use moris_washout::interface::Parameters;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{LocationFrame, Pose};
 
-use super::clearance::Approach;
 use super::svg::Window;
+use moris_simulation::clearance::Approach;
 
 /// Where it is seen from: turned about the vertical, then from above \[rad\].
 const AZIMUTH: f64 = 0.6;

@@ -41,6 +41,8 @@ pub fn of(recording: &Recording, outcome: &Outcome, command: Option<String>) -> 
         ),
         command: command.unwrap_or_else(|| format!("cargo moris simulate {name}.csv --parameters")),
         file: format!("{name}.toml"),
+        rig_name: outcome.setup.rig_name.clone(),
+        actuator_diameter: outcome.setup.actuator_diameter,
     })
 }
 
@@ -76,9 +78,25 @@ pub(crate) fn parameters(from: &Parameters, base: &Parameters) -> Vec<Parameter>
     for parameter in &mut parameters {
         if parameter.name == "strategy" {
             parameter.group = Some("Strategy".to_owned());
+        } else if let Some(range) = of_rig(&parameter.name, parameter.start, from) {
+            parameter.slider = [range[0].max(parameter.accepted[0]), range[1].min(parameter.accepted[1])];
+            parameter.group = Some("Rig".to_owned());
         }
     }
     parameters
+}
+
+/// The slider's range of a value of the rig; none for joints and for what is not the rig's.
+fn of_rig(name: &str, start: f64, from: &Parameters) -> Option<[f64; 2]> {
+    let half_stroke = 0.5 * (from.rig.max_length - from.rig.min_length);
+    match name {
+        "actuator.minLength" | "actuator.maxLength" | "rig.neutralHeight" => {
+            Some([start - half_stroke, start + half_stroke])
+        }
+        "actuator.velocityLimit" | "actuator.accelerationLimit" => Some([0.2 * start, 2.0 * start]),
+        _ if name.starts_with("safety.") => Some([0.2 * start, 2.0 * start]),
+        _ => None,
+    }
 }
 
 /// Headings of the parameters that matter most.

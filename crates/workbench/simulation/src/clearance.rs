@@ -10,7 +10,6 @@ use std::fmt;
 use moris_washout::Rig;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::{Geometry, Pose, forward_kinematics, jacobian};
-use rayon::prelude::*;
 
 /// Lengths tried for each leg, evenly from the shortest to the longest.
 const LEVELS: usize = 4;
@@ -93,14 +92,13 @@ pub fn approaches(rig: &Rig) -> Vec<Approach> {
     let neutral = Pose::neutral(rig);
     let reach = Reach { rig, geometry: &geometry, neutral, sign: jacobian(&geometry, &neutral).determinant().signum() };
     let grid: Vec<([f64; 6], Pose)> = (0..LEVELS.pow(6))
-        .into_par_iter()
         .filter_map(|index| {
             let lengths = array::from_fn(|leg| reach.level_length(index / LEVELS.pow(leg as u32) % LEVELS));
             Some((lengths, reach.pose(&lengths, &neutral)?))
         })
         .collect();
     let pairs: Vec<[usize; 2]> = (0..6).flat_map(|a| (a + 1..6).map(move |b| [a, b])).collect();
-    let mut found: Vec<Approach> = pairs.into_par_iter().map(|legs| reach.closest(legs, &grid)).collect();
+    let mut found: Vec<Approach> = pairs.into_iter().map(|legs| reach.closest(legs, &grid)).collect();
     found.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     found
 }
@@ -189,10 +187,14 @@ pub fn closest_points(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> [Vector3<
 #[cfg(test)]
 mod tests {
     use rand_chacha::ChaCha8Rng;
-    use rand_chacha::rand_core::SeedableRng;
+    use rand_chacha::rand_core::{Rng, SeedableRng};
 
     use super::*;
-    use crate::random::unit;
+
+    /// A number from 0 to 1.
+    fn unit(random: &mut ChaCha8Rng) -> f64 {
+        f64::from(random.next_u32()) / f64::from(u32::MAX)
+    }
 
     /// A fine net of points on both segments has nothing closer, and comes as
     /// near as its mesh allows.
