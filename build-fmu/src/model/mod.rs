@@ -150,6 +150,7 @@ impl ModelFns {
 
 /// Terminals of both ends of a connection: a motorcycle's outputs are a washout's inputs, say.
 const VEHICLE: (&str, &str) = ("moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
+const PREVIEW: (&str, &str) = ("moris.preview", "Specific force to come at the rider's head");
 const RIDER: (&str, &str) = ("moris.rider", "Lean of the rider");
 const ACTUATORS: (&str, &str) = ("moris.actuators", "Lengths and velocities of the six actuators");
 const POSE: (&str, &str) = ("moris.platform", "Position, velocity and acceleration of the platform");
@@ -161,6 +162,13 @@ const VEHICLE_MEMBERS: &[(&str, &str)] = &[
     ("vehicle.orientation", "orientation"),
     ("vehicle.speed", "speed"),
     ("rider.lean", "lean"),
+];
+/// Members of a terminal of the preview. It is one of its own, because few vehicles have one.
+const PREVIEW_MEMBERS: &[(&str, &str)] = &[
+    ("vehicle.preview.count", "count"),
+    ("vehicle.preview.step", "step"),
+    ("vehicle.preview.specificForce.x", "specificForce.x"),
+    ("vehicle.preview.specificForce.y", "specificForce.y"),
 ];
 /// Members of a terminal of the platform.
 const POSE_MEMBERS: &[(&str, &str)] = &[
