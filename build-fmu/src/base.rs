@@ -1,5 +1,5 @@
-//! An FMU as the base of another with other start values: its libraries are taken as they are but for these values.
-//! Nothing is compiled.
+//! An FMU as the base of another with other start values: its libraries are taken as they are but
+//! for these values. Nothing is compiled.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -38,7 +38,8 @@ impl Base {
     /// Reads an FMU.
     ///
     /// # Errors
-    /// The file is no FMU of this program's models, of another version, damaged, or put together from several FMUs.
+    /// The file is no FMU of this program's models, of another version, damaged, or put
+    /// together from several FMUs.
     pub fn open(file: &Path) -> Result<Self, Error> {
         let bytes = fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
         Self::read(bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })

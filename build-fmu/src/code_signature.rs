@@ -1,5 +1,6 @@
-//! The signature of a library for macOS. The linker signs a library for Apple silicon "ad hoc": the signature is a list of
-//! hashes of the file's pages. The system loads no library with a wrong hash.
+//! The signature of a library for macOS. The linker signs a library for Apple silicon "ad
+//! hoc": the signature is a list of hashes of the file's pages. The system loads no
+//! library with a wrong hash.
 
 use sha2::{Digest, Sha256};
 
@@ -13,7 +14,8 @@ const CODE_SIGNATURE: u32 = 0x1d;
 const CODE_DIRECTORY: u32 = 0xfade_0c02;
 const SHA_256: u8 = 2;
 
-/// Renews the hashes of the pages after a change of the library; does nothing with a library that has none.
+/// Renews the hashes of the pages after a change of the library; does nothing with a
+/// library that has none.
 pub fn renew(library: &mut [u8]) {
     for directory in directories(library).unwrap_or_default() {
         for page in 0..directory.pages {
@@ -84,7 +86,8 @@ fn directories(library: &[u8]) -> Option<Vec<Directory>> {
 mod tests {
     use super::*;
 
-    /// A file of two and a half pages of 64 bytes with a signature by itself: the layout as Apple's `cs_blobs.h` has it.
+    /// A file of two and a half pages of 64 bytes with a signature by itself: the layout as
+    /// Apple's `cs_blobs.h` has it.
     fn signed() -> Vec<u8> {
         let mut file = vec![7; 160];
         let mut put = |place: usize, bytes: &[u8]| {

@@ -29,7 +29,8 @@ impl StartOptions {
     /// The start values of each of the chosen models.
     ///
     /// # Errors
-    /// An option applies to none of the models, a file cannot be used, or a model cannot start with its values.
+    /// An option applies to none of the models, a file cannot be used, or a model cannot
+    /// start with its values.
     pub fn of_models(&self, models: &[&FmuModel]) -> Result<Vec<Start>, Error> {
         self.check_used(models)?;
         models.iter().map(|model| Start::with(model, &self.values(model, models.len() == 1)?)).collect()
@@ -50,8 +51,8 @@ impl StartOptions {
         Ok(())
     }
 
-    /// Start values that replace a model's own: the rig where it has one, and over it the parameters
-    /// where they are its own.
+    /// Start values that replace a model's own: the rig where it has one, and over it the
+    /// parameters where they are its own.
     fn values(&self, model: &FmuModel, alone: bool) -> Result<NamedValues, Error> {
         let mut values = NamedValues::new();
         if let Some(file) = self.rig.as_ref().filter(|_| model.has_rig()) {

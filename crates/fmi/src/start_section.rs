@@ -1,8 +1,9 @@
 //! The place in a shared library where its start values stand. A packing program writes them into
 //! the library's file, and the library reads them when it makes its first instance.
 //!
-//! The place is one piece of constant data: the mark, then numbers of eight bytes in little-endian order.
-//! They are the format, the number of slots, a checksum of the rest, and the start value of each slot.
+//! The place is one piece of constant data: the mark, then numbers of eight bytes in
+//! little-endian order. They are the format, the number of slots, a checksum of the rest, and the
+//! start value of each slot.
 
 use std::ptr;
 
@@ -120,7 +121,8 @@ fn overrides(values: impl IntoIterator<Item = u64>) -> Overrides {
     values.into_iter().enumerate().filter_map(of_slot).collect()
 }
 
-/// FNV-1a in 64 bits, word by word. Each word's step is one-to-one, so that no change of a single word goes unnoticed.
+/// FNV-1a in 64 bits, word by word. Each word's step is one-to-one, so that no change of a
+/// single word goes unnoticed.
 const fn checksum(values: &[u64]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut slot = 0;

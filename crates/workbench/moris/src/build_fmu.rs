@@ -7,9 +7,11 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use moris_build_fmu::{Base, StartOptions, write_whole};
 
-/// Make an FMU that starts with your rig and parameters from an existing one, for every platform in it
+/// Make an FMU that starts with your rig and parameters from an existing one,
+/// for every platform in it
 ///
-/// Nothing is compiled. The base is an FMU of this program's release; start values that it has are replaced.
+/// Nothing is compiled. The base is an FMU of this program's release; start values
+/// that it has are replaced.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// FMU of the washout, the motorcycle or the platform
