@@ -137,8 +137,13 @@ def pages(options):
     run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
 
 
+def reproducible(options):
+    """FMUs built in another directory, byte by byte"""
+    run(sys.executable, "tests/reproducible.py")
+
+
 DEFAULT = {"fmu": fmu, "rust": rust, "python": python_tests, "package": package, "docs": docs}
-PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "pages": pages}
+PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "pages": pages, "reproducible": reproducible}
 
 
 def processor_time():

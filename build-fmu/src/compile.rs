@@ -2,10 +2,10 @@
 
 use std::ffi::OsString;
 use std::fmt;
-use std::fs::{self, File};
+use std::fs;
 use std::process::Command;
 
-use crate::{Error, FmiVersion, FmuModel, Platform, Start, macos_stub, tools, workspace};
+use crate::{Error, FmiVersion, FmuModel, Platform, macos_stub, tools, workspace};
 
 /// The glibc that zig links for: that of RHEL 7, and the oldest that Rust supports.
 const OLDEST_GLIBC: &str = "2.17";
@@ -67,26 +67,18 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
 /// The profile of the workspace's manifest by which the libraries are compiled.
 const PROFILE: &str = "fmu-library";
 
-/// The variable that tells `moris_fmi`'s macros of start values in place of the model's own.
-const START_VALUES: &str = "FMU_START_VALUES";
-
-/// Compiles the model's library for a version of FMI, with these start values, and returns it.
+/// Compiles the model's library for a version of FMI and returns it.
 ///
 /// # Errors
 /// The compiler cannot be run or fails, or its result cannot be read.
-pub fn compile(model: &FmuModel, start: &Start, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
-    // Another build with other start values would replace the library before it is read.
-    let lock = workspace::target_directory().join("build-fmu.lock");
-    let create = || fs::create_dir_all(workspace::target_directory()).and_then(|()| File::create(&lock));
-    let held = create().and_then(|file| file.lock().map(|()| file));
-    let _held = held.map_err(|reason| Error::Write { file: lock.clone(), reason })?;
-    run_cargo(&[(model, fmi)], start.text().as_deref(), plan)?;
+pub fn compile(model: &FmuModel, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
+    run_cargo(&[(model, fmi)], plan)?;
     let built = plan.platform.built_library(model.library(fmi));
     let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);
     fs::read(&file).map_err(|reason| Error::Read { file, reason })
 }
 
-/// Compiles several libraries with their models' own start values by one call of cargo, so that
+/// Compiles several libraries by one call of cargo, so that
 /// [`compile`] finds each of them done. The last stage of a library, which optimises it as a whole,
 /// keeps one core busy: together they take a fraction of the time.
 ///
@@ -95,11 +87,11 @@ pub fn compile(model: &FmuModel, start: &Start, fmi: FmiVersion, plan: &Plan) ->
 /// # Errors
 /// The compiler cannot be run or fails.
 pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
-    if plan.platform.is_apple() || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, None, plan) }
+    if plan.platform.is_apple() || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, plan) }
 }
 
-/// Calls cargo for these libraries, with start values that the libraries read from their text.
-fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], start: Option<&str>, plan: &Plan) -> Result<(), Error> {
+/// Calls cargo for these libraries.
+fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
     let mut command = plan.cargo();
     command.args(["--profile", PROFILE, "--target-dir"]).arg(workspace::target_directory());
     for (model, fmi) in libraries {
@@ -107,10 +99,6 @@ fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], start: Option<&str>, plan: &
     }
     let (first, fmi) = libraries[0];
     command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags(first.library(fmi))?);
-    match start {
-        Some(text) => command.env(START_VALUES, text),
-        None => command.env_remove(START_VALUES),
-    };
     if plan.linker == Linker::Lld {
         command.env("SDKROOT", macos_stub::development_kit(plan.platform)?);
     }

@@ -22,12 +22,14 @@ pub fn contents(model: &FmuModel, start: &Start, fmi: FmiVersion, libraries: Vec
     contents.insert(fmi.icon_file().to_owned(), (model.icon)());
     contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi, start).into_bytes());
     contents.insert(terminals::FILE.to_owned(), terminals::xml(model, fmi).into_bytes());
-    // The tables' columns are scalar variables.
-    if fmi.choose_names(true, false) {
-        let input = Stimuli::new(model.reference_input);
-        let output = (model.functions.reference_output)(&input, start.slots());
-        contents.extend(reference::files(model.name, &input, output));
-    }
+    let input = Stimuli::new(model.reference_input);
+    let output = (model.functions.reference_output)(&input, start.slots());
+    let of_variables = |table: &str| {
+        let as_arrays = || reference::as_arrays(&model.functions.identity, start.slots(), table);
+        fmi.choose_names(table.to_owned(), as_arrays())
+    };
+    let (input_table, output_table) = (of_variables(model.reference_input), of_variables(&output));
+    contents.extend(reference::files(model.name, input.end(), input_table, output_table));
     if !start.is_own() {
         contents.insert("documentation/start-values.toml".to_owned(), start.file(model).into_bytes());
     }

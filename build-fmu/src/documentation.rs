@@ -11,10 +11,6 @@ const STYLE: &str = include_str!("../documentation/style.css");
 pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
     let variables = model.variables(fmi, start);
     let description = (model.functions.description)(start.slots());
-    let token = match fmi {
-        FmiVersion::Fmi2 => description.guid.clone(),
-        FmiVersion::Fmi3(layout) => layout.token(&description.guid),
-    };
     let sections = || {
         let written = model.sections.iter().map(|section| (section.anchor, section.heading, section.html));
         written.chain([("variables", "Variables", variables.as_str())])
@@ -32,7 +28,7 @@ pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
         .replace("{{name}}", &description.model_name)
         .replace("{{version}}", &description.version)
         .replace("{{token_name}}", fmi.choose("GUID", "instantiation token"))
-        .replace("{{token}}", &token)
+        .replace("{{token}}", &model.token(fmi, start))
         .replace("{{icon}}", fmi.icon_file())
         .replace("{{discard}}", fmi.choose("fmi2Discard", "fmi3Discard"))
         .replace("{{fmi}}", &fmi.to_string());

@@ -34,6 +34,12 @@ pub enum Error {
     /// The parameters of a system are invalid.
     #[error("the system's parameters cannot be used: {reason}")]
     Parameters { reason: String },
+    /// A library cannot take start values.
+    #[error("the library for {platform} has no place for start values of this model's variables")]
+    NoPlace { platform: Platform },
+    /// An FMU cannot be the base of another.
+    #[error("{} {reason}", file.display())]
+    Base { file: PathBuf, reason: String },
     /// The model rejects the start values.
     #[error("{model} cannot start with these values: {error}")]
     Start { model: &'static str, error: ParameterError },
@@ -41,7 +47,7 @@ pub enum Error {
     #[error("the path {} {reason}", file.display())]
     Path { file: PathBuf, reason: String },
     /// The option applies to none of the models.
-    #[error("--{option} applies to none of the chosen models ({who}); choose others with --model, or omit it")]
+    #[error("--{option} applies to none of the chosen models ({who}); choose other models, or omit it")]
     NotApplicable { option: &'static str, who: &'static str },
     /// Array variables need a version of FMI that has them.
     #[error("--arrays needs --fmi 3: FMI 2.0 has no array variables")]

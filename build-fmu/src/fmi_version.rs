@@ -55,6 +55,11 @@ impl FmiVersion {
         self.choose("model.png", "terminalsAndIcons/icon.png")
     }
 
+    /// The version as a model description states it.
+    pub fn number(self) -> &'static str {
+        self.choose("2.0", "3.0")
+    }
+
     /// The one of two things that is for this version.
     pub fn choose<T>(self, for_fmi2: T, for_fmi3: T) -> T {
         match self {
@@ -74,6 +79,6 @@ impl FmiVersion {
 
 impl fmt::Display for FmiVersion {
     fn fmt(&self, formatter: &mut fmt::Formatter) -> fmt::Result {
-        formatter.write_str(self.choose("FMI 2.0", "FMI 3.0"))
+        write!(formatter, "FMI {}", self.number())
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::{Error, FmiVersion, FmuModel, Platform, Start};
-use crate::{archive, compile, contents, library, workspace};
+use crate::{base, compile, library, workspace};
 
 /// An FMU that has been written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ pub fn build(
     Ok(Built { file, size: archive.len() })
 }
 
-/// Compiles the libraries of several FMUs with their models' own start values, which takes a
+/// Compiles the libraries of several FMUs, which takes a
 /// fraction of the time that they take one after the other in [`build`].
 ///
 /// # Errors
@@ -60,13 +60,13 @@ pub fn fmu(
     let mut libraries = Vec::new();
     for plan in &plans {
         report(&format!("{}: {plan}", plan.platform));
-        let bytes = compile::compile(model, start, fmi, plan)?;
+        let bytes = compile::compile(model, fmi, plan)?;
         let info = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
             .map_err(|reason| Error::Library { platform: plan.platform, reason })?;
         report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }
-    archive::pack(&contents::contents(model, start, fmi, libraries))
+    base::pack(model, start, fmi, libraries)
 }
 
 /// Writes a file that others never see half written.

@@ -5,12 +5,15 @@
 //! | module | contents |
 //! |---|---|
 //! | [`contents`] | the files of an FMU |
+//! | [`Base`] | an FMU whose libraries are packed again with other start values |
 //! | [`model`] | the models |
 //! | [`platform`] | the platforms |
 //! | [`fmi_version`] | the versions of FMI |
 //! | [`tables`] | tables of the pages in `docs/` that follow from the models |
 
 pub mod archive;
+mod base;
+mod code_signature;
 pub mod compile;
 pub mod contents;
 pub mod documentation;
@@ -23,15 +26,18 @@ mod macos_stub;
 pub mod model;
 pub mod platform;
 pub mod reference;
+mod start_options;
 mod start_values;
 pub mod tables;
 pub mod terminals;
 mod tools;
 pub mod workspace;
 
+pub use base::Base;
 pub use error::Error;
 pub use fmi_version::FmiVersion;
 pub use fmu::{Built, build, compile_together, fmu, write_whole};
 pub use model::{FmuModel, MODELS};
 pub use platform::Platform;
+pub use start_options::StartOptions;
 pub use start_values::Start;

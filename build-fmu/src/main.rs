@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
-use moris_build_fmu::model::{MOTORCYCLE, WASHOUT, path_values};
-use moris_build_fmu::{Error, FmiVersion, FmuModel, MODELS, Platform, Start, build, compile_together, workspace};
-use moris_setup::{NamedValues, load_rig, load_set};
+use moris_build_fmu::{
+    Error, FmiVersion, FmuModel, MODELS, Platform, Start, StartOptions, build, compile_together, workspace,
+};
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and
 /// documentation.
@@ -35,19 +35,8 @@ struct Arguments {
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
 
-    /// Rig file to embed, in the FMUs of models with a rig
-    #[arg(long, value_name = "FILE")]
-    rig: Option<PathBuf>,
-
-    /// Parameter file, or preset (motorcycle, car, ...), to embed in the washout's FMU; in another
-    /// model's if --model names that one alone. May be given several times: later ones override
-    /// earlier ones, and all of them the rig
-    #[arg(long, value_name = "FILE|NAME")]
-    parameters: Vec<String>,
-
-    /// CSV file of a path (distance, curvature, speed) that the motorcycle's FMU rides
-    #[arg(long, value_name = "FILE")]
-    path: Option<PathBuf>,
+    #[command(flatten)]
+    start: StartOptions,
 
     /// Directory for the FMUs [default: target/fmu in the workspace]
     #[arg(long, value_name = "DIRECTORY")]
@@ -71,13 +60,11 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
     let models: Vec<&FmuModel> = MODELS.iter().filter(chosen).collect();
     let versions = fmi_versions(arguments)?;
     // Before anything is compiled.
-    check_used(arguments, &models)?;
-    let start = |model: &&FmuModel| Start::with(model, &start_values(arguments, model)?);
-    let starts = models.iter().map(start).collect::<Result<Vec<_>, _>>()?;
+    let starts = arguments.start.of_models(&models)?;
     let of_version = |fmi| models.iter().zip(&starts).map(move |(&model, start)| (model, start, fmi));
     let fmus: Vec<(&FmuModel, &Start, FmiVersion)> = versions.into_iter().flat_map(of_version).collect();
-    let own = fmus.iter().filter(|(_, start, _)| start.is_own()).map(|&(model, _, fmi)| (model, fmi));
-    compile_together(&own.collect::<Vec<_>>(), &arguments.platform)?;
+    let libraries: Vec<(&FmuModel, FmiVersion)> = fmus.iter().map(|&(model, _, fmi)| (model, fmi)).collect();
+    compile_together(&libraries, &arguments.platform)?;
     for (model, start, fmi) in fmus {
         if !start.is_own() {
             println!("{}: {} embedded start values", model.name, start.count());
@@ -98,44 +85,6 @@ fn fmi_versions(arguments: &Arguments) -> Result<Vec<FmiVersion>, Error> {
     if arguments.arrays { arguments.fmi.iter().map(with_arrays).collect() } else { Ok(arguments.fmi.clone()) }
 }
 
-/// Checks that each option with start values applies to one of the models.
-fn check_used(arguments: &Arguments, models: &[&FmuModel]) -> Result<(), Error> {
-    if arguments.rig.is_some() && !models.iter().any(|model| model.has_rig()) {
-        return Err(Error::NotApplicable { option: "rig", who: "only models with a platform have a rig" });
-    }
-    if arguments.path.is_some() && !models.iter().any(|model| model.name == MOTORCYCLE.name) {
-        return Err(Error::NotApplicable { option: "path", who: "only the motorcycle follows one" });
-    }
-    if !arguments.parameters.is_empty() && !models.iter().any(|model| accepts_parameters(arguments, model)) {
-        let who = "with several models they are the washout's; choose another model alone with --model";
-        return Err(Error::NotApplicable { option: "parameters", who });
-    }
-    Ok(())
-}
-
-/// Parameters are the washout's, or those of a model that is chosen alone.
-fn accepts_parameters(arguments: &Arguments, model: &FmuModel) -> bool {
-    arguments.model.len() == 1 || model.name == WASHOUT.name
-}
-
-/// Start values that replace a model's own: the rig where it has one, and over it the parameters
-/// where they are its own.
-fn start_values(arguments: &Arguments, model: &FmuModel) -> Result<NamedValues, Error> {
-    let mut values = NamedValues::new();
-    if let Some(file) = arguments.rig.as_ref().filter(|_| model.has_rig()) {
-        values.extend(load_rig(file)?.values());
-    }
-    if let Some(file) = arguments.path.as_ref().filter(|_| model.name == MOTORCYCLE.name) {
-        values.extend(path_values(file)?);
-    }
-    if accepts_parameters(arguments, model) {
-        for set in &arguments.parameters {
-            values.extend(load_set(set, model.functions.identity.rows)?);
-        }
-    }
-    Ok(values)
-}
-
 fn model_names() -> PossibleValuesParser {
     PossibleValuesParser::new(MODELS.iter().map(|model| model.name))
 }
@@ -143,45 +92,6 @@ fn model_names() -> PossibleValuesParser {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn error_of(arguments: &[&str]) -> Option<String> {
-        let arguments = Arguments::parse_from([&["build-fmu"], arguments].concat());
-        let chosen =
-            |model: &&FmuModel| arguments.model.is_empty() || arguments.model.iter().any(|name| name == model.name);
-        let models: Vec<&FmuModel> = MODELS.iter().filter(chosen).collect();
-        check_used(&arguments, &models).err().map(|error| error.to_string())
-    }
-
-    #[test]
-    fn values_that_no_chosen_model_takes_are_refused() {
-        let refused = error_of(&["--model", "Motorcycle", "--rig", "rig.toml"]).unwrap();
-        assert!(refused.contains("--rig applies to none") && refused.contains("--model"), "{refused}");
-        let refused = error_of(&["--model", "StewartPlatform", "--path", "bend.csv"]).unwrap();
-        assert!(refused.contains("--path applies to none"), "{refused}");
-        let refused = error_of(&["--model", "Motorcycle,StewartPlatform", "--parameters", "mine.toml"]).unwrap();
-        assert!(refused.contains("--parameters applies to none"), "{refused}");
-    }
-
-    #[test]
-    fn values_that_one_of_the_models_takes_are_not() {
-        assert_eq!(error_of(&["--rig", "rig.toml", "--parameters", "small-motions"]), None);
-        assert_eq!(error_of(&["--model", "Motorcycle", "--parameters", "mine.toml"]), None);
-        assert_eq!(error_of(&["--model", "Motorcycle,StewartPlatform", "--rig", "rig.toml"]), None);
-    }
-
-    #[test]
-    fn a_path_becomes_start_values_of_the_motorcycle_alone() {
-        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/simulator/motorcycle/paths/hairpin.csv");
-        let arguments = Arguments::parse_from(["build-fmu", "--path", file]);
-        let values = start_values(&arguments, &MOTORCYCLE).unwrap();
-        let value = |name: &str| values.iter().find(|(known, _)| known == name).unwrap().1;
-        assert_eq!((value("path.course"), value("path.point.count")), (2.0, 6.0));
-        assert_eq!(value("path.point.distance[2]"), 150.0);
-        assert!(Start::with(&MOTORCYCLE, &values).is_ok());
-        assert_eq!(start_values(&arguments, &WASHOUT).unwrap(), []);
-        let missing = Arguments::parse_from(["build-fmu", "--path", "no-such.csv"]);
-        assert!(start_values(&missing, &MOTORCYCLE).unwrap_err().to_string().contains("no-such.csv"));
-    }
 
     #[test]
     fn arrays_are_for_fmi_3() {

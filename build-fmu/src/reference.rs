@@ -5,7 +5,9 @@
 //! for each of them a table of inputs and one of outputs. The outputs are computed by the model in
 //! Rust, without FMI.
 
-use moris_interface::{Causality, Kind, Model, SlotModel};
+use std::collections::BTreeMap;
+
+use moris_interface::{Causality, Identity, Kind, Model, SlotModel};
 
 use crate::archive::Contents;
 
@@ -19,26 +21,54 @@ const RATE: usize = 100;
 /// Communication steps from one row of the output to the next.
 const STEPS_PER_ROW: usize = 20;
 
-/// The files of a model's reference ride: `input` is a table of inputs, `output` what [`output`]
-/// makes of it.
-pub fn files(name: &str, input: &Stimuli, output: String) -> Contents {
+/// The files of a model's reference ride, given its tables of inputs and outputs;
+/// `stop` is its end \[s\].
+pub fn files(name: &str, stop: f64, input: String, output: String) -> Contents {
     let fill = |text: &str| {
         text.replace("{{name}}", name)
-            .replace("{{stop}}", &input.end().to_string())
+            .replace("{{stop}}", &stop.to_string())
             .replace("{{step}}", &(1.0 / RATE as f64).to_string())
     };
     let file = |file: &str, text: String| (format!("{DIRECTORY}/{file}"), text.into_bytes());
     Contents::from([
         file("fmi-ls-manifest.xml", fill(MANIFEST)),
         file(&format!("{name}.exp"), fill(EXPERIMENTS)),
-        file(&format!("{name}_in.csv"), input.text.to_owned()),
+        file(&format!("{name}_in.csv"), input),
         file(&format!("{name}_ref.csv"), output),
     ])
 }
 
+/// The table with a column for each array variable, its values separated by spaces, as FMPy and
+/// fmusim read it. Elements that the table lacks have their start values.
+///
+/// # Panics
+/// A column is not one of the model's variables.
+pub fn as_arrays(identity: &Identity, start: &[f64], table: &str) -> String {
+    let mut lines = table.lines();
+    let names: Vec<&str> = lines.next().expect("a line of names").split(',').skip(1).collect();
+    let slots: Vec<usize> =
+        names.iter().map(|name| identity.slot(name).expect("one of the model's variables")).collect();
+    let mut rows: Vec<usize> = slots.iter().map(|&slot| slot - usize::from(identity.slots[slot].element)).collect();
+    rows.dedup();
+    let mut text = "time".to_owned();
+    for &first in &rows {
+        text += &format!(",{}", identity.row(first).array_name());
+    }
+    for line in lines {
+        let (time, values) = line.split_once(',').expect("a time and values");
+        let values: BTreeMap<usize, &str> = slots.iter().copied().zip(values.split(',')).collect();
+        let value = |slot: usize| values.get(&slot).map_or_else(|| start[slot].to_string(), |&cell| cell.to_owned());
+        text += &format!("\n{time}");
+        for &first in &rows {
+            let elements: Vec<String> = (first..first + identity.row(first).slots()).map(value).collect();
+            text += &format!(",{}", elements.join(" "));
+        }
+    }
+    text + "\n"
+}
+
 /// A table of inputs over time, linear between its rows.
 pub struct Stimuli {
-    text: &'static str,
     names: Vec<&'static str>,
     rows: Vec<Vec<f64>>,
 }
@@ -54,11 +84,11 @@ impl Stimuli {
         let names = lines.next().expect("a line of names").split(',').collect();
         let number = |cell: &str| cell.parse().expect("a number");
         let rows = lines.map(|line| line.split(',').map(number).collect()).collect();
-        Stimuli { text, names, rows }
+        Stimuli { names, rows }
     }
 
     /// The time of the last row \[s\].
-    fn end(&self) -> f64 {
+    pub fn end(&self) -> f64 {
         self.rows.last().expect("a row")[0]
     }
 

@@ -1,6 +1,7 @@
 //! Start values of an FMU: the model's own, or embedded ones in their place.
 
-use moris_interface::{Causality, write_start_values};
+use moris_fmi::{Overrides, SectionError, embed};
+use moris_interface::Causality;
 use moris_setup::{NamedValues, parameter_file};
 
 use crate::{Error, FmuModel};
@@ -9,7 +10,7 @@ use crate::{Error, FmuModel};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Those that stand in place of the model's own, by slot, in the order of the slots.
-    overrides: Vec<(usize, f64)>,
+    overrides: Overrides,
     /// All of them.
     slots: Vec<f64>,
 }
@@ -18,6 +19,11 @@ impl Start {
     /// The model's own.
     pub fn own(model: &FmuModel) -> Self {
         Start { overrides: Vec::new(), slots: (model.functions.start)(&[]) }
+    }
+
+    /// Those that a library of the model holds in place of the model's own.
+    pub fn of_library(model: &FmuModel, overrides: Overrides) -> Self {
+        Start { slots: (model.functions.start)(&overrides), overrides }
     }
 
     /// The model's own with these laid over them; what the model has no parameter of that name for
@@ -39,11 +45,11 @@ impl Start {
             slots[identity.slot(&name).expect("what follows is the model's")] = value;
         }
         let is_set = |slot: usize| matches!(identity.row(slot).causality, Causality::Parameter | Causality::Input);
-        let overrides: Vec<(usize, f64)> = (0..slots.len())
+        let overrides: Overrides = (0..slots.len())
             .filter(|&slot| is_set(slot) && slots[slot] != own[slot])
             .map(|slot| (slot, slots[slot]))
             .collect();
-        let start = Start { slots: (model.functions.start)(&overrides), overrides };
+        let start = Start::of_library(model, overrides);
         start.check(model)?;
         Ok(start)
     }
@@ -67,9 +73,12 @@ impl Start {
         self.overrides.is_empty()
     }
 
-    /// The overrides in the form in which the library takes them in when it is compiled.
-    pub fn text(&self) -> Option<String> {
-        (!self.is_own()).then(|| write_start_values(&self.overrides))
+    /// Writes the overrides into the model's library.
+    ///
+    /// # Errors
+    /// The library has no place for them.
+    pub fn embed(&self, model: &FmuModel, library: &mut [u8]) -> Result<(), SectionError> {
+        embed(library, model.functions.identity.slots.len(), &self.overrides)
     }
 
     /// The overrides as a parameter file.

@@ -1,15 +1,33 @@
 //! Directories and tools of the machine that builds.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
+use std::{env, fs};
 
 use crate::Error;
 
-/// The root of the workspace.
+/// The root of the workspace: that of the package which cargo runs or tests, or around
+/// the working directory.
+///
+/// It is not that of the compilation: cargo takes the program for fresh in a
+/// copy of the sources, too.
 pub fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("this crate is a directory of the workspace")
+    static ROOT: OnceLock<PathBuf> = OnceLock::new();
+    ROOT.get_or_init(|| {
+        let starts = [env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from), env::current_dir().ok()];
+        let around = |start: &PathBuf| {
+            let manifest = start.ancestors().map(|directory| directory.join(MANIFEST)).find(|file| file.is_file())?;
+            // A directory may be a link into the sources.
+            fs::canonicalize(manifest).ok()?.ancestors().nth(2).map(Path::to_owned)
+        };
+        let compiled = || Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace's directory").to_owned();
+        starts.iter().flatten().find_map(around).unwrap_or_else(compiled)
+    })
 }
+
+/// A file that only the sources of this project have, seen from their root.
+const MANIFEST: &str = "build-fmu/Cargo.toml";
 
 /// Directory of FMUs by default: the environment's `MORIS_FMUS`, or `target/fmu`.
 pub fn default_output() -> PathBuf {

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import zipfile
 from ctypes import c_double, c_int32, c_uint32
 from pathlib import Path
 
@@ -11,6 +12,7 @@ from conftest import ANGLES, AXES, ROOT
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
+from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
 LEGS = range(1, 7)
@@ -250,6 +252,33 @@ def test_fmpy_simulates_a_recording_to_the_same_numbers(fmu, fmu3):
         expected = np.column_stack([as_scalars[element] for element in elements])
         assert np.array_equal(as_arrays[name].reshape(expected.shape), expected), name
     assert np.ptp(as_arrays["rider.specificForce"], axis=0).min() > 0.1
+
+
+@pytest.mark.parametrize("model", ["MorisWashout", "Motorcycle", "StewartPlatform"])
+def test_the_reference_ride_is_as_the_reference_says(model, tmp_path):
+    path = ROOT / "target" / "fmu" / f"{model}.fmi3.arrays.fmu"
+    with zipfile.ZipFile(path) as archive:
+        for end in ("in", "ref"):
+            name = f"extra/org.fmi-standard.fmi-ls-ref/{model}_{end}.csv"
+            (tmp_path / f"{end}.csv").write_bytes(archive.read(name))
+    ride, reference = (read_csv(str(tmp_path / f"{end}.csv")) for end in ("in", "ref"))
+    inputs, outputs = ride.dtype.names[1:], reference.dtype.names[1:]
+    description, directory = read_model_description(path), extract(path)
+    instance = Washout3(description, directory, {})
+    step, largest, moved = 0.01, 0.0, 0.0
+    for k in range(round(reference["time"][-1] / step)):
+        for name in inputs:
+            columns = np.asarray(ride[name]).reshape(len(ride), -1).T
+            instance.set(name, [np.interp(k * step, ride["time"], column) for column in columns])
+        instance.slave.doStep(k * step, step)
+        row = np.flatnonzero(np.abs(reference["time"] - (k + 1) * step) < 1e-9)
+        for name in outputs if row.size else ():
+            expected = np.ravel(reference[name][row[0]])
+            largest = max(largest, np.abs(np.array(instance.get(name)) - expected).max())
+            moved = max(moved, np.abs(expected - np.ravel(reference[name][0])).max())
+    instance.slave.freeInstance()
+    shutil.rmtree(directory, ignore_errors=True)
+    assert largest < 1e-9 and moved > 0.1
 
 
 def test_states_repeat_bit_for_bit_here_and_in_another_instance(washout3):

@@ -18,6 +18,8 @@ LINES = [
     ("MorisWashout", "actuators", "StewartPlatform", "actuators"),
     ("Motorcycle", "rider", "StewartPlatform", "rider"),
 ]
+# Where the motorcycle follows a path, as on the lap.
+PREVIEW = ("Motorcycle", "preview", "MorisWashout", "preview")
 
 
 def fmu(model, kind):
@@ -57,7 +59,7 @@ def test_the_file_is_valid_and_names_variables_of_one_causality(model, kind):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("source, output, target, input", LINES)
+@pytest.mark.parametrize("source, output, target, input", [*LINES, PREVIEW])
 def test_terminals_fit_member_by_member(source, output, target, input, kind):
     (kind_from, members_from) = terminals(fmu(source, kind))[output]
     (kind_to, members_to) = terminals(fmu(target, kind))[input]
@@ -69,8 +71,9 @@ def test_terminals_fit_member_by_member(source, output, target, input, kind):
         assert stated(start, "unit") == stated(end, "unit"), name
 
 
-def test_the_lines_are_all_connections_of_the_whole_simulator():
-    with zipfile.ZipFile(ROOT / "target" / "fmu" / "MotorcycleSimulator.ssp") as archive:
+@pytest.mark.parametrize("system, lines", [("MotorcycleSimulator", LINES), ("MotorcycleLap", [*LINES, PREVIEW])])
+def test_the_lines_are_all_connections_of_a_system(system, lines):
+    with zipfile.ZipFile(ROOT / "target" / "fmu" / f"{system}.ssp") as archive:
         system = etree.fromstring(archive.read("SystemStructure.ssd"))
     names = {"motorcycle": "Motorcycle", "washout": "MorisWashout", "platform": "StewartPlatform"}
     ssd = {"ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription"}
@@ -80,7 +83,7 @@ def test_the_lines_are_all_connections_of_the_whole_simulator():
         if c.get("startElement") and c.get("endElement")
     }
     joined = set()
-    for source, output, target, input in LINES:
+    for source, output, target, input in lines:
         outputs, inputs = terminals(fmu(source, "fmu"))[output][1], terminals(fmu(target, "fmu"))[input][1]
         joined |= {(source, outputs[name].name, target, inputs[name].name) for name in outputs}
     assert joined == wired

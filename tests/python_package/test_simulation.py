@@ -178,6 +178,19 @@ def test_a_built_fmu_has_the_parameters_as_start_values(tmp_path):
     assert float(start["splitter.x.omega1"]) == values["splitter.x.omega1"]
 
 
+def test_an_fmu_from_a_base_is_the_built_one_to_the_byte(tmp_path, fmu):
+    values = {"parameters": ["car", {"tilt.rateLimit": 0.031}]}
+    own = moris.build_fmu(**values, output=tmp_path / "Büro — 1 %20", base=fmu)
+    built = moris.build_fmu(**values, output=tmp_path, source=ROOT)
+    assert own.name == fmu.name and own.read_bytes() == built.read_bytes() != fmu.read_bytes()
+    with pytest.raises(moris.BuildError, match="is the base"):
+        moris.build_fmu(**values, output=own.parent, base=own)
+    with pytest.raises(moris.BuildError, match="cannot be unpacked"):
+        moris.build_fmu(**values, output=tmp_path, base=__file__)
+    with pytest.raises(ValueError, match="those of the base"):
+        moris.build_fmu(**values, output=tmp_path, base=fmu, fmi=3)
+
+
 def test_a_build_without_sources_or_toolchain_says_what_to_do(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with pytest.raises(moris.BuildError, match="give their directory as source="):

@@ -6,7 +6,7 @@ mod washout;
 
 use std::path::PathBuf;
 
-use moris_interface::{Identity, Model, ParameterError, SlotModel, start_values};
+use moris_interface::{Identity, Model, ParameterError, SlotModel, guid_of, start_values};
 use moris_model_description::{fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
@@ -119,6 +119,8 @@ pub struct ModelFns {
     pub check: fn(start: &[f64]) -> Result<(), ParameterError>,
     /// Doubts about start values that the model accepts, in sentences.
     pub warnings: fn(start: &[f64]) -> Vec<String>,
+    /// The GUID of the model with these start values.
+    pub guid: fn(start: &[f64]) -> String,
     /// The model description of FMI 2.0.
     pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
     /// That of FMI 3.0.
@@ -139,6 +141,7 @@ impl ModelFns {
             start: start_values::<M>,
             check: |start| M::from_slots(start).map(drop),
             warnings: |start| M::warnings(&M::parameters_in(start)),
+            guid: guid_of::<M>,
             description: fmi2::describe_with::<M>,
             fmi3_description: fmi3::describe_with::<M>,
             variables: fmi2::variables_html::<M>,
@@ -150,6 +153,7 @@ impl ModelFns {
 
 /// Terminals of both ends of a connection: a motorcycle's outputs are a washout's inputs, say.
 const VEHICLE: (&str, &str) = ("moris.vehicle", "Motion of the vehicle at the rider's head, and the rider's lean");
+const PREVIEW: (&str, &str) = ("moris.preview", "Specific force to come at the rider's head");
 const RIDER: (&str, &str) = ("moris.rider", "Lean of the rider");
 const ACTUATORS: (&str, &str) = ("moris.actuators", "Lengths and velocities of the six actuators");
 const POSE: (&str, &str) = ("moris.platform", "Position, velocity and acceleration of the platform");
@@ -161,6 +165,13 @@ const VEHICLE_MEMBERS: &[(&str, &str)] = &[
     ("vehicle.orientation", "orientation"),
     ("vehicle.speed", "speed"),
     ("rider.lean", "lean"),
+];
+/// Members of a terminal of the preview. It is one of its own, because few vehicles have one.
+const PREVIEW_MEMBERS: &[(&str, &str)] = &[
+    ("vehicle.preview.count", "count"),
+    ("vehicle.preview.step", "step"),
+    ("vehicle.preview.specificForce.x", "specificForce.x"),
+    ("vehicle.preview.specificForce.y", "specificForce.y"),
 ];
 /// Members of a terminal of the platform.
 const POSE_MEMBERS: &[(&str, &str)] = &[
@@ -205,6 +216,15 @@ impl FmuModel {
         match fmi {
             FmiVersion::Fmi2 => to_xml(&(self.functions.description)(start.slots())),
             FmiVersion::Fmi3(layout) => to_xml(&(self.functions.fmi3_description)(start.slots(), layout)),
+        }
+    }
+
+    /// The GUID or instantiation token by which a library knows the description.
+    pub fn token(&self, fmi: FmiVersion, start: &Start) -> String {
+        let guid = (self.functions.guid)(start.slots());
+        match fmi {
+            FmiVersion::Fmi2 => guid,
+            FmiVersion::Fmi3(layout) => layout.token(&guid),
         }
     }
 

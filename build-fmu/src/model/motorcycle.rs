@@ -8,7 +8,9 @@ use moris_motorcycle::path::table::from_csv;
 
 use moris_setup::{NamedValues, changed};
 
-use super::{FmuModel, ModelFns, RIDER, VEHICLE, VEHICLE_MEMBERS, example, section, terminal};
+use super::{
+    FmuModel, ModelFns, PREVIEW, PREVIEW_MEMBERS, RIDER, VEHICLE, VEHICLE_MEMBERS, example, section, terminal,
+};
 use crate::{Error, icon};
 
 /// The motorcycle's FMU.
@@ -21,7 +23,11 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
     derived_start_values: |_| NamedValues::new(),
     sections: &[section!("Motorcycle", "what", "Overview"), section!("Motorcycle", "connect", "Connections")],
     wording: &[example!("Motorcycle")],
-    terminals: &[terminal("vehicle", VEHICLE, VEHICLE_MEMBERS), terminal("rider", RIDER, &[("rider.lean", "lean")])],
+    terminals: &[
+        terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
+        terminal("preview", PREVIEW, PREVIEW_MEMBERS),
+        terminal("rider", RIDER, &[("rider.lean", "lean")]),
+    ],
     icon: icon::motorcycle,
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),
 };

@@ -4,7 +4,8 @@ use moris_setup::NamedValues;
 use moris_washout::Washout;
 
 use super::{
-    ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording, example, section, terminal,
+    ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, PREVIEW, PREVIEW_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording,
+    example, section, terminal,
 };
 use crate::icon;
 
@@ -37,6 +38,7 @@ pub const WASHOUT: FmuModel = FmuModel {
     ],
     terminals: &[
         terminal("vehicle", VEHICLE, VEHICLE_MEMBERS),
+        terminal("preview", PREVIEW, PREVIEW_MEMBERS),
         terminal("actuators", ACTUATORS, &[("actuator.length", "length"), ("actuator.velocity", "velocity")]),
         terminal("platform", POSE, POSE_MEMBERS),
     ],

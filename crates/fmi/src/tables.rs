@@ -3,8 +3,10 @@
 
 use std::sync::OnceLock;
 
-use moris_interface::{Model, guid_of, read_start_values, start_values};
+use moris_interface::{Model, guid_of, start_values};
 
+use crate::CallError;
+use crate::start_section::StartSection;
 use crate::variable_info::{Role, VariableInfo, variable_infos};
 
 /// A GUID in braces, in ASCII.
@@ -14,30 +16,32 @@ pub type Guid = [u8; 38];
 pub struct SharedTables<const N: usize> {
     infos: [VariableInfo; N],
     time_slot: Option<usize>,
-    embedded: Option<&'static str>,
+    section: &'static StartSection<N>,
     start: OnceLock<[f64; N]>,
     guid: OnceLock<Guid>,
 }
 
 impl<const N: usize> SharedTables<N> {
-    /// The tables of the model `M`, which has `N` slots. `embedded` are start values in place of
-    /// the model's own, as [`write_start_values`](moris_interface::write_start_values) gives them.
-    pub const fn new<M: Model>(embedded: Option<&'static str>) -> Self {
+    /// The tables of the model `M`, which has `N` slots, with the start values in this place.
+    pub const fn new<M: Model>(section: &'static StartSection<N>) -> Self {
         assert!(M::IDENTITY.slots.len() == N);
         let infos = variable_infos(&M::IDENTITY);
         let time_slot = time_slot(&infos);
-        SharedTables { infos, time_slot, embedded, start: OnceLock::new(), guid: OnceLock::new() }
+        SharedTables { infos, time_slot, section, start: OnceLock::new(), guid: OnceLock::new() }
     }
 
     /// The tables, filled on the first call. `M` is the model that they were made for.
-    pub fn get<M: Model>(&'static self) -> Tables {
+    ///
+    /// # Errors
+    /// The library's start values are damaged.
+    pub fn get<M: Model>(&'static self) -> Result<Tables, CallError> {
+        let overrides = self.section.read()?;
         let start = self.start.get_or_init(|| {
-            let embedded = self.embedded.map(read_start_values).unwrap_or_default();
-            start_values::<M>(&embedded).try_into().expect("a model has as many start values as slots")
+            start_values::<M>(&overrides).try_into().expect("a model has as many start values as slots")
         });
         let guid =
             self.guid.get_or_init(|| guid_of::<M>(start).as_bytes().try_into().expect("a GUID has 38 characters"));
-        Tables { infos: &self.infos, time_slot: self.time_slot, start, guid }
+        Ok(Tables { infos: &self.infos, time_slot: self.time_slot, start, guid })
     }
 }
 

@@ -36,7 +36,7 @@ pub use row::{Causality, Enumeration, Item, Kind, Row, Variability, bounds_of, c
 pub use shown::shown;
 pub use slot_model::SlotModel;
 pub use slots::{Reader, Slot, Writer, slot_count, slot_table, slots_of};
-pub use start::{read_start_values, start_values, write_start_values};
+pub use start::start_values;
 pub use unit::{BaseUnit, DisplayUnit, Unit, units};
 
 /// Checks that only tunable variables differ. `rows` are the group's, and `N` is the

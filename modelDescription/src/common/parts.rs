@@ -35,9 +35,15 @@ pub struct DefaultExperiment {
     pub start_time: f64,
     #[serde(rename = "@stopTime")]
     pub stop_time: f64,
+    #[serde(rename = "@tolerance")]
+    pub tolerance: f64,
     #[serde(rename = "@stepSize")]
     pub step_size: f64,
 }
+
+/// Relative tolerance for tools that ask for one. The models step without error control: runs with
+/// different communication steps agree to this.
+const TOLERANCE: f64 = 1e-3;
 
 impl UnitDefinitions {
     /// Every unit that a row has, once, in the order in which they appear; with the unit for
@@ -65,6 +71,11 @@ impl LogCategories {
 
 impl From<&Identity> for DefaultExperiment {
     fn from(identity: &Identity) -> Self {
-        DefaultExperiment { start_time: 0.0, stop_time: identity.stop_time, step_size: identity.step_size }
+        DefaultExperiment {
+            start_time: 0.0,
+            stop_time: identity.stop_time,
+            tolerance: TOLERANCE,
+            step_size: identity.step_size,
+        }
     }
 }

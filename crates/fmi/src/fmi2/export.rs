@@ -7,9 +7,8 @@
 /// moris_fmi::export_fmi2!(my_crate::MyModel);
 /// ```
 ///
-/// Where the variable `FMU_START_VALUES` is set when the library is compiled, it holds start values
-/// in place of the model's own: see [`SharedTables::new`](crate::SharedTables::new). Whoever sets
-/// it has to make sure that the model can start with them.
+/// A packing program can replace the model's start values in the compiled library: see
+/// [`embed`](crate::embed). It has to make sure that the model can start with them.
 #[macro_export]
 macro_rules! export_fmi2 {
     ($model:ty) => {
@@ -29,8 +28,10 @@ macro_rules! export_fmi2 {
             use super::*;
 
             const SLOTS: usize = $crate::slot_count::<$model>();
-            static TABLES: $crate::SharedTables<SLOTS> =
-                $crate::SharedTables::new::<$model>(option_env!("FMU_START_VALUES"));
+            // Kept as a whole in the library's file, where a packing program replaces its values.
+            #[used]
+            static START: $crate::StartSection<SLOTS> = $crate::StartSection::own();
+            static TABLES: $crate::SharedTables<SLOTS> = $crate::SharedTables::new::<$model>(&START);
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi2GetTypesPlatform() -> fmi2String {

@@ -27,7 +27,7 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
     let Some(callbacks) = callbacks else { return null_mut() };
     let logger = Logger::new(name.map_or_else(CString::default, CStr::to_owned), callbacks, logging_on.0 != 0);
     let new = || {
-        let tables = tables.get::<M>();
+        let tables = tables.get::<M>()?;
         check_request(name, fmu_type, guid, &tables.guid[..])?;
         Ok(Instance::<M>::new(tables))
     };

@@ -24,8 +24,10 @@ macro_rules! export_fmi3 {
             use super::*;
 
             const SLOTS: usize = $crate::slot_count::<$model>();
-            static TABLES: $crate::SharedTables<SLOTS> =
-                $crate::SharedTables::new::<$model>(option_env!("FMU_START_VALUES"));
+            // Kept as a whole in the library's file, where a packing program replaces its values.
+            #[used]
+            static START: $crate::StartSection<SLOTS> = $crate::StartSection::own();
+            static TABLES: $crate::SharedTables<SLOTS> = $crate::SharedTables::new::<$model>(&START);
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi3GetVersion() -> fmi3String {

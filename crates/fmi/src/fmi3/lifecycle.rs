@@ -30,7 +30,7 @@ pub unsafe fn instantiate<M: Model, const N: usize>(
 ) -> fmi3Instance {
     panics::silence();
     let new = || {
-        let tables = tables.get::<M>();
+        let tables = tables.get::<M>()?;
         // SAFETY: the host's strings live during the call.
         let layout = unsafe { check_request(request, tables.guid) }?;
         Ok((Instance::<M>::new(tables), layout))

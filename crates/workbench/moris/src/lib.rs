@@ -10,6 +10,7 @@
 //! - [`tune`] searches for better parameters.
 //! - [`ride`] writes a page in which the motorcycle is ridden.
 //! - [`frequency_response`] measures a frequency response.
+//! - [`build_fmu`] packs an FMU with other start values.
 //! - [`parameters`] lists all parameters.
 //! - [`help`] writes shell completions and man pages.
 //! - [`schema`] writes schemas of the files, for editors.
@@ -19,6 +20,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod build_fmu;
 pub mod frequency_response;
 pub mod help;
 pub mod live;

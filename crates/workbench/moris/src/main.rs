@@ -4,7 +4,9 @@ use std::io::{ErrorKind, Write, stdout};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-use moris::{frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune, worst_case};
+use moris::{
+    build_fmu, frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune, worst_case,
+};
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
 #[derive(Parser)]
@@ -28,6 +30,7 @@ enum Command {
     #[command(alias = "respond")]
     FrequencyResponse(frequency_response::Options),
     Parameters(parameters::Options),
+    BuildFmu(build_fmu::Options),
     Schema(schema::Options),
     Completions(help::CompletionOptions),
     Man(help::ManOptions),
@@ -45,6 +48,7 @@ fn main() -> ExitCode {
         Command::Tune(options) => tune::main(&options, out),
         Command::FrequencyResponse(options) => frequency_response::main(&options, out),
         Command::Parameters(options) => parameters::main(&options, out),
+        Command::BuildFmu(options) => build_fmu::main(&options, out),
         Command::Schema(options) => schema::main(&options, out),
         Command::Completions(options) => help::completions(&options, Arguments::command(), out),
         Command::Man(options) => help::man_pages(&options, Arguments::command(), out),

@@ -59,3 +59,8 @@ pub fn infeasible(py: Python, reason: &dyn Display) -> PyErr {
 pub fn parameter(py: Python, message: String) -> PyErr {
     exception(py, "ParameterError", (message,))
 }
+
+/// An FMU that cannot be made.
+pub fn build(py: Python, reason: &dyn Display) -> PyErr {
+    exception(py, "BuildError", (reason.to_string(),))
+}

@@ -2,10 +2,11 @@
 //!
 //! `washout` is the class `Washout`, `output` what its step returns. `setup` reads rigs and
 //! parameters, `arrays` and `preview` numpy's arrays, `variables` finds variables by name,
-//! `table` lists them. `error` makes the exceptions.
+//! `table` lists them. `fmu` packs an FMU. `error` makes the exceptions.
 
 mod arrays;
 mod error;
+mod fmu;
 mod output;
 mod preview;
 mod recording;
@@ -31,6 +32,8 @@ mod _moris {
     #[pymodule_export]
     const FADE_IN: f64 = moris::recording::FADE_IN;
 
+    #[pymodule_export]
+    use crate::fmu::pack_fmu;
     #[pymodule_export]
     use crate::output::PyOutput;
     #[pymodule_export]

@@ -4,8 +4,8 @@ Frames: x forward, y left, z up; roll, pitch and yaw about x, y and z, so that p
 are in SI units. Variables have the names that they have in the FMU.
 """
 
-from ._errors import BoundError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
-from ._fmu import BuildError, build_fmu
+from ._errors import BoundError, BuildError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
+from ._fmu import build_fmu
 from ._measures import Measure, Measures
 from ._moris import VERSION as __version__
 from ._moris import Output, Washout

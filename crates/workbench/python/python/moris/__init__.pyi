@@ -293,7 +293,8 @@ def build_fmu(
     strategy: _Strategy | None = None,
     *,
     output: str | PathLike[str] = ".",
-    fmi: Literal[2, 3] = 2,
+    base: str | PathLike[str] | None = None,
+    fmi: Literal[2, 3] | None = None,
     platforms: Sequence[str] | None = None,
     source: str | PathLike[str] | None = None,
 ) -> Path: ...

@@ -39,3 +39,7 @@ class ClusterError(RuntimeError):
     def __init__(self, message, partial=None):
         super().__init__(message)
         self.partial = partial
+
+
+class BuildError(RuntimeError):
+    """The FMU cannot be made: the base cannot be used, the toolchain or the sources are missing, or cargo failed."""

@@ -1,45 +1,53 @@
-"""FMUs, built by cargo from the project's sources."""
+"""FMUs with a rig and parameters: from an existing FMU, or built by cargo from the project's sources."""
 
 import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
+from ._errors import BuildError
+from ._moris import pack_fmu
 from ._simulation import parameters as all_parameters
 from ._simulation import write_parameters
 
 
-class BuildError(RuntimeError):
-    """The FMU cannot be built: the toolchain or the sources are missing, or cargo failed."""
+def build_fmu(rig=None, parameters=None, strategy=None, *, output=".", base=None, fmi=None, platforms=None, source=None):
+    """Makes the washout's FMU with a rig and parameters as start values; returns its path.
 
+    rig, parameters, strategy: as for Washout. output: directory for the FMU.
 
-def build_fmu(rig=None, parameters=None, strategy=None, *, output=".", fmi=2, platforms=None, source=None):
-    """Builds the washout's FMU with a rig and parameters as start values; returns its path.
-
-    rig, parameters, strategy: as for Washout. output: directory for the FMU. fmi: 2 or 3. platforms: list of names such as
-    "linux64", "win64"; by default this machine's. source: directory of the project's sources; by default the working
-    directory or one above it. A Rust toolchain has to be installed (https://rustup.rs). Raises BuildError.
+    base: an FMU of the washout, of this package's version. The new one is for its version of FMI and all of its platforms, and
+    nothing is compiled. Without a base, cargo compiles the project's sources with a Rust toolchain (https://rustup.rs). Then
+    fmi: 2 (default) or 3. platforms: list of names such as "linux64", "win64"; by default this machine's. source: directory of
+    the sources; by default the working directory or one above it. Raises BuildError.
     """
-    if fmi not in (2, 3):
-        raise ValueError(f"fmi is {fmi!r}, but must be 2 or 3")
-    cargo = shutil.which("cargo")
-    if cargo is None:
-        raise BuildError("there is no cargo; install a Rust toolchain from https://rustup.rs")
-    source = _source(source)
     output = Path(output).resolve()
     sets = [part for part in (parameters, None if strategy is None else {"strategy": strategy}) if part is not None]
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "parameters.toml"
         # The rig's values are among them: every value that is not the default's.
         write_parameters(file, all_parameters(rig, sets or None))
-        command = [cargo, "build-fmu", "--model", "MorisWashout", "--fmi", str(fmi), "--output", str(output)]
-        command += ["--parameters", str(file)]
-        if platforms:
-            command += ["--platform", ",".join(platforms)]
-        built = subprocess.run(command, cwd=source, capture_output=True, text=True)
+        if base is None:
+            return _compile(file, output, 2 if fmi is None else fmi, platforms, source)
+        if fmi is not None or platforms is not None or source is not None:
+            raise ValueError("fmi, platforms and source are those of the base; omit them, or omit base")
+        return Path(pack_fmu(base, str(file), output))
+
+
+def _compile(parameters, output, fmi, platforms, source):
+    if fmi not in (2, 3):
+        raise ValueError(f"fmi is {fmi!r}, but must be 2 or 3")
+    cargo = shutil.which("cargo")
+    if cargo is None:
+        raise BuildError("there is no cargo; give an FMU as base=, or install a Rust toolchain from https://rustup.rs")
+    command = [cargo, "build-fmu", "--model", "MorisWashout", "--fmi", str(fmi), "--output", str(output)]
+    command += ["--parameters", str(parameters)]
+    if platforms:
+        command += ["--platform", ",".join(platforms)]
+    built = subprocess.run(command, cwd=_source(source), capture_output=True, text=True)
     if built.returncode != 0:
         raise BuildError(f"cargo build-fmu failed:\n{built.stderr.strip()[-4000:]}")
-    return output / "MorisWashout.fmu"
+    return output / f"MorisWashout{'' if fmi == 2 else '.fmi3'}.fmu"
 
 
 def _source(source):
@@ -50,4 +58,5 @@ def _source(source):
     for folder in (Path.cwd(), *Path.cwd().parents):
         if (folder / "build-fmu" / "Cargo.toml").exists():
             return folder
-    raise BuildError("the project's sources are not in the working directory; give their directory as source=")
+    reason = "give an FMU as base=, or give their directory as source="
+    raise BuildError(f"the project's sources are not in the working directory; {reason}")

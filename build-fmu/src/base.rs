@@ -1,0 +1,130 @@
+//! An FMU as the base of another with other start values: its libraries are taken as they are but
+//! for these values. Nothing is compiled.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use clap::ValueEnum;
+use moris_fmi::{SectionError, embedded};
+use quick_xml::de::from_str;
+use serde::Deserialize;
+use zip::ZipArchive;
+
+use crate::{Error, FmiVersion, FmuModel, MODELS, Platform, Start, archive, code_signature, contents};
+
+/// A model's libraries, by platform, without start values in place of the model's own.
+pub struct Base {
+    pub model: &'static FmuModel,
+    pub fmi: FmiVersion,
+    libraries: Vec<(Platform, Vec<u8>)>,
+}
+
+/// The attributes of `modelDescription.xml` that tell models and versions apart.
+#[derive(Deserialize)]
+struct Root {
+    #[serde(rename = "@fmiVersion")]
+    fmi_version: String,
+    #[serde(rename = "@modelName")]
+    model_name: String,
+    #[serde(rename = "@version", default)]
+    version: String,
+    #[serde(rename = "@guid", alias = "@instantiationToken")]
+    token: String,
+}
+
+impl Base {
+    /// Reads an FMU.
+    ///
+    /// # Errors
+    /// The file is no FMU of this program's models, of another version, damaged, or put
+    /// together from several FMUs.
+    pub fn open(file: &Path) -> Result<Self, Error> {
+        let bytes = fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+        Self::read(bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })
+    }
+
+    fn read(bytes: Vec<u8>) -> Result<Self, String> {
+        let files = unpack(bytes).map_err(|error| format!("cannot be unpacked: {error}"))?;
+        let text = files.get("modelDescription.xml").ok_or("has no modelDescription.xml")?;
+        let root: Root = from_str(&String::from_utf8_lossy(text))
+            .map_err(|error| format!("has a modelDescription.xml that cannot be read: {error}"))?;
+        let model = MODELS.iter().find(|model| model.name == root.model_name);
+        let model =
+            model.ok_or_else(|| format!("is of the model {}, which this program does not know", root.model_name))?;
+        let identity = &model.functions.identity;
+        if root.version != identity.version {
+            let (theirs, ours) = (root.version, identity.version);
+            return Err(format!("is of version {theirs}, but this program packs {ours}; take both from one release"));
+        }
+        let other_build =
+            || "is of another build of this version than this program; take both from one release".to_owned();
+        let versions: Vec<FmiVersion> =
+            FmiVersion::ALL.iter().copied().filter(|fmi| fmi.number() == root.fmi_version).collect();
+        let first = versions.first().ok_or_else(|| format!("is of FMI {}", root.fmi_version))?;
+        let library = |&platform: &Platform| {
+            let path = format!("binaries/{}/{}", platform.directory(*first), platform.packed_library(model.name));
+            Some((platform, files.get(&path)?.clone()))
+        };
+        let libraries: Vec<(Platform, Vec<u8>)> = Platform::value_variants().iter().filter_map(library).collect();
+        let mut starts = Vec::new();
+        for (platform, library) in &libraries {
+            let overrides = embedded(library, identity.slots.len()).map_err(|error| match error {
+                SectionError::Missing => format!("has a library for {platform} without a place for start values"),
+                SectionError::Version => other_build(),
+                SectionError::Damaged => format!("has a library for {platform} whose start values are damaged"),
+            })?;
+            starts.push(Start::of_library(model, overrides));
+        }
+        let start = starts.first().ok_or("has no library for a platform that this program knows")?;
+        // The description's token follows from the model, its start values and the layout.
+        let fmi = versions.into_iter().find(|&fmi| model.token(fmi, start) == root.token).ok_or_else(other_build)?;
+        if starts.iter().any(|other| other != start) {
+            return Err("has libraries with different start values; it is put together from several FMUs".to_owned());
+        }
+        Ok(Base { model, fmi, libraries })
+    }
+
+    /// The platforms that the FMU is for.
+    pub fn platforms(&self) -> impl Iterator<Item = Platform> {
+        self.libraries.iter().map(|(platform, _)| *platform)
+    }
+
+    /// Packs the FMU with these start values.
+    ///
+    /// # Errors
+    /// The archive would be too large.
+    pub fn pack(self, start: &Start) -> Result<Vec<u8>, Error> {
+        pack(self.model, start, self.fmi, self.libraries)
+    }
+}
+
+/// Packs an FMU of these libraries, with start values that replace those in them.
+///
+/// # Errors
+/// A library has no place for them, or the archive would be too large.
+pub fn pack(
+    model: &FmuModel,
+    start: &Start,
+    fmi: FmiVersion,
+    mut libraries: Vec<(Platform, Vec<u8>)>,
+) -> Result<Vec<u8>, Error> {
+    for (platform, library) in &mut libraries {
+        start.embed(model, library).map_err(|_| Error::NoPlace { platform: *platform })?;
+        code_signature::renew(library);
+    }
+    archive::pack(&contents::contents(model, start, fmi, libraries))
+}
+
+fn unpack(bytes: Vec<u8>) -> zip::result::ZipResult<BTreeMap<String, Vec<u8>>> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes))?;
+    let mut files = BTreeMap::new();
+    for index in 0..archive.len() {
+        let mut file = archive.by_index(index)?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes)?;
+        files.insert(file.name().to_owned(), bytes);
+    }
+    Ok(files)
+}

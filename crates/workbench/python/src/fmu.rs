@@ -1,0 +1,16 @@
+//! An own FMU from an existing one.
+
+use std::io::sink;
+use std::path::PathBuf;
+
+use moris_build_fmu::StartOptions;
+use pyo3::prelude::*;
+
+/// Packs the FMU `base` with the parameters of a file as start values into the directory `output`;
+/// returns the FMU's file.
+#[pyfunction]
+pub fn pack_fmu(py: Python, base: PathBuf, parameters: String, output: PathBuf) -> PyResult<PathBuf> {
+    let options = StartOptions { parameters: vec![parameters], ..StartOptions::default() };
+    let packed = py.detach(|| moris::build_fmu::pack(&base, &options, &output, &mut sink()));
+    packed.map_err(|error| crate::error::build(py, &error))
+}
