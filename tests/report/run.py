@@ -3,7 +3,7 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and that of `moris ride`. Without Chromium or Playwright nothing is run, and that is said; with --require it
+The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and those of `moris ride` and `moris live`. Without Chromium or Playwright nothing is run, and that is said; with --require it
 is an error. With --install both are installed first (apt and pip; for Debian and Ubuntu). Pictures are left in target/report/.
 """
 
@@ -87,7 +87,7 @@ def main():
     moris = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--release", "--quiet", "--package", "moris", "--"]
     write_ride(pages / "ride.csv")
     check_call(*moris, "simulate", pages / "ride.csv", "--report", pages)
-    failed = [script for script in ("checks.py", "ride.py")
+    failed = [script for script in ("checks.py", "ride.py", "live.py")
               if subprocess.run([interpreter, HERE / script, chromium, pages, WORK / "pictures", *moris], cwd=ROOT).returncode]
     sys.exit(1 if failed else 0)
 

@@ -4,14 +4,17 @@ use moris_report::{Parameter, Rig, shared};
 use serde::Serialize;
 
 const TEMPLATE: &str = include_str!("../page/ride.html");
-const STYLE: &str = include_str!("../page/ride.css");
+/// The style of a page with curves, a platform and lamps.
+pub const STYLE: &str = include_str!("../page/ride.css");
+
+/// Scripts for any page with curves, a platform and lamps.
+pub const SHARED: [&str; 2] = [include_str!("../page/strip.js"), include_str!("../page/shown.js")];
 
 /// The scripts in the order of their dependencies.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 5] = [
     include_str!("../page/engine.js"),
     include_str!("../page/controls.js"),
     include_str!("../page/road.js"),
-    include_str!("../page/strip.js"),
     include_str!("../page/panel.js"),
     include_str!("../page/main.js"),
 ];
@@ -40,7 +43,7 @@ pub struct Page {
 pub fn html(page: &Page) -> String {
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(page).expect("plain data serialise").replace('<', "\\u003c");
-    let scripts: Vec<&str> = shared::SCRIPTS.iter().chain(&SCRIPTS).copied().collect();
+    let scripts: Vec<&str> = shared::SCRIPTS.iter().chain(&SHARED).chain(&SCRIPTS).copied().collect();
     shared::filled(
         TEMPLATE,
         &[

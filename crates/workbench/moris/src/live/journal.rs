@@ -10,6 +10,8 @@ use moris_live::source::Health;
 use moris_live::{Refusal, State};
 use rtrb::Consumer;
 
+use super::page::Desk;
+
 /// Something that happened at a time \[s\].
 #[derive(Clone, Copy, Debug)]
 pub enum Note {
@@ -23,6 +25,8 @@ pub enum Note {
     Refused(f64, Refusal),
     /// A check of the signs has decided.
     Sign(f64, Check, Verdict),
+    /// Parameters were chosen; true if they are in force.
+    Retuned(f64, bool),
     /// The computer was late: the session's clock has slipped by this time \[s\].
     Slipped(f64, f64),
 }
@@ -43,23 +47,29 @@ fn line(note: &Note) -> Option<String> {
             format!("{time:9.3} s  WRONG SIGN, expected: {}", check.text())
         }
         Note::Sign(time, check, _) => format!("{time:9.3} s  sign agrees: {}", check.text()),
+        Note::Retuned(_, true) => return None,
+        Note::Retuned(time, false) => format!("{time:9.3} s  refused: these parameters cannot change now"),
         Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),
     })
 }
 
-/// Keeps the journal until the loop has ended.
+/// Keeps the journal until the loop has ended. The page gets its lines, too.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep(mut notes: Consumer<Note>, record: Option<File>) -> io::Result<()> {
+pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>) -> io::Result<()> {
     let mut record = record.map(BufWriter::new);
     loop {
         let ended = notes.is_abandoned();
         while let Ok(note) = notes.pop() {
             match (note, &mut record) {
                 (Note::Entry(entry), Some(file)) => writeln!(file, "{entry}")?,
-                // The reader of the lines may be gone.
-                _ => drop(line(&note).map(|line| writeln!(stderr(), "{line}"))),
+                _ => {
+                    let Some(line) = line(&note) else { continue };
+                    // The reader of the lines may be gone.
+                    let _ = writeln!(stderr(), "{line}");
+                    page.inspect(|page| page.say(&line));
+                }
             }
         }
         if ended {

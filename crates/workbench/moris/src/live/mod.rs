@@ -5,6 +5,7 @@
 //! - `telemetry` receives packets, or plays a recording.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames, `journal` prints what happens and records the session.
+//! - `page` serves the page in a browser.
 //! - `tables` lists formats and templates.
 //!
 //! Threads exchange values through rings without locks. The loop waits for none of them.
@@ -12,6 +13,7 @@
 mod frames;
 mod journal;
 mod pace;
+mod page;
 mod steps;
 mod tables;
 mod telemetry;
@@ -31,6 +33,7 @@ use rtrb::{Producer, RingBuffer};
 
 use crate::setup_options::SetupOptions;
 use frames::Sink;
+use page::{Desk, Order, Server, Start};
 
 /// Step the washout beside a running vehicle, and command a platform
 ///
@@ -53,7 +56,7 @@ pub struct Options {
     #[arg(long, value_name = "NAME|FILE")]
     format: Option<String>,
 
-    /// Receive from other machines, too; otherwise from this one alone
+    /// Receive from other machines, and serve the page to them, too; otherwise to this one alone
     #[arg(long)]
     listen: bool,
 
@@ -83,6 +86,14 @@ pub struct Options {
     /// Engage although signs of the telemetry contradict each other
     #[arg(long)]
     ignore_signs: bool,
+
+    /// Serve a page with curves, buttons and sliders, and print its address
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "replay")]
+    page: Option<u16>,
+
+    /// Let every page control; otherwise only the first one that is opened
+    #[arg(long, requires = "page")]
+    allow_control: bool,
 
     /// Park and end after this time
     #[arg(long = "for", value_name = "SECONDS", value_parser = seconds)]
@@ -150,23 +161,39 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 
     let (samples, received) = RingBuffer::new(1024);
     let (commands, commanded) = RingBuffer::new(64);
+    // As many as there are parameters, and more.
+    let (to_loop, asked) = RingBuffer::new(1024);
+    let desk = Arc::new(Desk::new(&setup.parameters, to_loop, options.allow_control)?);
+    let server = match options.page {
+        Some(port) => Some(Server::open(port, options.listen, &Start::of(&setup), Arc::clone(&desk))?),
+        None => None,
+    };
+    let (shown, showing) = RingBuffer::new(256);
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
     eprintln!("commands: {COMMANDS}; Ctrl-C parks and ends");
+    if let Some(server) = &server {
+        eprintln!("page: {}", server.address());
+    }
     // It waits for a line for ever: nobody joins it.
     thread::spawn(move || read_commands(commands));
     let interval = if options.dry { template.interval.max(0.1) } else { template.interval };
     let summary = thread::scope(|scope| {
         let sender = scope.spawn(move || frames::send(to_send, &encoder, sink));
-        let printer = scope.spawn(move || journal::keep(journal, record));
+        let printer = scope.spawn(|| journal::keep(journal, record, server.as_ref().map(|_| &*desk)));
+        if let Some(server) = &server {
+            scope.spawn(|| server.run(&shared));
+            scope.spawn(|| desk.show(showing, &shared));
+        }
         scope.spawn(|| input.run(samples, &shared));
         let mut steps = steps::Steps {
             session: &mut session,
             shared: &shared,
             received,
-            commanded,
+            orders: [commanded, asked],
             frames: frames::Frames::new(to_device, sender.thread().clone(), interval),
             journal: to_journal,
+            shown: server.as_ref().map(|_| shown),
             engages: options.engage,
             ends_at: options.duration,
         };
@@ -202,11 +229,10 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
 
 /// Passes lines on as commands.
-fn read_commands(mut commands: Producer<Event>) {
+fn read_commands(mut commands: Producer<Order>) {
     for line in stdin().lines().map_while(Result::ok) {
-        let event = Event::named(line.trim()).filter(|event| event.is_external() && *event != Event::Fault);
-        match event {
-            Some(event) => drop(commands.push(event)),
+        match Event::of_person(line.trim()) {
+            Some(event) => drop(commands.push(Order::Event(event))),
             None if line.trim().is_empty() => (),
             None => eprintln!("commands: {COMMANDS}"),
         }

@@ -54,26 +54,25 @@ impl Lateness {
         self.largest = self.largest.max(late);
     }
 
+    /// The classes: the upper end of each \[ms\], of the last the largest
+    /// lateness, and its wake-ups.
+    pub fn classes(&self) -> impl Iterator<Item = (f64, u64)> {
+        let ends = CLASSES.into_iter().map(|end| end as f64 * 1e-3).chain([self.largest.as_secs_f64() * 1e3]);
+        ends.zip(self.counts)
+    }
+
     /// Wake-ups later than the time of a step.
     pub fn overruns(&self) -> u64 {
-        CLASSES
-            .iter()
-            .chain([&u64::MAX])
-            .zip(self.counts)
-            .filter(|(end, _)| **end > 1_000)
-            .map(|(_, count)| count)
-            .sum()
+        let on_time = CLASSES.iter().filter(|end| **end <= 1_000).count();
+        self.counts[on_time..].iter().sum()
     }
 }
 
 impl Display for Lateness {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         writeln!(f, "wake-up late by at most   steps")?;
-        for (class, count) in self.counts.iter().enumerate().filter(|(_, count)| **count > 0) {
-            match CLASSES.get(class) {
-                Some(end) => writeln!(f, "{:>21.2} ms {count:>7}", *end as f64 * 1e-3)?,
-                None => writeln!(f, "{:>21.2} ms {count:>7}", self.largest.as_secs_f64() * 1e3)?,
-            }
+        for (end, count) in self.classes().filter(|(_, count)| *count > 0) {
+            writeln!(f, "{end:>21.2} ms {count:>7}")?;
         }
         Ok(())
     }
