@@ -65,6 +65,8 @@ pub struct Commands {
     pub length: [f64; 6],
     /// Their velocities \[m/s\].
     pub velocity: [f64; 6],
+    /// Height of the platform above neutral, as the washout commands it \[m\].
+    pub heave: f64,
     /// All outputs of the washout. The lengths there are those at neutral and above.
     pub washout: Output,
 }
@@ -134,7 +136,8 @@ impl Session {
         let settled = [rig.min_length + part * (rig.max_length - rig.min_length); 6];
         let way = output.length.iter().zip(settled).map(|(neutral, settled)| (neutral - settled).abs());
         let speed = settings.travel_speed.min(0.25 * rig.velocity_limit);
-        let commands = Commands { state: State::Off, time: 0.0, length: settled, velocity: [0.0; 6], washout: output };
+        let commands =
+            Commands { state: State::Off, time: 0.0, length: settled, velocity: [0.0; 6], heave: 0.0, washout: output };
         Ok(Session {
             settings: *settings,
             slots: slots_of(&parameters),
@@ -357,6 +360,7 @@ impl Session {
         let before = self.commands.length;
         let length = std::array::from_fn(|k| self.settled[k] + part * (output.length[k] - self.settled[k]));
         let velocity = std::array::from_fn(|k| (length[k] - before[k]) / STEP);
-        self.commands = Commands { state: self.state, time: now, length, velocity, washout: output };
+        let heave = output.position.z - self.washout.parameters().rig.neutral_height;
+        self.commands = Commands { state: self.state, time: now, length, velocity, heave, washout: output };
     }
 }

@@ -1,14 +1,29 @@
 //! Frames on their way to the device.
 
+#[cfg(feature = "serial")]
+use std::cell::RefCell;
 use std::io::{Write, stdout};
 use std::net::UdpSocket;
 use std::thread::Thread;
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use moris_live::frame::{Encoder, Values};
-use moris_live::{Commands, STEP, State};
+use moris_live::moog::Moog;
+use moris_live::{Commands, Event, STEP, State};
 use rtrb::{Consumer, Producer};
+
+use super::page::Order;
+
+/// Time in which a serial line must take a frame.
+#[cfg(feature = "serial")]
+const LINE_TIME: Duration = Duration::from_millis(100);
+
+/// A serial line.
+#[cfg(all(feature = "serial", unix))]
+type Line = serialport::TTYPort;
+#[cfg(all(feature = "serial", not(unix)))]
+type Line = serialport::COMPort;
 
 /// A message of the loop to the device.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +66,8 @@ impl Frames {
             (State::Off, State::Off) => return,
             (_, State::Off) => self.push(Message::Stop(values)),
             (State::Off, _) => self.push(Message::Start(values)),
+            // A fault that is cleared at neutral leaves no time for homing.
+            (State::Settled | State::Fault, State::Homing | State::Neutral) => self.push(Message::Start(values)),
             (State::Parking, State::Settled) => {
                 self.push(Message::Frame(values));
                 self.push(Message::Park(values));
@@ -70,26 +87,67 @@ impl Frames {
 pub enum Sink {
     /// A device.
     Udp(UdpSocket),
+    /// A serial line.
+    #[cfg(feature = "serial")]
+    Serial(RefCell<Line>),
     /// Standard output.
     Dry,
 }
 
 impl Sink {
-    /// The device at `udp:HOST:PORT`.
+    /// The device at `udp:HOST:PORT` or `serial:LINE:BAUD`.
     ///
     /// # Errors
-    /// There is no such host.
+    /// There is no such host or line.
     pub fn open(target: &str) -> Result<Sink> {
-        let address = target.strip_prefix("udp:").context("--to is udp:HOST:PORT")?;
+        if let Some(line) = target.strip_prefix("serial:") {
+            return Sink::open_serial(line);
+        }
+        let address = target.strip_prefix("udp:").context("--to is udp:HOST:PORT or serial:LINE:BAUD")?;
         let socket = UdpSocket::bind(("0.0.0.0", 0)).context("cannot open a socket")?;
         socket.connect(address).with_context(|| format!("cannot send to {address}"))?;
         Ok(Sink::Udp(socket))
+    }
+
+    #[cfg(feature = "serial")]
+    fn open_serial(line: &str) -> Result<Sink> {
+        let (line, baud) = line.rsplit_once(':').context("--to is serial:LINE:BAUD")?;
+        let baud = baud.parse().context("--to is serial:LINE:BAUD")?;
+        let port = serialport::new(line, baud).timeout(LINE_TIME).open_native();
+        Ok(Sink::Serial(RefCell::new(port.with_context(|| format!("cannot open {line}"))?)))
+    }
+
+    #[cfg(not(feature = "serial"))]
+    fn open_serial(_: &str) -> Result<Sink> {
+        bail!("moris was built without serial lines; build it with --features serial")
+    }
+
+    /// A packet that a device has sent, if there is one; only after [`Sink::listen`].
+    fn receive<'a>(&self, packet: &'a mut [u8]) -> Option<&'a [u8]> {
+        let Sink::Udp(socket) = self else { return None };
+        let length = socket.recv(packet).ok()?;
+        Some(&packet[..length])
+    }
+
+    /// Lets [`Sink::receive`] not wait.
+    ///
+    /// # Errors
+    /// The device cannot be asked.
+    pub fn listen(&self) -> Result<()> {
+        match self {
+            Sink::Udp(socket) => Ok(socket.set_nonblocking(true)?),
+            Sink::Dry => Ok(()),
+            #[cfg(feature = "serial")]
+            Sink::Serial(_) => bail!("this device answers by UDP: --to udp:HOST:PORT"),
+        }
     }
 
     fn send(&self, bytes: &[u8]) -> bool {
         match self {
             _ if bytes.is_empty() => true,
             Sink::Udp(socket) => socket.send(bytes).is_ok(),
+            #[cfg(feature = "serial")]
+            Sink::Serial(port) => port.borrow_mut().write_all(bytes).is_ok(),
             // The reader of the output may be gone.
             Sink::Dry => stdout().write_all(shown(bytes).as_bytes()).is_ok(),
         }
@@ -111,12 +169,85 @@ pub struct Sent {
     pub sent: u64,
     /// Refused by it.
     pub failed: u64,
+    /// Left out because a newer one was there.
+    pub skipped: u64,
+}
+
+/// What the device is sent for a message.
+#[derive(Clone, Debug)]
+pub enum Device {
+    /// A template, filled in.
+    Template(Box<Encoder>),
+    /// Packets of a motion base that answers.
+    Moog { moog: Moog, is_up: bool },
+}
+
+impl Device {
+    /// The motion base.
+    pub fn moog() -> Self {
+        Device::Moog { moog: Moog::default(), is_up: false }
+    }
+
+    /// Number of times that a message is sent: an answering base has no time-out that is known,
+    /// and a packet may be lost.
+    fn copies(&self, message: &Message) -> usize {
+        match (self, message) {
+            (Device::Moog { .. }, Message::Stop(_)) => 3,
+            _ => 1,
+        }
+    }
+
+    /// Replaces `out` by the bytes for a message. A fault, if the device is silent.
+    fn bytes(&mut self, message: &Message, out: &mut Vec<u8>) -> Option<Event> {
+        match self {
+            Device::Template(encoder) => {
+                match message {
+                    Message::Start(values) => encoder.start(values, out),
+                    Message::Frame(values) => encoder.frame(values, out),
+                    Message::Park(values) => encoder.park(values, out),
+                    Message::Stop(values) => encoder.stop(values, out),
+                }
+                None
+            }
+            Device::Moog { moog, is_up } => {
+                out.clear();
+                let (packet, fault) = match message {
+                    Message::Stop(_) => (Moog::last(), None),
+                    Message::Start(values) | Message::Frame(values) | Message::Park(values) => {
+                        if matches!(message, Message::Start(_)) {
+                            moog.start();
+                        }
+                        *is_up =
+                            (*is_up || matches!(message, Message::Start(_))) && !matches!(message, Message::Park(_));
+                        moog.send(*is_up, values)
+                    }
+                };
+                out.extend(packet);
+                fault
+            }
+        }
+    }
+
+    /// True for a device that answers.
+    fn answers(&self) -> bool {
+        matches!(self, Device::Moog { .. })
+    }
+
+    /// Takes what the device has answered.
+    fn receive(&mut self, answer: &[u8]) -> Option<Event> {
+        match self {
+            Device::Template(_) => None,
+            Device::Moog { moog, .. } => moog.receive(answer),
+        }
+    }
 }
 
 /// Sends messages until the loop has ended. If the loop ends without a stop string, by a panic,
-/// sends it.
-pub fn send(mut ring: Consumer<Message>, encoder: &Encoder, sink: Sink) -> Sent {
+/// sends it. A device that is slower than the frames gets the newest ones. Its faults go to the
+/// loop.
+pub fn send(mut ring: Consumer<Message>, mut device: Device, sink: &Sink, mut orders: Producer<Order>) -> Sent {
     let mut bytes = Vec::with_capacity(4096);
+    let mut packet = [0; 256];
     let mut sent = Sent::default();
     let mut running = false;
     let mut last = Values::default();
@@ -124,27 +255,35 @@ pub fn send(mut ring: Consumer<Message>, encoder: &Encoder, sink: Sink) -> Sent 
         // Seen before the ring is empty: what comes after it has been looked at.
         let ended = ring.is_abandoned();
         while let Ok(message) = ring.pop() {
+            if matches!(message, Message::Frame(_)) && matches!(ring.peek(), Ok(Message::Frame(_))) {
+                sent.skipped += 1;
+                continue;
+            }
             running = !matches!(message, Message::Stop(_));
-            (match message {
-                Message::Start(values) => {
-                    last = values;
-                    encoder.start(&values, &mut bytes);
-                }
-                Message::Frame(values) => {
-                    last = values;
-                    encoder.frame(&values, &mut bytes);
-                }
-                Message::Park(values) => encoder.park(&values, &mut bytes),
-                Message::Stop(values) => encoder.stop(&values, &mut bytes),
-            });
-            let taken = sink.send(&bytes);
+            if let Message::Start(values) | Message::Frame(values) = message {
+                last = values;
+            }
+            let mut fault = device.bytes(&message, &mut bytes);
+            let taken = (0..device.copies(&message)).all(|_| sink.send(&bytes));
             sent.sent += u64::from(taken && !bytes.is_empty());
             sent.failed += u64::from(!taken);
+            while device.answers()
+                && let Some(answer) = sink.receive(&mut packet)
+            {
+                fault = device.receive(answer).or(fault);
+            }
+            // Nobody answers what is printed.
+            if let Some(event) = fault.filter(|_| !matches!(sink, Sink::Dry)) {
+                eprintln!("device: a fault, or no answer");
+                let _ = orders.push(Order::Event(event));
+            }
         }
         if ended {
             if running {
-                encoder.stop(&last, &mut bytes);
-                sent.sent += u64::from(sink.send(&bytes) && !bytes.is_empty());
+                let stop = Message::Stop(last);
+                device.bytes(&stop, &mut bytes);
+                let taken = (0..device.copies(&stop)).all(|_| sink.send(&bytes));
+                sent.sent += u64::from(taken && !bytes.is_empty());
             }
             return sent;
         }
@@ -165,7 +304,8 @@ mod tests {
         let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
         let encoder = Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
         let (mut ring, messages) = RingBuffer::new(8);
-        let sender = std::thread::spawn(move || send(messages, &encoder, sink));
+        let (orders, _) = RingBuffer::new(4);
+        let sender = std::thread::spawn(move || send(messages, Device::Template(Box::new(encoder)), &sink, orders));
         let panicking = std::thread::spawn(move || {
             ring.push(Message::Start(Values::default())).unwrap();
             ring.push(Message::Frame(Values::default())).unwrap();

@@ -28,11 +28,11 @@ use std::thread;
 
 use anyhow::{Context, Result, bail};
 use moris_live::frame::{Encoder, Values};
-use moris_live::{Event, STEP, Session, Settings, log};
+use moris_live::{Event, STEP, Session, Settings, log, moog};
 use rtrb::{Producer, RingBuffer};
 
 use crate::setup_options::SetupOptions;
-use frames::Sink;
+use frames::{Device, Sent, Sink};
 use page::{Desk, Order, Server, Start};
 
 /// Step the washout beside a running vehicle, and command a platform
@@ -61,10 +61,10 @@ pub struct Options {
     listen: bool,
 
     /// Device to which frames are sent
-    #[arg(long, value_name = "udp:HOST:PORT", required_unless_present_any = ["dry", "replay"])]
+    #[arg(long, value_name = "udp:HOST:PORT|serial:LINE:BAUD", required_unless_present_any = ["dry", "replay"])]
     to: Option<String>,
 
-    /// Template of the frames: a name of `moris live frames`, or a TOML file
+    /// Frames: a name of `moris live frames`, or a TOML file
     #[arg(long, value_name = "NAME|FILE", default_value = "csv")]
     frames: String,
 
@@ -142,10 +142,16 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
     let settings = Settings { delay: options.delay, ignore_signs: options.ignore_signs, ..Settings::default() };
     let mut session = Session::new(&setup.parameters, &settings)?;
-    let template = tables::frames(&options.frames)?;
-    let rig = &setup.parameters.rig;
-    let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
+    let (device, interval) = if options.frames == moog::NAME {
+        sink.listen()?;
+        (Device::moog(), moog::INTERVAL)
+    } else {
+        let template = tables::frames(&options.frames)?;
+        let rig = &setup.parameters.rig;
+        let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
+        (Device::Template(Box::new(encoder)), template.interval)
+    };
     let input =
         telemetry::Input::open(options.from.as_deref().unwrap_or_default(), options.format.as_deref(), options.listen)?;
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
@@ -169,6 +175,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         None => None,
     };
     let (shown, showing) = RingBuffer::new(256);
+    let (from_device, reported) = RingBuffer::new(16);
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
     eprintln!("commands: {COMMANDS}; Ctrl-C parks and ends");
@@ -177,9 +184,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     // It waits for a line for ever: nobody joins it.
     thread::spawn(move || read_commands(commands));
-    let interval = if options.dry { template.interval.max(0.1) } else { template.interval };
+    let interval = if options.dry { interval.max(0.1) } else { interval };
     let summary = thread::scope(|scope| {
-        let sender = scope.spawn(move || frames::send(to_send, &encoder, sink));
+        let sender = scope.spawn(move || frames::send(to_send, device, &sink, from_device));
         let printer = scope.spawn(|| journal::keep(journal, record, server.as_ref().map(|_| &*desk)));
         if let Some(server) = &server {
             scope.spawn(|| server.run(&shared));
@@ -190,7 +197,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             session: &mut session,
             shared: &shared,
             received,
-            orders: [commanded, asked],
+            orders: [commanded, asked, reported],
             frames: frames::Frames::new(to_device, sender.thread().clone(), interval),
             journal: to_journal,
             shown: server.as_ref().map(|_| shown),
@@ -221,7 +228,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         counts.teleports,
         1e3 * session.delay()
     )?;
-    writeln!(out, "frames: {} sent, {} not", sent.sent, sent.failed + summary.lost_frames)?;
+    let Sent { sent, failed, skipped } = sent;
+    writeln!(out, "frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames)?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -27,8 +27,8 @@ pub struct Steps<'a> {
     pub session: &'a mut Session,
     pub shared: &'a Shared,
     pub received: Consumer<Received>,
-    /// From standard input, and from the page.
-    pub orders: [Consumer<Order>; 2],
+    /// From standard input, from the page, and from the device.
+    pub orders: [Consumer<Order>; 3],
     pub frames: Frames,
     pub journal: Producer<Note>,
     /// For the page; what it does not take is dropped.

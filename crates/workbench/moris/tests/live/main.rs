@@ -2,8 +2,11 @@
 
 #![cfg(unix)]
 
+mod moog;
 mod page;
 mod rig;
+#[cfg(feature = "serial")]
+mod serial;
 
 use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -125,7 +128,7 @@ fn what_cannot_be_used_is_said() {
         (&["--from", "udp:4444", "--dry"], "--format names the packets' format"),
         (&["--from", "udp:4444", "--format", "own.toml", "--dry"], "own.toml"),
         (&["--from", "udp:4444", "--format", "csv"], "--to"),
-        (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT"),
+        (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT or serial:LINE:BAUD"),
         (&["--from", "nothing.csv", "--dry"], "nothing.csv"),
         (&["--from", "udp:4444", "--format", "csv", "--dry", "--for", "soon"], "a number of seconds"),
     ] {

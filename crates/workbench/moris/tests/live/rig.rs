@@ -31,8 +31,19 @@ impl Live {
             }
             frames
         });
+        Live::with(directory, from, &to, arguments, device)
+    }
+
+    /// Starts the command with another device.
+    pub fn with(
+        directory: &Path,
+        from: &str,
+        to: &str,
+        arguments: &[&str],
+        device: thread::JoinHandle<Vec<String>>,
+    ) -> Live {
         let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
-            .args(["live", "--from", from, "--to", &to])
+            .args(["live", "--from", from, "--to", to])
             .args(arguments)
             .current_dir(directory)
             .stdin(Stdio::piped())
@@ -49,7 +60,7 @@ impl Live {
         assert!(found, "moris live has ended before: {word}");
     }
 
-    /// What stands after these words in a line.
+    /// The rest of the line that begins with these words.
     pub fn after(&mut self, words: &str) -> String {
         let found =
             self.lines.by_ref().map_while(Result::ok).find_map(|line| line.strip_prefix(words).map(str::to_owned));
