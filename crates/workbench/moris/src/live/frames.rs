@@ -13,6 +13,8 @@ use moris_live::moog::Moog;
 use moris_live::{Commands, Event, STEP, State};
 use rtrb::{Consumer, Producer};
 
+use super::lateness::Lateness;
+use super::pace;
 use super::page::Order;
 
 /// Time in which a serial line must take a frame.
@@ -38,23 +40,32 @@ pub enum Message {
     Stop(Values),
 }
 
+/// A message on its way, with the arrival of the sample that it is the first to follow.
+#[derive(Clone, Copy, Debug)]
+pub struct Sending {
+    pub message: Message,
+    pub arrival: Option<Duration>,
+}
+
 /// The loop's end of the way.
 pub struct Frames {
-    ring: Producer<Message>,
+    ring: Producer<Sending>,
     sender: Thread,
     /// Steps from frame to frame.
     every: u64,
     step: u64,
     before: State,
+    /// Arrival of the newest sample that no frame has followed.
+    pub newest: Option<Duration>,
     /// Messages for which there was no room.
     pub lost: u64,
 }
 
 impl Frames {
     /// Frames at this interval \[s\], for the thread that sends them.
-    pub fn new(ring: Producer<Message>, sender: Thread, interval: f64) -> Self {
+    pub fn new(ring: Producer<Sending>, sender: Thread, interval: f64) -> Self {
         let every = (interval / STEP).round().max(1.0) as u64;
-        Frames { ring, sender, every, step: 0, before: State::Off, lost: 0 }
+        Frames { ring, sender, every, step: 0, before: State::Off, newest: None, lost: 0 }
     }
 
     /// Passes on what follows from a step's commands.
@@ -79,7 +90,8 @@ impl Frames {
     }
 
     fn push(&mut self, message: Message) {
-        self.lost += u64::from(self.ring.push(message).is_err());
+        let sending = Sending { message, arrival: self.newest.take() };
+        self.lost += u64::from(self.ring.push(sending).is_err());
     }
 }
 
@@ -163,7 +175,7 @@ pub fn shown(bytes: &[u8]) -> String {
 }
 
 /// Numbers of frames.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Sent {
     /// Taken by the socket.
     pub sent: u64,
@@ -171,6 +183,8 @@ pub struct Sent {
     pub failed: u64,
     /// Left out because a newer one was there.
     pub skipped: u64,
+    /// Time from a sample's arrival to the next frame.
+    pub passage: Lateness,
 }
 
 /// What the device is sent for a message.
@@ -245,7 +259,7 @@ impl Device {
 /// Sends messages until the loop has ended. If the loop ends without a stop string, by a panic,
 /// sends it. A device that is slower than the frames gets the newest ones. Its faults go to the
 /// loop.
-pub fn send(mut ring: Consumer<Message>, mut device: Device, sink: &Sink, mut orders: Producer<Order>) -> Sent {
+pub fn send(mut ring: Consumer<Sending>, mut device: Device, sink: &Sink, mut orders: Producer<Order>) -> Sent {
     let mut bytes = Vec::with_capacity(4096);
     let mut packet = [0; 256];
     let mut sent = Sent::default();
@@ -254,8 +268,9 @@ pub fn send(mut ring: Consumer<Message>, mut device: Device, sink: &Sink, mut or
     loop {
         // Seen before the ring is empty: what comes after it has been looked at.
         let ended = ring.is_abandoned();
-        while let Ok(message) = ring.pop() {
-            if matches!(message, Message::Frame(_)) && matches!(ring.peek(), Ok(Message::Frame(_))) {
+        while let Ok(Sending { message, arrival }) = ring.pop() {
+            let is_frame = |message: &Message| matches!(message, Message::Frame(_));
+            if is_frame(&message) && ring.peek().is_ok_and(|next| is_frame(&next.message)) {
                 sent.skipped += 1;
                 continue;
             }
@@ -267,6 +282,9 @@ pub fn send(mut ring: Consumer<Message>, mut device: Device, sink: &Sink, mut or
             let taken = (0..device.copies(&message)).all(|_| sink.send(&bytes));
             sent.sent += u64::from(taken && !bytes.is_empty());
             sent.failed += u64::from(!taken);
+            if let Some(arrival) = arrival {
+                sent.passage.take(pace::now().saturating_sub(arrival));
+            }
             while device.answers()
                 && let Some(answer) = sink.receive(&mut packet)
             {
@@ -280,6 +298,10 @@ pub fn send(mut ring: Consumer<Message>, mut device: Device, sink: &Sink, mut or
         }
         if ended {
             if running {
+                rest(&mut last, |values| {
+                    device.bytes(&Message::Frame(*values), &mut bytes);
+                    sent.sent += u64::from(sink.send(&bytes));
+                });
                 let stop = Message::Stop(last);
                 device.bytes(&stop, &mut bytes);
                 let taken = (0..device.copies(&stop)).all(|_| sink.send(&bytes));
@@ -291,6 +313,27 @@ pub fn send(mut ring: Consumer<Message>, mut device: Device, sink: &Sink, mut or
     }
 }
 
+/// Time between frames of a platform that comes to rest, their number, and the time in which its
+/// speed falls to a third \[s\].
+const REST_INTERVAL: Duration = Duration::from_millis(10);
+const REST_FRAMES: u32 = 100;
+const REST_TIME: f64 = 0.15;
+
+/// Brings the actuators to rest where they are: there is no washout any more that knows a way.
+fn rest(values: &mut Values, mut send: impl FnMut(&Values)) {
+    let step = REST_INTERVAL.as_secs_f64();
+    for _ in 0..REST_FRAMES {
+        values.time += step;
+        for (length, velocity) in values.length.iter_mut().zip(&mut values.velocity) {
+            *velocity *= 1.0 - step / REST_TIME;
+            *length += step * *velocity;
+        }
+        send(values);
+        std::thread::sleep(REST_INTERVAL);
+    }
+    values.velocity = [0.0; 6];
+}
+
 #[cfg(test)]
 mod tests {
     use moris_live::frame;
@@ -299,7 +342,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_loop_that_panics_leaves_the_stop_string() {
+    fn a_loop_that_panics_leaves_a_platform_at_rest_and_the_stop_string() {
         let device = UdpSocket::bind("127.0.0.1:0").unwrap();
         let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
         let encoder = Encoder::new(&frame::shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
@@ -307,19 +350,27 @@ mod tests {
         let (orders, _) = RingBuffer::new(4);
         let sender = std::thread::spawn(move || send(messages, Device::Template(Box::new(encoder)), &sink, orders));
         let panicking = std::thread::spawn(move || {
-            ring.push(Message::Start(Values::default())).unwrap();
-            ring.push(Message::Frame(Values::default())).unwrap();
+            let moving = Values { length: [1.3; 6], velocity: [0.4; 6], ..Values::default() };
+            for message in [Message::Start(moving), Message::Frame(moving)] {
+                ring.push(Sending { message, arrival: None }).unwrap();
+            }
             panic!("deliberate");
         });
         assert!(panicking.join().is_err());
-        assert_eq!(sender.join().unwrap().sent, 3);
         device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
         let mut received = Vec::new();
-        for _ in 0..3 {
+        while received.last().is_none_or(|line| line != "stop\n") {
             let mut packet = [0; 1000];
             let length = device.recv(&mut packet).unwrap();
             received.push(String::from_utf8(packet[..length].to_vec()).unwrap());
         }
-        assert_eq!((received[0].as_str(), received[2].as_str()), ("start\n", "stop\n"));
+        assert_eq!(sender.join().unwrap().sent, received.len() as u64);
+        assert_eq!(received[0], "start\n");
+        let frames = &received[1..received.len() - 1];
+        let length = |line: &String| line.split(',').nth(1).unwrap().parse::<f64>().unwrap();
+        let speeds: Vec<f64> = frames.windows(2).map(|pair| (length(&pair[1]) - length(&pair[0])) / 0.01).collect();
+        // From 0.4 m/s to rest, at 0.4 / 0.15 m/s2 at most.
+        assert!(speeds[0] > 0.3 && speeds.last().unwrap().abs() < 1e-3, "{speeds:?}");
+        assert!(speeds.windows(2).all(|pair| (-1e-3..0.03).contains(&(pair[0] - pair[1]))), "{speeds:?}");
     }
 }

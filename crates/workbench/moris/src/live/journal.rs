@@ -59,22 +59,33 @@ fn line(note: &Note) -> Option<String> {
 /// The file cannot be written.
 pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>) -> io::Result<()> {
     let mut record = record.map(BufWriter::new);
+    let mut recorded = Ok(());
     loop {
         let ended = notes.is_abandoned();
         while let Ok(note) = notes.pop() {
-            match (note, &mut record) {
-                (Note::Entry(entry), Some(file)) => writeln!(file, "{entry}")?,
-                _ => {
-                    let Some(line) = line(&note) else { continue };
-                    // The reader of the lines may be gone.
-                    let _ = writeln!(stderr(), "{line}");
-                    page.inspect(|page| page.say(&line));
-                }
+            if let (Note::Entry(entry), Some(file)) = (note, &mut record) {
+                recorded = writeln!(file, "{entry}");
+            } else if let Some(line) = line(&note) {
+                say(&line, page);
+            }
+            // The platform goes on without its recording.
+            if let (Err(error), Some(_)) = (&recorded, &record) {
+                say(&format!("the recording has ended: {error}"), page);
+                record = None;
             }
         }
         if ended {
-            return record.map_or(Ok(()), |mut file| file.flush());
+            let recorded = recorded.and_then(|()| record.map_or(Ok(()), |mut file| file.flush()));
+            // As a text: a pipe that is closed is no success of the command here.
+            return recorded.map_err(|error| io::Error::other(error.to_string()));
         }
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// Prints a line, and shows it in the page.
+fn say(line: &str, page: Option<&Desk>) {
+    // The reader of the lines may be gone.
+    let _ = writeln!(stderr(), "{line}");
+    page.inspect(|page| page.say(line));
 }

@@ -2,7 +2,8 @@
 //!
 //! `moris_live` decides; here are its clock, its sockets and its threads:
 //!
-//! - `telemetry` receives packets, or plays a recording.
+//! - `priority` asks for real time, `lateness` counts how late steps and frames are.
+//! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames, `journal` prints what happens and records the session.
 //! - `page` serves the page in a browser.
@@ -12,14 +13,17 @@
 
 mod frames;
 mod journal;
+mod lateness;
 mod pace;
 mod page;
+mod priority;
 mod steps;
 mod tables;
 mod telemetry;
+mod vehicle;
 
 use std::fs::{self, File};
-use std::io::{Write, stdin};
+use std::io::{self, Write, stdin};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -47,8 +51,9 @@ pub struct Options {
     #[command(subcommand)]
     list: Option<tables::List>,
 
-    /// Telemetry: udp:PORT, or a recording, which is played in real time once the platform engages
-    #[arg(long, value_name = "udp:PORT|RECORDING", required_unless_present = "replay")]
+    /// Telemetry: udp:PORT; or the FMU of a vehicle, or a recording, which run in real time
+    /// once the platform engages
+    #[arg(long, value_name = "udp:PORT|fmu:FILE|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
     from: Option<String>,
 
     /// Format of the packets: a name of `moris live formats`, or a TOML file; of a recording: its
@@ -56,12 +61,16 @@ pub struct Options {
     #[arg(long, value_name = "NAME|FILE")]
     format: Option<String>,
 
+    /// Map of the FMU's variables: a TOML file
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+
     /// Receive from other machines, and serve the page to them, too; otherwise to this one alone
     #[arg(long)]
     listen: bool,
 
     /// Device to which frames are sent
-    #[arg(long, value_name = "udp:HOST:PORT|serial:LINE:BAUD", required_unless_present_any = ["dry", "replay"])]
+    #[arg(long, value_name = "udp:HOST:PORT|serial:LINE:BAUD", required_unless_present_any = ["dry", "replay", "empty_loop"])]
     to: Option<String>,
 
     /// Frames: a name of `moris live frames`, or a TOML file
@@ -82,6 +91,14 @@ pub struct Options {
     /// Start at once, and engage whenever the vehicle runs, until a command says otherwise
     #[arg(long)]
     engage: bool,
+
+    /// Ask for no real-time priority
+    #[arg(long)]
+    no_priority: bool,
+
+    /// Only wait for each step, and print how late that was: what this computer can do at best
+    #[arg(long, requires = "duration", conflicts_with_all = ["from", "replay"])]
+    empty_loop: bool,
 
     /// Engage although signs of the telemetry contradict each other
     #[arg(long)]
@@ -139,6 +156,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(file) = &options.replay {
         return replay(options, &fs::read_to_string(file).with_context(|| file.display().to_string())?, out);
     }
+    if options.empty_loop {
+        return Ok(empty_loop(options, out)?);
+    }
     let setup = options.setup.load()?;
     let settings = Settings { delay: options.delay, ignore_signs: options.ignore_signs, ..Settings::default() };
     let mut session = Session::new(&setup.parameters, &settings)?;
@@ -152,11 +172,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
         (Device::Template(Box::new(encoder)), template.interval)
     };
-    let input =
-        telemetry::Input::open(options.from.as_deref().unwrap_or_default(), options.format.as_deref(), options.listen)?;
+    let from = options.from.as_deref().unwrap_or_default();
+    let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
     if let Some(file) = &mut record {
-        file.write_all(log::header(&setup.parameters, &settings).as_bytes())?;
+        let header = log::header(&setup.parameters, &settings);
+        file.write_all(header.as_bytes()).context("cannot record the session")?;
     }
     let shared = Arc::new(Shared::default());
     let pressed = Arc::clone(&shared);
@@ -184,6 +205,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     // It waits for a line for ever: nobody joins it.
     thread::spawn(move || read_commands(commands));
+    let real_time = !options.no_priority;
     let interval = if options.dry { interval.max(0.1) } else { interval };
     let summary = thread::scope(|scope| {
         let sender = scope.spawn(move || frames::send(to_send, device, &sink, from_device));
@@ -205,7 +227,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             ends_at: options.duration,
         };
         // In a thread of its own, so that its panic leaves the others to end.
-        let summary = thread::Builder::new().name("steps".to_owned()).spawn_scoped(scope, move || steps.run());
+        let summary = thread::Builder::new().name("steps".to_owned()).spawn_scoped(scope, move || {
+            if real_time {
+                eprintln!("{}", priority::claim());
+            }
+            steps.run()
+        });
         let summary = summary.map(thread::ScopedJoinHandle::join);
         shared.done.store(true, Ordering::Relaxed);
         let sent = sender.join();
@@ -228,8 +255,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         counts.teleports,
         1e3 * session.delay()
     )?;
-    let Sent { sent, failed, skipped } = sent;
+    let Sent { sent, failed, skipped, passage } = sent;
     writeln!(out, "frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames)?;
+    writeln!(out, "from a packet to the next frame: {}", passage.summary())?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -245,6 +273,16 @@ fn read_commands(mut commands: Producer<Order>) {
             None => eprintln!("commands: {COMMANDS}"),
         }
     }
+}
+
+/// Waits for each step and does nothing.
+fn empty_loop(options: &Options, out: &mut dyn Write) -> io::Result<ExitCode> {
+    if !options.no_priority {
+        eprintln!("{}", priority::claim());
+    }
+    let lateness = steps::empty((options.duration.unwrap_or_default() / STEP) as u64);
+    write!(out, "{lateness}")?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Repeats a recorded session.

@@ -13,7 +13,8 @@ use rtrb::{Consumer, Producer};
 use super::Shared;
 use super::frames::Frames;
 use super::journal::Note;
-use super::pace::{self, Lateness};
+use super::lateness::Lateness;
+use super::pace;
 use super::page::{EVERY, Order, Shown};
 use super::telemetry::Received;
 
@@ -40,7 +41,7 @@ pub struct Steps<'a> {
 }
 
 /// The counts of the loop.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Summary {
     steps: u64,
     lateness: Lateness,
@@ -59,6 +60,18 @@ impl Display for Summary {
         }
         write!(f, "{lateness}")
     }
+}
+
+/// Waits for so many steps, and does nothing in them.
+pub fn empty(steps: u64) -> Lateness {
+    let mut lateness = Lateness::default();
+    let zero = pace::now();
+    for step in 1..=steps {
+        let deadline = zero + Duration::from_secs_f64(step as f64 * STEP);
+        pace::wait_until(deadline);
+        lateness.take(pace::now().saturating_sub(deadline));
+    }
+    lateness
 }
 
 impl Steps<'_> {
@@ -86,6 +99,7 @@ impl Steps<'_> {
                 self.note(Note::Slipped(self.session.time(), late.as_secs_f64()), &mut summary);
             }
             while let Ok(Received { arrival, sample }) = self.received.pop() {
+                self.frames.newest = Some(arrival);
                 let arrival = arrival.as_secs_f64() - zero.as_secs_f64();
                 self.record(Happening::Sample(arrival, sample), &mut summary);
                 self.session.receive(arrival, &sample);

@@ -136,10 +136,10 @@ fn the_first_page_controls_and_a_second_one_looks() {
     assert_eq!(page.ask(&one, "{\"set\":{\"tilt.angleLimit\":0.25}}"), 200);
     assert_eq!(page.ask(&one, "{\"set\":{\"tilt.angleLimit\":1e9}}"), 422);
     assert_eq!(page.ask(&one, "{\"event\":\"start\"}"), 200);
-    second.wait_for(|message| message["state"] == "homing");
+    second.wait_for(|message| message["state"] == "neutral");
     assert_eq!(page.ask(&one, "{\"set\":{\"strategy\":1}}"), 422);
     assert_eq!(page.ask(&one, "{\"event\":\"engage\"}"), 200);
-    live.wait_for("refused: engage does nothing in the state homing");
+    live.wait_for("refused: engage needs telemetry of a running vehicle; the source is waiting");
     second.wait_for(|message| message["lines"].to_string().contains("refused: engage"));
     second.wait_for(|message| message["changed"] == serde_json::json!({"strategy": 3.0, "tilt.angleLimit": 0.25}));
     end(live);

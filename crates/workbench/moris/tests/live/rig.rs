@@ -34,7 +34,7 @@ impl Live {
         Live::with(directory, from, &to, arguments, device)
     }
 
-    /// Starts the command with another device.
+    /// Starts the command with another device. It ends by itself, so that no test waits for ever.
     pub fn with(
         directory: &Path,
         from: &str,
@@ -43,7 +43,7 @@ impl Live {
         device: thread::JoinHandle<Vec<String>>,
     ) -> Live {
         let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
-            .args(["live", "--from", from, "--to", to])
+            .args(["live", "--from", from, "--to", to, "--for", "100"])
             .args(arguments)
             .current_dir(directory)
             .stdin(Stdio::piped())

@@ -8,7 +8,7 @@ use moris_live::source::Health;
 use moris_live::{Session, State};
 use moris_ride::lamps;
 
-use crate::live::pace::Lateness;
+use crate::live::lateness::{Classes, Lateness};
 
 /// Steps between what is shown.
 pub const EVERY: u64 = 10;
@@ -58,7 +58,7 @@ pub struct Shown {
     state: State,
     health: Health,
     delay: f64,
-    lateness: Lateness,
+    late: Classes,
 }
 
 impl Shown {
@@ -73,7 +73,7 @@ impl Shown {
             state: session.state(),
             health: session.source().health(),
             delay: session.delay(),
-            lateness: *lateness,
+            late: lateness.classes(),
         }
     }
 
@@ -99,8 +99,7 @@ pub fn message(moments: &[Shown], lines: &VecDeque<String>, changed: &str) -> Op
     let lines: Vec<&String> = lines.iter().rev().take(LINES).collect();
     let lines = serde_json::to_string(&lines).unwrap_or_default();
     let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
-    let late: Vec<(f64, u64)> = last.lateness.classes().collect();
-    let late = serde_json::to_string(&late).unwrap_or_default();
+    let late = serde_json::to_string(&last.late).unwrap_or_default();
     let _ = write!(
         text,
         "],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"lines\":{lines},\"changed\":{changed}}}"
