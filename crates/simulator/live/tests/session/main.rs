@@ -175,13 +175,16 @@ fn parking_on_the_way_up_turns_round_at_once() {
 }
 
 #[test]
-fn a_step_allocates_nothing() {
+fn a_step_and_a_new_scale_allocate_nothing() {
     let (mut session, _) = at_neutral(&Parameters::default());
     let sample = Sample { motion: Ride::motion(1.0), ..Sample::default() };
     session.receive(session.time(), &sample);
+    let scale = log::slot_of("scale.specificForce.x").unwrap();
     let count = allocation_counter::measure(|| {
         for event in [Event::Engage, Event::Disengage, Event::Engage, Event::Park, Event::Fault, Event::Clear] {
             let _ = session.handle(event);
+            session.choose(scale, 0.5 + 0.1 * f64::from(event as u8));
+            session.retune().unwrap();
             for k in 0..3000 {
                 if k % 7 == 0 && k < 1000 {
                     session.receive(session.time(), &Sample { motion: Ride::motion(session.time()), ..sample });

@@ -65,6 +65,9 @@ impl Lateness {
 
     /// Quantiles in a line.
     pub fn summary(&self) -> String {
+        if self.counts.iter().all(|count| *count == 0) {
+            return "none".to_owned();
+        }
         let [half, most, nearly] = [0.5, 0.99, 0.999].map(|part| 1e-3 * self.quantile(part));
         format!("median {half:.3} ms, 99 % {most:.3} ms, 99.9 % {nearly:.3} ms")
     }
@@ -98,6 +101,7 @@ mod tests {
     #[test]
     fn quantiles_are_right_to_a_bin() {
         let mut lateness = Lateness::default();
+        assert_eq!(lateness.summary(), "none");
         (0..1000).for_each(|k| lateness.take(Duration::from_micros(10 * k + 1)));
         assert_eq!((lateness.quantile(0.5), lateness.quantile(0.99)), (4_995.0, 9_895.0));
         lateness.take(Duration::from_secs(1));
