@@ -45,6 +45,11 @@ def python():
     return interpreter
 
 
+def features(options):
+    """Parts of the workbench that are compiled only where they are asked for."""
+    return ["--features", "moris/serial"] if options.all else []
+
+
 def pytest(options, *arguments):
     """Two processes, which keep two cores busy: more of them would compete for memory and for cargo's lock."""
     chosen = ["-k", options.k] if options.k else []
@@ -54,7 +59,7 @@ def pytest(options, *arguments):
     # package, cargo takes the features of all, so that each library is compiled once.
     compiled = {
         "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
-        "CARGO_ALIAS_MORIS": "run --bin moris --",
+        "CARGO_ALIAS_MORIS": " ".join(["run", "--bin", "moris", *features(options), "--"]),
         "CARGO_ALIAS_HUNTER": "run --bin moris-hunter --",
     }
     run(*command, allowed=allowed, **compiled)
@@ -74,7 +79,7 @@ def rust(options):
     chosen = [options.k] if options.k else []
     # PROPTEST_CASES holds where a test takes proptest's own number of cases, 256.
     cases = {"MORIS_ALL_CASES": "1"} if options.all else {"PROPTEST_CASES": "64"}
-    run("cargo", "test", "--workspace", *chosen, "--", "--quiet", **cases)
+    run("cargo", "test", "--workspace", *features(options), *chosen, "--", "--quiet", **cases)
     if options.all:
         # The only tests of this library that the command above leaves out: a search of minutes.
         run("cargo", "test", "--package", "moris-washout", "--lib", *chosen, "--", "--quiet", "--ignored")
@@ -132,7 +137,7 @@ def pages(options):
     examples()
     if options.install:
         run("rustup", "target", "add", "wasm32-unknown-unknown")
-    run("cargo", "build", "--bin", "moris")
+    run("cargo", "build", "--bin", "moris", *features(options))
     os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
     run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
 

@@ -3,9 +3,10 @@
 
     python3 tests/report/run.py [--require] [--install]
 
-The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and that of `moris ride`. In Firefox the most
-important checks are run. Without a browser or Playwright its checks are not run, and that is said; with --require it is an
-error. With --install all are installed first (apt and pip; for Debian). Pictures are left in target/report/.
+The pages are those of crates/workbench/report/examples/pages.rs, one of `moris simulate`, and those of `moris ride` and
+`moris live`. In Firefox the most important checks are run. Without a browser or Playwright its checks are not run, and that is
+said; with --require it is an error. With --install all are installed first (apt and pip; for Debian). Pictures are left in
+target/report/.
 """
 
 import argparse
@@ -96,7 +97,8 @@ def main():
     moris = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--release", "--quiet", "--package", "moris", "--"]
     write_ride(pages / "ride.csv")
     check_call(*moris, "simulate", pages / "ride.csv", "--report", pages)
-    failed = [script for chosen in found for script in ("checks.py", "ride.py")
+    scripts = {"chromium": ["checks.py", "ride.py", "live.py"], "firefox": ["checks.py", "ride.py"]}
+    failed = [script for chosen in found for script in scripts["firefox" if "firefox" in Path(chosen).name else "chromium"]
               if subprocess.run([interpreter, HERE / script, chosen, pages, WORK / "pictures" / Path(chosen).name, *moris], cwd=ROOT).returncode]
     sys.exit(1 if failed else 0)
 

@@ -25,10 +25,20 @@ pub(crate) fn read(path: &Path) -> Result<String, HostError> {
 
 /// Where the shared library for this platform lies in an unpacked FMU.
 pub(crate) fn library_path(directory: &Path, model_identifier: &str) -> Result<PathBuf, HostError> {
-    let platform = platform();
+    library_path_of(directory, &platform(), model_identifier)
+}
+
+/// The same for a platform of this name.
+pub(crate) fn library_path_of(directory: &Path, platform: &str, model_identifier: &str) -> Result<PathBuf, HostError> {
     let file = format!("{model_identifier}{}", std::env::consts::DLL_SUFFIX);
-    let path = directory.join("binaries").join(&platform).join(file);
-    if path.is_file() { Ok(path) } else { Err(HostError::NoBinary(platform)) }
+    let path = directory.join("binaries").join(platform).join(file);
+    if path.is_file() { Ok(path) } else { Err(HostError::NoBinary(platform.to_owned())) }
+}
+
+/// The name of this platform's directory of binaries in FMI 3.0.
+pub(crate) fn platform3() -> String {
+    let system = if std::env::consts::OS == "macos" { "darwin" } else { std::env::consts::OS };
+    format!("{}-{system}", std::env::consts::ARCH)
 }
 
 /// The name of this platform's directory of binaries.

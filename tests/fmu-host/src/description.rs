@@ -31,7 +31,9 @@ pub struct Variable {
 /// The parts of modelDescription.xml that a host needs.
 #[derive(Debug, Default)]
 pub(crate) struct Description {
+    /// Of FMI 3.0, the instantiation token.
     pub guid: String,
+    pub is_fmi3: bool,
     pub model_identifier: String,
     pub variables: HashMap<String, Variable>,
 }
@@ -49,9 +51,18 @@ impl Description {
                 if event == Event::Eof { break } else { continue }
             };
             match element.name().as_ref() {
-                b"fmiModelDescription" => description.guid = attribute(&element, "guid")?,
+                b"fmiModelDescription" => {
+                    description.is_fmi3 = attribute(&element, "fmiVersion")?.starts_with("3.");
+                    let name = if description.is_fmi3 { "instantiationToken" } else { "guid" };
+                    description.guid = attribute(&element, name)?;
+                }
                 b"CoSimulation" => description.model_identifier = attribute(&element, "modelIdentifier")?,
                 b"ScalarVariable" => variable = Some((attribute(&element, "name")?, value_reference(&element)?)),
+                name if description.is_fmi3 => {
+                    let Some(kind) = kind3(name) else { continue };
+                    let value_reference = value_reference(&element)?;
+                    description.variables.insert(attribute(&element, "name")?, Variable { value_reference, kind });
+                }
                 name => {
                     let Some(kind) = kind(name) else { continue };
                     let Some((name, value_reference)) = variable.take() else { continue };
@@ -74,6 +85,15 @@ fn kind(element_name: &[u8]) -> Option<VariableKind> {
         b"Enumeration" => Some(VariableKind::Enumeration),
         b"String" => Some(VariableKind::String),
         _ => None,
+    }
+}
+
+/// Of the types of FMI 3.0, those that a host of numbers needs.
+fn kind3(element_name: &[u8]) -> Option<VariableKind> {
+    match element_name {
+        b"Float64" => Some(VariableKind::Real),
+        b"Int32" => Some(VariableKind::Integer),
+        name => kind(name).filter(|kind| matches!(kind, VariableKind::Boolean | VariableKind::Enumeration)),
     }
 }
 

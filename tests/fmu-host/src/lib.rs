@@ -1,5 +1,6 @@
-//! A host for FMUs of FMI 2.0 for co-simulation. It opens them, sets and gets variables, and steps
-//! them, as a simulation tool does. It is independent of the crates that make the FMUs.
+//! A host for FMUs for co-simulation of FMI 2.0, and with [`Running`] of FMI 3.0. It opens them,
+//! sets and gets variables, and steps them, as a simulation tool does. It is independent of the
+//! crates that make the FMUs.
 //!
 //! ```no_run
 //! # fn main() -> Result<(), moris_fmu_host::HostError> {
@@ -22,6 +23,7 @@ pub mod fmi3;
 mod fmu;
 mod instance;
 mod messages;
+mod running;
 mod state;
 
 pub use api::{Api, Status};
@@ -31,4 +33,5 @@ pub use example::example_library;
 pub use fmu::Fmu;
 pub use instance::Instance;
 pub use messages::Message;
+pub use running::{Running, Running3};
 pub use state::State;

@@ -15,6 +15,7 @@
 //! | [`travel`] | the way between the settled pose and neutral |
 //! | [`signs`] | test of the telemetry's signs |
 //! | [`format`](mod@format) | packets of telemetry, described by tables |
+//! | [`moog`] | the motion base MOOG 6DOF2000E |
 //! | [`frame`] | frames to actuators, described by templates |
 //! | [`log`] | text of a recorded session |
 //!
@@ -44,6 +45,7 @@ pub mod format;
 pub mod frame;
 pub mod gate;
 pub mod log;
+pub mod moog;
 pub mod motion;
 pub mod resampler;
 pub mod session;

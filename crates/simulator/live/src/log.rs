@@ -6,7 +6,7 @@
 
 use std::fmt::{self, Display, Formatter, Write};
 
-use moris_interface::{Group, Reader, slots_of};
+use moris_interface::{Group, Reader, Slot, slots_of};
 use moris_washout::Parameters;
 use nalgebra::Vector3;
 
@@ -26,6 +26,10 @@ pub enum Happening {
     Event(Event),
     /// A sample that arrived at this time of the session \[s\].
     Sample(f64, Sample),
+    /// A value of a parameter has been chosen, by its slot.
+    Choice(u16, f64),
+    /// The chosen parameters come into force.
+    Retune,
     /// The session's end, with the digest of all commands.
     End(u64),
 }
@@ -64,13 +68,22 @@ impl Digest {
 /// The lines before the events.
 pub fn header(parameters: &Parameters, settings: &Settings) -> String {
     let mut text = format!("{FIRST}\nsettings,{}\n", serde_json::to_string(settings).unwrap_or_default());
-    for (place, value) in slots_of(parameters).iter().enumerate() {
-        let slot = Parameters::SLOTS[place];
-        let name = Parameters::ROWS[usize::from(slot.row)].variable_name(usize::from(slot.element));
+    for (slot, value) in slots_of(parameters).iter().enumerate() {
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "parameter,{name},{value:?}");
+        let _ = writeln!(text, "parameter,{},{value:?}", name_of(slot));
     }
     text
+}
+
+/// The name of a parameter's slot; none beyond the last.
+pub fn name_of(slot: usize) -> String {
+    let name = |slot: &Slot| Parameters::ROWS[usize::from(slot.row)].variable_name(usize::from(slot.element));
+    Parameters::SLOTS.get(slot).map(name).unwrap_or_default()
+}
+
+/// The slot of a parameter.
+pub fn slot_of(name: &str) -> Option<usize> {
+    (0..Parameters::SLOTS.len()).find(|slot| name_of(*slot) == name)
 }
 
 impl Display for Entry {
@@ -79,6 +92,8 @@ impl Display for Entry {
         match &self.happening {
             Happening::Event(event) => write!(f, "event,{}", event.name()),
             Happening::End(digest) => write!(f, "end,{digest:016x}"),
+            Happening::Choice(slot, value) => write!(f, "parameter,{},{value:?}", name_of(usize::from(*slot))),
+            Happening::Retune => write!(f, "retune"),
             Happening::Sample(arrival, sample) => {
                 write!(f, "sample,{arrival:?},")?;
                 if let Some(time) = sample.time {
@@ -106,6 +121,8 @@ impl Entry {
         let happening = match kind {
             "event" => Happening::Event(Event::named(fields.next()?)?),
             "end" => Happening::End(u64::from_str_radix(fields.next()?, 16).ok()?),
+            "parameter" => Happening::Choice(slot_of(fields.next()?)? as u16, fields.next()?.parse().ok()?),
+            "retune" => Happening::Retune,
             "sample" => {
                 let mut next = || fields.next();
                 let arrival = next()?.parse().ok()?;
@@ -171,11 +188,7 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
         let [Some(name), Some(value), None] = [fields.next(), fields.next(), fields.next()] else {
             return Err(ReplayError::Line(place));
         };
-        let slot = (0..slots.len()).find(|slot| {
-            let of = Parameters::SLOTS[*slot];
-            Parameters::ROWS[usize::from(of.row)].variable_name(usize::from(of.element)) == name
-        });
-        match (slot, value.parse()) {
+        match (slot_of(name), value.parse()) {
             (Some(slot), Ok(value)) => slots[slot] = value,
             _ => return Err(ReplayError::Line(place)),
         }
@@ -196,6 +209,8 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
             // What was refused then is refused now.
             Happening::Event(event) => drop(session.handle(event)),
             Happening::Sample(arrival, sample) => session.receive(arrival, &sample),
+            Happening::Choice(slot, value) => session.choose(usize::from(slot), value),
+            Happening::Retune => drop(session.retune()),
             Happening::End(recorded) => return Ok(Replayed { steps, digest: digest.0, recorded: Some(recorded) }),
         }
     }

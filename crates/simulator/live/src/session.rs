@@ -1,5 +1,6 @@
 //! The whole: telemetry and events in, commands to the actuators out.
 
+use moris_interface::{Group, Reader, Writer, slots_of};
 use moris_washout::interface::{AngularVelocityFrame, Output};
 use moris_washout::{ENGAGE_TIME, ParameterError, Parameters, Washout};
 use serde::{Deserialize, Serialize};
@@ -64,8 +65,27 @@ pub struct Commands {
     pub length: [f64; 6],
     /// Their velocities \[m/s\].
     pub velocity: [f64; 6],
+    /// Height of the platform above neutral, as the washout commands it \[m\].
+    pub heave: f64,
     /// All outputs of the washout. The lengths there are those at neutral and above.
     pub washout: Output,
+}
+
+/// Puts parameters in force, as [`Session::retune`] in this state.
+///
+/// # Errors
+/// As there.
+pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> Result<(), ParameterError> {
+    washout.retune(parameters).or_else(|reason| {
+        let before = washout.parameters();
+        let is_fitting = parameters.rig == before.rig
+            && parameters.conditioning.angular_velocity_frame == before.conditioning.angular_velocity_frame;
+        if !is_fitting || !matches!(state, State::Off | State::Settled) {
+            return Err(reason);
+        }
+        *washout = Washout::new(parameters)?.starting_with(&Motion::at_rest().input(false));
+        Ok(())
+    })
 }
 
 /// The washout beside a running vehicle. A step allocates nothing.
@@ -73,6 +93,8 @@ pub struct Commands {
 pub struct Session {
     settings: Settings,
     washout: Washout,
+    /// The parameters' values, with those that [`Session::retune`] will put in force.
+    slots: Vec<f64>,
     state: State,
     steps: u64,
     /// Step at which the state began.
@@ -114,9 +136,11 @@ impl Session {
         let settled = [rig.min_length + part * (rig.max_length - rig.min_length); 6];
         let way = output.length.iter().zip(settled).map(|(neutral, settled)| (neutral - settled).abs());
         let speed = settings.travel_speed.min(0.25 * rig.velocity_limit);
-        let commands = Commands { state: State::Off, time: 0.0, length: settled, velocity: [0.0; 6], washout: output };
+        let commands =
+            Commands { state: State::Off, time: 0.0, length: settled, velocity: [0.0; 6], heave: 0.0, washout: output };
         Ok(Session {
             settings: *settings,
+            slots: slots_of(&parameters),
             state: State::Off,
             steps: 0,
             since: 0,
@@ -167,6 +191,33 @@ impl Session {
     /// The vehicle's motion that the washout has received last.
     pub fn passed(&self) -> &Motion {
         self.gate.output()
+    }
+
+    /// The washout.
+    pub fn washout(&self) -> &Washout {
+        &self.washout
+    }
+
+    /// Chooses a value of a parameter by its slot, for [`Session::retune`].
+    pub fn choose(&mut self, slot: usize, value: f64) {
+        if let Some(chosen) = self.slots.get_mut(slot) {
+            *chosen = value;
+        }
+    }
+
+    /// Puts the chosen parameters in force. Tunable ones change at any time, without a jump. Fixed
+    /// ones, such as the strategy, change while the platform is at its lowest pose; those of the
+    /// rig never.
+    ///
+    /// # Errors
+    /// The first parameter that cannot be used, and why. Nothing has changed then.
+    pub fn retune(&mut self) -> Result<(), ParameterError> {
+        let parameters = Parameters::read(&mut Reader::new(&self.slots));
+        let retuned = retune(&mut self.washout, &parameters, self.state);
+        if retuned.is_err() {
+            self.washout.parameters().write(&mut Writer::new(&mut self.slots));
+        }
+        retuned
     }
 
     /// The commands of the last step.
@@ -309,6 +360,7 @@ impl Session {
         let before = self.commands.length;
         let length = std::array::from_fn(|k| self.settled[k] + part * (output.length[k] - self.settled[k]));
         let velocity = std::array::from_fn(|k| (length[k] - before[k]) / STEP);
-        self.commands = Commands { state: self.state, time: now, length, velocity, washout: output };
+        let heave = output.position.z - self.washout.parameters().rig.neutral_height;
+        self.commands = Commands { state: self.state, time: now, length, velocity, heave, washout: output };
     }
 }

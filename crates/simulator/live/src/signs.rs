@@ -3,6 +3,8 @@
 //! Each check compares two quantities that must have the same sign: what the vehicle does, by two
 //! different channels. It decides by their correlation, once there is motion enough.
 
+use moris_washout::interface::STANDARD_GRAVITY;
+
 use crate::motion::Sample;
 
 /// Time for which samples are taken \[s\].
@@ -13,6 +15,8 @@ const INTERVAL: [f64; 2] = [1e-3, 0.2];
 const DECIDES: f64 = 0.5;
 /// Samples from which on it decides.
 const ENOUGH: f64 = 40.0;
+/// Part of a turn's acceleration that gravity makes up for in a vehicle that leans into it.
+const LEANING: f64 = 0.5;
 /// Angles up to which a body's rates are those of its angles, about \[rad\].
 const LEVEL: f64 = 0.3;
 
@@ -100,7 +104,12 @@ impl Signs {
         let mean = 0.5 * (now.0 + then.0);
         let slope = (now.0 - then.0) / interval;
         self.add(Check::Braking, mean[0], slope[9]);
-        self.add(Check::LeftTurn, mean[1], mean[9] * mean[5]);
+        let turn = mean[9] * mean[5];
+        // A motorcycle leans until nothing pushes; what is left says nothing of the turn.
+        let leans = sample.has_angles && STANDARD_GRAVITY * libm::sin(mean[6]).abs() > LEANING * turn.abs();
+        if !leans {
+            self.add(Check::LeftTurn, mean[1], turn);
+        }
         let level = mean[6].abs() < LEVEL && mean[7].abs() < LEVEL;
         if sample.has_angles && level {
             self.add(Check::Roll, mean[3], slope[6]);
@@ -180,6 +189,17 @@ mod tests {
             let wrong = tested(|sample| sample.motion.0[channel] *= -1.0);
             assert_eq!(wrong.contradiction(), Some(check));
         }
+    }
+
+    #[test]
+    fn a_motorcycle_that_leans_into_its_turns_is_left_out() {
+        let leaning = tested(|sample| {
+            let turn = sample.motion.0[9] * sample.motion.0[5];
+            sample.motion.0[6] = -(turn / STANDARD_GRAVITY).atan();
+            // What is left of the lateral force at its head has the other sign.
+            sample.motion.0[1] = -0.5 * turn;
+        });
+        assert_eq!(leaning.verdict(Check::LeftTurn), Verdict::Unknown);
     }
 
     #[test]

@@ -95,6 +95,11 @@ impl Event {
         use Event::*;
         matches!(self, Start | Engage | Disengage | Park | Stop | Clear | Fault)
     }
+
+    /// The command of a person with this name.
+    pub fn of_person(name: &str) -> Option<Self> {
+        Self::named(name).filter(|event| event.is_external() && *event != Event::Fault)
+    }
 }
 
 /// The next state, by state and event in the order of [`Event::ALL`].

@@ -42,6 +42,31 @@ fn simtools() {
 }
 
 #[test]
+fn vr_pose() {
+    let encoder = Encoder::new(&shipped("vr-pose").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
+    let values = Values { pose: [0.1, -0.2, 9.0, 0.5, -0.25, 0.125], heave: 0.03, ..Values::default() };
+    let mut out = Vec::new();
+    encoder.frame(&values, &mut out);
+    assert_eq!(out.len(), 48);
+    let numbers: Vec<f64> = out.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
+    // Sway, surge, heave [mm], yaw, roll, pitch [degrees].
+    for (found, expected) in numbers.iter().zip([-200.0, 100.0, 30.0, 7.161_972, 28.647_890, -14.323_945]) {
+        assert!((found - expected).abs() < 1e-5, "{numbers:?}");
+    }
+}
+
+#[test]
+fn numbers_of_a_template_have_their_width_and_order() {
+    let encoder = |frame: &str| Encoder::new(&format!("{TEMPLATE}frame = '{frame}'").parse().unwrap(), [1.0, 1.6]);
+    let mut out = Vec::new();
+    encoder("x:f32 x:f32le*2 x:f64*-0.5").unwrap().frame(&Values { pose: [1.0; 6], ..Values::default() }, &mut out);
+    assert_eq!(out, [0x3F, 0x80, 0, 0, 0, 0, 0, 0x40, 0xBF, 0xE0, 0, 0, 0, 0, 0, 0]);
+    for wrong in ["x:f16", "x:f64*inf", "x:f64*", "leg1:f64", "x:f64be"] {
+        assert!(format!("{TEMPLATE}frame = '{wrong}'").parse::<Frames>().is_err(), "{wrong}");
+    }
+}
+
+#[test]
 fn text() {
     let line = String::from_utf8(frame(shipped("csv").unwrap())).unwrap();
     assert!(line.starts_with("0.000,1.000000,1.150000,") && line.ends_with(",0.000000\n"), "{line}");

@@ -61,16 +61,3 @@ class Engine {
     return this.calls.csv() ? this.module.text() : "";
   }
 }
-
-/** The view as the drawing of the machine takes it. */
-function machineState(view) {
-  const { platform_x: x, platform_y: y, platform_z: z } = view;
-  return {
-    position: [x, y, z],
-    rotation: rotation(view.platform_roll, view.platform_pitch, view.platform_yaw),
-    lean: view.lean,
-    legs: [1, 2, 3, 4, 5, 6].map((leg) => view[`leg${leg}`]),
-    desired: [view.desired_x, view.desired_y, view.desired_z],
-    felt: [view.felt_x, view.felt_y, view.felt_z],
-  };
-}

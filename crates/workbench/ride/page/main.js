@@ -1,15 +1,5 @@
 // The page: input, steps and pictures, a frame at a time.
 
-const LAMPS = [
-  ["tilt", "Tilt", "Tilt coordination lags behind its target because of its rate, acceleration or angle limit."],
-  ["soft", "Soft limits", "The soft limits change the motion ahead of a limit."],
-  ["safety", "Safety", "A safety unit limits position, velocity or acceleration of the platform."],
-  ["stroke", "Stroke", "A leg is within 5 % of its stroke from an end."],
-  ["leg_speed", "Leg speed", "A leg has more than 90 % of its largest speed."],
-  ["leg_acceleration", "Leg accel.", "A leg has more than 90 % of its largest acceleration."],
-];
-/** Time for which a lamp stays lit, so that it can be seen [s]. */
-const GLOW = 0.4;
 const MESSAGES = {
   ready: "Ready. Throttle: ↑, W or its button; lean: ← →",
   off_road: "Off the road. R or Restart for another try",
@@ -21,10 +11,8 @@ const SCENE = {
   tarmac: "--tarmac", tarmacToo: "--tarmac-too", line: "--line", fast: "--leg-near", tooFast: "--too-fast", tyre: "--ink-on-road", trunk: "--trunk",
   leaves: "--leaves", needles: "--needles", tank: "--tank", bar: "--bar", grip: "--grip", dial: "--dial",
 };
-const STRIP = { desired: "--desired", felt: "--run-1", muted: "--muted", axis: "--axis", rule: "--rule" };
 
 const clock = (seconds) => `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
-const resolved = (names) => Object.fromEntries(Object.entries(names).map(([key, name]) => [key, colour(name)]));
 
 const engine = await Engine.start(await inflated(page.module), page.parameters.map(({ start }) => start));
 const road = new Road(byId("road"), engine.road(), page.half_width);
@@ -40,17 +28,10 @@ const panel = new Panel(byId("panel"), page, {
   },
 });
 let paints = {};
-const now = { view: engine.view(), isPaused: false, shownLaps: 0, toast: "", toastUntil: 0, time: 0, frames: 0, cost: 0, lit: new Map() };
+const now = { view: engine.view(), isPaused: false, shownLaps: 0, toast: "", toastUntil: 0, time: 0, frames: 0, cost: 0 };
 
-const lamps = new Map(LAMPS.map(([name, label, help]) => {
-  const lamp = element("li", { title: help }, [label]);
-  byId("lamps").append(lamp);
-  return [name, lamp];
-}));
-for (const [label, paint] of [["desired", "--desired"], ["felt", "--run-1"]]) {
-  const mark = element("span", { class: "mark", style: `background: var(${paint})` });
-  byId("legend").append(element("li", {}, [mark, label]));
-}
+const lamps = new Lamps(byId("lamps"));
+addLegend(byId("legend"));
 letTurn(machine, () => {});
 
 function pause(on = !now.isPaused) {
@@ -87,11 +68,6 @@ function showLaps({ laps }) {
   }
 }
 
-function setText(id, text) {
-  const box = byId(id);
-  if (box.textContent !== text) box.textContent = text;
-}
-
 function showNumbers(view) {
   setText("speed", fixed(3.6 * view.speed, 0));
   setText("advised", view.stage === "riding" ? `advised ${fixed(3.6 * view.advised, 0)} km/h` : "");
@@ -102,10 +78,7 @@ function showNumbers(view) {
   const toast = now.time < now.toastUntil ? now.toast : "";
   setText("message", now.isPaused ? "Paused" : MESSAGES[view.stage] || exchange || toast);
   byId("save").disabled = view.time < 1;
-  for (const [name, lamp] of lamps) {
-    if (view[name]) now.lit.set(name, now.time + GLOW);
-    lamp.classList.toggle("lit", now.time < (now.lit.get(name) ?? 0));
-  }
+  lamps.show(view, now.time);
 }
 
 function draw(view, seconds) {

@@ -3,12 +3,14 @@
 //! - [`Ride`] steps motorcycle and washout together, a millisecond at a time.
 //! - [`Course`] is the road in the plane.
 //! - [`Recording`] has the ride's measures and its file.
+//! - [`lamps`] shows limits that act.
 //! - [`page`] makes the page. The functions for its script are in `exports`, which only the
 //!   WebAssembly has.
 
 mod course;
 #[cfg(target_arch = "wasm32")]
 mod exports;
+pub mod lamps;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod page;
 mod recording;

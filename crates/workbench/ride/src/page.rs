@@ -4,14 +4,17 @@ use moris_report::{Parameter, Rig, shared};
 use serde::Serialize;
 
 const TEMPLATE: &str = include_str!("../page/ride.html");
-const STYLE: &str = include_str!("../page/ride.css");
+/// The style of a page with curves, a platform and lamps.
+pub const STYLE: &str = include_str!("../page/ride.css");
+
+/// Scripts for any page with curves, a platform and lamps.
+pub const SHARED: [&str; 2] = [include_str!("../page/strip.js"), include_str!("../page/shown.js")];
 
 /// The scripts in the order of their dependencies.
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 5] = [
     include_str!("../page/engine.js"),
     include_str!("../page/controls.js"),
     include_str!("../page/road.js"),
-    include_str!("../page/strip.js"),
     include_str!("../page/panel.js"),
     include_str!("../page/main.js"),
 ];
@@ -39,5 +42,5 @@ pub struct Page {
 /// Never: plain data always serialise.
 pub fn html(page: &Page) -> String {
     let texts = [("subtitle", shared::escaped(&page.subtitle)), ("style", format!("{}\n{STYLE}", shared::STYLE))];
-    shared::assembled(TEMPLATE, &texts, page, &SCRIPTS)
+    shared::assembled(TEMPLATE, &texts, page, &[&SHARED[..], &SCRIPTS].concat())
 }

@@ -6,6 +6,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{ENGAGE_TIME, Input, Parameters, Washout};
 
 use crate::course::{Course, Place};
+use crate::lamps;
 use crate::recording::{Rating, Recording};
 use crate::rider;
 
@@ -21,11 +22,6 @@ const NEUTRAL: f64 = 2e-3;
 const STILL: f64 = 5e-3;
 /// Longest time to wait for the platform at neutral \[s\].
 const PATIENCE: f64 = 20.0;
-
-/// Fraction of a leg's stroke next to its ends, and fractions of its largest speed and
-/// acceleration, from which on a lamp lights.
-const NEAR_END: f64 = 0.05;
-const NEAR_LIMIT: f64 = 0.9;
 
 /// What the player asks of the rider.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -256,17 +252,7 @@ impl Ride {
     }
 
     fn light_lamps(&mut self) {
-        let (now, rates) = (self.washout.output(), self.washout.output_derivative());
-        let rig = &self.parameters.rig;
-        let any = |values: &[f64; 6], limit: f64| values.iter().any(|value| value.abs() > NEAR_LIMIT * limit);
-        let lit = [
-            now.tilt_limited,
-            now.soft_limited,
-            now.safety_active,
-            now.stroke_margin < NEAR_END * (rig.max_length - rig.min_length),
-            any(&now.leg_velocity, rig.velocity_limit),
-            any(&rates.leg_velocity, rig.acceleration_limit),
-        ];
+        let lit = lamps::lit(&self.washout);
         for (lamp, lit) in self.lamps.iter_mut().zip(lit) {
             *lamp |= lit;
         }
@@ -337,8 +323,7 @@ impl Ride {
             ["platform_roll", "platform_pitch", "platform_yaw"].into_iter().zip([turn.roll, turn.pitch, turn.yaw]),
         );
         view.extend(["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"].into_iter().zip(out.length));
-        let names = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
-        view.extend(names.into_iter().zip(lamps));
+        view.extend(lamps::NAMES.into_iter().zip(lamps));
         view
     }
 }

@@ -7,7 +7,7 @@ use super::{Frames, FramesError};
 use crate::session::Commands;
 
 /// Quantities of a frame besides the actuators' positions, in SI units.
-pub const QUANTITIES: [&str; 22] = [
+pub const QUANTITIES: [&str; 23] = [
     "time",
     "length1",
     "length2",
@@ -30,6 +30,7 @@ pub const QUANTITIES: [&str; 22] = [
     "fx",
     "fy",
     "fz",
+    "heave",
 ];
 /// Most bytes of a template.
 const MOST: usize = 4096;
@@ -49,11 +50,13 @@ pub struct Values {
     pub pose: [f64; 6],
     /// Felt specific force \[m/s2\].
     pub force: [f64; 3],
+    /// Height of the platform above neutral \[m\].
+    pub heave: f64,
 }
 
 impl From<&Commands> for Values {
     fn from(commands: &Commands) -> Self {
-        let Commands { time, length, velocity, washout, .. } = commands;
+        let Commands { time, length, velocity, heave, washout, .. } = commands;
         let (p, o) = (washout.position, washout.orientation);
         Values {
             time: *time,
@@ -61,13 +64,14 @@ impl From<&Commands> for Values {
             velocity: *velocity,
             pose: [p.x, p.y, p.z, o.roll, o.pitch, o.yaw],
             force: washout.felt_specific_force.into(),
+            heave: *heave,
         }
     }
 }
 
 impl Values {
     fn quantity(&self, place: usize) -> f64 {
-        let values = self.length.iter().chain(&self.velocity).chain(&self.pose).chain(&self.force);
+        let values = self.length.iter().chain(&self.velocity).chain(&self.pose).chain(&self.force).chain([&self.heave]);
         std::iter::once(&self.time).chain(values).nth(place).copied().unwrap_or_default()
     }
 }
@@ -89,6 +93,13 @@ enum Token {
     Quantity {
         place: usize,
         decimals: usize,
+    },
+    /// A quantity times a factor, as a number of 32 or 64 bits.
+    Float {
+        place: usize,
+        factor: f64,
+        is_double: bool,
+        little: bool,
     },
 }
 
@@ -154,6 +165,18 @@ impl Encoder {
                 }
                 // Writing to a vector cannot fail.
                 Token::Decimal { leg } => drop(write!(out, "{}", self.number(*leg, values))),
+                Token::Float { place, factor, is_double, little } => {
+                    let value = factor * values.quantity(*place);
+                    let from = out.len();
+                    if *is_double {
+                        out.extend(value.to_be_bytes());
+                    } else {
+                        out.extend((value as f32).to_be_bytes());
+                    }
+                    if *little {
+                        out[from..].reverse();
+                    }
+                }
                 Token::Quantity { place, decimals } => {
                     drop(write!(out, "{:.decimals$}", values.quantity(*place)));
                 }
@@ -203,6 +226,17 @@ fn token(word: &str) -> Option<Token> {
     };
     let Some(leg) = name.strip_prefix("leg") else {
         let place = QUANTITIES.iter().position(|quantity| *quantity == name)?;
+        let (kind, factor) = form.split_once('*').unwrap_or((form, "1"));
+        if let Some(bits) = kind.strip_prefix('f') {
+            let (bits, little) = bits.strip_suffix("le").map_or((bits, false), |bits| (bits, true));
+            let factor = factor.parse().ok().filter(|factor: &f64| factor.is_finite())?;
+            let is_double = match bits {
+                "64" => true,
+                "32" => false,
+                _ => return None,
+            };
+            return Some(Token::Float { place, factor, is_double, little });
+        }
         return Some(Token::Quantity { place, decimals: form.parse().ok().filter(|count| *count <= DECIMALS)? });
     };
     let leg = leg.parse::<usize>().ok().filter(|leg| (1..=6).contains(leg))? - 1;

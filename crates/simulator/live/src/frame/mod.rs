@@ -10,6 +10,7 @@
 //! | `leg1:hi`, `leg1:lo` | the high and the low byte of `leg1:u16` |
 //! | `leg1:dec` | the same in decimal digits |
 //! | `length1:6` | a quantity with so many decimals: see [`QUANTITIES`] |
+//! | `x:f64le*1000` | a quantity times a factor as a number: `f32` or `f64` big-endian, `f32le` or `f64le` little-endian |
 //!
 //! ```
 //! use moris_live::frame::{Encoder, Values};
@@ -112,13 +113,14 @@ impl FromStr for Frames {
 }
 
 /// The shipped templates, each with its name and text.
-pub const SHIPPED: [(&str, &str); 6] = [
+pub const SHIPPED: [(&str, &str); 7] = [
     ("json", include_str!("tables/json.toml")),
     ("csv", include_str!("tables/csv.toml")),
     ("amc-aasd15a", include_str!("tables/amc-aasd15a.toml")),
     ("motion4sim", include_str!("tables/motion4sim.toml")),
     ("bff", include_str!("tables/bff.toml")),
     ("simtools", include_str!("tables/simtools.toml")),
+    ("vr-pose", include_str!("tables/vr-pose.toml")),
 ];
 
 /// The text of a shipped template.

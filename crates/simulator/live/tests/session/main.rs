@@ -7,6 +7,7 @@ use std::ops::Range;
 use moris_live::log::{self, Digest, Entry, Happening};
 use moris_live::{Commands, Event, STEP, Sample, Session, Settings, State};
 use moris_measures::comfort::comfort;
+use moris_washout::interface::StrategyKind;
 use moris_washout::{Parameters, presets};
 use proptest::prelude::*;
 use ride::{Ride, RideEvent};
@@ -99,6 +100,32 @@ fn engaged_telemetry_passes_as_it_is_with_the_delay() {
 }
 
 #[test]
+fn tunable_parameters_change_at_any_time_and_fixed_ones_at_the_lowest_pose() {
+    let (mut session, mut ride) = at_neutral(&Parameters::default());
+    run(&mut session, &mut ride, &[(20.0, RideEvent::Person(Event::Engage)), (5.0, RideEvent::Scale(0.25))], |_| ());
+    assert_eq!(session.washout().parameters().conditioning.force_scale.x, 0.25);
+    let choose = |session: &mut Session, name: &str, value: f64| {
+        session.choose(log::slot_of(name).unwrap(), value);
+        session.retune()
+    };
+    let strategy = |session: &Session| session.washout().parameters().structure.strategy;
+    let optimal = StrategyKind::ALL.iter().position(|kind| *kind == StrategyKind::Optimal).unwrap() as f64 + 1.0;
+    for (name, value) in [("tilt.angleLimit", f64::NAN), ("strategy", optimal), ("actuator.maxLength", 2.0)] {
+        let before = *session.washout().parameters();
+        assert!(choose(&mut session, name, value).is_err(), "{name}");
+        assert_eq!(*session.washout().parameters(), before);
+    }
+    run(&mut session, &mut ride, &[(40.0, RideEvent::Person(Event::Park))], |_| ());
+    assert_eq!(session.state(), State::Settled);
+    let before = session.commands().length;
+    choose(&mut session, "strategy", optimal).unwrap();
+    assert_eq!(strategy(&session), StrategyKind::Optimal);
+    assert!(choose(&mut session, "actuator.maxLength", 2.0).is_err());
+    let now = session.step().length;
+    assert!(now.iter().zip(before).all(|(now, before)| (now - before).abs() < 1e-3), "{now:?} {before:?}");
+}
+
+#[test]
 fn engage_is_refused_with_the_reason() {
     let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
     let refused = |session: &mut Session| session.handle(Event::Engage).unwrap_err().to_string();
@@ -148,13 +175,16 @@ fn parking_on_the_way_up_turns_round_at_once() {
 }
 
 #[test]
-fn a_step_allocates_nothing() {
+fn a_step_and_a_new_scale_allocate_nothing() {
     let (mut session, _) = at_neutral(&Parameters::default());
     let sample = Sample { motion: Ride::motion(1.0), ..Sample::default() };
     session.receive(session.time(), &sample);
+    let scale = log::slot_of("scale.specificForce.x").unwrap();
     let count = allocation_counter::measure(|| {
         for event in [Event::Engage, Event::Disengage, Event::Engage, Event::Park, Event::Fault, Event::Clear] {
             let _ = session.handle(event);
+            session.choose(scale, 0.5 + 0.1 * f64::from(event as u8));
+            session.retune().unwrap();
             for k in 0..3000 {
                 if k % 7 == 0 && k < 1000 {
                     session.receive(session.time(), &Sample { motion: Ride::motion(session.time()), ..sample });
@@ -185,6 +215,7 @@ fn any_event() -> impl Strategy<Value = (f64, RideEvent)> {
         2 => Just(Pause),
         2 => Just(Silence),
         2 => Just(Teleport),
+        1 => prop::sample::select(vec![0.4, 0.5, 0.6]).prop_map(Scale),
         1 => Just(NotANumber),
         1 => Just(Repeat),
     ];

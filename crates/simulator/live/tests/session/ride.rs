@@ -1,6 +1,6 @@
 //! Emulator of a vehicle's telemetry: a smooth ride, and what games do to it.
 
-use moris_live::log::{Entry, Happening};
+use moris_live::log::{Entry, Happening, slot_of};
 use moris_live::{Event, Motion, STEP, Sample, Session};
 use moris_washout::interface::RollPitchYaw;
 use nalgebra::Vector3;
@@ -10,6 +10,8 @@ use nalgebra::Vector3;
 pub enum RideEvent {
     /// A person's.
     Person(Event),
+    /// A person chooses the scale of the surge.
+    Scale(f64),
     /// Samples of the running vehicle.
     Run,
     /// Samples of the paused vehicle: all zero.
@@ -82,6 +84,13 @@ impl Ride {
             RideEvent::Person(event) => {
                 self.record(session, Happening::Event(event));
                 let _ = session.handle(event);
+            }
+            RideEvent::Scale(value) => {
+                let slot = slot_of("scale.specificForce.x").unwrap();
+                self.record(session, Happening::Choice(slot as u16, value));
+                session.choose(slot, value);
+                self.record(session, Happening::Retune);
+                session.retune().unwrap();
             }
             RideEvent::Teleport => {
                 self.ahead += 7.3;

@@ -10,6 +10,8 @@ use moris_live::source::Health;
 use moris_live::{Refusal, State};
 use rtrb::Consumer;
 
+use super::page::Desk;
+
 /// Something that happened at a time \[s\].
 #[derive(Clone, Copy, Debug)]
 pub enum Note {
@@ -23,6 +25,8 @@ pub enum Note {
     Refused(f64, Refusal),
     /// A check of the signs has decided.
     Sign(f64, Check, Verdict),
+    /// Parameters were chosen; true if they are in force.
+    Retuned(f64, bool),
     /// The computer was late: the session's clock has slipped by this time \[s\].
     Slipped(f64, f64),
 }
@@ -43,28 +47,45 @@ fn line(note: &Note) -> Option<String> {
             format!("{time:9.3} s  WRONG SIGN, expected: {}", check.text())
         }
         Note::Sign(time, check, _) => format!("{time:9.3} s  sign agrees: {}", check.text()),
+        Note::Retuned(_, true) => return None,
+        Note::Retuned(time, false) => format!("{time:9.3} s  refused: these parameters cannot change now"),
         Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),
     })
 }
 
-/// Keeps the journal until the loop has ended.
+/// Keeps the journal until the loop has ended. The page gets its lines, too.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep(mut notes: Consumer<Note>, record: Option<File>) -> io::Result<()> {
+pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>) -> io::Result<()> {
     let mut record = record.map(BufWriter::new);
+    let mut recorded = Ok(());
     loop {
         let ended = notes.is_abandoned();
         while let Ok(note) = notes.pop() {
-            match (note, &mut record) {
-                (Note::Entry(entry), Some(file)) => writeln!(file, "{entry}")?,
-                // The reader of the lines may be gone.
-                _ => drop(line(&note).map(|line| writeln!(stderr(), "{line}"))),
+            if let (Note::Entry(entry), Some(file)) = (note, &mut record) {
+                recorded = writeln!(file, "{entry}");
+            } else if let Some(line) = line(&note) {
+                say(&line, page);
+            }
+            // The platform goes on without its recording.
+            if let (Err(error), Some(_)) = (&recorded, &record) {
+                say(&format!("the recording has ended: {error}"), page);
+                record = None;
             }
         }
         if ended {
-            return record.map_or(Ok(()), |mut file| file.flush());
+            let recorded = recorded.and_then(|()| record.map_or(Ok(()), |mut file| file.flush()));
+            // As a text: a pipe that is closed is no success of the command here.
+            return recorded.map_err(|error| io::Error::other(error.to_string()));
         }
         std::thread::sleep(Duration::from_millis(20));
     }
+}
+
+/// Prints a line, and shows it in the page.
+fn say(line: &str, page: Option<&Desk>) {
+    // The reader of the lines may be gone.
+    let _ = writeln!(stderr(), "{line}");
+    page.inspect(|page| page.say(line));
 }

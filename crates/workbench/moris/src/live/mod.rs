@@ -2,22 +2,28 @@
 //!
 //! `moris_live` decides; here are its clock, its sockets and its threads:
 //!
-//! - `telemetry` receives packets, or plays a recording.
+//! - `priority` asks for real time, `lateness` counts how late steps and frames are.
+//! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames, `journal` prints what happens and records the session.
+//! - `page` serves the page in a browser.
 //! - `tables` lists formats and templates.
 //!
 //! Threads exchange values through rings without locks. The loop waits for none of them.
 
 mod frames;
 mod journal;
+mod lateness;
 mod pace;
+mod page;
+mod priority;
 mod steps;
 mod tables;
 mod telemetry;
+mod vehicle;
 
 use std::fs::{self, File};
-use std::io::{Write, stdin};
+use std::io::{self, Write, stdin};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -26,11 +32,12 @@ use std::thread;
 
 use anyhow::{Context, Result, bail};
 use moris_live::frame::{Encoder, Values};
-use moris_live::{Event, STEP, Session, Settings, log};
+use moris_live::{Event, STEP, Session, Settings, log, moog};
 use rtrb::{Producer, RingBuffer};
 
 use crate::setup_options::SetupOptions;
-use frames::Sink;
+use frames::{Device, Sent, Sink};
+use page::{Desk, Order, Server, Start};
 
 /// Step the washout beside a running vehicle, and command a platform
 ///
@@ -44,8 +51,9 @@ pub struct Options {
     #[command(subcommand)]
     list: Option<tables::List>,
 
-    /// Telemetry: udp:PORT, or a recording, which is played in real time once the platform engages
-    #[arg(long, value_name = "udp:PORT|RECORDING", required_unless_present = "replay")]
+    /// Telemetry: udp:PORT; or the FMU of a vehicle, or a recording, which run in real time
+    /// once the platform engages
+    #[arg(long, value_name = "udp:PORT|fmu:FILE|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
     from: Option<String>,
 
     /// Format of the packets: a name of `moris live formats`, or a TOML file; of a recording: its
@@ -53,15 +61,19 @@ pub struct Options {
     #[arg(long, value_name = "NAME|FILE")]
     format: Option<String>,
 
-    /// Receive from other machines, too; otherwise from this one alone
+    /// Map of the FMU's variables: a TOML file
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+
+    /// Receive from other machines, and serve the page to them, too; otherwise to this one alone
     #[arg(long)]
     listen: bool,
 
     /// Device to which frames are sent
-    #[arg(long, value_name = "udp:HOST:PORT", required_unless_present_any = ["dry", "replay"])]
+    #[arg(long, value_name = "udp:HOST:PORT|serial:LINE:BAUD", required_unless_present_any = ["dry", "replay", "empty_loop"])]
     to: Option<String>,
 
-    /// Template of the frames: a name of `moris live frames`, or a TOML file
+    /// Frames: a name of `moris live frames`, or a TOML file
     #[arg(long, value_name = "NAME|FILE", default_value = "csv")]
     frames: String,
 
@@ -80,9 +92,25 @@ pub struct Options {
     #[arg(long)]
     engage: bool,
 
+    /// Ask for no real-time priority
+    #[arg(long)]
+    no_priority: bool,
+
+    /// Only wait for each step, and print how late that was: what this computer can do at best
+    #[arg(long, requires = "duration", conflicts_with_all = ["from", "replay"])]
+    empty_loop: bool,
+
     /// Engage although signs of the telemetry contradict each other
     #[arg(long)]
     ignore_signs: bool,
+
+    /// Serve a page with curves, buttons and sliders, and print its address
+    #[arg(long, value_name = "PORT", num_args = 0..=1, default_missing_value = "0", conflicts_with = "replay")]
+    page: Option<u16>,
+
+    /// Let every page control; otherwise only the first one that is opened
+    #[arg(long, requires = "page")]
+    allow_control: bool,
 
     /// Park and end after this time
     #[arg(long = "for", value_name = "SECONDS", value_parser = seconds)]
@@ -128,18 +156,28 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(file) = &options.replay {
         return replay(options, &fs::read_to_string(file).with_context(|| file.display().to_string())?, out);
     }
+    if options.empty_loop {
+        return Ok(empty_loop(options, out)?);
+    }
     let setup = options.setup.load()?;
     let settings = Settings { delay: options.delay, ignore_signs: options.ignore_signs, ..Settings::default() };
     let mut session = Session::new(&setup.parameters, &settings)?;
-    let template = tables::frames(&options.frames)?;
-    let rig = &setup.parameters.rig;
-    let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
-    let input =
-        telemetry::Input::open(options.from.as_deref().unwrap_or_default(), options.format.as_deref(), options.listen)?;
+    let (device, interval) = if options.frames == moog::NAME {
+        sink.listen()?;
+        (Device::moog(), moog::INTERVAL)
+    } else {
+        let template = tables::frames(&options.frames)?;
+        let rig = &setup.parameters.rig;
+        let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
+        (Device::Template(Box::new(encoder)), template.interval)
+    };
+    let from = options.from.as_deref().unwrap_or_default();
+    let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
     if let Some(file) = &mut record {
-        file.write_all(log::header(&setup.parameters, &settings).as_bytes())?;
+        let header = log::header(&setup.parameters, &settings);
+        file.write_all(header.as_bytes()).context("cannot record the session")?;
     }
     let shared = Arc::new(Shared::default());
     let pressed = Arc::clone(&shared);
@@ -150,28 +188,51 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 
     let (samples, received) = RingBuffer::new(1024);
     let (commands, commanded) = RingBuffer::new(64);
+    // As many as there are parameters, and more.
+    let (to_loop, asked) = RingBuffer::new(1024);
+    let desk = Arc::new(Desk::new(&setup.parameters, to_loop, options.allow_control)?);
+    let server = match options.page {
+        Some(port) => Some(Server::open(port, options.listen, &Start::of(&setup), Arc::clone(&desk))?),
+        None => None,
+    };
+    let (shown, showing) = RingBuffer::new(256);
+    let (from_device, reported) = RingBuffer::new(16);
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
     eprintln!("commands: {COMMANDS}; Ctrl-C parks and ends");
+    if let Some(server) = &server {
+        eprintln!("page: {}", server.address());
+    }
     // It waits for a line for ever: nobody joins it.
     thread::spawn(move || read_commands(commands));
-    let interval = if options.dry { template.interval.max(0.1) } else { template.interval };
+    let real_time = !options.no_priority;
+    let interval = if options.dry { interval.max(0.1) } else { interval };
     let summary = thread::scope(|scope| {
-        let sender = scope.spawn(move || frames::send(to_send, &encoder, sink));
-        let printer = scope.spawn(move || journal::keep(journal, record));
+        let sender = scope.spawn(move || frames::send(to_send, device, &sink, from_device));
+        let printer = scope.spawn(|| journal::keep(journal, record, server.as_ref().map(|_| &*desk)));
+        if let Some(server) = &server {
+            scope.spawn(|| server.run(&shared));
+            scope.spawn(|| desk.show(showing, &shared));
+        }
         scope.spawn(|| input.run(samples, &shared));
         let mut steps = steps::Steps {
             session: &mut session,
             shared: &shared,
             received,
-            commanded,
+            orders: [commanded, asked, reported],
             frames: frames::Frames::new(to_device, sender.thread().clone(), interval),
             journal: to_journal,
+            shown: server.as_ref().map(|_| shown),
             engages: options.engage,
             ends_at: options.duration,
         };
         // In a thread of its own, so that its panic leaves the others to end.
-        let summary = thread::Builder::new().name("steps".to_owned()).spawn_scoped(scope, move || steps.run());
+        let summary = thread::Builder::new().name("steps".to_owned()).spawn_scoped(scope, move || {
+            if real_time {
+                eprintln!("{}", priority::claim());
+            }
+            steps.run()
+        });
         let summary = summary.map(thread::ScopedJoinHandle::join);
         shared.done.store(true, Ordering::Relaxed);
         let sent = sender.join();
@@ -194,7 +255,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         counts.teleports,
         1e3 * session.delay()
     )?;
-    writeln!(out, "frames: {} sent, {} not", sent.sent, sent.failed + summary.lost_frames)?;
+    let Sent { sent, failed, skipped, passage } = sent;
+    writeln!(out, "frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames)?;
+    writeln!(out, "from a packet to the next frame: {}", passage.summary())?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -202,15 +265,24 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
 
 /// Passes lines on as commands.
-fn read_commands(mut commands: Producer<Event>) {
+fn read_commands(mut commands: Producer<Order>) {
     for line in stdin().lines().map_while(Result::ok) {
-        let event = Event::named(line.trim()).filter(|event| event.is_external() && *event != Event::Fault);
-        match event {
-            Some(event) => drop(commands.push(event)),
+        match Event::of_person(line.trim()) {
+            Some(event) => drop(commands.push(Order::Event(event))),
             None if line.trim().is_empty() => (),
             None => eprintln!("commands: {COMMANDS}"),
         }
     }
+}
+
+/// Waits for each step and does nothing.
+fn empty_loop(options: &Options, out: &mut dyn Write) -> io::Result<ExitCode> {
+    if !options.no_priority {
+        eprintln!("{}", priority::claim());
+    }
+    let lateness = steps::empty((options.duration.unwrap_or_default() / STEP) as u64);
+    write!(out, "{lateness}")?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Repeats a recorded session.

@@ -1,6 +1,5 @@
 //! The clock of the loop: monotonic, with absolute deadlines.
 
-use std::fmt::{self, Display, Formatter};
 use std::time::Duration;
 
 /// Time since the clock's own beginning.
@@ -36,49 +35,6 @@ pub fn wait_until(time: Duration) {
     std::thread::sleep(time.saturating_sub(now()));
 }
 
-/// Upper ends of the classes of lateness \[us\].
-const CLASSES: [u64; 10] = [20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000, 20_000];
-
-/// Lateness of wake-ups, in classes.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Lateness {
-    counts: [u64; CLASSES.len() + 1],
-    largest: Duration,
-}
-
-impl Lateness {
-    /// Takes a wake-up that came so much too late.
-    pub fn take(&mut self, late: Duration) {
-        let class = CLASSES.iter().position(|end| late.as_micros() <= u128::from(*end)).unwrap_or(CLASSES.len());
-        self.counts[class] += 1;
-        self.largest = self.largest.max(late);
-    }
-
-    /// Wake-ups later than the time of a step.
-    pub fn overruns(&self) -> u64 {
-        CLASSES
-            .iter()
-            .chain([&u64::MAX])
-            .zip(self.counts)
-            .filter(|(end, _)| **end > 1_000)
-            .map(|(_, count)| count)
-            .sum()
-    }
-}
-
-impl Display for Lateness {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        writeln!(f, "wake-up late by at most   steps")?;
-        for (class, count) in self.counts.iter().enumerate().filter(|(_, count)| **count > 0) {
-            match CLASSES.get(class) {
-                Some(end) => writeln!(f, "{:>21.2} ms {count:>7}", *end as f64 * 1e-3)?,
-                None => writeln!(f, "{:>21.2} ms {count:>7}", self.largest.as_secs_f64() * 1e3)?,
-            }
-        }
-        Ok(())
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,16 +46,5 @@ mod tests {
             wait_until(deadline);
             assert!(now() >= deadline);
         }
-    }
-
-    #[test]
-    fn lateness_is_counted_by_classes() {
-        let mut lateness = Lateness::default();
-        for micros in [0, 20, 21, 1_000, 1_001, 60_000] {
-            lateness.take(Duration::from_micros(micros));
-        }
-        assert_eq!(lateness.overruns(), 2);
-        let shown = lateness.to_string();
-        assert!(shown.contains("0.02 ms       2") && shown.contains("60.00 ms       1"), "{shown}");
     }
 }

@@ -13,7 +13,9 @@ use rtrb::{Consumer, Producer};
 use super::Shared;
 use super::frames::Frames;
 use super::journal::Note;
-use super::pace::{self, Lateness};
+use super::lateness::Lateness;
+use super::pace;
+use super::page::{EVERY, Order, Shown};
 use super::telemetry::Received;
 
 /// Lateness from which on steps are not made up for: their motion would come at once \[s\].
@@ -26,9 +28,12 @@ pub struct Steps<'a> {
     pub session: &'a mut Session,
     pub shared: &'a Shared,
     pub received: Consumer<Received>,
-    pub commanded: Consumer<Event>,
+    /// From standard input, from the page, and from the device.
+    pub orders: [Consumer<Order>; 3],
     pub frames: Frames,
     pub journal: Producer<Note>,
+    /// For the page; what it does not take is dropped.
+    pub shown: Option<Producer<Shown>>,
     /// Engages by itself.
     pub engages: bool,
     /// Time after which it ends \[s\].
@@ -36,7 +41,7 @@ pub struct Steps<'a> {
 }
 
 /// The counts of the loop.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Summary {
     steps: u64,
     lateness: Lateness,
@@ -55,6 +60,18 @@ impl Display for Summary {
         }
         write!(f, "{lateness}")
     }
+}
+
+/// Waits for so many steps, and does nothing in them.
+pub fn empty(steps: u64) -> Lateness {
+    let mut lateness = Lateness::default();
+    let zero = pace::now();
+    for step in 1..=steps {
+        let deadline = zero + Duration::from_secs_f64(step as f64 * STEP);
+        pace::wait_until(deadline);
+        lateness.take(pace::now().saturating_sub(deadline));
+    }
+    lateness
 }
 
 impl Steps<'_> {
@@ -82,13 +99,15 @@ impl Steps<'_> {
                 self.note(Note::Slipped(self.session.time(), late.as_secs_f64()), &mut summary);
             }
             while let Ok(Received { arrival, sample }) = self.received.pop() {
+                self.frames.newest = Some(arrival);
                 let arrival = arrival.as_secs_f64() - zero.as_secs_f64();
                 self.record(Happening::Sample(arrival, sample), &mut summary);
                 self.session.receive(arrival, &sample);
             }
-            while let Ok(event) = self.commanded.pop() {
-                self.engages &= matches!(event, Event::Engage | Event::Start);
-                self.ask(event, &mut summary);
+            for source in 0..self.orders.len() {
+                while let Ok(order) = self.orders[source].pop() {
+                    self.obey(order, &mut summary);
+                }
             }
             ending |= self.ends_at.is_some_and(|end| self.session.time() >= end)
                 || self.shared.played.load(Ordering::Relaxed)
@@ -113,6 +132,11 @@ impl Steps<'_> {
             }
             if summary.steps.is_multiple_of(LOOK) {
                 self.look_at_signs(&mut signs, &mut summary);
+            }
+            if let Some(shown) = &mut self.shown
+                && summary.steps.is_multiple_of(EVERY)
+            {
+                let _ = shown.push(Shown::of(self.session, &summary.lateness));
             }
             if ending && state == State::Off {
                 self.record(Happening::End(digest.0), &mut summary);
@@ -142,6 +166,24 @@ impl Steps<'_> {
             _ => Event::Park,
         };
         self.ask(event, summary);
+    }
+
+    fn obey(&mut self, order: Order, summary: &mut Summary) {
+        match order {
+            Order::Event(event) => {
+                self.engages &= matches!(event, Event::Engage | Event::Start);
+                self.ask(event, summary);
+            }
+            Order::Choose(slot, value) => {
+                self.record(Happening::Choice(slot, value), summary);
+                self.session.choose(usize::from(slot), value);
+            }
+            Order::Retune => {
+                self.record(Happening::Retune, summary);
+                let is_in_force = self.session.retune().is_ok();
+                self.note(Note::Retuned(self.session.time(), is_in_force), summary);
+            }
+        }
     }
 
     fn ask(&mut self, event: Event, summary: &mut Summary) {

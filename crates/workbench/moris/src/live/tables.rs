@@ -5,7 +5,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_live::{format, frame};
+use moris_live::{format, frame, moog};
 
 /// Lists of tables.
 #[derive(Clone, Debug, clap::Subcommand)]
@@ -29,6 +29,7 @@ pub enum List {
 pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
     match list {
         List::Formats { name: Some(name) } => write!(out, "{}", shipped(name, &format::SHIPPED)?)?,
+        List::Frames { name: Some(name) } if name == moog::NAME => writeln!(out, "{}", moog::ABOUT)?,
         List::Frames { name: Some(name) } => write!(out, "{}", shipped(name, &frame::SHIPPED)?)?,
         List::Formats { name: None } => {
             for (name, text) in format::SHIPPED {
@@ -37,8 +38,9 @@ pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
         }
         List::Frames { name: None } => {
             for (name, text) in frame::SHIPPED {
-                writeln!(out, "{name:<12} {}", text.parse::<frame::Frames>()?.about)?;
+                writeln!(out, "{name:<14} {}", text.parse::<frame::Frames>()?.about)?;
             }
+            writeln!(out, "{:<14} {}", moog::NAME, moog::ABOUT)?;
         }
     }
     Ok(ExitCode::SUCCESS)

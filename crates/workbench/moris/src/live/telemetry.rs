@@ -14,6 +14,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
 use rtrb::Producer;
 
+use super::vehicle::Vehicle;
 use super::{Shared, pace, tables};
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 
@@ -37,6 +38,8 @@ pub enum Input {
     Udp(UdpSocket, Box<Format>),
     /// A recording.
     Played(Box<Recording>),
+    /// A vehicle's FMU.
+    Fmu(Box<Vehicle>),
 }
 
 impl Input {
@@ -44,14 +47,18 @@ impl Input {
     ///
     /// # Errors
     /// The port, the format or the recording cannot be used.
-    pub fn open(from: &str, format: Option<&str>, listen: bool) -> Result<Input> {
+    pub fn open(from: &str, format: Option<&str>, map: Option<&Path>, listen: bool) -> Result<Input> {
+        if let Some(file) = from.strip_prefix("fmu:") {
+            let map = map.context("--map names the file that maps the FMU's variables")?;
+            return Ok(Input::Fmu(Box::new(Vehicle::open(Path::new(file), map)?)));
+        }
         let Some(port) = from.strip_prefix("udp:") else {
             let logger = format.map(|name| ValueEnum::from_str(name, true)).transpose();
             let format = logger.map_err(|_| anyhow::anyhow!("--format of a recording is a logger's name"))?;
             let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
             return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
         };
-        let port: u16 = port.parse().context("--from is udp:PORT or a recording")?;
+        let port: u16 = port.parse().context("--from is udp:PORT, fmu:FILE or a recording")?;
         let format = tables::format(format.context("--format names the packets' format; see moris live formats")?)?;
         let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
         let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;
@@ -64,6 +71,7 @@ impl Input {
         match self {
             Input::Udp(socket, format) => receive(&socket, &format, samples, shared),
             Input::Played(recording) => play(&recording, samples, shared),
+            Input::Fmu(vehicle) => drive(*vehicle, samples, shared),
         }
     }
 }
@@ -95,12 +103,39 @@ fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>,
     }
 }
 
+/// Steps a vehicle in real time once the platform engages; until then it stands at its beginning.
+fn drive(mut vehicle: Vehicle, mut samples: Producer<Received>, shared: &Shared) {
+    let step = Duration::from_secs_f64(vehicle.step);
+    let begin = pace::now();
+    let mut drives = false;
+    for sent in 0.. {
+        let time = step * sent;
+        pace::wait_until(begin + time);
+        if shared.done.load(Ordering::Relaxed) {
+            return;
+        }
+        drives |= engages(shared);
+        let advanced = if drives { vehicle.advance() } else { Ok(()) };
+        let sample = advanced.and_then(|()| vehicle.sample());
+        let Ok(sample) = sample.inspect_err(|error| eprintln!("the vehicle has ended: {error:#}")) else {
+            shared.played.store(true, Ordering::Relaxed);
+            return;
+        };
+        let sample = Sample { time: Some(time.as_secs_f64()), ..sample };
+        let _ = samples.push(Received { arrival: pace::now(), sample });
+    }
+}
+
+/// True if the platform engages.
+fn engages(shared: &Shared) -> bool {
+    [State::Engaging, State::Engaged].map(|state| state as u8).contains(&shared.state.load(Ordering::Relaxed))
+}
+
 /// Plays a recording once the platform engages; until then it repeats the first sample.
 fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared) {
     let step = Duration::from_secs_f64(recording.step());
     let begin = pace::now();
     let (mut sent, mut played) = (0_u32, 0);
-    let engaging = [State::Engaging, State::Engaged].map(|state| state as u8);
     while !shared.done.load(Ordering::Relaxed) {
         let Some(input) = recording.inputs().get(played) else {
             shared.played.store(true, Ordering::Relaxed);
@@ -111,7 +146,7 @@ fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared)
         let sample = sample(input, recording, time.as_secs_f64());
         let _ = samples.push(Received { arrival: pace::now(), sample });
         sent += 1;
-        played += usize::from(played > 0 || engaging.contains(&shared.state.load(Ordering::Relaxed)));
+        played += usize::from(played > 0 || engages(shared));
     }
 }
 

@@ -2,92 +2,18 @@
 
 #![cfg(unix)]
 
-use std::io::{BufRead, BufReader, Write};
-use std::net::UdpSocket;
-use std::path::Path;
-use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
+mod exits;
+mod moog;
+mod page;
+mod rig;
+#[cfg(feature = "serial")]
+mod serial;
+
+use std::process::Command;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
-use std::time::Duration;
 
-/// The command with its lines of standard error, and the device that receives its frames.
-struct Live {
-    child: Child,
-    lines: std::io::Lines<BufReader<ChildStderr>>,
-    device: thread::JoinHandle<Vec<String>>,
-}
-
-impl Live {
-    /// Starts the command. The device receives until `stop`.
-    fn start(directory: &Path, from: &str, arguments: &[&str]) -> Live {
-        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-        // A command that fails leaves no test waiting for ever.
-        socket.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
-        let to = format!("udp:{}", socket.local_addr().unwrap());
-        let device = thread::spawn(move || {
-            let mut frames: Vec<String> = Vec::new();
-            while frames.last().is_none_or(|frame| frame != "stop\n") {
-                let mut packet = [0; 2000];
-                let length = socket.recv(&mut packet).unwrap();
-                frames.push(String::from_utf8(packet[..length].to_vec()).unwrap());
-            }
-            frames
-        });
-        let mut child = Command::new(env!("CARGO_BIN_EXE_moris"))
-            .args(["live", "--from", from, "--to", &to])
-            .args(arguments)
-            .current_dir(directory)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let lines = BufReader::new(child.stderr.take().unwrap()).lines();
-        Live { child, lines, device }
-    }
-
-    fn wait_for(&mut self, word: &str) {
-        let found = self.lines.by_ref().map_while(Result::ok).any(|line| line.trim_end().ends_with(word));
-        assert!(found, "moris live has ended before: {word}");
-    }
-
-    fn command(&mut self, line: &str) {
-        writeln!(self.child.stdin.as_mut().unwrap(), "{line}").unwrap();
-    }
-
-    fn interrupt(&self) {
-        assert!(Command::new("kill").args(["-INT", &self.child.id().to_string()]).status().unwrap().success());
-    }
-
-    /// The exit status, what has been printed, and all frames.
-    fn end(self) -> (ExitStatus, String, Vec<String>) {
-        let output = self.child.wait_with_output().unwrap();
-        (output.status, String::from_utf8(output.stdout).unwrap(), self.device.join().unwrap())
-    }
-}
-
-/// A port that is free now.
-fn free_port() -> u16 {
-    UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port()
-}
-
-/// Sends a drive at 100 Hz to the port while `runs`.
-fn vehicle(port: u16, runs: &AtomicBool) {
-    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
-    let mut k = 0;
-    while runs.load(Ordering::Relaxed) {
-        let t = f64::from(k) * 0.01;
-        let line = format!("{t},{},0.3,9.80665,0,0,{}", 1.5 * (0.9 * t).sin(), 0.05 * (0.7 * t).sin());
-        socket.send_to(line.as_bytes(), ("127.0.0.1", port)).unwrap();
-        thread::sleep(Duration::from_millis(10));
-        k += 1;
-    }
-}
-
-/// The six lengths in a frame.
-fn lengths(frame: &str) -> Vec<f64> {
-    frame.split(',').skip(1).take(6).map(|field| field.parse().unwrap()).collect()
-}
+use rig::{Live, free_port, lengths, vehicle};
 
 #[test]
 fn from_telemetry_to_frames_and_back_to_rest() {
@@ -199,11 +125,11 @@ fn what_cannot_be_used_is_said() {
     }
     for (arguments, text) in [
         (&["formats", "doom"][..], "there is no doom, only json, csv"),
-        (&["--from", "udp:0x", "--format", "csv", "--dry"], "--from is udp:PORT or a recording"),
+        (&["--from", "udp:0x", "--format", "csv", "--dry"], "--from is udp:PORT, fmu:FILE or a recording"),
         (&["--from", "udp:4444", "--dry"], "--format names the packets' format"),
         (&["--from", "udp:4444", "--format", "own.toml", "--dry"], "own.toml"),
         (&["--from", "udp:4444", "--format", "csv"], "--to"),
-        (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT"),
+        (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT or serial:LINE:BAUD"),
         (&["--from", "nothing.csv", "--dry"], "nothing.csv"),
         (&["--from", "udp:4444", "--format", "csv", "--dry", "--for", "soon"], "a number of seconds"),
     ] {

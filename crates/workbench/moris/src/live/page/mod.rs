@@ -1,0 +1,18 @@
+//! The page: shows the session in a browser, and takes commands and parameters from it.
+//!
+//! - `http` reads requests, bounded, and checks where they come from.
+//! - `shown` is what the loop passes on, and the messages made of it.
+//! - `desk` knows who controls, and checks what is asked.
+//! - `server` answers requests, each on a thread of its own.
+//!
+//! A browser gets messages as server-sent events, and sends orders by POST. A browser that reads
+//! slowly misses messages. The loop waits for nobody: its ring drops what the page does not take.
+
+mod desk;
+mod http;
+mod server;
+mod shown;
+
+pub use desk::{Desk, Order};
+pub use server::{Server, Start};
+pub use shown::{EVERY, Shown};

@@ -1,0 +1,143 @@
+//! What the loop shows to the page, and the messages made of it.
+
+use std::collections::VecDeque;
+use std::fmt::Write;
+
+use moris_live::frame::Values;
+use moris_live::source::Health;
+use moris_live::{Session, State};
+use moris_ride::lamps;
+
+use crate::live::lateness::{Classes, Lateness};
+
+/// Steps between what is shown.
+pub const EVERY: u64 = 10;
+/// Lines of the journal that a message has.
+const LINES: usize = 8;
+
+/// Names of the numbers in a row, in order.
+pub const NAMES: [&str; 32] = [
+    "time",
+    "desired_x",
+    "desired_y",
+    "desired_z",
+    "wx",
+    "wy",
+    "wz",
+    "roll",
+    "pitch",
+    "yaw",
+    "speed",
+    "felt_x",
+    "felt_y",
+    "felt_z",
+    "platform_x",
+    "platform_y",
+    "platform_z",
+    "platform_roll",
+    "platform_pitch",
+    "platform_yaw",
+    "leg1",
+    "leg2",
+    "leg3",
+    "leg4",
+    "leg5",
+    "leg6",
+    "tilt",
+    "soft",
+    "safety",
+    "stroke",
+    "leg_speed",
+    "leg_acceleration",
+];
+
+/// A moment of the session.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    numbers: [f64; NAMES.len()],
+    state: State,
+    health: Health,
+    delay: f64,
+    late: Classes,
+}
+
+impl Shown {
+    /// The session now.
+    pub fn of(session: &Session, lateness: &Lateness) -> Self {
+        let Values { time, length, pose, force, .. } = Values::from(session.commands());
+        let lamps = lamps::lit(session.washout()).map(f64::from);
+        let mut parts = [time].into_iter().chain(session.passed().0.iter().copied());
+        let mut rest = force.into_iter().chain(pose).chain(length).chain(lamps);
+        Shown {
+            numbers: std::array::from_fn(|_| parts.next().or_else(|| rest.next()).unwrap_or_default()),
+            state: session.state(),
+            health: session.source().health(),
+            delay: session.delay(),
+            late: lateness.classes(),
+        }
+    }
+
+    /// The state.
+    pub fn state(&self) -> State {
+        self.state
+    }
+}
+
+/// The message of some moments, as JSON in one line. `changed` is an object of parameters.
+pub fn message(moments: &[Shown], lines: &VecDeque<String>, changed: &str) -> Option<String> {
+    let last = moments.last()?;
+    let mut text = String::from("{\"rows\":[");
+    for (place, moment) in moments.iter().enumerate() {
+        text.push_str(if place == 0 { "[" } else { ",[" });
+        for (place, number) in moment.numbers.iter().enumerate() {
+            let comma = if place == 0 { "" } else { "," };
+            // Writing to a string cannot fail. A number that is none is not JSON's.
+            let _ = if number.is_finite() { write!(text, "{comma}{number:.5}") } else { write!(text, "{comma}0") };
+        }
+        text.push(']');
+    }
+    let lines: Vec<&String> = lines.iter().rev().take(LINES).collect();
+    let lines = serde_json::to_string(&lines).unwrap_or_default();
+    let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
+    let late = serde_json::to_string(&last.late).unwrap_or_default();
+    let _ = write!(
+        text,
+        "],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"lines\":{lines},\"changed\":{changed}}}"
+    );
+    Some(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_live::Settings;
+    use moris_washout::Parameters;
+
+    use super::*;
+
+    #[test]
+    fn a_message_is_json_with_a_number_for_each_name() {
+        let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+        session.step();
+        let moment = Shown::of(&session, &Lateness::default());
+        let lines = VecDeque::from(["said \"so\"\n".to_owned()]);
+        let text = message(&[moment, moment], &lines, "{\"tilt.angleLimit\":0.3}").unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let row: Vec<f64> = serde_json::from_value(value["rows"][1].clone()).unwrap();
+        let of = |name: &str| row[NAMES.iter().position(|known| *known == name).unwrap()];
+        assert_eq!(row.len(), NAMES.len());
+        let commands = session.commands();
+        assert_eq!((of("time"), of("desired_z")), (0.001, 9.80665));
+        for (name, expected) in [
+            ("felt_z", commands.washout.felt_specific_force.z),
+            ("platform_z", commands.washout.position.z),
+            ("leg6", commands.length[5]),
+            ("leg_acceleration", 0.0),
+        ] {
+            assert!((of(name) - expected).abs() <= 5e-6, "{name}");
+        }
+        assert_eq!(value["lines"][0], "said \"so\"\n");
+        assert_eq!((&value["state"], &value["health"]), (&"off".into(), &"waiting".into()));
+        assert!(!text.contains('\n'));
+        assert!(message(&[], &lines, "{}").is_none());
+    }
+}

@@ -1,0 +1,55 @@
+//! A controller on a serial line: the other end of a pseudo-terminal.
+
+use std::fs::File;
+use std::io::Read;
+use std::thread;
+
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+
+use crate::rig::{Live, free_port};
+
+/// Frames of AMC-AASD15A, and a stop string of its own.
+const TEMPLATE: &str = "name = 'amc'\nabout = ''\nnote = ''\ninterval = 0.002\nstop = \"'STOP' 0A\"\n\
+    frame = 'FF FF leg1:u16 leg2:u16 leg3:u16 leg4:u16 leg5:u16 leg6:u16 00 00 00 00 0A 0D'";
+
+#[test]
+fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("amc.toml"), TEMPLATE).unwrap();
+    let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    grantpt(&master).unwrap();
+    unlockpt(&master).unwrap();
+    let line = ptsname(&master, Vec::new()).unwrap().into_string().unwrap();
+    let controller = thread::spawn(move || {
+        let mut master = File::from(master);
+        let mut bytes = Vec::new();
+        let mut part = [0; 4096];
+        while !bytes.ends_with(b"STOP\n") {
+            let count = master.read(&mut part).unwrap();
+            bytes.extend(&part[..count]);
+        }
+        bytes
+    });
+    let to = format!("serial:{line}:250000");
+    let arguments = ["--format", "csv", "--frames", "amc.toml"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.command("start");
+    live.wait_for("homing");
+    live.interrupt();
+    live.wait_for("off");
+    let (status, printed, _) = live.end();
+    assert!(status.success() && printed.contains("sent, 0 not"), "{printed}");
+    let bytes = controller.join().unwrap();
+    let frames = bytes.strip_suffix(b"STOP\n").unwrap().chunks(20);
+    let positions: Vec<u16> = frames
+        .map(|frame| {
+            assert!(frame.starts_with(&[0xFF, 0xFF]) && frame.ends_with(&[0, 0, 0, 0, 0x0A, 0x0D]), "{frame:?}");
+            u16::from_be_bytes([frame[2], frame[3]])
+        })
+        .collect();
+    // On the way up it turns round, and rests at 2 % of the stroke.
+    assert!(positions.len() > 100);
+    let last = &positions[positions.len() - 3..];
+    assert!(last.iter().all(|position| (1_300..2_100).contains(position)), "{last:?}");
+}

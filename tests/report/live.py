@@ -1,0 +1,156 @@
+"""What the page of `moris live` does, with a computed drive as its source. Run by run.py:
+
+    live.py BROWSER PAGES PICTURES MORIS...
+"""
+
+import csv
+import socket
+import subprocess
+import sys
+import threading
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, run_all
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "examples"))
+from vehicle import line  # noqa: E402
+
+
+
+def drive(port, ended):
+    """The drive of examples/vehicle.py, at 60 Hz."""
+    vehicle = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    k = 0
+    while not ended.wait(1 / 60):
+        vehicle.sendto(line(k / 60).encode(), ("127.0.0.1", port))
+        k += 1
+
+
+@contextmanager
+def live(*options):
+    """The command with its source; yields the page's address."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [*MORIS, "live", "--from", f"udp:{port}", "--format", "csv", "--dry", "--page", *options]
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    ended = threading.Event()
+    try:
+        address = next(said.removeprefix("page: ").strip() for said in process.stderr if said.startswith("page: "))
+        threading.Thread(target=process.stderr.read, daemon=True).start()
+        threading.Thread(target=drive, args=(port, ended), daemon=True).start()
+        yield address
+    finally:
+        ended.set()
+        process.stdin.write("stop\n")
+        process.terminate()
+        process.wait()
+
+
+@contextmanager
+def opened(browser, address, **options):
+    """The page, running; fails if it says anything on the console or asks another place."""
+    context = browser.new_context(**{"viewport": LAPTOP, "accept_downloads": True} | options)
+    page = context.new_page()
+    said, asked = [], []
+    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
+    page.on("pageerror", lambda error: said.append(f"error: {error}"))
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto(address)
+    page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
+    wait(page, "now.view !== null")
+    yield page
+    context.close()
+    # A command that is refused is an answer that the browser tells of.
+    said = [text for text in said if "422" not in text]
+    assert not said, said
+    own = address.split("?")[0]
+    assert all(url.startswith((own, "data:", "blob:")) for url in asked), asked
+
+
+def wait(page, condition):
+    """The page forbids texts as scripts, so the polling is done here."""
+    end = time.monotonic() + 60
+    while not page.evaluate(f"(({{now, strips, sliders}}) => {condition})(simulationLive)"):
+        assert time.monotonic() < end, condition
+        page.wait_for_timeout(50)
+
+
+def picture(page, selector):
+    return page.evaluate(f"document.querySelector('{selector}').toDataURL()")
+
+
+@check
+def buttons_and_keys_command_and_everything_moves(browser):
+    with live() as address, opened(browser, address) as page:
+        assert page.locator("#state").inner_text() == "off"
+        page.locator("[data-event=start]").click()
+        wait(page, "now.state === 'neutral'")
+        page.keyboard.press("e")
+        wait(page, "now.state === 'engaging' || now.state === 'engaged'")
+        before = {selector: picture(page, selector) for selector in ("#view", "#surge", "#sway")}
+        page.keyboard.press("r")
+        wait(page, "now.state === 'engaged'")
+        wait(page, "Math.max(...strips.surge.points.map((one) => Math.abs(one[2]))) > 0.3")
+        for selector, old in before.items():
+            assert picture(page, selector) != old, selector
+        wait(page, "document.getElementById('journal').textContent.includes('engaged')")
+        assert page.locator("#late tbody tr").count() > 0
+        with page.expect_download() as download:
+            page.keyboard.press("r")
+        file = PAGES / "live.csv"
+        download.value.save_as(file)
+        page.screenshot(path=PICTURES / "live-desktop.png", full_page=True)
+        page.keyboard.press("p")
+        wait(page, "now.state === 'parking'")
+        page.keyboard.press("Escape")
+        wait(page, "now.state === 'off'")
+    with open(file, newline="") as recorded:
+        rows = [[float(value) for value in row] for row in list(csv.reader(recorded))[1:]]
+    steps = [later[0] - earlier[0] for earlier, later in zip(rows, rows[1:])]
+    assert len(rows) > 100 and all(abs(step - 0.01) < 1e-6 for step in steps), max(steps)
+    out = subprocess.run([*MORIS, "simulate", file, "--no-bound", "--report", PAGES], capture_output=True, text=True)
+    assert out.returncode in (0, 3), out.stderr
+
+
+@check
+def sliders_change_parameters_and_say_what_cannot_be(browser):
+    with live() as address, opened(browser, address) as page:
+        field = page.locator("[id='parameter-tilt.angleLimit']")
+        field.fill("0.2")
+        field.press("Enter")
+        wait(page, "sliders.values[sliders.slots.get('tilt.angleLimit')] === 0.2")
+        page.locator("#parameter-strategy").select_option(label="optimal")
+        wait(page, "sliders.strategy === 'optimal'")
+        page.locator("[data-event=start]").click()
+        wait(page, "now.state === 'homing'")
+        page.locator("#parameter-strategy").select_option(label="classical")
+        wait(page, "sliders.message.textContent !== '' && sliders.strategy === 'optimal'")
+
+
+@check
+def a_second_page_looks_only(browser):
+    with live() as address, opened(browser, address) as first, opened(browser, address) as second:
+        assert "controls" in first.locator("#role").inner_text() and "looks only" in second.locator("#role").inner_text()
+        assert second.locator("[data-event=start]").is_disabled()
+        second.keyboard.press("s")
+        first.keyboard.press("s")
+        wait(second, "now.state === 'homing'")
+
+
+@check
+def everything_has_a_name_and_fits_a_phone(browser):
+    with live("--engage") as address, opened(browser, address, viewport=PHONE, color_scheme="dark") as page:
+        page.screenshot(path=PICTURES / "live-phone-dark.png", full_page=True)
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= PHONE["width"], wide
+        nameless = page.evaluate("""[...document.querySelectorAll('button, input, select, canvas')].filter((one) =>
+            !(one.getAttribute('aria-label') || one.textContent.trim() || [...(one.labels || [])].some((label) => label.textContent.trim()))).map((one) => one.outerHTML)""")
+        assert not nameless, nameless
+
+
+if __name__ == "__main__":
+    run_all("the page of moris live")
