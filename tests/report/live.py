@@ -19,7 +19,6 @@ sys.path.insert(0, str(HERE.parents[1] / "examples"))
 from vehicle import line  # noqa: E402
 
 
-
 def drive(port, ended):
     """The drive of examples/vehicle.py, at 60 Hz."""
     vehicle = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
