@@ -12,7 +12,7 @@ from conftest import ROOT
 
 FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
 MAP = ROOT / "examples" / "motorcycle-map.toml"
-CARGO = ["cargo", "run", "--quiet", "--package", "moris", "--"]
+CARGO = ["cargo", "run", "--quiet", "--bin", "moris", "--"]
 
 
 @pytest.mark.parametrize("version", ["fmu", "fmi3.fmu"])
@@ -22,9 +22,12 @@ def test_the_motorcycle_drives_once_the_platform_engages(version):
     # It ends by itself, so that no test waits for ever.
     command += ["--frames", "json", "--dry", "--engage", "--for", "60"]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
-    said = [next(process.stderr)]
-    while not said[-1].rstrip().endswith("engaging"):
-        said.append(next(process.stderr))
+    said = []
+    for text in process.stderr:
+        said.append(text)
+        if text.rstrip().endswith("engaging"):
+            break
+    assert said and said[-1].rstrip().endswith("engaging"), said
     time.sleep(3)
     # A second interrupt ends at once.
     for _ in range(2):
