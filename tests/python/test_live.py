@@ -17,8 +17,8 @@ CARGO = ["cargo", "run", "--quiet", "--bin", "moris", "--"]
 
 @pytest.mark.parametrize("version", ["fmu", "fmi3.fmu"])
 def test_the_motorcycle_drives_once_the_platform_engages(version):
-    command = [os.environ["MORIS"]] if "MORIS" in os.environ else CARGO
-    command += ["live", "--from", f"fmu:{FMUS / f'Motorcycle.{version}'}", "--map", MAP]
+    moris = [os.environ["MORIS"]] if "MORIS" in os.environ else CARGO
+    command = [*moris, "live", "--from", f"fmu:{FMUS / f'Motorcycle.{version}'}", "--map", MAP]
     # It ends by itself, so that no test waits for ever.
     command += ["--frames", "json", "--dry", "--engage", "--for", "60"]
     process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
