@@ -8,15 +8,16 @@ import socket
 import subprocess
 import sys
 import threading
-import time
 from contextlib import contextmanager
 from pathlib import Path
 
-from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, run_all
+from runner import MORIS, PAGES, PHONE, PICTURES, check, picture, run_all, waiter, watched_at
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "examples"))
 from vehicle import line  # noqa: E402
+
+wait = waiter("simulationLive", "now, strips, sliders")
 
 
 def drive(port, ended):
@@ -52,34 +53,11 @@ def live(*options):
 @contextmanager
 def opened(browser, address, **options):
     """The page, running; fails if it says anything on the console or asks another place."""
-    context = browser.new_context(**{"viewport": LAPTOP, "accept_downloads": True} | options)
-    page = context.new_page()
-    said, asked = [], []
-    page.on("console", lambda message: said.append(f"{message.type}: {message.text}"))
-    page.on("pageerror", lambda error: said.append(f"error: {error}"))
-    page.on("request", lambda request: asked.append(request.url))
-    page.goto(address)
-    page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
-    wait(page, "now.view !== null")
-    yield page
-    context.close()
-    # A command that is refused is an answer that the browser tells of.
-    said = [text for text in said if "422" not in text]
-    assert not said, said
     own = address.split("?")[0]
-    assert all(url.startswith((own, "data:", "blob:")) for url in asked), asked
-
-
-def wait(page, condition):
-    """The page forbids texts as scripts, so the polling is done here."""
-    end = time.monotonic() + 60
-    while not page.evaluate(f"(({{now, strips, sliders}}) => {condition})(simulationLive)"):
-        assert time.monotonic() < end, condition
-        page.wait_for_timeout(50)
-
-
-def picture(page, selector):
-    return page.evaluate(f"document.querySelector('{selector}').toDataURL()")
+    # A command that is refused is an answer that the browser tells of.
+    with watched_at(browser, address, lambda url: url.startswith(own), expected="422", **options) as page:
+        wait(page, "now.view !== null")
+        yield page
 
 
 @check

@@ -2,12 +2,13 @@
 
 import json
 import subprocess
-import time
 from contextlib import contextmanager
 
-from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, check_everywhere, run_all, watched
+from runner import LAPTOP, MORIS, PAGES, PHONE, PICTURES, check, check_everywhere, picture, run_all, waiter, watched
 
 PAGE = PAGES / "by-hand.html"
+
+wait = waiter("simulationRide", "now")
 
 # A player who keeps nine tenths of the advised speed until a condition holds, in steps of 20 ms; pictures are drawn at its
 # end, and now and then. The page's own clock is held.
@@ -45,19 +46,6 @@ def view(page, name):
 
 def ride(page, until, stick=0, most=30):
     assert page.evaluate(f"ride((view) => {until}, {stick}, {most})"), until
-
-
-def wait(page, condition):
-    """The page forbids texts as scripts, so the polling is done here."""
-    end = time.monotonic() + 60
-    while not page.evaluate(f"(({{now}}) => {condition})(simulationRide)"):
-        assert time.monotonic() < end, condition
-        page.wait_for_timeout(50)
-
-
-def picture(page, selector):
-    """All pixels of a canvas as one text."""
-    return page.evaluate(f"document.querySelector('{selector}').toDataURL()")
 
 
 @check

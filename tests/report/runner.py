@@ -9,6 +9,7 @@ The environment variable CHECKS chooses those with a text in their names.
 
 import os
 import sys
+import time
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -33,9 +34,15 @@ def check_everywhere(function):
     return function
 
 
-@contextmanager
 def watched(browser, file, *, quiet=True, **options):
-    """A page from its file, drawn; fails if it says anything on the console or asks for anything but itself."""
+    """A page from its file: see `watched_at`."""
+    address = file.as_uri()
+    return watched_at(browser, address, lambda url: url == address, quiet=quiet, **options)
+
+
+@contextmanager
+def watched_at(browser, address, is_own, *, quiet=True, expected=None, **options):
+    """A page, drawn; fails if it says anything unexpected on the console or asks for anything but its own."""
     context = browser.new_context(**{"viewport": LAPTOP} | options)
     page = context.new_page()
     said, asked = [], []
@@ -43,15 +50,34 @@ def watched(browser, file, *, quiet=True, **options):
     page.on("pageerror", lambda error: said.append(f"error: {error}"))
     page.on("dialog", lambda dialog: (said.append(f"dialog: {dialog.message}"), dialog.dismiss()))
     page.on("request", lambda request: asked.append(request.url))
-    page.goto(file.as_uri())
+    page.goto(address)
     if options.get("java_script_enabled", True):
         page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
     yield page
     context.close()
+    said = [text for text in said if expected is None or expected not in text]
     if quiet:
-        assert not said, f"{file.name} says {said}"
-    beyond = [url for url in asked if url != file.as_uri() and not url.startswith(("data:", "blob:"))]
-    assert not beyond, f"{file.name} asks for {beyond}"
+        assert not said, f"{address} says {said}"
+    beyond = [url for url in asked if not is_own(url) and not url.startswith(("data:", "blob:"))]
+    assert not beyond, f"{address} asks for {beyond}"
+
+
+def waiter(shown, names):
+    """A function that waits for a condition on these names of what a page shows to its checks."""
+
+    def wait(page, condition):
+        """The page forbids texts as scripts, so the polling is done here."""
+        end = time.monotonic() + 60
+        while not page.evaluate(f"(({{{names}}}) => {condition})({shown})"):
+            assert time.monotonic() < end, condition
+            page.wait_for_timeout(50)
+
+    return wait
+
+
+def picture(page, selector):
+    """All pixels of a canvas as one text."""
+    return page.evaluate(f"document.querySelector('{selector}').toDataURL()")
 
 
 def launched(playwright):

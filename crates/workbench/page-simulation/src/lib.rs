@@ -46,7 +46,7 @@ struct Answer {
     charts: Vec<ChartHead>,
 }
 
-/// What `moris rig check` says, but for the size of the workspace.
+/// Findings of `moris rig check`, but for the size of the workspace.
 #[derive(Serialize)]
 struct Verdict {
     is_sound: bool,

@@ -1,4 +1,4 @@
-//! What a rig can do: each axis alone, singularities, and the clearance of its legs.
+//! Capabilities of a rig: each axis alone, singularities, and the clearance of its legs.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use moris_washout::{ParameterError, Parameters, Rig, check, warnings};
 
 use crate::clearance::Clearance;
 
-/// What a rig can do.
+/// Capabilities of a rig.
 #[derive(Clone, Debug)]
 pub struct Capabilities {
     /// The washout's parameters on it.

@@ -80,7 +80,8 @@ pub fn solve<const N: usize, const U: usize, const E: usize>(
     let mut solver = Solver::at_rest(program);
     for _ in 0..MOST_ITERATIONS {
         let products = solver.sum_of_products();
-        if products <= solver.tolerance() && solver.gap() <= solver.tolerance() {
+        let tolerance = solver.tolerance();
+        if products <= tolerance && solver.gap() <= tolerance {
             return Ok(solver.solution);
         }
         let uncentred = solver.uncentred_step();

@@ -187,7 +187,7 @@ pub struct Sent {
     pub passage: Lateness,
 }
 
-/// What the device is sent for a message.
+/// Bytes to the device for a message.
 #[derive(Clone, Debug)]
 pub enum Device {
     /// A template, filled in.

@@ -15,7 +15,7 @@ use crate::text_table::TextTable;
 pub struct Survey {
     /// Name.
     pub name: String,
-    /// What it can do.
+    /// Its capabilities.
     pub capabilities: Capabilities,
     /// Where it can go.
     pub workspace: Workspace,

@@ -19,7 +19,7 @@ const INTERVAL: Duration = Duration::from_millis(40);
 /// Most lines of the journal that are kept.
 const MOST_LINES: usize = 50;
 
-/// What the loop is asked for.
+/// An order to the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
     /// A command.
@@ -30,7 +30,7 @@ pub enum Order {
     Retune,
 }
 
-/// What a browser asks for.
+/// An order of a browser.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "snake_case")]
 enum Ask {
@@ -73,7 +73,7 @@ struct Inner {
     ended: bool,
 }
 
-/// What a browser is told first.
+/// The first message to a browser.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Welcome {
     client: String,

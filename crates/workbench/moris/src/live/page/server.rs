@@ -25,7 +25,7 @@ const MOST: usize = 16;
 /// Time between looks for a new connection.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// What the page has from its start on.
+/// Data of the page from its start on.
 #[derive(Clone, Debug, Serialize)]
 pub struct Start {
     rig: Rig,
@@ -58,7 +58,7 @@ pub struct Server {
     site: Arc<Site>,
 }
 
-/// What all connections share.
+/// Data of all connections.
 struct Site {
     page: String,
     access: Access,
