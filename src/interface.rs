@@ -445,9 +445,9 @@ interface! {
     /// The predictive strategy, for surge and sway together.
     pub struct PredictiveParameters: Parameter, Tunable {
         /// Weight of travel at its limit; a dropped force of 1 m/s2 has the weight 1.
-        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 1e-3;
+        "predictive.weightPosition" weight_position: f64 { 1e-9 ..= 1e6 } = 4e-3;
         /// Weight of the travel's velocity at its limit.
-        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.3;
+        "predictive.weightVelocity" weight_velocity: f64 { 1e-9 ..= 1e6 } = 0.6;
         /// Weight of the tilt rate at its limit.
         "predictive.weightTiltRate" weight_tilt_rate: f64 { 1e-9 ..= 1e6 } = 1.9e-3;
         /// Weight of the tilt acceleration at its limit.

@@ -157,10 +157,8 @@ pub const PREDICTIVE: &[(&str, f64)] = &unscaled(StrategyKind::Predictive);
 /// wider, since what comes after is known.
 pub const PREVIEW: &[(&str, f64)] = &joined::<{ PREDICTIVE.len() + FARTHER.len() }>(PREDICTIVE, FARTHER);
 
-/// The limits of force and tilt that a preview allows, and a lower weight: the end of a movement is
-/// foreseen.
+/// The limits of force and tilt that a preview allows, since what comes after is known.
 const FARTHER: &[(&str, f64)] = &[
-    ("predictive.weightVelocity", 0.026),
     ("limit.specificForce.x", 10.0),
     ("limit.specificForce.y", 10.0),
     ("tilt.angleLimit", 0.38),

@@ -95,8 +95,13 @@ struct PreviousStep {
     felt: Felt,
 }
 
-/// Time over which the cue fades in or out when the washout is engaged or disengaged \[s\].
-pub const ENGAGE_TIME: f64 = 4.0;
+/// Least and longest time over which the cue fades in or out when the washout is engaged or
+/// disengaged \[s\].
+const FADE_TIME: [f64; 2] = [4.0, 10.0];
+
+/// Change of the cue's horizontal force per second above which it fades more slowly \[m/s3\]: what
+/// tilt at 3 degrees a second takes over. A faster fade would take the stroke.
+const FADE_SLOPE: f64 = 0.5;
 
 /// Time for which the soft limits act once the input rests \[s\]. A filter that they hold does not
 /// unwind, and may push against them for ever. Without them it returns in its time constants.
@@ -167,11 +172,11 @@ impl Washout {
     pub fn preview(&mut self, preview: &Preview) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let Sample { input, head, .. } = &self.last;
+        let engagement = self.engagement();
         if let Some(law) = self.strategy.previewed() {
             law.preview(&Course::of(preview, |[surge, sway]| {
                 let force = Vector3::new(surge, sway, input.specific_force.z);
-                let cue =
-                    engagement(self.engaging) * cue_force(force, input, conditioning, structure.gravity, head.lean);
+                let cue = engagement * cue_force(force, input, conditioning, structure.gravity, head.lean);
                 [cue.x, cue.y]
             }));
         }
@@ -286,7 +291,7 @@ impl Washout {
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
         let beside_tilt = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // Disengaged, the platform does not make up for the rider's lean either.
-        let lean = head_at_end.lean * engagement(self.engaging);
+        let lean = head_at_end.lean * self.engagement();
         let circumstances = Circumstances {
             parameters: &self.parameters,
             guard: &self.guard,
@@ -294,7 +299,7 @@ impl Washout {
             force: cue_end.force,
             angles: &beside_tilt,
             lean,
-            engagement: engagement(self.engaging),
+            engagement: self.engagement(),
             time_to_stop: self.preaction.time_left(),
         };
         self.strategy.advance_tilt([force_start, force_end], &rotation_at_end, &circumstances, step);
@@ -371,9 +376,9 @@ impl Washout {
     /// The cue at the step's start and end as the channels receive it: filtered, and faded while
     /// the washout is being engaged or disengaged.
     fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
-        let before = engagement(self.engaging);
-        self.engaging = engaging_after(self.engaging, engaged, step);
-        let (start, end) = (start.scaled(before), end.scaled(engagement(self.engaging)));
+        let before = self.engagement();
+        self.engaging = engaging_after(self.engaging, engaged, &end.force, step);
+        let (start, end) = (start.scaled(before), end.scaled(self.engagement()));
         self.input_filter.advance(start, end, &self.parameters.conditioning, step)
     }
 
@@ -381,7 +386,7 @@ impl Washout {
     fn preact(&mut self, start: &mut Cue, end: &mut Cue, input: &Input, step: f64) {
         let Parameters { conditioning, tilt, safety, structure, .. } = &self.parameters;
         if structure.preaction == Preaction::On {
-            let acceleration = engagement(self.engaging) * forward_acceleration(input, conditioning, structure.gravity);
+            let acceleration = self.engagement() * forward_acceleration(input, conditioning, structure.gravity);
             let braking = [end.force.x, acceleration, input.speed];
             self.preaction.advance(braking, structure.gravity, tilt, safety, step);
             if self.strategy.takes_preaction() {
@@ -389,6 +394,12 @@ impl Washout {
                 end.force.x = self.preaction.tilted_force(end.force.x);
             }
         }
+    }
+
+    /// Fraction of the cue in force: 1 engaged, 0 disengaged, between while it fades.
+    pub fn engagement(&self) -> f64 {
+        // Without a kink at either end.
+        self.engaging * self.engaging * (3.0 - 2.0 * self.engaging)
     }
 
     /// Changes the tunable parameters. Position, velocity, angles and rates of the platform stay
@@ -404,7 +415,7 @@ impl Washout {
         self.parameters = *parameters;
         self.soft_limits = SoftLimits::new(parameters, self.strategy.largest_heave());
         self.last = Sample::new(self.last.input, parameters);
-        let now = self.input_filter.output(self.last.cue.scaled(engagement(self.engaging)), &parameters.conditioning);
+        let now = self.input_filter.output(self.last.cue.scaled(self.engagement()), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;
         self.direct_linear.retune(&parameters.splitter, order, force_before, force_after);
@@ -499,13 +510,14 @@ impl Washout {
     }
 }
 
-/// Fraction of the cue in force. It goes without a kink from 0, disengaged, to 1, engaged.
-fn engagement(engaging: f64) -> f64 {
-    engaging * engaging * (3.0 - 2.0 * engaging)
-}
-
-/// The fraction of the time to engage after `step` seconds on the way to `engaged`.
-fn engaging_after(engaging: f64, engaged: bool, step: f64) -> f64 {
-    let change = step / ENGAGE_TIME;
-    if engaged { min(engaging + change, 1.0) } else { max(engaging - change, 0.0) }
+/// The fraction of the time to engage after `step` seconds on the way to `engaged`, under a cue
+/// with this force.
+fn engaging_after(engaging: f64, engaged: bool, force: &Vector3<f64>, step: f64) -> f64 {
+    let end = f64::from(engaged);
+    if engaging == end {
+        return end;
+    }
+    let [least, longest] = FADE_TIME;
+    let change = step / (force.xy().norm() / FADE_SLOPE).clamp(least, longest);
+    if engaged { min(engaging + change, end) } else { max(engaging - change, end) }
 }

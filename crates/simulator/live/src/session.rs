@@ -2,7 +2,7 @@
 
 use moris_interface::{Group, Reader, Writer, slots_of};
 use moris_washout::interface::{AngularVelocityFrame, Output};
-use moris_washout::{ENGAGE_TIME, ParameterError, Parameters, Washout};
+use moris_washout::{ParameterError, Parameters, Washout};
 use serde::{Deserialize, Serialize};
 
 use crate::gate::{Change, Gate};
@@ -99,8 +99,6 @@ pub struct Session {
     steps: u64,
     /// Step at which the state began.
     since: u64,
-    /// Last step at which the washout was engaged.
-    engaged: Option<u64>,
     source: Source,
     resampler: Resampler,
     signs: Signs,
@@ -144,7 +142,6 @@ impl Session {
             state: State::Off,
             steps: 0,
             since: 0,
-            engaged: None,
             source: Source::default(),
             resampler: Resampler::default(),
             signs: Signs::default(),
@@ -304,9 +301,6 @@ impl Session {
         let (at, change) = self.input(now);
         let [start, end] = self.gate.advance(&at.motion, &at.slope, change, STEP);
         let engaged = self.state.is_engaged();
-        if engaged {
-            self.engaged = Some(self.steps);
-        }
         self.washout.step_between(&start.input(engaged), &end.input(engaged), STEP);
         let output = self.washout.output();
         self.travel.advance(self.goes_up, self.travel_rate, STEP);
@@ -334,15 +328,14 @@ impl Session {
 
     /// The transition that follows if the state's own motion is complete.
     fn arrive(&mut self, output: &Output) {
-        let fade = (ENGAGE_TIME / STEP) as u64;
-        let faded = self.engaged.is_none_or(|step| self.steps - step >= fade);
+        let faded = self.washout.engagement() == 0.0;
         let [distance, speed] = AT_NEUTRAL.map(|part| part * self.stroke);
         let near =
             |k: usize| (output.length[k] - self.neutral[k]).abs() < distance && output.leg_velocity[k].abs() < speed;
         let at_neutral = (0..6).all(near);
         let arrived = match self.state {
             State::Homing => at_neutral && self.travel.is_up(),
-            State::Engaging => self.steps - self.since >= fade && self.gate.is_open(),
+            State::Engaging => self.washout.engagement() == 1.0 && self.gate.is_open(),
             State::Disengaging => faded && at_neutral,
             State::Parking => {
                 self.goes_up &= !(faded && at_neutral);

@@ -3,7 +3,7 @@
 use moris_interface::{Model, ParameterError};
 use moris_motorcycle::{Course as Path, Input as Controls, Motorcycle, Parameters as MotorcycleParameters};
 use moris_washout::interface::AngularVelocityFrame;
-use moris_washout::{ENGAGE_TIME, Input, Parameters, Washout};
+use moris_washout::{Input, Parameters, Washout};
 
 use crate::course::{Course, Place};
 use crate::lamps;
@@ -229,7 +229,7 @@ impl Ride {
     /// Puts the next washout in place at neutral. It fades in, or begins with a ride at rest.
     fn exchange_washout(&mut self) {
         let at_rest = matches!(self.stage, Stage::Ready | Stage::Returning);
-        let has_faded = self.disengaged >= ENGAGE_TIME || self.stage == Stage::Ready;
+        let has_faded = self.washout.engagement() == 0.0 || self.stage == Stage::Ready;
         if self.next.is_none() || !(has_faded && self.is_neutral() || self.disengaged > PATIENCE) {
             return;
         }

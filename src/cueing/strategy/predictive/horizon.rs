@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::motion::min_max::min;
+
 /// Number of blocks.
 pub const BLOCKS: usize = 8;
 /// Time between two samples of the reference, and between two plans \[s\].
@@ -47,6 +49,17 @@ impl Horizon {
         // Half a microsecond stands above the rounding of a sum of steps.
         self.ends().iter().position(|&end| age < end - 5e-7)
     }
+}
+
+/// Time in a plan from which its reserves at the ends of stroke and travel are kept \[s\].
+const RESERVE_TIME: f64 = 0.2;
+
+/// The part of a reserve that a plan keeps after `time` seconds.
+///
+/// It grows from none: what the plan before did not see takes some of the reserve. To give that
+/// back at once would jolt.
+pub fn reserved(time: f64) -> f64 {
+    min(time / RESERVE_TIME, 1.0)
 }
 
 /// Number of samples from now to the end of each block of the near horizon.

@@ -24,7 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use self::dual_active_set::{DualActiveSet, Rows, Status};
 use self::forecast::{Forecaster, Memory, Tables};
-use self::horizon::{BLOCKS, Horizon, SAMPLE};
+use self::horizon::{BLOCKS, Horizon, SAMPLE, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
 use self::preview::Course;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
@@ -292,11 +292,17 @@ impl Predictive {
 
     /// Sets the rows of the actuators, in halves of the stroke.
     fn limit_legs(&mut self, surroundings: &Surroundings) {
-        let [min, max] = surroundings.planned_stroke();
-        let scale = 2.0 / (max - min);
+        let planned = surroundings.planned_stroke();
+        let scale = 2.0 / (planned[1] - planned[0]);
+        let ends = self.horizon.ends();
         let program = self.programs.over(self.horizon);
         // After a change of horizon the plan's nodes are at other times: the rows are less exact for once.
         for (node, legs) in leg_rows(surroundings, &self.plan.nodes, self.horizon).iter().enumerate() {
+            let part = reserved(ends[node]);
+            let [min, max] = [0, 1].map(|end: usize| {
+                let stroke = surroundings.stroke[end];
+                stroke + part * (planned[end] - stroke)
+            });
             for (leg, row) in legs.iter().enumerate() {
                 let mut free = row.offset;
                 let number = 2 * AXIS_ROWS + 6 * node + leg;

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dual_active_set::Rows;
 use super::expected::Forecast;
-use super::horizon::{BLOCKS, Horizon};
+use super::horizon::{BLOCKS, Horizon, reserved};
 use crate::cueing::strategy::AxisState;
 use crate::cueing::strategy::regulator::{AxisModel, Regulator, Weights};
 
@@ -68,6 +68,8 @@ pub const CHORD: f64 = 0.985;
 const LEAST_TILT_ACCELERATION_WEIGHT: f64 = 1e-5;
 /// Weight of the dropped force's slope, relative to that of the dropped force \[s2\].
 const SLOPE_WEIGHT: f64 = 6e-2;
+/// Weights of position and velocity over the far horizon, relative to those over the near one.
+const FORESEEN: [f64; 2] = [0.25, 0.043];
 /// Time in which the tilt's acceleration goes from one block's value to the next \[s\].
 pub const RAMP: f64 = 0.04;
 /// Weight of the slope of the tilt's acceleration, relative to that of the dropped force, with the
@@ -143,6 +145,16 @@ impl Program {
     }
 }
 
+/// The weights over a horizon. Travel is dear because something unforeseen may need it. Over the far
+/// horizon the force is known, and travel is cheap.
+fn over_horizon(weights: &Weights, horizon: Horizon) -> Weights {
+    let [position, velocity] = match horizon {
+        Horizon::Near => [1.0; 2],
+        Horizon::Far => FORESEEN,
+    };
+    Weights { position: position * weights.position, velocity: velocity * weights.velocity, ..*weights }
+}
+
 /// One axis of the program.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AxisProgram {
@@ -159,6 +171,7 @@ pub struct AxisProgram {
 impl AxisProgram {
     /// The program of an axis. None if there is no regulator for these weights.
     pub fn new(model: &AxisModel, weights: &Weights, horizon: Horizon) -> Option<Self> {
+        let weights = &over_horizon(weights, horizon);
         let regulator = Regulator::new(model, weights)?;
         let from_data = responses(model, horizon, |data: &Data| (*data, AxisControls::zeros()));
         let from_controls = responses(model, horizon, |controls: &AxisControls| (Data::zeros(), *controls));
@@ -243,11 +256,12 @@ impl AxisProgram {
     /// The values of the axis's rows.
     pub fn rows(&self, nodes: &Nodes, controls: &AxisControls) -> SVector<f64, AXIS_ROWS> {
         let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = self.model;
-        let position = 1.0 / (POSITION_FRACTION * position_limit);
+        let position = |time| 1.0 / (position_limit * (1.0 - reserved(time) * (1.0 - POSITION_FRACTION)));
+        let (ends, durations) = (self.horizon.ends(), self.horizon.durations());
         let tilt_limits = self.model.tilt_limits();
         let mut rows = SVector::zeros();
         for node in 0..BLOCKS {
-            rows[4 * node] = position * nodes[4 * node];
+            rows[4 * node] = position(ends[node]) * nodes[4 * node];
             rows[4 * node + 1] = nodes[4 * node + 1] / (VELOCITY_FRACTION * velocity_limit);
             let alpha = self.model.acceleration_limit * controls[BLOCKS + node];
             let [tilt, tilt_rate] = tilt_limits.approached(nodes[4 * node + 2], nodes[4 * node + 3], alpha);
@@ -256,12 +270,13 @@ impl AxisProgram {
             rows[4 * BLOCKS + node] = controls[BLOCKS + node];
             if node + 1 < BLOCKS {
                 let alpha = self.model.acceleration_limit * controls[BLOCKS + node + 1];
-                rows[5 * BLOCKS + node] = position * self.middle(nodes, node + 1, alpha);
+                let middle = ends[node] + 0.5 * durations[node + 1];
+                rows[5 * BLOCKS + node] = position(middle) * self.middle(nodes, node + 1, alpha);
             }
         }
         let end = nodes.fixed_rows::<4>(4 * (BLOCKS - 1));
         let tilt_stopping_time = 0.5 * rate_limit / acceleration_limit;
-        rows[AXIS_ROWS - 2] = position * (end[0] + STOPPING_TIME * end[1]);
+        rows[AXIS_ROWS - 2] = position(ends[BLOCKS - 1]) * (end[0] + STOPPING_TIME * end[1]);
         rows[AXIS_ROWS - 1] = (end[2] + tilt_stopping_time * end[3]) / angle_limit;
         rows
     }
