@@ -13,20 +13,20 @@ impl Input {
         self.map2(end, |from, to| from + fraction * (to - from))
     }
 
-    /// The start of a linear change to `end`, if this input came before it: this input, with its
-    /// angles shifted by whole turns to be nearest to the end's.
+    /// The start of a linear change to `end`, if this input came before it and is not the start
+    /// itself: this input, with its angles shifted by whole turns to be nearest to the end's.
     ///
     /// An angle that still changes by more than a quarter turn has not been turned through: at a
     /// pitch of 90 degrees, roll and yaw jump. The orientation is then that of the end.
-    pub fn ramp_start(&self, end: &Input) -> Input {
+    pub fn ramp_start(&self, end: &Input) -> Option<Input> {
         let (before, after) = (self.orientation.to_vector(), end.orientation.to_vector());
         let change = after - before;
         if change.amax() <= FRAC_PI_2 {
-            return *self;
+            return None;
         }
         let nearest = after - change.map(|angle| angle - TAU * (angle / TAU).round());
         let orientation = if (after - nearest).amax() <= FRAC_PI_2 { nearest } else { after };
-        Input { orientation: RollPitchYaw::from_vector(orientation), ..*self }
+        Some(Input { orientation: RollPitchYaw::from_vector(orientation), ..*self })
     }
 
     fn map2(&self, other: &Input, f: impl Fn(f64, f64) -> f64) -> Input {

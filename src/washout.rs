@@ -213,8 +213,7 @@ impl Washout {
     /// A step in which the input goes linearly from the last one to `end`.
     fn ramp_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let end = end.sanitized();
-        let start = self.last.input.ramp_start(&end);
-        if start.orientation != self.last.input.orientation {
+        if let Some(start) = self.last.input.ramp_start(&end) {
             self.last = Sample::new(start, &self.parameters);
         }
         self.last.input.engaged = end.engaged;

@@ -112,9 +112,11 @@ const KNEE: f64 = 0.8;
 /// limit without a corner.
 pub fn soft_limit(value: f64, limit: f64) -> f64 {
     let knee = KNEE * limit;
+    if value.abs() <= knee {
+        return value;
+    }
     let room = limit - knee;
-    let beyond = value.abs() - knee;
-    if beyond <= 0.0 { value } else { (knee + room * libm::tanh(beyond / room)).copysign(value) }
+    (knee + room * libm::tanh((value.abs() - knee) / room)).copysign(value)
 }
 
 /// The optional low-passes: of first order on the whole cue, and of second order on its rates.

@@ -9,7 +9,7 @@
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
-use wide::f64x4;
+use wide::{f64x2, f64x4};
 
 /// The coefficients c1..c4 of D(s); those beyond the order are zero.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,12 +93,33 @@ impl Chains {
         if step != self.step {
             self.prepare(step);
         }
+        // States beyond the order are zero.
+        if self.denominators.iter().all(|denominator| denominator.order == 2) {
+            return self.advance_second_order(start, end);
+        }
         for k in 0..3 {
             let [x1, x2, x3, x4] = self.states[k].to_array();
             let [a, b, c, d, u, v] = self.transitions[k];
             let state = (a * x1 + b * x2) + (c * x3 + d * x4) + (u * start[k] + v * end[k]);
             let at_rest = state.abs().simd_lt(REST);
             self.states[k] = !at_rest & state;
+        }
+    }
+
+    /// The same for chains of order 2.
+    #[inline(always)]
+    fn advance_second_order(&mut self, start: Vector3<f64>, end: Vector3<f64>) {
+        let first_two = |lanes: &f64x4| {
+            let [first, second, ..] = lanes.to_array();
+            f64x2::new([first, second])
+        };
+        for k in 0..3 {
+            let [x1, x2, ..] = self.states[k].to_array();
+            let [a, b, .., u, v] = self.transitions[k].each_ref().map(first_two);
+            let state = (a * x1 + b * x2) + (u * start[k] + v * end[k]);
+            let at_rest = state.abs().simd_lt(first_two(&REST));
+            let [x1, x2] = (!at_rest & state).to_array();
+            self.states[k] = f64x4::new([x1, x2, 0.0, 0.0]);
         }
     }
 

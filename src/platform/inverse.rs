@@ -3,12 +3,22 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Geometry, PlatformMotion, Pose};
+use crate::motion::min_max::{max, min};
 
 /// The six legs: length \[m\] and rate \[m/s\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Legs {
     pub length: [f64; 6],
     pub velocity: [f64; 6],
+}
+
+impl Legs {
+    /// The least and the greatest length \[m\], of lengths that are numbers.
+    #[inline(always)]
+    pub fn extremes(&self) -> [f64; 2] {
+        let [a, b, c, d, e, f] = self.length;
+        [min(min(min(a, c), e), min(min(b, d), f)), max(max(max(a, c), e), max(max(b, d), f))]
+    }
 }
 
 /// A leg shorter than this has no direction; no rig that is accepted comes near it \[m\].

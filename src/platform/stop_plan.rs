@@ -48,6 +48,14 @@ impl StopPlan {
         StopPlan { start: *start, durations, elapsed: 0.0 }
     }
 
+    /// Replaces the plan by [`StopPlan::new`], in place.
+    #[inline(always)]
+    pub fn restart(&mut self, start: &PlatformCoordinates, durations: StopDurations) {
+        self.start = *start;
+        self.durations = durations;
+        self.elapsed = 0.0;
+    }
+
     /// Rest.
     pub fn rest() -> Self {
         StopPlan::new(&PlatformCoordinates::default(), StopDurations::common(0.0))

@@ -18,12 +18,11 @@ mod tests;
 
 use nalgebra::{SMatrix, Vector3};
 use serde::{Deserialize, Serialize};
-use wide::f64x4;
+use wide::f64x2;
 
 use self::nearest::{Accelerations, ROWS, RowValues, Rows, Sides, nearest};
 use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
-use crate::motion::lanes::lanes;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
 use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, jacobian, leg_accelerations};
@@ -36,9 +35,9 @@ pub struct SoftLimits {
     pace: f64,
     axis_ends: [Ends; 3],
     leg_ends: Ends,
-    /// The same of the three axes, the last one twice, and of four legs.
-    axes: FourEnds,
-    legs: FourEnds,
+    /// The same of surge and sway, of heave twice, and of two legs.
+    axes: [TwoEnds; 2],
+    legs: TwoEnds,
     /// The rows that acted in the last step.
     sides: Sides,
 }
@@ -85,35 +84,35 @@ impl Ends {
     }
 }
 
-/// The ends of four quantities side by side, about the middle of their ranges.
+/// The ends of two quantities side by side, as [`Ends::range`] has them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct FourEnds {
-    middle: f64x4,
-    half: f64x4,
-    velocity: f64x4,
-    acceleration: f64x4,
+struct TwoEnds {
+    middle: f64x2,
+    /// Half the range of position, times the pace squared.
+    by_position: f64x2,
+    /// The limit of velocity, times its pace.
+    by_velocity: f64x2,
+    acceleration: f64x2,
 }
 
-impl FourEnds {
-    fn of(ends: [Ends; 4]) -> Self {
-        let four = |value: fn(&Ends) -> f64| f64x4::new(ends.each_ref().map(value));
-        FourEnds {
-            middle: four(|ends| 0.5 * (ends.min + ends.max)),
-            half: four(|ends| 0.5 * (ends.max - ends.min)),
-            velocity: four(|ends| ends.velocity),
-            acceleration: four(|ends| ends.acceleration),
+impl TwoEnds {
+    fn of(ends: [Ends; 2], pace: f64) -> Self {
+        let two = |value: &dyn Fn(&Ends) -> f64| f64x2::new(ends.each_ref().map(value));
+        TwoEnds {
+            middle: two(&|ends| 0.5 * (ends.min + ends.max)),
+            by_position: two(&|ends| pace * pace * 0.5 * (ends.max - ends.min)),
+            by_velocity: two(&|ends| VELOCITY_PACE * ends.velocity),
+            acceleration: two(&|ends| ends.acceleration),
         }
     }
 
-    /// True if velocities that change by so much in a step are within [`Ends::range`].
+    /// In each lane, whether this acceleration is within [`Ends::range`].
     #[inline(always)]
-    fn keep(&self, position: f64x4, velocity: f64x4, change: f64x4, pace: f64, step: f64) -> bool {
-        let (damped, drawn, slowed) = (2.0 * pace * step, pace * pace * step, VELOCITY_PACE * step);
-        let mut keep =
-            (self.half * drawn).simd_ge((change + velocity * damped + (position - self.middle) * drawn).abs());
-        keep &= (self.velocity * slowed).simd_ge((change + velocity * slowed).abs());
-        keep &= (self.acceleration * step).simd_ge(change.abs());
-        keep.to_bitmask() == 0b1111
+    fn keep(&self, position: f64x2, velocity: f64x2, acceleration: f64x2, pace: f64) -> f64x2 {
+        let drawn = velocity * (2.0 * pace) + (position - self.middle) * (pace * pace);
+        self.by_position.simd_ge((acceleration + drawn).abs())
+            & self.by_velocity.simd_ge((acceleration + velocity * VELOCITY_PACE).abs())
+            & self.acceleration.simd_ge(acceleration.abs())
     }
 }
 
@@ -134,8 +133,8 @@ impl SoftLimits {
             pace: soft_limit.pace,
             axis_ends: axes,
             leg_ends: leg,
-            axes: FourEnds::of([axes[0], axes[1], axes[2], axes[2]]),
-            legs: FourEnds::of([leg; 4]),
+            axes: [[axes[0], axes[1]], [axes[2]; 2]].map(|ends| TwoEnds::of(ends, soft_limit.pace)),
+            legs: TwoEnds::of([leg; 2], soft_limit.pace),
             sides: Sides::default(),
         }
     }
@@ -172,17 +171,21 @@ impl SoftLimits {
     /// True if the mean accelerations of axes and legs over the step are within their ranges.
     #[inline(always)]
     fn keeps(&self, demand: &PlatformCoordinates, legs: &Legs, state: &State, step: f64) -> bool {
-        let (axes, before) = (&demand.linear.velocity, &state.coordinates.linear);
-        let change = lanes(axes) - lanes(&before.velocity);
-        let mut keeps = self.axes.keep(lanes(&before.position), lanes(&before.velocity), change, self.pace, step);
-        // The six legs, of which the middle two are in both fours.
-        let four = |values: &[f64; 6], from: usize| f64x4::new(std::array::from_fn(|i| values[from + i]));
-        for from in [0, 2] {
-            let velocity = four(&state.legs.velocity, from);
-            let change = four(&legs.velocity, from) - velocity;
-            keeps &= self.legs.keep(four(&state.legs.length, from), velocity, change, self.pace, step);
-        }
-        keeps
+        let per_step = 1.0 / step;
+        let (after, before) = (&demand.linear.velocity, &state.coordinates.linear);
+        let two = |values: &[f64], [i, j]: [usize; 2]| f64x2::new([values[i], values[j]]);
+        let axes = |k: usize, pair: [usize; 2]| {
+            let velocity = two(before.velocity.as_slice(), pair);
+            let acceleration = (two(after.as_slice(), pair) - velocity) * per_step;
+            self.axes[k].keep(two(before.position.as_slice(), pair), velocity, acceleration, self.pace)
+        };
+        let of_legs = |pair: [usize; 2]| {
+            let velocity = two(&state.legs.velocity, pair);
+            let acceleration = (two(&legs.velocity, pair) - velocity) * per_step;
+            self.legs.keep(two(&state.legs.length, pair), velocity, acceleration, self.pace)
+        };
+        let keeps = axes(0, [0, 1]) & axes(1, [2, 2]) & of_legs([0, 1]) & of_legs([2, 3]) & of_legs([4, 5]);
+        keeps.to_bitmask() == 0b11
     }
 
     #[cold]

@@ -60,23 +60,22 @@ impl Machine {
         let time = 0.5 * duration + step;
         let reach = fastest * time;
 
-        let mut keeps = curvature <= (1.0 - STOP_FRACTION) * self.limits.acceleration;
-        keeps &= curvature + steady <= self.limits.acceleration;
-        keeps &= fastest <= self.limits.velocity;
-        for length in to.legs.length {
-            keeps &= length - reach >= self.limits.min;
-            keeps &= length + reach <= self.limits.max;
-        }
-        for k in 0..3 {
+        let [least, greatest] = to.legs.extremes();
+        let legs_keep = curvature <= (1.0 - STOP_FRACTION) * self.limits.acceleration
+            && curvature + steady <= self.limits.acceleration
+            && fastest <= self.limits.velocity
+            && least - reach >= self.limits.min
+            && greatest + reach <= self.limits.max;
+        let axis_keeps = |k: usize| {
             let most = safety.acceleration_limit[k];
             let ends = max(next.linear.velocity[k].abs(), now.linear.velocity[k].abs());
             let fastest = ends + per_step * gap[k].abs();
-            keeps &= change[k].abs() * per_step + bend * gap[k].abs() <= most;
-            keeps &= next.linear.acceleration[k].abs() <= most;
-            keeps &= fastest <= safety.velocity_limit[k];
-            keeps &= next.linear.position[k].abs() + fastest * time <= safety.position_limit[k];
-        }
-        if keeps { Some(duration) } else { None }
+            change[k].abs() * per_step + bend * gap[k].abs() <= most
+                && next.linear.acceleration[k].abs() <= most
+                && fastest <= safety.velocity_limit[k]
+                && next.linear.position[k].abs() + fastest * time <= safety.position_limit[k]
+        };
+        (legs_keep && (0..3).all(axis_keeps)).then_some(duration)
     }
 
     /// A certified stop plan from the candidate, if the transition to it is certified as well.

@@ -58,12 +58,8 @@ impl Machine {
         let sag = (joint * joint + (longest + joint) * turning) * per_two_lengths;
         let lowest = self.limits.min + travel + max(sag - below, 0.0);
         let highest = self.limits.max - travel - max(0.5 * turning - above, 0.0);
-        let mut sees = true;
-        for length in to.legs.length {
-            sees &= length >= lowest;
-            sees &= length <= highest;
-        }
-        sees
+        let [least, greatest] = to.legs.extremes();
+        least >= lowest && greatest <= highest
     }
 
     /// True if the way home from rest in these coordinates is certified.

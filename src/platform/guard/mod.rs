@@ -28,7 +28,7 @@ use super::stop_plan::{StopDurations, StopPlan};
 use super::{Geometry, Legs, PlatformCoordinates, PlatformMotion, Pose, inverse_kinematics, leg_accelerations};
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::braking_law::{Limits, REJOIN_DISTANCE, WITH_ROUNDING};
-use crate::motion::min_max::{max, min};
+use crate::motion::min_max::min;
 
 /// The guard with the motion that the platform is commanded, and with its legs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -126,7 +126,8 @@ impl ActuatorGuard {
             && let Some(duration) = self.machine.certify_by_bounds(self.state(), candidate, safety, step)
             && self.machine.sees_home_by_bounds(candidate, duration)
         {
-            self.accept(candidate, StopPlan::new(demand, StopDurations::common(duration)));
+            self.move_to(candidate);
+            self.plan.restart(demand, StopDurations::common(duration));
         } else {
             self.advance_in_doubt(candidate, safety, resting, step);
         }
@@ -217,10 +218,15 @@ impl ActuatorGuard {
     /// Commits a state from which this plan is certified, or which lies on it.
     #[inline(always)]
     fn accept(&mut self, state: Candidate, plan: StopPlan) {
+        self.move_to(state);
+        self.plan = plan;
+    }
+
+    #[inline(always)]
+    fn move_to(&mut self, state: Candidate) {
         self.motion = *state.motion;
         self.legs = *state.legs;
         self.speed = Speed::of(state.coordinates);
-        self.plan = plan;
     }
 
     #[inline(always)]
@@ -277,9 +283,8 @@ impl ActuatorGuard {
     /// The smallest distance of a leg from either end of its stroke \[m\].
     pub fn stroke_margin(&self) -> f64 {
         let [shortest, longest] = self.stroke;
-        let least = self.legs.length.into_iter().fold(f64::INFINITY, |least, length| min(length, least));
-        let most = self.legs.length.into_iter().fold(f64::NEG_INFINITY, |most, length| max(length, most));
-        min(least - shortest, longest - most)
+        let [least, greatest] = self.legs.extremes();
+        min(least - shortest, longest - greatest)
     }
 
     /// The time derivative of [`ActuatorGuard::stroke_margin`] \[m/s\].

@@ -145,8 +145,8 @@ impl Program {
     }
 }
 
-/// The weights over a horizon. Travel is dear because something unforeseen may need it. Over the far
-/// horizon the force is known, and travel is cheap.
+/// The weights over a horizon. Travel is dear because something unforeseen may need it. Over the
+/// far horizon the force is known, and travel is cheap.
 fn over_horizon(weights: &Weights, horizon: Horizon) -> Weights {
     let [position, velocity] = match horizon {
         Horizon::Near => [1.0; 2],
