@@ -13,8 +13,8 @@ impl Input {
         self.map2(end, |from, to| from + fraction * (to - from))
     }
 
-    /// The start of a linear change to `end`, if this input came before it and is not the start
-    /// itself: this input, with its angles shifted by whole turns to be nearest to the end's.
+    /// The start of a linear change to `end`, if this input came before it: this input, with its
+    /// angles shifted by whole turns to be nearest to the end's. None if no angle is shifted.
     ///
     /// An angle that still changes by more than a quarter turn has not been turned through: at a
     /// pitch of 90 degrees, roll and yaw jump. The orientation is then that of the end.

@@ -456,9 +456,12 @@ mod tests {
     /// regulator's cost to come.
     fn cost(axis: &AxisProgram, state: &AxisState, forecast: &Forecast, controls: &AxisControls) -> f64 {
         let model = &axis.model;
+        let [position, velocity] = if axis.horizon == Horizon::Far { [0.25, 0.043] } else { [1.0; 2] };
+        let weights =
+            Weights { position: position * WEIGHTS.position, velocity: velocity * WEIGHTS.velocity, ..WEIGHTS };
         let running = |state: &[f64]| {
-            WEIGHTS.position * (state[0] / model.position_limit).powi(2)
-                + WEIGHTS.velocity * (state[1] / model.velocity_limit).powi(2)
+            weights.position * (state[0] / model.position_limit).powi(2)
+                + weights.velocity * (state[1] / model.velocity_limit).powi(2)
                 + WEIGHTS.tilt_rate * (state[3] / model.rate_limit).powi(2)
         };
         let nodes = axis.nodes(&axis.free_nodes(&axis.data(state, DROPPED_BEFORE, forecast)), controls);
@@ -484,7 +487,7 @@ mod tests {
         }
         before.extend(forecast.end);
         let end = SVector::<f64, 6>::from_column_slice(&before);
-        let to_come = Regulator::new(model, &WEIGHTS).unwrap().cost;
+        let to_come = Regulator::new(model, &weights).unwrap().cost;
         0.5 * (cost + end.dot(&(to_come * end)))
     }
 
@@ -522,18 +525,22 @@ mod tests {
     fn rows_are_motions_relative_to_their_limits() {
         for (program, model) in program(Horizon::Near).axes.iter().zip(MODELS) {
             let AxisModel { position_limit, velocity_limit, angle_limit, rate_limit, acceleration_limit, .. } = model;
-            let farthest = 0.435 / 0.45 * position_limit;
+            // The reserve grows over 0.2 s, in which there are three nodes and two middles.
+            let farthest = |part: f64| (1.0 - part * 0.015 / 0.45) * position_limit;
+            let at_nodes = [0.2, 0.5, 1.0].into_iter().chain(std::iter::repeat(1.0));
+            let in_middles = [0.35, 0.75].into_iter().chain(std::iter::repeat(1.0));
             let controls = AxisControls::from_fn(|k, _| 0.01 * k as f64);
             // Each node 10 % farther than the one before.
             let state = |node: usize| [0.1, 0.2, -0.03, 0.004].map(|start| start * 1.1_f64.powi(node as i32));
             let nodes = Nodes::from_fn(|k, _| state(k / 4)[k % 4]);
             let rows = program.rows(&nodes, &controls);
             let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}, {expected}");
-            for node in 0..BLOCKS {
+            for ((node, at_node), in_middle) in (0..BLOCKS).zip(at_nodes).zip(in_middles) {
                 let [x, v, q, w] = state(node);
                 let tilting = acceleration_limit * 0.01 * (BLOCKS + node) as f64;
                 let [q, w] = program.model.tilt_limits().approached(q, w, tilting);
-                let expected = [x / farthest, v / (0.95 * velocity_limit), q / angle_limit, w / (0.999 * rate_limit)];
+                let expected =
+                    [x / farthest(at_node), v / (0.95 * velocity_limit), q / angle_limit, w / (0.999 * rate_limit)];
                 for (k, expected) in expected.into_iter().enumerate() {
                     close(rows[4 * node + k], expected);
                 }
@@ -544,11 +551,11 @@ mod tests {
                     let alpha = acceleration_limit * 0.01 * (BLOCKS + node + 1) as f64;
                     let gravity = CHORD * model.gravity;
                     let middle = 0.5 * (x + next_x) + t / 8.0 * (v - next_v) - gravity * alpha * t.powi(4) / 384.0;
-                    close(rows[5 * BLOCKS + node], middle / farthest);
+                    close(rows[5 * BLOCKS + node], middle / farthest(in_middle));
                 }
             }
             let [x, v, q, w] = state(BLOCKS - 1);
-            close(rows[6 * BLOCKS - 1], (x + 0.3 * v) / farthest);
+            close(rows[6 * BLOCKS - 1], (x + 0.3 * v) / farthest(1.0));
             // The distance to a stop at the limits' rate is rate^2/(2 acceleration).
             close(rows[6 * BLOCKS], (q + w * rate_limit / (2.0 * acceleration_limit)) / angle_limit);
         }
