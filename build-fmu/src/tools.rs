@@ -67,12 +67,34 @@ pub fn mingw(platform: Platform) -> Result<(), Error> {
 /// # Errors
 /// It is missing.
 pub fn standard_library(platform: Platform) -> Result<(), Error> {
-    let directory: PathBuf = workspace::sysroot()?.join("lib/rustlib").join(platform.target()).join("lib");
-    if directory.is_dir() {
+    if has_standard_library(platform.target())? {
         return Ok(());
     }
     let install = format!("rustup target add {}", platform.target());
     Err(Error::Missing { platform, what: "Rust's standard library for it", install })
+}
+
+fn has_standard_library(target: &str) -> Result<bool, Error> {
+    let directory: PathBuf = workspace::sysroot()?.join("lib/rustlib").join(target).join("lib");
+    Ok(directory.is_dir())
+}
+
+/// Rust's standard library for WebAssembly, and wasm2c of this version. Those of other versions
+/// make code for another runtime.
+///
+/// # Errors
+/// The first that is missing.
+pub fn wasm2c(target: &str, version: &str) -> Result<(), Error> {
+    if !has_standard_library(target)? {
+        let install = format!("rustup target add {target}");
+        return Err(Error::MissingForSources { what: "Rust's standard library for WebAssembly".to_owned(), install });
+    }
+    let asked = Command::new("wasm2c").arg("--version").stderr(Stdio::null()).output();
+    if asked.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).trim() == version) {
+        return Ok(());
+    }
+    let install = "apt-get install wabt (Debian 12), or from https://github.com/WebAssembly/wabt/releases".to_owned();
+    Err(Error::MissingForSources { what: format!("wasm2c {version} of WABT"), install })
 }
 
 /// Where cargo-zigbuild looks for zig.
