@@ -46,6 +46,9 @@ const CHANGES: &[(&str, &str)] = &[
     ("wasm_rt_grow_memory(memory, ", "wasm_rt_grow_memory(&instance->w2c_memory, "),
     ("memory_copy(memory, &instance->w2c_memory, ", "WASM_RT_COPY(memory, "),
     ("memory_fill(memory, ", "WASM_RT_FILL(memory, "),
+    // C's functions do with NaN what WebAssembly's do.
+    ("= wasm_fabs(", "= fabs("),
+    ("= wasm_sqrt(", "= sqrt("),
 ];
 
 impl Sources {
