@@ -103,6 +103,11 @@ fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), E
     if plan.linker == Linker::Lld {
         command.env("SDKROOT", macos_stub::development_kit(plan.platform)?);
     }
+    if plan.linker == Linker::Mingw && cfg!(unix) {
+        // By a variable: a flag would be part of the names of symbols.
+        command.env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tools::mingw_linker()?);
+        command.env("MORIS_TARGET_DIRECTORY", workspace::target_directory());
+    }
     let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
     if status.success() { Ok(()) } else { Err(Error::Compile { platform: plan.platform }) }
 }

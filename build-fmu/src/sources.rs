@@ -1,8 +1,8 @@
 //! A model in C99, for tools that compile FMUs themselves.
 //!
 //! The model's library is compiled to WebAssembly, with the functions of FMI as its exports. wasm2c
-//! turns that into C. The files in `build-fmu/c` are the rest: a runtime, and the functions of FMI that
-//! copy arguments into the module's memory and back.
+//! turns that into C. The files in `build-fmu/c` are the rest: a runtime, and the functions of FMI
+//! that copy arguments into the module's memory and back.
 
 use std::ops::Range;
 use std::path::Path;
@@ -31,8 +31,8 @@ pub struct Sources {
 
 /// Changes of wasm2c's code: each text, and what stands in its place. Each is there at least once.
 ///
-/// The memory of a module stays where it is, so that a function reads its address once. Otherwise the
-/// compiler would have to read it anew after each store, and a step would take twice the time.
+/// The memory of a module stays where it is, so that a function reads its address once. Otherwise
+/// the compiler would have to read it anew after each store, and a step would take twice the time.
 const CHANGES: &[(&str, &str)] = &[
     // Not in C99, and not used.
     ("#include <alloca.h>\n", ""),

@@ -1,10 +1,13 @@
 //! The tools that compiling for another platform needs: a check that they are
 //! there, and how to get them.
 
+use std::fs;
+#[cfg(unix)]
+use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use crate::{Error, Platform, workspace};
+use crate::{Error, Platform, workspace, write_whole};
 
 /// cargo-zigbuild and zig, which link against the glibc of our choice and for other machines.
 ///
@@ -60,6 +63,24 @@ pub fn mingw(platform: Platform) -> Result<(), Error> {
     }
     let install = "apt-get install gcc-mingw-w64-x86-64 (Debian, Ubuntu), brew install mingw-w64 (macOS)".to_owned();
     Err(Error::Missing { platform, what: "x86_64-w64-mingw32-gcc", install })
+}
+
+/// A script in the target directory that calls GCC for Windows, so that its result does not depend
+/// on the place of this directory.
+///
+/// # Errors
+/// It cannot be written.
+pub fn mingw_linker() -> Result<PathBuf, Error> {
+    let file = workspace::target_directory().join("mingw_linker.sh");
+    let write = || {
+        write_whole(&file, include_bytes!("mingw_linker.sh"))?;
+        #[cfg(unix)]
+        fs::set_permissions(&file, PermissionsExt::from_mode(0o755))
+            .map_err(|reason| Error::Write { file: file.clone(), reason })?;
+        Ok(file.clone())
+    };
+    // Another build may be running it.
+    if fs::read(&file).is_ok_and(|script| script == include_bytes!("mingw_linker.sh")) { Ok(file) } else { write() }
 }
 
 /// Rust's standard library for the platform.
