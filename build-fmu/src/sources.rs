@@ -177,19 +177,25 @@ mod tests {
 
     use super::*;
     use crate::model::WASHOUT;
+    use crate::{Base, Platform, archive, base, contents};
 
-    /// A module whose data is in two pieces: the second is nothing but the place of start values.
-    fn sources() -> Sources {
+    /// The place of start values, which will do for a library.
+    fn place() -> Vec<u8> {
         let slots = WASHOUT.functions.identity.slots.len();
         let head = [b"moris-start-here".to_vec(), 1_u64.to_le_bytes().to_vec(), (slots as u64).to_le_bytes().to_vec()];
         let mut place = [head.concat(), vec![0xff; 8 * (slots + 1)]].concat();
         embed(&mut place, slots, &[]).unwrap();
+        place
+    }
+
+    /// A module whose data is in two pieces: the second is nothing but the place of start values.
+    fn sources() -> Sources {
         let list = |bytes: &[u8]| bytes.iter().map(|byte| format!("0x{byte:02x}, ")).collect::<String>();
         let code = format!(
             "static const u8 data_segment_data_w2c_d0[] = {{\n  {}}};\nx = 0xfe;\n\
              static const u8 data_segment_data_w2c_d1[] = {{\n  {}}};\ny = 0xab;\n",
             list(&[1, 2, 3]),
-            list(&place)
+            list(&place())
         );
         Sources { declarations: String::new(), code }
     }
@@ -206,6 +212,27 @@ mod tests {
         assert!(sources.code.contains("  0x01, 0x02, 0x03, };\nx = 0xfe;\n") && sources.code.ends_with("y = 0xab;\n"));
         sources.embed(&WASHOUT, &Start::own(&WASHOUT)).unwrap();
         assert_eq!(sources.code, own);
+    }
+
+    #[test]
+    fn sources_of_a_base_start_as_its_libraries() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("with-sources.fmu");
+        let (own, fmi) = (Start::own(&WASHOUT), FmiVersion::Fmi2);
+        let start = Start::with(&WASHOUT, &vec![("gravity".to_owned(), 9.8)]).unwrap();
+        let libraries = || vec![(Platform::Linux64, place())];
+        let packed = base::pack(&WASHOUT, &own, fmi, libraries(), Some(sources())).unwrap();
+        fs::write(&file, &packed).unwrap();
+        // Opening the result shows that library, sources and description agree.
+        fs::write(&file, Base::open(&file).unwrap().pack(&start).unwrap()).unwrap();
+        assert!(Base::open(&file).unwrap().pack(&own).unwrap() == packed);
+
+        let mut others = sources();
+        others.embed(&WASHOUT, &start).unwrap();
+        let mixed = contents::contents(&WASHOUT, &own, fmi, libraries(), Some(&others));
+        fs::write(&file, archive::pack(&mixed).unwrap()).unwrap();
+        let refused = Base::open(&file).err().unwrap().to_string();
+        assert!(refused.contains("different start values"), "{refused}");
     }
 
     #[test]
