@@ -8,6 +8,7 @@ Each part can be made on a machine of its own; notes and checksums come last.
 
 import argparse
 import hashlib
+import json
 import os
 import platform
 import re
@@ -19,6 +20,8 @@ import venv
 import zipfile
 from pathlib import Path
 
+from sbom import bill_of_materials
+
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAM = ".exe" if os.name == "nt" else ""
 MATURIN = "maturin>=1.9,<2"
@@ -26,6 +29,13 @@ FMPY = "fmpy==0.3.32"
 # Packages that others can use without this repository. The rest reads files of the workspace, or is a tool of it.
 CRATES = ["moris-interface", "moris-washout", "moris-fmi", "moris-measures", "moris-motorcycle", "moris-stewart-platform", "moris-live"]
 CHECKSUMS = "SHA256SUMS"
+CYCLONEDX = "cyclonedx-python-lib[json-validation]==11.12.0"
+VALIDATION = """
+import pathlib, sys
+from cyclonedx.schema import SchemaVersion
+from cyclonedx.validation.json import JsonStrictValidator
+sys.exit(JsonStrictValidator(SchemaVersion.V1_5).validate_str(pathlib.Path(sys.argv[1]).read_text()))
+"""
 
 
 def run(*command, cwd=ROOT, **options):
@@ -112,6 +122,19 @@ def crates(options):
         shutil.copy(ROOT / "target" / "package" / f"{crate}-{version()}.crate", options.output)
 
 
+def sbom(options):
+    """the bill of materials: every package that is compiled into what is released"""
+    libraries = [f"moris-{folder.name}" for folder in sorted((ROOT / "crates" / "fmus").iterdir())]
+    # moris compiles its page's simulation by its build script.
+    released = [*CRATES, *libraries, "moris", "moris-page-simulation", "moris-python"]
+    bill = bill_of_materials("moris", version(), released)
+    file = options.output / f"moris-{version()}.cdx.json"
+    file.write_text(json.dumps(bill, indent=1) + "\n", encoding="utf-8", newline="\n")
+    with tempfile.TemporaryDirectory() as folder:
+        python = environment(Path(folder) / "venv", CYCLONEDX)
+        run(python, "-c", VALIDATION, file, cwd=folder)
+
+
 def notes(options):
     """the version's section of CHANGELOG.md, or what is unreleased"""
     sections = re.split(r"^## (.+)$\n", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), flags=re.MULTILINE)[1:]
@@ -128,7 +151,7 @@ def checksums(options):
     (options.output / CHECKSUMS).write_text("".join(lines), encoding="utf-8", newline="\n")
 
 
-PARTS = {part.__name__: part for part in (fmus, systems, program, wheel, crates, notes, checksums)}
+PARTS = {part.__name__: part for part in (fmus, systems, program, wheel, crates, sbom, notes, checksums)}
 
 
 def main():

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Builds the washout's FMUs of the present sources in another directory, and compares them with those of this one byte by byte.
 
-    python3 tests/reproducible.py [--platform PLATFORMS]
+    python3 tests/reproducible.py [--platform PLATFORMS] [--model MODEL]
 
+The platforms are those given, else this machine's and, where its tools are installed, Windows.
 The other directory has another length and a blank in its name, and a target directory of its own for the libraries. The exit
 status is 1 if a file differs. Only files that git tracks are built.
 """
 
 import argparse
+import platform
 import shutil
 import subprocess
 import sys
@@ -16,13 +18,23 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-FMUS = ["MorisWashout.fmu", "MorisWashout.fmi3.fmu"]
+WINDOWS = "x86_64-pc-windows-gnu"
 
 
-def build(sources, output, platforms):
+def default_platforms():
+    """This machine's, and Windows if it can be compiled for; on Linux on x86-64 only."""
+    if (sys.platform, platform.machine()) != ("linux", "x86_64"):
+        return []
+    sysroot = subprocess.run(["rustc", "--print", "sysroot"], check=True, capture_output=True, text=True).stdout.strip()
+    has_windows = shutil.which("x86_64-w64-mingw32-gcc") and Path(sysroot, "lib", "rustlib", WINDOWS).is_dir()
+    print("win64: " + ("compiled, too" if has_windows else "missing (GCC for Windows, or Rust's standard library for it)"))
+    return ["--platform", "linux64,win64"] if has_windows else []
+
+
+def build(sources, output, model, platforms):
     """Builds the FMUs of the sources. The tool is that of this directory: it takes the sources around the working directory."""
     command = ["cargo", "run", "--quiet", "--locked", "--target-dir", ROOT / "target", "--bin", "build-fmu", "--"]
-    command += ["--model", "MorisWashout", "--fmi", "2,3", "--output", output, *platforms]
+    command += ["--model", model, "--fmi", "2,3", "--output", output, *platforms]
     subprocess.run(command, cwd=sources, check=True, stdout=subprocess.DEVNULL)
 
 
@@ -47,16 +59,17 @@ def differences(first, second):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--platform", help="platforms as of cargo build-fmu [default: this machine's]")
-    chosen = parser.parse_args().platform
-    platforms = ["--platform", chosen] if chosen else []
+    parser.add_argument("--platform", help="platforms as of cargo build-fmu")
+    parser.add_argument("--model", default="MorisWashout", help="[default: MorisWashout]")
+    options = parser.parse_args()
+    platforms = ["--platform", options.platform] if options.platform else default_platforms()
     failed = False
     with tempfile.TemporaryDirectory(prefix="another directory ") as folder:
         here, elsewhere, sources = Path(folder) / "here", Path(folder) / "elsewhere", Path(folder) / "sources of it"
         copy_of_sources(sources)
-        build(ROOT, here, platforms)
-        build(sources, elsewhere, platforms)
-        for name in FMUS:
+        build(ROOT, here, options.model, platforms)
+        build(sources, elsewhere, options.model, platforms)
+        for name in (f"{options.model}.fmu", f"{options.model}.fmi3.fmu"):
             found = differences(here / name, elsewhere / name)
             print(f"{name}: {'differs in ' + ', '.join(found) if found else 'the same bytes'}")
             failed |= bool(found)

@@ -132,6 +132,11 @@ def platforms(options):
     run(sys.executable, "tests/platforms/run.py", *passed_on(options, "install", "require"))
 
 
+def sources(options):
+    """the sources in the washout's FMUs, compiled by C compilers"""
+    run(sys.executable, "tests/sources/run.py", *passed_on(options, "require"))
+
+
 def pages(options):
     """the reports in Chromium and Firefox"""
     examples()
@@ -148,7 +153,7 @@ def reproducible(options):
 
 
 DEFAULT = {"fmu": fmu, "rust": rust, "python": python_tests, "package": package, "docs": docs}
-PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "pages": pages, "reproducible": reproducible}
+PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "sources": sources, "pages": pages, "reproducible": reproducible}
 
 
 def processor_time():

@@ -12,13 +12,15 @@ use quick_xml::de::from_str;
 use serde::Deserialize;
 use zip::ZipArchive;
 
-use crate::{Error, FmiVersion, FmuModel, MODELS, Platform, Start, archive, code_signature, contents};
+use crate::{Error, FmiVersion, FmuModel, MODELS, Platform, Sources, Start, archive, code_signature, contents};
 
-/// A model's libraries, by platform, without start values in place of the model's own.
+/// A model's libraries, by platform, and its sources, without start values in
+/// place of the model's own.
 pub struct Base {
     pub model: &'static FmuModel,
     pub fmi: FmiVersion,
     libraries: Vec<(Platform, Vec<u8>)>,
+    sources: Option<Sources>,
 }
 
 /// The attributes of `modelDescription.xml` that tell models and versions apart.
@@ -68,6 +70,7 @@ impl Base {
             Some((platform, files.get(&path)?.clone()))
         };
         let libraries: Vec<(Platform, Vec<u8>)> = Platform::value_variants().iter().filter_map(library).collect();
+        let sources = Sources::of_files(&files);
         let mut starts = Vec::new();
         for (platform, library) in &libraries {
             let overrides = embedded(library, identity.slots.len()).map_err(|error| match error {
@@ -77,13 +80,26 @@ impl Base {
             })?;
             starts.push(Start::of_library(model, overrides));
         }
+        if let Some(sources) = &sources {
+            let overrides = sources.embedded(model).map_err(|error| match error {
+                SectionError::Missing => "has sources without a place for start values".to_owned(),
+                SectionError::Version => other_build(),
+                SectionError::Damaged => "has sources whose start values are damaged".to_owned(),
+            })?;
+            starts.push(Start::of_library(model, overrides));
+        }
         let start = starts.first().ok_or("has no library for a platform that this program knows")?;
         // The description's token follows from the model, its start values and the layout.
         let fmi = versions.into_iter().find(|&fmi| model.token(fmi, start) == root.token).ok_or_else(other_build)?;
         if starts.iter().any(|other| other != start) {
             return Err("has libraries with different start values; it is put together from several FMUs".to_owned());
         }
-        Ok(Base { model, fmi, libraries })
+        Ok(Base { model, fmi, libraries, sources })
+    }
+
+    /// The same with these sources in place of its own.
+    pub fn with_sources(self, sources: Sources) -> Self {
+        Base { sources: Some(sources), ..self }
     }
 
     /// The platforms that the FMU is for.
@@ -96,25 +112,29 @@ impl Base {
     /// # Errors
     /// The archive would be too large.
     pub fn pack(self, start: &Start) -> Result<Vec<u8>, Error> {
-        pack(self.model, start, self.fmi, self.libraries)
+        pack(self.model, start, self.fmi, self.libraries, self.sources)
     }
 }
 
-/// Packs an FMU of these libraries, with start values that replace those in them.
+/// Packs an FMU of these libraries and sources, with start values that replace those in them.
 ///
 /// # Errors
-/// A library has no place for them, or the archive would be too large.
+/// A library or the sources have no place for them, or the archive would be too large.
 pub fn pack(
     model: &FmuModel,
     start: &Start,
     fmi: FmiVersion,
     mut libraries: Vec<(Platform, Vec<u8>)>,
+    mut sources: Option<Sources>,
 ) -> Result<Vec<u8>, Error> {
     for (platform, library) in &mut libraries {
         start.embed(model, library).map_err(|_| Error::NoPlace { platform: *platform })?;
         code_signature::renew(library);
     }
-    archive::pack(&contents::contents(model, start, fmi, libraries))
+    if let Some(sources) = &mut sources {
+        sources.embed(model, start).map_err(|_| Error::Sources { reason: "no place for start values".to_owned() })?;
+    }
+    archive::pack(&contents::contents(model, start, fmi, libraries, sources.as_ref()))
 }
 
 fn unpack(bytes: Vec<u8>) -> zip::result::ZipResult<BTreeMap<String, Vec<u8>>> {

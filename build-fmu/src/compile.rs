@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::fmt;
 use std::fs;
+use std::path::PathBuf;
 use std::process::Command;
 
 use crate::{Error, FmiVersion, FmuModel, Platform, macos_stub, tools, workspace};
@@ -102,6 +103,11 @@ fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), E
     if plan.linker == Linker::Lld {
         command.env("SDKROOT", macos_stub::development_kit(plan.platform)?);
     }
+    if plan.linker == Linker::Mingw && cfg!(unix) {
+        // By a variable: a flag would be part of the names of symbols.
+        command.env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tools::mingw_linker()?);
+        command.env("MORIS_TARGET_DIRECTORY", workspace::target_directory());
+    }
     let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
     if status.success() { Ok(()) } else { Err(Error::Compile { platform: plan.platform }) }
 }
@@ -128,12 +134,7 @@ impl Plan {
     /// symbols but the exported ones, no directory of this machine, no time of day.
     fn rust_flags(&self, library: &str) -> Result<OsString, Error> {
         let mut flags = vec![OsString::from("-Cstrip=symbols")];
-        for (path, name) in workspace::private_paths()? {
-            let mut flag = OsString::from("--remap-path-prefix=");
-            flag.push(path);
-            flag.push(format!("={name}"));
-            flags.push(flag);
-        }
+        flags.extend(path_flags()?);
         match self.linker {
             Linker::Mingw => flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into()),
             Linker::Lld => flags.extend(["-Clinker=rust-lld".into(), "-Clinker-flavor=ld64.lld".into()]),
@@ -146,8 +147,27 @@ impl Plan {
             flags.push(format!("-Clink-arg={through_compiler}-install_name").into());
             flags.push(format!("-Clink-arg={through_compiler}{name}").into());
         }
-        Ok(flags.join(&OsString::from("\u{1f}")))
+        Ok(encoded(&flags))
     }
+}
+
+/// rustc's flags by which a library shows no directory of this machine.
+///
+/// # Errors
+/// rustc cannot be asked.
+pub fn path_flags() -> Result<Vec<OsString>, Error> {
+    let flag = |(path, name): (PathBuf, &str)| {
+        let mut flag = OsString::from("--remap-path-prefix=");
+        flag.push(path);
+        flag.push(format!("={name}"));
+        flag
+    };
+    Ok(workspace::private_paths()?.into_iter().map(flag).collect())
+}
+
+/// Flags in the form of `CARGO_ENCODED_RUSTFLAGS`.
+pub fn encoded(flags: &[OsString]) -> OsString {
+    flags.join(&OsString::from("\u{1f}"))
 }
 
 impl fmt::Display for Plan {

@@ -2,7 +2,7 @@
 
 use crate::archive::Contents;
 use crate::reference::{self, Stimuli};
-use crate::{FmiVersion, FmuModel, Platform, Start, documentation, terminals};
+use crate::{FmiVersion, FmuModel, Platform, Sources, Start, documentation, terminals};
 
 /// Under which licences the FMU and its sources are: the choice is the user's.
 pub const LICENCES: &str = concat!(
@@ -13,14 +13,25 @@ pub const LICENCES: &str = concat!(
     include_str!("../../LICENSE-APACHE"),
 );
 
-/// The files of a model's FMU of a version of FMI with these libraries, which start with these
-/// values.
-pub fn contents(model: &FmuModel, start: &Start, fmi: FmiVersion, libraries: Vec<(Platform, Vec<u8>)>) -> Contents {
+/// The files of a model's FMU of a version of FMI with these libraries and sources, which
+/// start with these values.
+pub fn contents(
+    model: &FmuModel,
+    start: &Start,
+    fmi: FmiVersion,
+    libraries: Vec<(Platform, Vec<u8>)>,
+    sources: Option<&Sources>,
+) -> Contents {
     let mut contents = Contents::new();
     contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());
     contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());
     contents.insert(fmi.icon_file().to_owned(), (model.icon)());
-    contents.insert("modelDescription.xml".to_owned(), model.model_description(fmi, start).into_bytes());
+    let description = match sources {
+        None => model.model_description(fmi, start),
+        Some(_) => model.model_description_with_sources(fmi, start),
+    };
+    contents.insert("modelDescription.xml".to_owned(), description.into_bytes());
+    contents.extend(sources.into_iter().flat_map(|sources| sources.files(model, fmi)));
     contents.insert(terminals::FILE.to_owned(), terminals::xml(model, fmi).into_bytes());
     let input = Stimuli::new(model.reference_input);
     let output = (model.functions.reference_output)(&input, start.slots());

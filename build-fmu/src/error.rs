@@ -14,6 +14,12 @@ pub enum Error {
     /// A tool for the platform is missing.
     #[error("{platform} needs {what}, which is not installed; install it with: {install}")]
     Missing { platform: Platform, what: &'static str, install: String },
+    /// A tool for sources in C is missing.
+    #[error("sources in C need {what}, which is not installed; install it with: {install}")]
+    MissingForSources { what: String, install: String },
+    /// The model could not be turned into sources in C.
+    #[error("the sources in C cannot be made: {reason}")]
+    Sources { reason: String },
     /// A program could not be started.
     #[error("cannot run {program}: {reason}")]
     Run { program: String, reason: io::Error },

@@ -66,7 +66,7 @@ pub fn fmu(
         report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }
-    base::pack(model, start, fmi, libraries)
+    base::pack(model, start, fmi, libraries, None)
 }
 
 /// Writes a file that others never see half written.

@@ -85,7 +85,11 @@ fn check_exports(file: &object::File, functions: &[&str]) -> Result<(), LibraryE
     }
 }
 
-fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), LibraryError> {
+/// Checks that a library mentions none of these directories.
+///
+/// # Errors
+/// The first that it mentions.
+pub fn check_paths(library: &[u8], private_paths: &[(PathBuf, &str)]) -> Result<(), LibraryError> {
     for (path, _) in private_paths {
         let needle = path.as_os_str().as_encoded_bytes();
         if library.windows(needle.len()).any(|window| window == needle) {

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
 use moris_build_fmu::{
-    Error, FmiVersion, FmuModel, MODELS, Platform, Start, StartOptions, build, compile_together, workspace,
+    Base, Error, FmiVersion, FmuModel, MODELS, Platform, Sources, Start, StartOptions, build, compile_together,
+    workspace, write_whole,
 };
 
 /// Builds FMUs: compiles each shared library and packs it with its model description and
@@ -34,6 +35,10 @@ struct Arguments {
     /// Platforms of the FMUs, separated by commas [default: this machine's]
     #[arg(long, value_name = "PLATFORMS", value_delimiter = ',')]
     platform: Vec<Platform>,
+
+    /// Add sources in C, for tools that compile FMUs themselves; needs wasm2c 1.0.32 of WABT
+    #[arg(long)]
+    sources: bool,
 
     #[command(flatten)]
     start: StartOptions,
@@ -73,7 +78,12 @@ fn run(arguments: &Arguments) -> Result<(), Error> {
             }
         }
         let report = |line: &str| println!("{line}");
-        let built = build(model, start, fmi, &arguments.platform, &output, report)?;
+        let mut built = build(model, start, fmi, &arguments.platform, &output, report)?;
+        if arguments.sources {
+            let archive = Base::open(&built.file)?.with_sources(Sources::make(model, fmi)?).pack(start)?;
+            write_whole(&built.file, &archive)?;
+            built.size = archive.len();
+        }
         println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
     }
     Ok(())

@@ -1,10 +1,13 @@
 //! The tools that compiling for another platform needs: a check that they are
 //! there, and how to get them.
 
+use std::fs;
+#[cfg(unix)]
+use std::os::unix::fs::PermissionsExt;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
-use crate::{Error, Platform, workspace};
+use crate::{Error, Platform, workspace, write_whole};
 
 /// cargo-zigbuild and zig, which link against the glibc of our choice and for other machines.
 ///
@@ -62,17 +65,57 @@ pub fn mingw(platform: Platform) -> Result<(), Error> {
     Err(Error::Missing { platform, what: "x86_64-w64-mingw32-gcc", install })
 }
 
+/// A script in the target directory that calls GCC for Windows, so that its result does not depend
+/// on the place of this directory.
+///
+/// # Errors
+/// It cannot be written.
+pub fn mingw_linker() -> Result<PathBuf, Error> {
+    let file = workspace::target_directory().join("mingw_linker.sh");
+    let write = || {
+        write_whole(&file, include_bytes!("mingw_linker.sh"))?;
+        #[cfg(unix)]
+        fs::set_permissions(&file, PermissionsExt::from_mode(0o755))
+            .map_err(|reason| Error::Write { file: file.clone(), reason })?;
+        Ok(file.clone())
+    };
+    // Another build may be running it.
+    if fs::read(&file).is_ok_and(|script| script == include_bytes!("mingw_linker.sh")) { Ok(file) } else { write() }
+}
+
 /// Rust's standard library for the platform.
 ///
 /// # Errors
 /// It is missing.
 pub fn standard_library(platform: Platform) -> Result<(), Error> {
-    let directory: PathBuf = workspace::sysroot()?.join("lib/rustlib").join(platform.target()).join("lib");
-    if directory.is_dir() {
+    if has_standard_library(platform.target())? {
         return Ok(());
     }
     let install = format!("rustup target add {}", platform.target());
     Err(Error::Missing { platform, what: "Rust's standard library for it", install })
+}
+
+fn has_standard_library(target: &str) -> Result<bool, Error> {
+    let directory: PathBuf = workspace::sysroot()?.join("lib/rustlib").join(target).join("lib");
+    Ok(directory.is_dir())
+}
+
+/// Rust's standard library for WebAssembly, and wasm2c of this version. Those of other versions
+/// make code for another runtime.
+///
+/// # Errors
+/// The first that is missing.
+pub fn wasm2c(target: &str, version: &str) -> Result<(), Error> {
+    if !has_standard_library(target)? {
+        let install = format!("rustup target add {target}");
+        return Err(Error::MissingForSources { what: "Rust's standard library for WebAssembly".to_owned(), install });
+    }
+    let asked = Command::new("wasm2c").arg("--version").stderr(Stdio::null()).output();
+    if asked.is_ok_and(|answer| String::from_utf8_lossy(&answer.stdout).trim() == version) {
+        return Ok(());
+    }
+    let install = "apt-get install wabt (Debian 12), or from https://github.com/WebAssembly/wabt/releases".to_owned();
+    Err(Error::MissingForSources { what: format!("wasm2c {version} of WABT"), install })
 }
 
 /// Where cargo-zigbuild looks for zig.

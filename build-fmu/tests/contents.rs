@@ -13,7 +13,7 @@ use zip::ZipArchive;
 
 fn with_every_platform(model: &FmuModel, fmi: FmiVersion) -> Contents {
     let library = |&platform: &Platform| (platform, format!("library for {platform}").into_bytes());
-    contents(model, &Start::own(model), fmi, Platform::value_variants().iter().map(library).collect())
+    contents(model, &Start::own(model), fmi, Platform::value_variants().iter().map(library).collect(), None)
 }
 
 fn washout_with_every_platform() -> Contents {

@@ -60,7 +60,7 @@ fn values_are_in_the_descriptions_under_another_guid() {
             }
             FmiVersion::Fmi3(Layout::Arrays) => assert_eq!(start("splitter.omega1"), "0.35 0.35 0.35"),
         }
-        let files = contents(&WASHOUT, &embedded, fmi, Vec::new());
+        let files = contents(&WASHOUT, &embedded, fmi, Vec::new(), None);
         let listed = String::from_utf8(files["documentation/start-values.toml"].clone()).unwrap();
         assert!(
             listed.contains("\"splitter.y.omega1\" = 0.35") && listed.contains("\"rig.neutralHeight\" = 1.02"),
@@ -77,7 +77,9 @@ fn the_model_s_own_values_are_no_others() {
     let own = Start::own(&WASHOUT);
     let defaults = named(&[("splitter.x.omega1", 3.0), ("tilt.angleLimit", 0.257)]);
     assert_eq!(Start::with(&WASHOUT, &defaults).unwrap(), own);
-    assert!(!contents(&WASHOUT, &own, FmiVersion::Fmi2, Vec::new()).contains_key("documentation/start-values.toml"));
+    assert!(
+        !contents(&WASHOUT, &own, FmiVersion::Fmi2, Vec::new(), None).contains_key("documentation/start-values.toml")
+    );
 }
 
 #[test]

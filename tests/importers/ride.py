@@ -52,6 +52,14 @@ class Ride:
         share = (time - t0) / (t1 - t0)
         return [a + share * (b - a) for a, b in zip(before, then)]
 
+    def for_host(self, settings):
+        """The ride as tests/platforms/host.c reads it, with these items of enumerations."""
+        chosen = [number for name, item in settings.items() for number in (self.references[name], item)]
+        inputs, outputs = ([self.references[name] for name in names] for names in (self.inputs, self.outputs))
+        lines = [(len(settings), *chosen), (len(inputs), *inputs), (len(outputs), *outputs), (self.step, self.steps)]
+        lines += [self.input(k) for k in range(self.steps)]
+        return "".join(" ".join(map(repr, line)) + "\n" for line in lines)
+
     def replay(self, set_inputs, step, get_outputs):
         """Makes the ride with these functions; returns the largest difference from the reference."""
         answers = {}

@@ -195,12 +195,7 @@ def ride_on(chosen, emulator):
 
 def ride_with(chosen, host, model, fmu, version, settings):
     ride = Ride(fmu)
-    chosen_items = [number for name, item in settings.items() for number in (ride.references[name], item)]
-    inputs, outputs = ([ride.references[name] for name in names] for names in (ride.inputs, ride.outputs))
-    lines = [(len(settings), *chosen_items), (len(inputs), *inputs), (len(outputs), *outputs), (ride.step, ride.steps)]
-    lines += [ride.input(k) for k in range(ride.steps)]
-    text = "".join(" ".join(map(repr, line)) + "\n" for line in lines)
-    done = call([*host, unpack_library(chosen, model, fmu, version), version, ride.guid], input=text)
+    done = call([*host, unpack_library(chosen, model, fmu, version), version, ride.guid], input=ride.for_host(settings))
     what = f"{model}, FMI {ride.fmi}, on {chosen.name}"
     assert done.returncode == 0, f"{what} ended with {done.returncode}:\n{done.stderr}"
     rows = [list(map(float, line.split())) for line in done.stdout.splitlines()]

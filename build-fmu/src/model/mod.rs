@@ -7,13 +7,14 @@ mod washout;
 use std::path::PathBuf;
 
 use moris_interface::{Identity, Model, ParameterError, SlotModel, guid_of, start_values};
+use moris_model_description::fmi2::model_description::{SourceFile, SourceFiles};
 use moris_model_description::{fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
 
 use crate::reference::{self, Stimuli};
 use crate::terminals::Terminal;
-use crate::{FmiVersion, Start};
+use crate::{FmiVersion, Sources, Start};
 
 pub use motorcycle::{MOTORCYCLE, path_values};
 pub use stewart_platform::STEWART_PLATFORM;
@@ -216,6 +217,20 @@ impl FmuModel {
         match fmi {
             FmiVersion::Fmi2 => to_xml(&(self.functions.description)(start.slots())),
             FmiVersion::Fmi3(layout) => to_xml(&(self.functions.fmi3_description)(start.slots(), layout)),
+        }
+    }
+
+    /// The text of `modelDescription.xml` in an FMU with sources. FMI 3.0 lists them
+    /// in a file of its own.
+    pub fn model_description_with_sources(&self, fmi: FmiVersion, start: &Start) -> String {
+        match fmi {
+            FmiVersion::Fmi2 => {
+                let mut description = (self.functions.description)(start.slots());
+                let files = vec![SourceFile { name: Sources::file(self) }];
+                description.co_simulation.source_files = Some(SourceFiles { files });
+                to_xml(&description)
+            }
+            FmiVersion::Fmi3(_) => self.model_description(fmi, start),
         }
     }
 

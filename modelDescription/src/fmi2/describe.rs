@@ -62,6 +62,7 @@ fn co_simulation(identity: &Identity) -> CoSimulation {
         can_get_and_set_fmu_state: true,
         can_serialize_fmu_state: true,
         provides_directional_derivative: false,
+        source_files: None,
     }
 }
 

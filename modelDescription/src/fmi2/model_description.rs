@@ -79,6 +79,23 @@ pub struct CoSimulation {
     pub can_serialize_fmu_state: bool,
     #[serde(rename = "@providesDirectionalDerivative")]
     pub provides_directional_derivative: bool,
+    /// None rather than empty: the schema knows no empty lists.
+    #[serde(rename = "SourceFiles", skip_serializing_if = "Option::is_none")]
+    pub source_files: Option<SourceFiles>,
+}
+
+/// `SourceFiles`: the files to compile, in an FMU with sources.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SourceFiles {
+    #[serde(rename = "File")]
+    pub files: Vec<SourceFile>,
+}
+
+/// `File`, by its name in the directory `sources`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SourceFile {
+    #[serde(rename = "@name")]
+    pub name: String,
 }
 
 /// `TypeDefinitions`.
