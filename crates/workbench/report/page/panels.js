@@ -8,7 +8,7 @@ const LEGS = ["--leg-1", "--leg-2", "--leg-3", "--leg-4", "--leg-5", "--leg-6"];
 /** Cues that vary less than this are not worth a chart: m/s2, degrees/s. */
 const STILL = { specific_force: 0.01, angular_velocity: 0.05 };
 
-/** A loop, because `map` takes ten times as long, and all curves wait for it while a slider moves. */
+/** A loop, because `map` takes six times as long, and all curves wait for it while a slider moves. */
 function inDegrees(values) {
   const made = new Float32Array(values.length);
   for (let k = 0; k < made.length; k += 1) made[k] = values[k] * DEGREES;
