@@ -5,9 +5,9 @@
 
 - Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
   counts once. At most 2 % of them.
-- Sentences: their length in words, in the pages (README.md, ARCHITECTURE.md, CONTRIBUTING.md, CHANGELOG.md, docs/, and the documentation packed
-  into the FMUs) and in doc comments, without code, tables and headings. A list's item ends a sentence; a link counts as its
-  text, a piece of code as one word. A mean of at most 16 words a page, none above 30.
+- Sentences: their length in words, in the pages, in the documentation packed into the FMUs, in doc comments and in Python's
+  docstrings. Code, tables and headings do not count. A list's item ends a sentence; a link counts as its
+  text, a piece of code as one word. A mean of at most 16 words a page (not of docstrings), none above 30.
 - Lines: at most 100 columns of prose, in the pages and in doc comments. Tables, code, pictures,
   addresses and descriptions of variables may be wider.
 
@@ -16,6 +16,7 @@ each paragraph that is too wide, and changes no word.
 """
 
 import argparse
+import ast
 import re
 import subprocess
 import sys
@@ -27,6 +28,7 @@ OPENINGS = 0.02
 MEAN = 16.0
 LONGEST = 30
 COLUMNS = 100
+PYTHON = (".py", ".pyi")
 UNBREAKABLE = 60  # columns of one piece, an address or code, beyond which its line may be wider
 
 DOC_COMMENT = re.compile(r"^\s*//[/!] ?(?P<text>.*)$")
@@ -72,7 +74,9 @@ def paragraphs(file):
     """Each paragraph and list item of a page or of a source's doc comments: the line it begins on, and its text."""
     if file.suffix == ".md":
         return markdown_paragraphs(file.read_text().splitlines())
-    return html_paragraphs(file) if file.suffix == ".html" else comment_paragraphs(file)
+    if file.suffix == ".html":
+        return html_paragraphs(file)
+    return docstring_paragraphs(file) if file.suffix in PYTHON else comment_paragraphs(file)
 
 
 def markdown_paragraphs(lines):
@@ -104,6 +108,17 @@ def comment_paragraphs(file):
     for begin, run in doc_comments(file):
         for _, text in markdown_paragraphs(run):
             yield begin, text
+
+
+def docstring_paragraphs(file):
+    """Each paragraph and item of the docstrings: the line that the docstring begins on, and its text."""
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    for node in ast.walk(ast.parse(file.read_text())):
+        text = ast.get_docstring(node) if isinstance(node, documented) else None
+        # A description of a parameter or an option is an item.
+        lines = re.sub(r"(^|\. )(?=--\w|[^\s.:][^.:]{0,60}: )", r"\1\n- ", text or "", flags=re.MULTILINE).splitlines()
+        for _, paragraph in markdown_paragraphs(lines):
+            yield node.body[0].lineno, paragraph
 
 
 def sentences(paragraph):
@@ -235,7 +250,7 @@ def lengths(pages):
                 if counts[-1] > LONGEST:
                     found.append(Finding(page, begin, f"{counts[-1]} words: {sentence}"))
         mean = sum(counts) / max(len(counts), 1)
-        if mean > MEAN:
+        if mean > MEAN and page.suffix not in PYTHON:
             found.append(Finding(page, 1, f"{mean:.1f} words a sentence in the mean"))
         all_counts += counts
     return found, all_counts
@@ -271,10 +286,11 @@ def main():
     chosen = tracked(*within)
     sources = [file for file in chosen if file.suffix == ".rs"]
     pages = [file for file in chosen if file.suffix == ".md"]
+    scripts = [file for file in chosen if file.suffix in PYTHON]
     packed = [file for file in chosen if file.suffix == ".html" and "documentation" in file.parts]
     for file in [*sources, *pages] if arguments.wrap else []:
         wrap(file)
-    (opening, comments), (long, counts), columns = openings(sources), lengths([*pages, *packed, *sources]), wide(sources, pages)
+    (opening, comments), (long, counts), columns = openings(sources), lengths([*pages, *packed, *sources, *scripts]), wide(sources, pages)
     mean = sum(counts) / max(len(counts), 1)
     fraction = len(opening) / max(comments, 1)
     if arguments.list:

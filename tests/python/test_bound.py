@@ -29,7 +29,7 @@ def optimum(desired, step):
     """The least RMS error with accelerations that are constant over each step, by scipy.
 
     The unknowns are the accelerations of the platform and of s = sin(tilt), the first in units of 1 m/s2, the second in units of its
-    limit; everything else is linear in them.
+    limit. Everything else is linear in them.
     """
     count = len(desired) - 1
     largest = TILT_ACCELERATION + np.sin(ANGLE) * RATE**2

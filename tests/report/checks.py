@@ -586,6 +586,73 @@ def the_page_simulates_as_the_command(browser):
         assert_same(page, of_command("--no-bound", "--parameters", saved(page)), "another limit")
 
 
+# Notes the worker's messages, beside each what the page shows then. `inPart` are acts, each at the first part of a run.
+NOTED = """() => {
+    const { tuning } = simulationReport;
+    const shown = () => [document.querySelector('.chart canvas').toDataURL(), ...['measures', 'findings'].map((id) => document.getElementById(id).textContent)];
+    Object.assign(window, { noted: [{ kind: "before", shown: shown() }], inPart: [], change: (name, value) => {
+        // As if the first change had just come: then a run is given up at once.
+        tuning.unfinishedSince = null;
+        tuning.change(tuning.values.with(tuning.slots.get(name), value));
+    } });
+    tuning.simulator.worker.addEventListener("message", ({ data }) => {
+        const kind = data.part ? "part" : Object.keys(data).find((key) => ["measures", "isAbandoned", "reason"].includes(key));
+        noted.push({ kind, from: data.part?.from, to: data.part?.to, shown: shown() });
+        if (data.part?.from === 0 && inPart.length > 0) inPart.shift()();
+    });
+}"""
+
+
+@contextmanager
+def noted(browser):
+    """The ride's page with the predictive strategy, and its worker's messages noted from now on."""
+    with tuned(browser) as page:
+        page.get_by_label("strategy", exact=True).select_option(label="predictive")
+        settled(page)
+        page.locator(".chart").first.scroll_into_view_if_needed()
+        page.evaluate(NOTED)
+        yield page
+
+
+@check_everywhere
+def curves_come_before_measures(browser):
+    """The first samples are drawn while others are simulated, all of them before the measures; none is missing."""
+    with noted(browser) as page:
+        page.evaluate("change('scale.specificForce.x', 0.9)")
+        settled(page)
+        before, *parts, last = page.evaluate("noted")
+        assert last["kind"] == "measures" and len(parts) > 1, parts
+        ends = [0, *(part["to"] for part in parts)]
+        assert [part["from"] for part in parts] == ends[:-1] and ends[-1] == 2001, ends
+        drawn, measures, findings = zip(*(one["shown"] for one in [before, *parts, last]))
+        assert len(set(drawn)) == len(parts) + 1 and drawn[-1] == drawn[-2], [drawn.index(one) for one in drawn]
+        assert len(set(findings[:-1])) == 1 and findings[-1] != findings[0], findings
+        assert len(set(measures)) == 1, "the table out of sight waits"
+        page.wait_for_function("text => document.getElementById('measures').textContent !== text", arg=measures[0])
+
+
+@check_everywhere
+def a_change_ends_the_run_under_way(browser):
+    """The last of several changes is simulated to its end, and if it cannot be used, the curves are again the last whole ones."""
+    with noted(browser) as page:
+        page.evaluate("inPart.push(() => change('scale.specificForce.x', 0.4), () => change('scale.specificForce.x', 0.8))")
+        page.evaluate("change('scale.specificForce.x', 0.9)")
+        settled(page)
+        ends = [one["kind"] for one in page.evaluate("noted") if one["kind"] not in ("before", "part")]
+        assert ends == ["isAbandoned", "isAbandoned", "measures"], ends
+        file = saved(page)
+        assert "0.8" in file.read_text()
+        assert_same(page, of_command("--parameters", file), "the last change")
+        curves = "(({ felt, legs }) => [...felt.specific_force, ...legs].map((values) => [...values]))(simulationReport.now.run)"
+        whole = page.evaluate(curves)
+        page.evaluate("inPart.push(() => { window.begun = simulationReport.now.run.felt.specific_force[0].slice(); change('head.torsoLength', 9); })")
+        page.evaluate("change('scale.specificForce.x', 0.5)")
+        settled(page)
+        assert page.evaluate("noted.at(-1).kind") == "reason", page.evaluate("noted.map(({kind, from}) => [kind, from])")
+        assert page.evaluate("[...begun]") != whole[0] and page.evaluate(curves) == whole
+        assert_same(page, of_command("--parameters", file), "the last that could be used")
+
+
 @check
 def the_rig_is_judged_as_by_the_command(browser):
     """Rig sliders: the verdict is that of `rig check` with the saved rig, the run that of `simulate` with it."""

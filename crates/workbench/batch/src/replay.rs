@@ -1,5 +1,7 @@
 //! A manoeuvre replayed in a host's communication steps.
 
+use std::ops::Range;
+
 use moris_washout::{Input, Output, Washout};
 use nalgebra::Vector3;
 
@@ -63,12 +65,28 @@ impl<'a> Replay<'a> {
     pub fn run_prepared(
         &self,
         washout: &mut Washout,
+        prepare: impl FnMut(&mut Washout, f64),
+        feel: impl FnMut(&Vector3<f64>),
+        observe: impl FnMut(&Input, &Output),
+    ) {
+        self.run_part(0..usize::MAX, washout, prepare, feel, observe);
+    }
+
+    /// As [`Replay::run_prepared`], with the steps between these observations only. The washout is
+    /// as at the first of them; the last may be beyond the end.
+    pub fn run_part(
+        &self,
+        part: Range<usize>,
+        washout: &mut Washout,
         mut prepare: impl FnMut(&mut Washout, f64),
         mut feel: impl FnMut(&Vector3<f64>),
         mut observe: impl FnMut(&Input, &Output),
     ) {
         let step = self.step() / self.divisions as f64;
-        for (index, (from, to)) in self.inputs().zip(self.inputs().skip(1)).enumerate() {
+        let inputs = self.manoeuvre.inputs();
+        let intervals = inputs.len().saturating_sub(1) / self.samples;
+        for index in part.start..part.end.min(intervals) {
+            let [from, to] = [index, index + 1].map(|k| &inputs[k * self.samples]);
             let start = index as f64 * self.step();
             let at = |k: usize| match k {
                 0 => *from,
@@ -148,6 +166,20 @@ mod tests {
         let held = outputs(&Replay::in_steps(&manoeuvre, 0.001, false).unwrap(), &Parameters::default());
         let lag = (held[99].felt_specific_force - divided[99].felt_specific_force).norm();
         assert!(1e-6 < lag && lag < 0.1, "{lag}");
+    }
+
+    #[test]
+    fn parts_are_the_whole() {
+        let manoeuvre = swing(1.0);
+        for step in [0.002, 0.01, 0.03] {
+            let replay = Replay::in_steps(&manoeuvre, step, true).unwrap();
+            let mut washout = Washout::new(&Parameters::default()).unwrap();
+            let mut parts = Vec::new();
+            for part in [0..1, 1..1, 1..20, 20..usize::MAX] {
+                replay.run_part(part, &mut washout, |_, _| (), |_| (), |_, output| parts.push(*output));
+            }
+            assert_eq!(parts, outputs(&replay, &Parameters::default()));
+        }
     }
 
     #[test]

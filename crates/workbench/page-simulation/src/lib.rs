@@ -1,17 +1,20 @@
 //! Simulation of a recording in a report's page: plain functions over linear memory.
 //!
-//! The page writes [numbers](moris_page_memory::numbers), calls [`record`] once, and [`simulate`]
-//! for each set of parameters. The result is a text of JSON and the curves.
+//! The page writes [numbers](moris_page_memory::numbers) and calls [`record`] once. For each set of
+//! parameters it calls [`begin`], then [`advance`] and [`part`] until all samples are simulated,
+//! then [`finish`]. Curves are so in the page while further samples are simulated, and before the
+//! measures. Texts are JSON.
 
 use std::cell::RefCell;
+use std::ops::Range;
 
 use moris_batch::{Manoeuvre, Replay};
 use moris_interface::{Group, Reader, slot_count};
 use moris_measures::References;
 use moris_page_memory::{group, say, with_numbers};
-use moris_report::{Chart, Event, Finding, Limits, Measure, Rig, Run, Thinning, events};
+use moris_report::{Event, Finding, Limits, Measure, Rig, Thinning, events};
 use moris_simulation::capabilities::{AxisAlone, Capabilities};
-use moris_simulation::{Evaluated, Simulation, measures_with};
+use moris_simulation::{Evaluated, Simulation, Unfinished, measures_with};
 use moris_washout::interface::StructureParameters;
 use moris_washout::{Input, Parameters};
 use serde::Serialize;
@@ -27,6 +30,8 @@ struct Recorded {
     /// Least RMS error by axis \[m/s2\]; not a number where it is not known.
     bounds: [f64; 3],
     references: References,
+    /// The simulation, and how many of its samples are in parts.
+    simulation: Option<(Unfinished, usize)>,
 }
 
 thread_local! {
@@ -34,16 +39,28 @@ thread_local! {
     static CURVES: RefCell<Vec<f32>> = RefCell::default();
 }
 
-/// All but the curves.
+/// What holds for all parts of a simulation.
 #[derive(Serialize)]
-struct Answer {
-    findings: Vec<Finding>,
-    measures: Vec<Measure>,
+struct Head {
     limits: Limits,
     rig: Rig,
-    events: Vec<Event>,
-    leans: bool,
     charts: Vec<ChartHead>,
+}
+
+/// A chart of one line, whose values are among the curves.
+#[derive(Serialize)]
+struct ChartHead {
+    title: String,
+    quantity: String,
+    label: String,
+}
+
+/// What follows the curves.
+#[derive(Serialize)]
+struct Evaluation {
+    findings: Vec<Finding>,
+    measures: Vec<Measure>,
+    events: Vec<Event>,
 }
 
 /// Findings of `moris rig check`, but for the size of the workspace.
@@ -54,14 +71,6 @@ struct Verdict {
     /// Cells for each axis.
     rows: [Vec<String>; 6],
     texts: [String; 4],
-}
-
-/// A chart of one line, whose values are among the curves.
-#[derive(Serialize)]
-struct ChartHead {
-    title: String,
-    quantity: String,
-    label: String,
 }
 
 /// Takes a recording from the numbers: the time between samples, the bounds of the three axes, the
@@ -77,6 +86,7 @@ pub extern "C" fn record() -> usize {
             start: Parameters::read(&mut Reader::new(&head[4..])),
             bounds: [head[1], head[2], head[3]],
             references: References::default(),
+            simulation: None,
         }
     });
     let count = recorded.manoeuvre.inputs().len();
@@ -84,19 +94,36 @@ pub extern "C" fn record() -> usize {
     count
 }
 
-/// Simulates with the parameters that the numbers hold. True if the text is the answer and the
-/// curves are written; false if it is the reason why the parameters cannot be used.
+/// Begins to simulate with the parameters that the numbers hold. True if the text is what holds for
+/// all parts; false if it is the reason why the parameters cannot be used.
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
-pub extern "C" fn simulate() -> bool {
+pub extern "C" fn begin() -> bool {
     let parameters: Parameters = group();
-    let run = RECORDED.with_borrow_mut(|recorded| {
-        recorded.as_mut().ok_or_else(|| "no recording".to_owned()).and_then(|one| one.run(&parameters))
-    });
-    say(run.map(|run| {
-        CURVES.set(curves_of(&run));
-        answer(&run, &parameters)
-    }))
+    say(with_recorded(|recorded| recorded.begin(&parameters)))
+}
+
+/// Simulates up to so many further samples. The result is the number of all so far.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn advance(samples: usize) -> usize {
+    with_recorded(|recorded| Ok(recorded.advance(samples))).unwrap_or_default()
+}
+
+/// Writes the curves of the samples since the last part. The result is the first of them.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn part() -> usize {
+    with_recorded(|recorded| Ok(recorded.part())).unwrap_or_default()
+}
+
+/// Evaluates the simulation when all samples are simulated. True if the text is measures, findings
+/// and events, and the curve is the flag of the tilt's limits; false if it is the reason why there
+/// are none.
+// SAFETY: no other function of this module has the name.
+#[unsafe(no_mangle)]
+pub extern "C" fn finish() -> bool {
+    say(with_recorded(Recorded::finish))
 }
 
 /// The verdict on the rig of the parameters that the numbers hold; before them the diameter of its
@@ -125,18 +152,55 @@ pub extern "C" fn curves_length() -> usize {
     CURVES.with_borrow(Vec::len)
 }
 
+fn with_recorded<T>(act: impl FnOnce(&mut Recorded) -> Result<T, String>) -> Result<T, String> {
+    RECORDED.with_borrow_mut(|recorded| recorded.as_mut().map_or_else(|| Err("no recording".to_owned()), act))
+}
+
 impl Recorded {
-    fn run(&mut self, parameters: &Parameters) -> Result<Run, String> {
-        let replay = Replay::new(&self.manoeuvre);
-        let simulation = Simulation::of(&replay, parameters, || ()).map_err(|error| error.to_string())?;
+    fn begin(&mut self, parameters: &Parameters) -> Result<String, String> {
+        let begun = Unfinished::begin(&Replay::new(&self.manoeuvre), parameters).map_err(|error| error.to_string())?;
+        let head = Head {
+            limits: parameters.into(),
+            rig: parameters.into(),
+            charts: self.bounded().map(|axis| chart_head(&begun.simulation, axis)).collect(),
+        };
+        self.simulation = Some((begun, 0));
+        serde_json::to_string(&head).map_err(|error| error.to_string())
+    }
+
+    fn advance(&mut self, samples: usize) -> usize {
+        let Some((unfinished, _)) = &mut self.simulation else { return 0 };
+        unfinished.advance(&Replay::new(&self.manoeuvre), samples, None, || ());
+        unfinished.simulation.outputs.len()
+    }
+
+    fn part(&mut self) -> usize {
+        let axes: Vec<usize> = self.bounded().collect();
+        let Some((Unfinished { simulation, .. }, sent)) = &mut self.simulation else { return 0 };
+        let part = *sent..simulation.outputs.len();
+        *sent = part.end;
+        CURVES.set(curves_of(simulation, part.clone(), &axes));
+        part.start
+    }
+
+    fn finish(&mut self) -> Result<String, String> {
+        let (Unfinished { simulation, .. }, _) = self.simulation.take().ok_or("no simulation")?;
         let measures = measures_with(&simulation, &mut self.references).map_err(|error| error.to_string())?;
-        let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && self.holds(parameters)));
-        let evaluated = Evaluated { simulation: &simulation, measures: &measures, bounds };
+        let holds = self.holds(&simulation.parameters);
+        let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && holds));
         let samples = simulation.inputs.len();
-        let thinning = Thinning::new(samples, samples);
-        let bounded = (0..3).filter(|&axis| self.bounds[axis].is_finite());
-        let charts = bounded.map(|axis| evaluated.felt_chart(axis, &thinning)).collect();
-        Ok(Run { charts, ..evaluated.run("", &thinning) })
+        let run = Evaluated { simulation: &simulation, measures: &measures, bounds }
+            .run("", &Thinning::new(samples, samples));
+        CURVES.set(run.limited.tilt.iter().map(|&flag| f32::from(u8::from(flag))).collect());
+        let events = events(&run, &Rig::from(&simulation.parameters));
+        serde_json::to_string(&Evaluation { findings: run.findings, measures: run.measures, events })
+            .map_err(|error| error.to_string())
+    }
+
+    /// The axes whose bounds are known.
+    fn bounded(&self) -> impl Iterator<Item = usize> {
+        let bounds = self.bounds;
+        (0..3).filter(move |&axis| bounds[axis].is_finite())
     }
 
     /// True where the bounds hold for these parameters: with the limits for
@@ -185,43 +249,37 @@ fn verdict(given: &Parameters, diameter: Option<f64>) -> Result<String, String> 
     serde_json::to_string(&verdict).map_err(|error| error.to_string())
 }
 
-fn answer(run: &Run, parameters: &Parameters) -> String {
-    let answer = Answer {
-        findings: run.findings.clone(),
-        measures: run.measures.clone(),
-        limits: run.limits,
-        rig: Rig::from(parameters),
-        events: events(run, &Rig::from(parameters)),
-        leans: !run.lean.is_empty(),
-        charts: run.charts.iter().map(head).collect(),
-    };
-    serde_json::to_string(&answer).unwrap_or_default()
-}
-
-fn head(chart: &Chart) -> ChartHead {
+fn chart_head(simulation: &Simulation, axis: usize) -> ChartHead {
+    let chart = simulation.felt_chart(axis, &Thinning::new(1, 1));
     let label = chart.lines.first().map(|line| line.label.clone()).unwrap_or_default();
-    ChartHead { title: chart.title.clone(), quantity: chart.quantity.clone(), label }
+    ChartHead { title: chart.title, quantity: chart.quantity, label }
 }
 
-fn curves_of(run: &Run) -> Vec<f32> {
-    let groups: [&[Vec<f64>]; 10] = [
-        &run.desired.specific_force,
-        &run.desired.angular_velocity,
-        &run.felt.specific_force,
-        &run.felt.angular_velocity,
-        &run.position,
-        &run.orientation,
-        &run.legs,
-        &run.tilt,
-        &run.tilt_rate,
-        std::slice::from_ref(&run.lean),
-    ];
-    let values = groups.into_iter().flatten().flatten().map(|&value| value as f32);
-    let limited = &run.limited;
-    let flags = [&limited.tilt, &limited.soft, &limited.safety, &limited.actuator]
-        .into_iter()
-        .flatten()
-        .map(|&flag| f32::from(u8::from(flag)));
-    let of_charts = run.charts.iter().flat_map(|chart| &chart.lines).flat_map(|line| &line.values);
-    values.chain(flags).chain(of_charts.map(|&value| value as f32)).collect()
+/// Curves of some samples, one after the other; the last are those of the charts of these axes.
+fn curves_of(simulation: &Simulation, part: Range<usize>, axes: &[usize]) -> Vec<f32> {
+    let samples: Vec<Vec<f64>> = part.map(|k| values_at(simulation, k, axes)).collect();
+    let curves = samples.first().map_or(0, Vec::len);
+    (0..curves).flat_map(|curve| samples.iter().map(move |values| values[curve] as f32)).collect()
+}
+
+/// A value of each curve at a sample.
+fn values_at(simulation: &Simulation, k: usize, axes: &[usize]) -> Vec<f64> {
+    let (input, output) = (&simulation.inputs[k], &simulation.outputs[k]);
+    let (rate, orientation) = (simulation.desired_rate(k), output.orientation.to_vector());
+    let felt = simulation.felt_without_gravity(k);
+    let felt_on: Vec<f64> = axes.iter().map(|&axis| felt[axis]).collect();
+    let raised = |flag: bool| f64::from(u8::from(flag));
+    [
+        input.specific_force.as_slice(),
+        rate.as_slice(),
+        output.felt_specific_force.as_slice(),
+        output.felt_angular_velocity.as_slice(),
+        output.position.as_slice(),
+        orientation.as_slice(),
+        &output.length,
+        &[output.tilt_roll, output.tilt_pitch, output.tilt_roll_rate, output.tilt_pitch_rate, input.lean],
+        &[output.soft_limited, output.safety_active, output.actuator_limited].map(raised),
+        &felt_on,
+    ]
+    .concat()
 }

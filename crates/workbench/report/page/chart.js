@@ -25,8 +25,16 @@ class Plot {
     this.listen(seek, show, hover);
   }
 
+  /** The width when it was drawn: to ask for it after each change of a text would lay the page out each time. */
   get width() {
-    return this.box.clientWidth;
+    return this.drawnWidth ?? this.box.clientWidth;
+  }
+
+  /** The canvas, cleared and as fine as the screen. */
+  fitted() {
+    const made = fitted(this.canvas);
+    this.drawnWidth = made.width;
+    return made;
   }
 
   moveCursor(time, cursor = this.cursor) {
@@ -142,14 +150,12 @@ class Chart {
     this.element = element("figure", { class: "chart" }, [element("figcaption", {}, [heading, legend]), this.plot.box]);
     this.element.dataset.title = title;
     this.spoken = () => this.inWords(title, unit);
-    this.plot.canvas.setAttribute("aria-label", this.spoken());
   }
 
   /** Takes other curves and limits, as many as there are. */
   take({ lines, others = [], limits = [] }) {
     Object.assign(this, { lines, others, limits });
     lines.forEach((line, i) => { this.legend[i].line = line; });
-    this.plot.canvas.setAttribute("aria-label", this.spoken());
   }
 
   /** The chart in words, for readers of screens. */
@@ -192,8 +198,9 @@ class Chart {
   }
 
   draw() {
-    const { context, width, height } = fitted(this.plot.canvas);
+    const { context, width, height } = this.plot.fitted();
     const shown = this.shown();
+    this.plot.canvas.setAttribute("aria-label", this.spoken());
     const [low, high] = this.range();
     const bottom = height - MARGIN.bottom;
     const yOf = (value) => bottom - (value - low) / (high - low) * (bottom - MARGIN.top);

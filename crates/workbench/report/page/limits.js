@@ -71,7 +71,7 @@ class TimeLine {
   }
 
   draw() {
-    const { context, width, height } = fitted(this.plot.canvas);
+    const { context, width, height } = this.plot.fitted();
     const shown = this.shown();
     drawTimeAxis(context, shown, width, height);
     Object.entries(KINDS).forEach(([kind, { label, colour: paint }], lane) => {

@@ -68,16 +68,30 @@ function play(on) {
 
 /** Shows a run; while a slider moves, what is out of sight waits until it rests. */
 function select(index, isMoving = false) {
-  now.run = report.runs[index];
-  showRunChoice();
-  if (tuning) tuning.see(now.run);
-  timeLine.select(now.run);
+  const run = report.runs[index];
+  const isDrawn = isMoving && run.felt === now.run.felt;
+  if (tuning) tuning.see(run);
+  timeLine.select(run);
   if (!isMoving) timeLine.showList();
+  showFindings(run);
+  if (isDrawn) {
+    now.run = run;
+    timeLine.draw();
+    restLater();
+  } else {
+    showCurves(run, isMoving);
+  }
+  seek(now.time);
+}
+
+/** Shows the curves of a run, which may still be simulated; not the machine, which takes as long as all of them. */
+function showCurves(run, isMoving = true) {
+  now.run = run;
+  showRunChoice();
   showKey();
-  showFindings();
   buildCharts();
   drawCharts(isMoving);
-  seek(now.time);
+  for (const chart of charts) chart.moveCursor(now.time);
 }
 
 /** A button for each run, where there are several. */
@@ -144,7 +158,13 @@ function drawCharts(isMoving = false) {
   // All are measured before any is drawn, so that the page is laid out once.
   const due = isMoving ? all.filter(({ plot }) => isInSight(plot.box)) : all;
   for (const chart of due) chart.draw();
-  if (isMoving) drawCharts.timer = setTimeout(showRest, REST);
+  if (isMoving) restLater();
+}
+
+/** Draws what waits, unless something moves before. */
+function restLater() {
+  clearTimeout(drawCharts.timer);
+  drawCharts.timer = setTimeout(showRest, REST);
 }
 
 /** What waits while a slider moves. */
@@ -163,9 +183,9 @@ function drawMachine() {
   chips.update(state);
 }
 
-function showFindings() {
+function showFindings(run) {
   const marks = { good: "\u2713", note: "\u2022", warning: "!" };
-  byId("findings").replaceChildren(...[...now.run.findings, ...report.findings].map(({ weight, text }) => {
+  byId("findings").replaceChildren(...[...run.findings, ...report.findings].map(({ weight, text }) => {
     const mark = element("span", { class: "finding-mark", "aria-hidden": "true" }, [marks[weight]]);
     return element("li", { class: weight }, [mark, element("span", {}, [text])]);
   }));
@@ -221,7 +241,7 @@ async function setUpTuning() {
   if (!report.simulator) return;
   const simulator = new Simulator(report.simulator, page.worker);
   await simulator.prepare();
-  tuning = new Tuning(byId("tuning"), simulator, showRun);
+  tuning = new Tuning(byId("tuning"), simulator, showRun, showCurves);
   tuning.see(now.run);
 }
 

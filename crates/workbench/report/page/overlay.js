@@ -19,8 +19,8 @@ function channelsOf(run) {
 
 /** The section with the channels that the reader has chosen. */
 function overlaid(run) {
+  if (overlay.size === 0) return [];
   const chosen = channelsOf(run).filter(({ name }) => overlay.has(name));
-  if (chosen.length === 0) return [];
   const lines = chosen.map(({ name, unit, values }, i) => ({
     label: `${name} [${unit}]`, colour: LEGS[i % 6], dash: DASHES[i % DASHES.length], width: 1.6, times: run.times, values,
   }));

@@ -18,9 +18,14 @@ class Simulator {
     this.worker = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
   }
 
-  ask(message, transfer = []) {
+  /** The worker's answer; `take(part)` gets the parts of curves that come before it. */
+  ask(message, transfer = [], take = null) {
     return new Promise((resolve, reject) => {
-      this.worker.onmessage = ({ data }) => (data.failure ? reject(new Error(data.failure)) : resolve(data));
+      this.worker.onmessage = ({ data }) => {
+        if (data.part) take(data.part);
+        else if (data.failure) reject(new Error(data.failure));
+        else resolve(data);
+      };
       this.worker.onerror = (event) => {
         event.preventDefault();
         reject(new Error(event.message || "the browser allows no worker"));
@@ -51,26 +56,51 @@ class Simulator {
     return this.ask({ rig: Float64Array.of(this.data.actuator_diameter ?? NaN, ...values) });
   }
 
-  /** A run with these parameters as the page's others are; or `reason`, why there is none. */
-  async run(values) {
-    const answer = await this.ask({ values: Float64Array.from(values) });
-    if (answer.reason) return answer;
-    const { samples } = this;
-    let at = 0;
-    const next = () => {
-      at += samples;
-      return answer.curves.subarray(at - samples, at);
+  /**
+   * A run with these parameters as the page's others are; or `reason`, why there is none; or `isAbandoned`.
+   *
+   * `show(run)` gets the run while it is simulated: with new curves up to a time, and those of `before` after it. If `before`
+   * has other times, that is when all curves are new.
+   */
+  async run(values, before, show) {
+    const fits = before.times.length === this.samples;
+    let run = null;
+    const take = ({ from, to, curves, ...head }) => {
+      run ??= this.begun(head, before, fits);
+      seriesOf(run).forEach((series, i) => series.set(curves.subarray(i * (to - from), (i + 1) * (to - from)), from));
+      if (fits || to === this.samples) show(run);
     };
-    const series = (count) => Array.from({ length: count }, next);
-    const cues = () => ({ specific_force: series(3), angular_velocity: series(3) });
-    const flags = () => Uint8Array.from(next());
-    const run = {
-      ...answer, times: this.times,
-      desired: cues(), felt: cues(), position: series(3), orientation: series(3), legs: series(6), tilt: series(2),
-      tilt_rate: series(2), lean: answer.leans ? next() : null,
-      limited: { tilt: flags(), soft: flags(), safety: flags(), actuator: flags() },
+    const { tilt, ...answer } = await this.ask({ values: Float64Array.from(values) }, [], take);
+    return answer.measures ? { ...run, ...answer, limited: { ...run.limited, tilt } } : answer;
+  }
+
+  /** Gives a run up, after the part that is under way. */
+  abandon() {
+    this.worker.postMessage({ abandon: true });
+  }
+
+  /** A run without curves of its own: with those of another, where that has the same times. */
+  begun({ limits, rig, charts }, before, fits) {
+    const like = (series, Numbers = Float32Array) => new Numbers(fits && series ? series : this.samples);
+    const each = (list) => list.map((series) => like(series));
+    const cues = ({ specific_force: force, angular_velocity: rate }) => ({ specific_force: each(force), angular_velocity: each(rate) });
+    const flags = (series) => like(series, Uint8Array);
+    const { tilt, soft, safety, actuator } = before.limited;
+    const chart = ({ title, quantity, label }) => {
+      const known = before.charts.find((one) => one.title === title)?.lines.find((line) => line.label === label);
+      return { title, quantity, times: this.times, lines: [{ label, values: like(known?.values) }], limits: [] };
     };
-    const chart = ({ title, quantity, label }) => ({ title, quantity, times: this.times, lines: [{ label, values: next() }], limits: [] });
-    return { ...run, charts: answer.charts.map(chart) };
+    return {
+      limits, rig, charts: charts.map(chart), times: this.times, findings: [], measures: [], events: [],
+      desired: cues(before.desired), felt: cues(before.felt), position: each(before.position), orientation: each(before.orientation),
+      legs: each(before.legs), tilt: each(before.tilt), tilt_rate: each(before.tilt_rate), lean: like(before.lean),
+      limited: { tilt: flags(tilt), soft: flags(soft), safety: flags(safety), actuator: flags(actuator) },
+    };
   }
 }
+
+/** The curves of a run in the order in which the module has them; the flag of the tilt comes with the measures. */
+const seriesOf = ({ desired, felt, position, orientation, legs, tilt, tilt_rate: rate, lean, limited, charts }) => [
+  ...[desired, felt].flatMap((cues) => [...cues.specific_force, ...cues.angular_velocity]), ...position, ...orientation, ...legs,
+  ...tilt, ...rate, lean, limited.soft, limited.safety, limited.actuator, ...charts.map(({ lines }) => lines[0].values),
+];

@@ -2,6 +2,8 @@
 
 /** Most parameters that a search shows. */
 const MOST_FOUND = 12;
+/** Time for which changes may follow each other so closely that none is simulated to its end [ms]. */
+const UNFINISHED = 300;
 
 /** A value as a parameter file has it. */
 function written({ kind, items }, value) {
@@ -33,9 +35,9 @@ function saveAs(name, text) {
 }
 
 class Tuning {
-  /** `show(run)` shows a run, and every curve and measure anew. */
-  constructor(box, simulator, show) {
-    Object.assign(this, { box, simulator, show });
+  /** `show(run)` shows a run, and every curve and measure anew; `showCurves(run)` curves that change. */
+  constructor(box, simulator, show, showCurves) {
+    Object.assign(this, { box, simulator, show, showCurves });
     this.parameters = simulator.data.parameters;
     this.slots = new Map(this.parameters.map(({ name }, slot) => [name, slot]));
     this.values = this.parameters.map(({ start }) => start);
@@ -45,6 +47,7 @@ class Tuning {
     this.future = [];
     this.controls = new Map();
     this.isBusy = false;
+    this.byHand = null;
     this.build();
   }
 
@@ -203,9 +206,11 @@ class Tuning {
     this.simulate();
   }
 
-  /** Simulates with the values as they are; those that come meanwhile are next. */
+  /** Simulates with the values as they are. A run with other values is given up, unless several have been. */
   simulate() {
     this.isStale = true;
+    this.unfinishedSince ??= performance.now();
+    if (performance.now() - this.unfinishedSince < UNFINISHED) this.simulator.abandon();
     this.work();
   }
 
@@ -224,20 +229,36 @@ class Tuning {
     this.isStale = false;
     const begin = performance.now();
     const values = [...this.values];
-    const run = await this.simulator.run(values);
+    const run = await this.simulator.run(values, this.byHand ?? this.variants.shown, (curves) => this.showPart(curves));
+    if (run.isAbandoned) return;
+    this.unfinishedSince = null;
     if (run.reason) {
+      if (this.isPart) this.showByHand(false);
       this.say(`These parameters cannot be used: ${run.reason}`);
       return;
     }
-    this.isShowing = true;
-    this.show(this.variants.putByHand({ ...run, values }), true);
-    this.isShowing = false;
+    this.byHand = { ...run, values };
+    this.showByHand(true);
     // Another run may have been chosen meanwhile; the panel is again that of this one.
     if (!this.isStale && values.some((value, slot) => value !== this.values[slot])) {
       this.values = values;
       this.showControls();
     }
     this.say(`Simulated ${this.subject} in ${fixed(performance.now() - begin, 0)} ms.`);
+  }
+
+  /** Shows the curves of a run that is being simulated. */
+  showPart(curves) {
+    this.isPart = true;
+    this.showCurves(this.variants.putByHand(curves));
+  }
+
+  /** Shows the last run by hand that was simulated to its end; without one, the run that was shown before. */
+  showByHand(isMoving) {
+    this.isPart = false;
+    this.isShowing = true;
+    this.show(this.byHand ? this.variants.putByHand(this.byHand) : this.variants.withoutByHand(), isMoving);
+    this.isShowing = false;
   }
 
   /** The values that the verdict depends on, as one text. */

@@ -65,6 +65,17 @@ class Variants {
     return report.runs[index];
   }
 
+  /** Takes the run by hand away, and returns the one that was shown before it. */
+  withoutByHand() {
+    this.take(this.named(BY_HAND).index);
+    return this.shown;
+  }
+
+  take(index) {
+    report.runs.splice(index, 1);
+    report.runs.forEach((run, i) => { run.index = i; });
+  }
+
   keep() {
     const name = this.wantedName();
     if (!name || !this.shown.values) return;
@@ -86,8 +97,7 @@ class Variants {
 
   remove() {
     const { index, name } = this.shown;
-    report.runs.splice(index, 1);
-    report.runs.forEach((run, i) => { run.index = i; });
+    this.take(index);
     this.show(this.named(BY_HAND) ?? report.runs[0]);
     this.say(`Deleted ${name}.`);
     this.keepButton.focus();

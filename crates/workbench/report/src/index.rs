@@ -1,6 +1,6 @@
 //! A page that lists the pages of several recordings.
 
-use crate::page::{STYLE, escaped};
+use crate::page::{Head, escaped};
 
 /// A recording in the list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -37,12 +37,10 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
             escaped(&row.verdict)
         );
     }
+    let head = Head { title, style: "a { color: var(--accent); }\n", ..Head::default() }.html();
     let (title, subtitle) = (escaped(title), escaped(subtitle));
     format!(
-        "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, \
-         initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<meta http-equiv=\"Content-Security-Policy\" \
-         content=\"default-src 'none'; style-src 'unsafe-inline'\">\n<title>{title}</title>\n<style>\n{STYLE}\na {{ color: \
-         var(--accent); }}\n</style>\n</head>\n<body>\n<header>\n<h1>{title}</h1>\n<p id=\"subtitle\">{subtitle}</p>\n</header>\n\
+        "{head}<header>\n<h1>{title}</h1>\n<p id=\"subtitle\">{subtitle}</p>\n</header>\n\
          <section id=\"measures\"><div class=\"wide\"><table><thead><tr><th></th><th scope=\"col\">verdict</th>{header_cells}</tr></thead>\n<tbody>\n{body}</tbody>\
          </table></div></section>\n</body>\n</html>\n"
     )

@@ -6,11 +6,14 @@ use crate::check::{ReportError, check};
 use crate::data::Report;
 use crate::events::{Event, events};
 
-const TEMPLATE: &str = include_str!("../page/page.html");
-/// The end of every template.
+/// Every page: what stands before its own template, its heading, and what follows.
+const HEAD: &str = include_str!("../page/head.html");
+const HEADING: &str = include_str!("../page/heading.html");
 const END: &str = include_str!("../page/scripts.html");
+
+const TEMPLATE: &str = include_str!("../page/page.html");
 /// The style of a report, whose colours the scripts name.
-pub const STYLE: &str = include_str!("../page/style.css");
+const STYLE: &str = include_str!("../page/style.css");
 /// Runs before the other scripts, and says if one of them fails.
 const ALARM: &str = include_str!("../page/alarm.js");
 const WORKER: &str = concat!("\"use strict\";\n", include_str!("../page/module.js"), include_str!("../page/worker.js"));
@@ -46,6 +49,27 @@ const SCRIPTS: [&str; 13] = [
     include_str!("../page/main.js"),
 ];
 
+/// What the heads of pages differ in.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Head<'a> {
+    /// Plain text, as the subtitle.
+    pub title: &'a str,
+    pub subtitle: &'a str,
+    /// Style after that of all pages.
+    pub style: &'a str,
+    /// What the page may load and run: directives of a content security policy, beside its styles
+    /// and pictures.
+    pub policy: &'a str,
+}
+
+impl Head<'_> {
+    /// All up to the page's body.
+    pub(crate) fn html(&self) -> String {
+        let style = format!("{STYLE}{}", self.style);
+        filled(HEAD, &[("title", escaped(self.title)), ("policy", self.policy.to_owned()), ("style", style)])
+    }
+}
+
 /// Data for the scripts.
 #[derive(Serialize)]
 struct Page<'a> {
@@ -70,21 +94,27 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
         events: report.runs.iter().map(|run| events(run, &report.rig)).collect(),
         worker: report.simulator.is_some().then_some(WORKER),
     };
-    let texts =
-        [("title", escaped(&report.title)), ("subtitle", escaped(&report.subtitle)), ("style", STYLE.to_owned())];
-    Ok(assembled(TEMPLATE, &texts, &page, &SCRIPTS))
+    let head = Head {
+        title: &report.title,
+        subtitle: &report.subtitle,
+        style: "",
+        policy: "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:",
+    };
+    Ok(assembled(&head, TEMPLATE, &page, &SCRIPTS))
 }
 
-/// A page: a template with the texts, then the data and the scripts, after those that pages share.
+/// A page: a head, a template with the heading, then the data and the scripts, after those that
+/// pages share.
 ///
 /// # Panics
-/// The template has a name without a text.
-pub fn assembled(template: &str, texts: &[(&str, String)], data: &impl Serialize, scripts: &[&str]) -> String {
+/// The template names another text than the heading.
+pub fn assembled(head: &Head, template: &str, data: &impl Serialize, scripts: &[&str]) -> String {
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(data).expect("plain data serialise").replace('<', "\\u003c");
     let script = [&SHARED, scripts].concat().join("\n");
     let of_end = [("alarm", ALARM.to_owned()), ("data", data), ("script", script)];
-    filled(template, texts) + &filled(END, &of_end)
+    let heading = filled(HEADING, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);
+    head.html() + &filled(template, &[("heading", heading.trim_end().to_owned())]) + &filled(END, &of_end)
 }
 
 /// The template with every `{{name}}` replaced. The inserted text is not expanded again.

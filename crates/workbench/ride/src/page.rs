@@ -41,6 +41,11 @@ pub struct Page {
 /// # Panics
 /// Never: plain data always serialise.
 pub fn html(page: &Page) -> String {
-    let texts = [("subtitle", shared::escaped(&page.subtitle)), ("style", format!("{}\n{STYLE}", shared::STYLE))];
-    shared::assembled(TEMPLATE, &texts, page, &[&SHARED[..], &SCRIPTS].concat())
+    let head = shared::Head {
+        title: "Ride",
+        subtitle: &page.subtitle,
+        style: STYLE,
+        policy: "script-src 'unsafe-inline' 'wasm-unsafe-eval'",
+    };
+    shared::assembled(&head, TEMPLATE, page, &[&SHARED[..], &SCRIPTS].concat())
 }

@@ -3,7 +3,7 @@
 use std::array;
 
 use moris_measures::{Axes, Measures, Row, bound_rows};
-use moris_report::{Better, Chart, Cues, Finding, Limited, Line, Measure, Run, Thinning};
+use moris_report::{Better, Cues, Finding, Limited, Measure, Run, Thinning};
 use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
@@ -29,19 +29,6 @@ impl Evaluated<'_> {
             Some(bound_rows(["x", "y", "z"][axis], self.desired_rms(axis), felt, self.bounds[axis]?))
         };
         self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten()).collect()
-    }
-
-    /// The felt force on an axis without gravity, for the chart of the least possible error.
-    pub fn felt_chart(&self, axis: usize, thinning: &Thinning) -> Chart {
-        let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
-        let felt = |k: usize| self.simulation.outputs[k].felt_specific_force[axis] - rest;
-        Chart {
-            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
-            quantity: "specific force without gravity [m/s²]".to_owned(),
-            times: Vec::new(),
-            lines: vec![Line { label: "felt".to_owned(), values: thinning.extremes(felt) }],
-            limits: Vec::new(),
-        }
     }
 
     /// RMS of the desired specific force as a deviation from rest \[m/s2\]: the error

@@ -3,7 +3,8 @@
 //! The workbench and the report's page use it. The page has it as WebAssembly, so that both have
 //! the same numbers and sentences: no threads, no files.
 //!
-//! - [`Simulation`] steps the washout; [`preview`] gives it the recording's future.
+//! - [`Simulation`] steps the washout, [`Unfinished`] part by part; [`preview`] gives it
+//!   the recording's future.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
 
@@ -20,4 +21,4 @@ mod spans;
 
 pub use evaluated::{Evaluated, capitalised};
 pub use measured::{measures, measures_with};
-pub use simulation::Simulation;
+pub use simulation::{Simulation, Unfinished};

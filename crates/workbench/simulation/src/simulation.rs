@@ -1,8 +1,8 @@
 //! Inputs and outputs of the washout in a simulation.
 
 use moris_batch::{Manoeuvre, Replay};
-use moris_report::{Limits, TiltFlags, tilt_limits};
-use moris_washout::interface::AngularVelocityFrame;
+use moris_report::{Chart, Limits, Line, Thinning, TiltFlags, tilt_limits};
+use moris_washout::interface::{AngularVelocityFrame, STANDARD_GRAVITY};
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::LocationFrame;
@@ -24,6 +24,58 @@ pub struct Simulation {
     pub outputs: Vec<Output>,
     /// The felt specific force at the first sample and after each internal step \[m/s2\].
     pub felt_within_steps: Vec<Vector3<f64>>,
+}
+
+/// A simulation that is made part by part.
+#[derive(Clone, Debug)]
+pub struct Unfinished {
+    washout: Washout,
+    /// With the outputs so far.
+    pub simulation: Simulation,
+}
+
+impl Unfinished {
+    /// At the first sample, at rest at neutral.
+    ///
+    /// # Errors
+    /// The parameters cannot be used: which, and why.
+    pub fn begin(replay: &Replay, parameters: &Parameters) -> Result<Self, ParameterError> {
+        let inputs: Vec<Input> = replay.inputs().copied().collect();
+        let washout = Washout::new(parameters)?.starting_with(&inputs[0]);
+        let outputs = vec![washout.output()];
+        let felt_within_steps = vec![outputs[0].felt_specific_force];
+        let simulation =
+            Simulation { step: replay.step(), parameters: *parameters, inputs, outputs, felt_within_steps };
+        Ok(Unfinished { washout, simulation })
+    }
+
+    /// Simulates up to so many further samples of the same replay, with a preview before each step
+    /// if there is a previewer. `progress` is called after each sample.
+    pub fn advance(
+        &mut self,
+        replay: &Replay,
+        samples: usize,
+        previewer: Option<&Previewer>,
+        mut progress: impl FnMut(),
+    ) {
+        let Simulation { outputs, felt_within_steps, .. } = &mut self.simulation;
+        let at = outputs.len() - 1;
+        let preview = |washout: &mut Washout, time: f64| {
+            if let Some(previewer) = previewer {
+                washout.preview(&previewer.at(time));
+            }
+        };
+        replay.run_part(
+            at..at.saturating_add(samples),
+            &mut self.washout,
+            preview,
+            |felt| felt_within_steps.push(*felt),
+            |_, output| {
+                outputs.push(*output);
+                progress();
+            },
+        );
+    }
 }
 
 impl Simulation {
@@ -57,26 +109,10 @@ impl Simulation {
         previewer: Option<Previewer>,
         mut progress: impl FnMut(),
     ) -> Result<Self, ParameterError> {
-        let inputs: Vec<Input> = replay.inputs().copied().collect();
-        let mut washout = Washout::new(parameters)?.starting_with(&inputs[0]);
-        let mut outputs = vec![washout.output()];
-        let mut felt_within_steps = vec![outputs[0].felt_specific_force];
+        let mut unfinished = Unfinished::begin(replay, parameters)?;
         progress();
-        let preview = |washout: &mut Washout, time: f64| {
-            if let Some(previewer) = &previewer {
-                washout.preview(&previewer.at(time));
-            }
-        };
-        replay.run_prepared(
-            &mut washout,
-            preview,
-            |felt| felt_within_steps.push(*felt),
-            |_, output| {
-                outputs.push(*output);
-                progress();
-            },
-        );
-        Ok(Simulation { step: replay.step(), parameters: *parameters, inputs, outputs, felt_within_steps })
+        unfinished.advance(replay, usize::MAX, previewer.as_ref(), progress);
+        Ok(unfinished.simulation)
     }
 
     /// The time of each sample \[s\].
@@ -86,16 +122,38 @@ impl Simulation {
 
     /// Angular velocity that the vehicle's rider feels, in head axes, at each sample \[rad/s\].
     pub fn desired_rates(&self) -> Vec<Vector3<f64>> {
-        let frame = self.parameters.conditioning.angular_velocity_frame;
-        let in_body = |input: &Input| match frame {
+        (0..self.inputs.len()).map(|k| self.desired_rate(k)).collect()
+    }
+
+    /// The same at one sample.
+    pub fn desired_rate(&self, sample: usize) -> Vector3<f64> {
+        let input = &self.inputs[sample];
+        let in_body = match self.parameters.conditioning.angular_velocity_frame {
             AngularVelocityFrame::Body => input.angular_velocity,
             AngularVelocityFrame::World => {
                 Orientation::new(input.orientation).rotation.transpose() * input.angular_velocity
             }
         };
-        let in_head =
-            |input: &Input| LocationFrame::new(&self.parameters.structure, input.lean).to_location_axes(in_body(input));
-        self.inputs.iter().map(in_head).collect()
+        LocationFrame::new(&self.parameters.structure, input.lean).to_location_axes(in_body)
+    }
+
+    /// The felt force on an axis without gravity, for the chart of the least possible error.
+    pub fn felt_chart(&self, axis: usize, thinning: &Thinning) -> Chart {
+        Chart {
+            title: format!("{}: the best possible", ["Surge", "Sway", "Heave"][axis]),
+            quantity: "specific force without gravity [m/s²]".to_owned(),
+            times: Vec::new(),
+            lines: vec![Line {
+                label: "felt".to_owned(),
+                values: thinning.extremes(|k| self.felt_without_gravity(k)[axis]),
+            }],
+            limits: Vec::new(),
+        }
+    }
+
+    /// The felt specific force at a sample as a deviation from rest \[m/s2\].
+    pub fn felt_without_gravity(&self, sample: usize) -> Vector3<f64> {
+        self.outputs[sample].felt_specific_force - Vector3::z() * STANDARD_GRAVITY
     }
 
     /// The limits of tilt coordination that act, of roll and pitch, at each sample.

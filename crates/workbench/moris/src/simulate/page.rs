@@ -116,12 +116,11 @@ fn run(outcome: &Outcome, thinning: &Thinning) -> Run {
 
 /// The bound, axis by axis.
 fn bound_charts(outcome: &Outcome, thinning: &Thinning) -> Vec<Chart> {
-    let evaluated = outcome.evaluated();
     let chart = |axis: usize| {
         let bound = outcome.bounds[axis].as_ref()?;
         let line = |label: &str, values: Vec<f64>| Line { label: label.to_owned(), values };
         let best = |k: usize| bound.bound.trajectory.felt(k as f64 * outcome.simulation.step);
-        let mut chart = evaluated.felt_chart(axis, thinning);
+        let mut chart = outcome.simulation.felt_chart(axis, thinning);
         chart.lines.insert(0, line("desired", thinning.extremes(|k| bound.desired[k])));
         chart.lines.push(line("best possible", thinning.extremes(best)));
         Some(chart)

@@ -6,8 +6,8 @@ import sys
 class Progress:
     """Shows how much is done.
 
-    show: True for a bar, False for none, None for a bar where standard error is a terminal or in a notebook, or a function
-        that is called with (done, total, text).
+    show: True for a bar, False for none. None is a bar where standard error is a terminal, or in a notebook. A function is
+        called with (done, total, text).
     """
 
     def __init__(self, show, total, text, unit):

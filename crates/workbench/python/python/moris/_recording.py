@@ -37,9 +37,9 @@ FLAGS = ("repair",)
 class Recording:
     """A recorded ride, in the washout's frames and units and at equal steps.
 
-    source: a table (pandas.DataFrame, one of polars, a pyarrow.Table or another with __arrow_c_stream__ or __dataframe__, a
-        structured array such as FMPy's result), a dict of arrays of shape (N,), or the path of a file: CSV (also .csv.gz),
-        Parquet, Excel, MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time,
+    source: a table, a dict of arrays of shape (N,), or the path of a file. Tables are a pandas.DataFrame, one of polars, a
+        pyarrow.Table, another with __arrow_c_stream__ or __dataframe__, and a structured array such as FMPy's result. Files
+        are CSV (also .csv.gz), Parquet, Excel, MATLAB (.mat) or MDF (.mf4). A directory of CSV files, or a list of them, is joined by time. The columns are time,
         ax, ay, az (specific force) and wx, wy, wz (angular velocity) at the rider's head, and, where there are any, roll,
         pitch, yaw, speed and lean. Units in the brackets of a name are read: "ax [g]". A DataFrame whose index is called
         time needs no such column.

@@ -69,8 +69,9 @@ def tune(
         left out in turn, which decides how far the result goes from the initial parameters; by default each recording by
         itself. 0 leaves none out, and the result goes all the way to the best parameters for the recordings.
     rig, parameters, strategy: as for Washout; the search starts from these parameters.
-    groups: what may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy" (weights, gains and poles of the
-        strategy in use; the classical one has none), "order" (of the splitter's and the angular channel's high-passes).
+    groups: parameters that may change: "splitter", "angular", "scale", "cutoff", "tilt", "strategy", "order". Those of
+        "strategy" are weights, gains and poles of the strategy in use; the classical one has none. The "order" is that of the
+        high-passes of the splitter and the angular channel.
     weights: of the errors of specific force x, y, z and angular velocity x, y, z. stroke_reserve: of each actuator [m].
     comfort: bounds of the felt force's shake, jolt and peak [m/s2], at least their values with the initial parameters.
     evaluations: parameter sets of each search after its coarse scan. seed: of the random numbers.

@@ -46,9 +46,13 @@ impl Start {
     }
 
     fn html(&self) -> String {
-        let style = [shared::STYLE, ride::STYLE, STYLE].join("\n");
-        let texts = [("subtitle", shared::escaped(&self.subtitle)), ("style", style)];
-        shared::assembled(TEMPLATE, &texts, self, &[&ride::SHARED[..], &SCRIPTS].concat())
+        let head = shared::Head {
+            title: "Live",
+            subtitle: &self.subtitle,
+            style: &[ride::STYLE, STYLE].join("\n"),
+            policy: "script-src 'unsafe-inline'; connect-src 'self'",
+        };
+        shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &SCRIPTS].concat())
     }
 }
 
