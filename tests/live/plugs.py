@@ -15,8 +15,9 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from fuzz import packet
 from rig import Browser, Controller, Live, Vehicle
+
+from fuzz import packet
 
 SHORT = 0.3  # s between the plugs without a time
 

@@ -153,3 +153,32 @@ fn write_reports<'a>(
     }
     Ok(written)
 }
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    #[test]
+    fn the_search_starts_from_the_set_that_votes_prefer() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("votes");
+        let start_of = |votes: &str| {
+            fs::write(&file, votes).unwrap();
+            let line = Line::parse_from(["tune", "ride.csv", "--votes", file.to_str().unwrap()]);
+            start(&line.options)
+        };
+        let setup = start_of("{\"better\":{\"scale.specificForce.x\":0.6},\"worse\":{}}\n").unwrap();
+        assert!(all(&setup.parameters).contains(&("scale.specificForce.x".to_owned(), 0.6)));
+        assert_eq!(setup.rig_alone, Parameters::default());
+        let wrong = start_of("{\"better\":{\"tilt.angleLimit\":9},\"worse\":{}}\n").unwrap_err();
+        assert!(format!("{wrong:#}").contains("tilt.angleLimit"), "{wrong:#}");
+    }
+}
