@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import time
+import urllib.request
 from pathlib import Path
 
 import pytest
@@ -12,16 +13,21 @@ from conftest import ROOT
 
 FMUS = Path(os.environ.get("MORIS_FMUS", ROOT / "target" / "fmu"))
 MAP = ROOT / "examples" / "motorcycle-map.toml"
+RIDDEN_MAP = ROOT / "examples" / "ridden-map.toml"
 CARGO = ["cargo", "run", "--quiet", "--bin", "moris", "--"]
+
+
+def start(version, vehicle_map, *options):
+    """The command with the FMU of this version. It ends by itself, so that no test waits for ever."""
+    moris = [os.environ["MORIS"]] if "MORIS" in os.environ else CARGO
+    command = [*moris, "live", "--from", f"fmu:{FMUS / f'Motorcycle.{version}'}", "--map", vehicle_map]
+    command += ["--frames", "json", "--dry", "--engage", "--for", "60", *options]
+    return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
 
 
 @pytest.mark.parametrize("version", ["fmu", "fmi3.fmu"])
 def test_the_motorcycle_drives_once_the_platform_engages(version):
-    moris = [os.environ["MORIS"]] if "MORIS" in os.environ else CARGO
-    command = [*moris, "live", "--from", f"fmu:{FMUS / f'Motorcycle.{version}'}", "--map", MAP]
-    # It ends by itself, so that no test waits for ever.
-    command += ["--frames", "json", "--dry", "--engage", "--for", "60"]
-    process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+    process = start(version, MAP)
     said = []
     for text in process.stderr:
         said.append(text)
@@ -41,3 +47,37 @@ def test_the_motorcycle_drives_once_the_platform_engages(version):
     assert max(map(abs, surge[:30])) < 1e-6
     assert max(surge) > 0.1, max(surge)
     assert "0 bad" in out, out
+
+
+@pytest.mark.parametrize("version", ["fmu", "fmi3.fmu"])
+def test_the_page_holds_the_inputs_of_an_fmu(version):
+    process = start(version, RIDDEN_MAP, "--page")
+    address = next(said.removeprefix("page: ").strip() for said in process.stderr if said.startswith("page: "))
+    own, token = address.split("/?token=")
+
+    def messages(events):
+        return (json.loads(text.removeprefix(b"data: ")) for text in events if text.startswith(b"data: "))
+
+    def drive(throttle, stick):
+        held = {"throttle": throttle, "brake": 0, "stick": stick, "is_helped": False}
+        body = json.dumps({"client": welcome["client"], "ask": {"drive": held}}).encode()
+        request = urllib.request.Request(f"{own}/ask", body, {"X-Token": token, "Origin": own})
+        urllib.request.urlopen(request).close()
+
+    with urllib.request.urlopen(f"{own}/events?token={token}") as events:
+        received = messages(events)
+        welcome = next(received)
+        assert welcome["drives"]
+        speed, roll = (welcome["names"].index(name) for name in ("speed", "roll"))
+        rows = (message["rows"][-1] for message in received if message.get("rows"))
+        # A lean to the right is a positive roll.
+        for row in rows:
+            assert row[0] < 50, row
+            drive(0.6, 0.3 if row[speed] > 5 else 0)
+            if row[roll] > 0.1:
+                break
+    for _ in range(2):
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.2)
+    process.communicate()
+    assert process.returncode == 0

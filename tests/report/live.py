@@ -4,6 +4,7 @@
 """
 
 import csv
+import json
 import socket
 import subprocess
 import sys
@@ -17,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "examples"))
 from vehicle import line  # noqa: E402
 
-wait = waiter("simulationLive", "now, strips, sliders")
+wait = waiter("simulationLive", "now, strips, sliders, driving")
 
 
 def drive(port, ended):
@@ -30,12 +31,13 @@ def drive(port, ended):
 
 
 @contextmanager
-def live(*options):
-    """The command with its source; yields the page's address."""
+def live(*options, source=None):
+    """The command with its source, the drive or another one; yields the page's address."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    command = [*MORIS, "live", "--from", f"udp:{port}", "--format", "csv", "--dry", "--page", *options]
+    chosen = source or ["--from", f"udp:{port}", "--format", "csv"]
+    command = [*MORIS, "live", *chosen, "--dry", "--page", *options]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     ended = threading.Event()
     try:
@@ -116,6 +118,51 @@ def a_second_page_looks_only(browser):
         second.keyboard.press("s")
         first.keyboard.press("s")
         wait(second, "now.state === 'homing'")
+
+
+@check
+def two_sets_are_kept_gone_to_and_voted_on(browser):
+    votes = PAGES / "votes.jsonl"
+    votes.unlink(missing_ok=True)
+    with live("--engage", "--votes", str(votes)) as address, opened(browser, address) as page:
+        click = lambda what, which: page.locator(f"[data-pair={what}][data-set={which}]").click()  # noqa: E731
+        click("keep", "a")
+        field = page.locator("[id='parameter-scale.specificForce.x']")
+        field.fill("0.5")
+        field.press("Enter")
+        scale = "sliders.values[sliders.slots.get('scale.specificForce.x')]"
+        wait(page, f"{scale} === 0.5")
+        click("keep", "b")
+        wait(page, "now.state === 'engaged' && !document.querySelector('[data-pair=go_to][data-set=a]').disabled")
+        field.evaluate("one => one.blur()")
+        page.keyboard.press("1")
+        wait(page, f"{scale} > 0.55 && {scale} < 0.95")
+        wait(page, f"{scale} === 1 && now.state === 'engaged'")
+        page.wait_for_timeout(200)
+        page.screenshot(path=PICTURES / "live-pair.png", full_page=True)
+        click("vote", "b")
+        wait(page, "document.getElementById('pair-message').textContent.includes('Noted: B')")
+    assert json.loads(votes.read_text()) == {"better": {"scale.specificForce.x": 0.5}, "worse": {}}
+
+
+@check
+def arrow_keys_ride_the_motorcycle(browser):
+    with live("--engage", source=["--from", "ride"]) as address, opened(browser, address) as page:
+        wait(page, "now.state === 'engaging'")
+        assert page.locator("#driving").is_visible()
+        page.keyboard.down("ArrowUp")
+        wait(page, "now.view.speed > 5")
+        page.keyboard.up("ArrowUp")
+        wait(page, "driving.held.throttle === 0")
+        page.locator("#helped").uncheck()
+        page.keyboard.down("ArrowUp")
+        page.keyboard.down("ArrowRight")
+        wait(page, "now.state === 'frozen'")
+        page.screenshot(path=PICTURES / "live-ride.png", full_page=True)
+        page.keyboard.up("ArrowUp")
+        page.keyboard.up("ArrowRight")
+        page.keyboard.press("n")
+        wait(page, "now.state === 'engaged' && now.view.speed < 0.3")
 
 
 @check

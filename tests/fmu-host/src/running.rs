@@ -42,6 +42,17 @@ impl Running {
         }
     }
 
+    /// Sets an input or a tunable parameter by name, rounded to the variable's kind.
+    ///
+    /// # Errors
+    /// The FMU rejects the value, or there is no such variable.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), HostError> {
+        match self {
+            Running::Fmi2(instance) => instance.set(name, value),
+            Running::Fmi3(running) => running.set(name, value),
+        }
+    }
+
     /// A step from `time` by `step` \[s\].
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Time of a sample: from its packet's clock, or else its arrival.
 
 /// Packets that come so much later than the clock says show that the clock has been stopped or runs
-/// slowly \[s\].
+/// slowly. A packet that comes so much earlier shows that the clock has leapt \[s\].
 const LATEST: f64 = 0.25;
 /// A clock that goes back by less has two packets in the wrong order; by more, it has been started
 /// again \[s\].
@@ -53,7 +53,8 @@ impl Clock {
             [Some(now), Some(before)] if now <= before && now > before - REORDERED => return Stamp::Repeated,
             [Some(now), Some(before)] => {
                 let lag = behind.min(last.lag + DRIFT * (arrival - last.arrival));
-                match now < before || behind - lag > LATEST {
+                let leaps = now - before - (arrival - last.arrival) > LATEST;
+                match now < before || leaps || behind - lag > LATEST {
                     true => (anew, behind, true),
                     false => ((now + lag).max(last.stamp + 1e-4), lag, false),
                 }
@@ -71,6 +72,18 @@ impl Clock {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_clock_that_leaps_has_been_started_again_and_a_lost_second_has_not() {
+        let mut clock = Clock::default();
+        for k in 0..100 {
+            let time = f64::from(k) / 60.0;
+            assert!(matches!(clock.stamp(7.0 + time, Some(time)), Stamp::At(_)));
+        }
+        assert!(matches!(clock.stamp(9.7, Some(2.7)), Stamp::At(stamp) if (stamp - 9.7).abs() < 1e-9));
+        assert_eq!(clock.stamp(9.75, Some(1002.75)), Stamp::Restarted(9.75));
+        assert!(matches!(clock.stamp(9.8, Some(1002.8)), Stamp::At(stamp) if (stamp - 9.8).abs() < 1e-9));
+    }
 
     #[test]
     fn a_packet_s_clock_takes_the_jitter_out() {

@@ -13,6 +13,7 @@
 //! | [`resampler`] | linear interpolation of irregular samples, with a delay |
 //! | [`gate`] | change of the washout's source without a jump |
 //! | [`travel`] | the way between the settled pose and neutral |
+//! | [`blend`] | the way from one parameter set to another |
 //! | [`signs`] | test of the telemetry's signs |
 //! | [`format`](mod@format) | packets of telemetry, described by tables |
 //! | [`moog`] | the motion base MOOG 6DOF2000E |
@@ -40,6 +41,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod blend;
 pub mod clock;
 pub mod format;
 pub mod frame;

@@ -6,7 +6,7 @@ const HEADER = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed";
 const machine = new View(byId("view"), page.rig, "motorcycle");
 const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
 const lamps = new Lamps(byId("lamps"));
-const now = { client: "", controls: false, names: [], view: null, state: "", messages: 0, recorded: null };
+const now = { client: "", controls: false, drives: false, names: [], view: null, state: "", messages: 0, recorded: null };
 let paints = {};
 
 /** A refusal, for a while. */
@@ -21,6 +21,8 @@ async function send(what) {
   return ask(now.client, what);
 }
 
+const driving = new Driving(byId("driving"), page.handling, send);
+const pair = new Pair(document.querySelectorAll("#pair button"), send);
 const sliders = new Sliders(byId("panel"), page, (values) => send({ set: values }));
 
 function record() {
@@ -45,7 +47,7 @@ function showLateness(classes) {
   }));
 }
 
-function take({ rows, state, health, delay, late, lines, changed }) {
+function take({ rows, state, health, delay, late, lines, changed, pair: told }) {
   if (!rows) return;
   for (const row of rows) {
     const view = Object.fromEntries(now.names.map((name, i) => [name, row[i]]));
@@ -60,6 +62,7 @@ function take({ rows, state, health, delay, late, lines, changed }) {
   setText("state", state);
   setText("health", `telemetry: ${health}, delay ${fixed(1000 * delay, 0)} ms`);
   sliders.take(changed);
+  pair.take(told, now.controls);
   if (now.messages % 12 === 1) {
     byId("journal").replaceChildren(...lines.map((line) => element("li", {}, [line])));
     showLateness(late);
@@ -69,8 +72,9 @@ function take({ rows, state, health, delay, late, lines, changed }) {
 function connect() {
   const events = new EventSource(`/events?token=${token}`);
   events.addEventListener("welcome", ({ data }) => {
-    const { client, controls, names } = JSON.parse(data);
-    Object.assign(now, { client, controls, names });
+    const { client, controls, drives, names } = JSON.parse(data);
+    Object.assign(now, { client, controls, drives, names });
+    driving.run(() => now.drives);
     for (const strip of Object.values(strips)) strip.clear();
     setText("role", controls ? "This page controls." : "This page looks only: another one controls.");
     for (const button of document.querySelectorAll("#commands button")) button.disabled = !controls;
@@ -79,7 +83,7 @@ function connect() {
   events.addEventListener("end", () => {
     events.close();
     setText("state", "ended");
-    now.controls = false;
+    now.controls = now.drives = false;
   });
   events.addEventListener("error", () => {
     setText("state", events.readyState === EventSource.CLOSED ? "ended" : "connecting …");
@@ -93,7 +97,7 @@ matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readPaints
 addLegend(byId("legend"));
 letTurn(machine, () => {});
 byId("record").addEventListener("click", record);
-listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record });
+listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record, ...pair.keys, [DRIVING_KEY]: () => driving.beginAgain() });
 connect();
 
 function tick() {
@@ -106,4 +110,4 @@ function tick() {
 requestAnimationFrame(tick);
 document.getElementById("alarm").hidden = true;
 /** For checks: what is shown. */
-globalThis.simulationLive = { now, strips, sliders };
+globalThis.simulationLive = { now, strips, sliders, driving };

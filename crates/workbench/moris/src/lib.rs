@@ -37,6 +37,7 @@ pub mod simulate;
 mod status;
 pub mod text_table;
 pub mod tune;
+pub mod votes;
 pub mod worst_case;
 
 /// Version, and the commit where it is known.

@@ -18,18 +18,18 @@ class Controls {
     this.wasStart = false;
   }
 
-  /** Listens to keys and buttons; `commands` has what other keys do. */
-  listen(buttons, commands) {
+  /** Listens to keys and buttons. `commands` has what other keys do, `letters` those that stand for arrows. */
+  listen(buttons, commands, { restart, letters = KEYS }) {
     const isField = (target) => target.matches("input:not([type=checkbox]), select, #view");
     addEventListener("keydown", (event) => {
-      const key = KEYS[event.key.toLowerCase()] || event.key;
+      const key = letters[event.key.toLowerCase()] || event.key;
       if (event.ctrlKey || event.metaKey || event.altKey || isField(event.target)) return;
       const command = commands[key.toLowerCase()];
       if (command && !event.repeat) command();
       if (HELD.includes(key)) this.held.add(key);
       if (command || HELD.includes(key)) event.preventDefault();
     });
-    addEventListener("keyup", (event) => this.held.delete(KEYS[event.key.toLowerCase()] || event.key));
+    addEventListener("keyup", (event) => this.held.delete(letters[event.key.toLowerCase()] || event.key));
     addEventListener("blur", () => this.held.clear());
     for (const button of buttons) {
       const { key } = button.dataset;
@@ -43,7 +43,17 @@ class Controls {
       button.addEventListener("keyup", release);
       button.addEventListener("contextmenu", (event) => event.preventDefault());
     }
-    this.restart = commands.r;
+    this.restart = restart;
+  }
+
+  /** Shows this button on a device that may tell its tilt. */
+  offerTilt(button) {
+    if (!matchMedia("(pointer: coarse)").matches || !("DeviceOrientationEvent" in window)) return;
+    button.hidden = false;
+    button.addEventListener("click", async () => {
+      const isAllowed = await this.useTilt().catch(() => false);
+      button.textContent = isAllowed ? "Lean: tilt the device" : "The device gives no tilt";
+    });
   }
 
   /** Asks for the device's tilt; false if it is refused. */

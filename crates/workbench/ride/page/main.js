@@ -113,14 +113,8 @@ byId("map").checked = matchMedia("(prefers-reduced-motion: reduce)").matches;
 byId("restart").addEventListener("click", restart);
 byId("pause").addEventListener("click", () => pause());
 byId("save").addEventListener("click", save);
-controls.listen(document.querySelectorAll("#pedals button"), { r: restart, p: () => pause(), h: () => toggle("helped"), m: () => toggle("map") });
-if (matchMedia("(pointer: coarse)").matches && "DeviceOrientationEvent" in window) {
-  byId("tilt").hidden = false;
-  byId("tilt").addEventListener("click", async () => {
-    const isAllowed = await controls.useTilt().catch(() => false);
-    byId("tilt").textContent = isAllowed ? "Lean: tilt the device" : "The device gives no tilt";
-  });
-}
+controls.listen(document.querySelectorAll("#pedals button"), { r: restart, p: () => pause(), h: () => toggle("helped"), m: () => toggle("map") }, { restart });
+controls.offerTilt(byId("tilt"));
 
 let before = performance.now();
 function tick(at) {

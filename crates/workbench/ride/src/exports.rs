@@ -6,7 +6,8 @@ use std::cell::RefCell;
 use moris_page_memory::{group, say, write};
 use serde_json::json;
 
-use crate::ride::{Command, Ride};
+use crate::ridden::Command;
+use crate::ride::Ride;
 
 thread_local! {
     static RIDE: RefCell<Option<Ride>> = RefCell::default();

@@ -1,5 +1,6 @@
 //! A ride in the browser: the motorcycle by hand, with the washout and the platform.
 //!
+//! - [`Ridden`] is the motorcycle with its rider, who obeys a player.
 //! - [`Ride`] steps motorcycle and washout together, a millisecond at a time.
 //! - [`Course`] is the road in the plane.
 //! - [`Recording`] has the ride's measures and its file.
@@ -14,9 +15,11 @@ pub mod lamps;
 #[cfg(not(target_arch = "wasm32"))]
 pub mod page;
 mod recording;
+mod ridden;
 mod ride;
 mod rider;
 
 pub use course::{Course, Place};
 pub use recording::{Rating, Recording};
-pub use ride::{Command, HALF_WIDTH, Lap, Ride, STEP, Stage};
+pub use ridden::{Command, Ridden};
+pub use ride::{HALF_WIDTH, Lap, Ride, STEP, Stage};

@@ -10,10 +10,13 @@ pub const STYLE: &str = include_str!("../page/ride.css");
 /// Scripts for any page with curves, a platform and lamps.
 pub const SHARED: [&str; 2] = [include_str!("../page/strip.js"), include_str!("../page/shown.js")];
 
+/// The script for throttle, brake and stick by keys, buttons, a gamepad or a phone's tilt.
+pub const CONTROLS: &str = include_str!("../page/controls.js");
+
 /// The scripts in the order of their dependencies.
 const SCRIPTS: [&str; 5] = [
     include_str!("../page/engine.js"),
-    include_str!("../page/controls.js"),
+    CONTROLS,
     include_str!("../page/road.js"),
     include_str!("../page/panel.js"),
     include_str!("../page/main.js"),

@@ -1,14 +1,14 @@
 //! The ride: motorcycle, washout and platform, a step at a time.
 
 use moris_interface::{Model, ParameterError};
-use moris_motorcycle::{Course as Path, Input as Controls, Motorcycle, Parameters as MotorcycleParameters};
+use moris_motorcycle::Motorcycle;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters, Washout};
 
 use crate::course::{Course, Place};
 use crate::lamps;
 use crate::recording::{Rating, Recording};
-use crate::rider;
+use crate::ridden::{Command, Ridden};
 
 /// Time of a step \[s\].
 pub const STEP: f64 = 0.001;
@@ -22,18 +22,6 @@ const NEUTRAL: f64 = 2e-3;
 const STILL: f64 = 5e-3;
 /// Longest time to wait for the platform at neutral \[s\].
 const PATIENCE: f64 = 20.0;
-
-/// What the player asks of the rider.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Command {
-    /// From 0 to 1.
-    pub throttle: f64,
-    pub brake: f64,
-    /// From -1, left, to 1, right: the lean that the rider aims at.
-    pub stick: f64,
-    /// True if the rider keeps to the road.
-    pub is_helped: bool,
-}
 
 /// Where a ride is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +49,7 @@ pub struct Lap {
 /// Motorcycle, washout and platform.
 #[derive(Clone, Debug)]
 pub struct Ride {
-    motorcycle: Motorcycle,
+    ridden: Ridden,
     course: Course,
     parameters: Parameters,
     washout: Washout,
@@ -89,14 +77,14 @@ impl Ride {
     /// The washout's parameters cannot be used.
     pub fn new(parameters: &Parameters) -> Result<Ride, ParameterError> {
         let parameters = in_body_axes(parameters);
-        let motorcycle = motorcycle(None)?;
-        let input = input_of(&motorcycle, true);
+        let ridden = Ridden::new()?;
+        let input = ridden.input(true);
         let washout = Washout::new(&parameters)?.starting_with(&input);
-        let Some(follower) = motorcycle.follower() else { unreachable!("the course is a path") };
+        let Some(follower) = ridden.motorcycle().follower() else { unreachable!("the course is a path") };
         let felt = washout.output().felt_specific_force;
         Ok(Ride {
             course: Course::new(follower),
-            motorcycle,
+            ridden,
             parameters,
             next: None,
             disengaged: 0.0,
@@ -125,7 +113,7 @@ impl Ride {
         // A ride that is given up ends in the middle of a motion: its last force fades.
         self.input = match self.stage {
             Stage::Returning => Input { engaged: false, ..self.input },
-            _ => input_of(&self.motorcycle, is_engaged),
+            _ => self.ridden.input(is_engaged),
         };
         self.washout.step(&self.input, STEP);
         self.disengaged = if is_engaged { 0.0 } else { self.disengaged + STEP };
@@ -159,11 +147,9 @@ impl Ride {
     /// # Errors
     /// It is out of range.
     pub fn set_friction(&mut self, friction: f64) -> Result<(), ParameterError> {
-        let mut parameters = *self.motorcycle.parameters();
-        parameters.tyres.friction = friction;
-        self.motorcycle.retune(&parameters)?;
+        self.ridden.set_friction(friction)?;
         // The speed that a rider plans depends on it.
-        if let Some(follower) = self.motorcycle.follower() {
+        if let Some(follower) = self.motorcycle().follower() {
             self.course = Course::new(follower);
         }
         Ok(())
@@ -176,7 +162,7 @@ impl Ride {
     pub fn restart(&mut self) -> Result<(), ParameterError> {
         if !matches!(self.stage, Stage::Ready | Stage::Returning) {
             self.next = Some(Box::new(Washout::new(&self.parameters)?));
-            self.motorcycle = motorcycle(Some(self.motorcycle.parameters()))?;
+            self.ridden = self.ridden.again()?;
             self.place = Place::default();
             self.stage = Stage::Returning;
         }
@@ -192,10 +178,8 @@ impl Ride {
     }
 
     fn ride(&mut self, command: &Command) {
-        let Command { throttle, brake, stick, is_helped } = *command;
-        let lean = rider::lean(stick, is_helped, &self.motorcycle);
-        self.motorcycle.step(&Controls { throttle, brake, lean, ..Controls::default() }, STEP);
-        let now = self.motorcycle.output();
+        self.ridden.step(command);
+        let now = self.motorcycle().output();
         self.stage = match self.stage {
             _ if now.fallen => Stage::Fallen,
             Stage::Riding if now.off_path => Stage::OffRoad,
@@ -214,7 +198,7 @@ impl Ride {
         let felt = self.washout.output().felt_specific_force;
         self.recording.push(&self.input, [felt.x, felt.y]);
         self.steps += 1;
-        let laps = self.motorcycle.output().path_distance / self.course.length();
+        let laps = self.motorcycle().output().path_distance / self.course.length();
         if laps as usize > self.laps.len() {
             let from = self.laps.last().map_or(0, |lap| lap.samples[1] - 1);
             self.laps.push(Lap {
@@ -237,7 +221,7 @@ impl Ride {
         if at_rest {
             self.stage = Stage::Ready;
         }
-        self.input = input_of(&self.motorcycle, at_rest);
+        self.input = self.ridden.input(at_rest);
         self.washout = next.starting_with(&self.input);
     }
 
@@ -267,7 +251,7 @@ impl Ride {
     }
 
     pub fn motorcycle(&self) -> &Motorcycle {
-        &self.motorcycle
+        self.ridden.motorcycle()
     }
 
     pub fn washout(&self) -> &Washout {
@@ -291,7 +275,7 @@ impl Ride {
 
     /// What the page shows, by names. Lamps are lit if a limit was near since the last call.
     pub fn view(&mut self) -> Vec<(&'static str, f64)> {
-        let (bike, out) = (self.motorcycle.output(), self.washout.output());
+        let (bike, out) = (self.motorcycle().output(), self.washout.output());
         let lamps = std::mem::take(&mut self.lamps).map(f64::from);
         let desired = self.input.specific_force;
         let felt = out.felt_specific_force;
@@ -328,31 +312,9 @@ impl Ride {
     }
 }
 
-/// A motorcycle at the beginning of the lap, whose rider obeys the player.
-fn motorcycle(like: Option<&MotorcycleParameters>) -> Result<Motorcycle, ParameterError> {
-    let mut parameters = like.copied().unwrap_or_default();
-    parameters.path.course = Path::Lap;
-    parameters.path.half_width = HALF_WIDTH;
-    parameters.run.angular_velocity_frame = AngularVelocityFrame::Body;
-    Ok(Motorcycle::new(&parameters, &Controls::default())?.commanded())
-}
-
 /// Recordings have the rates of a gyroscope; so has the ride.
 fn in_body_axes(parameters: &Parameters) -> Parameters {
     let mut parameters = *parameters;
     parameters.conditioning.angular_velocity_frame = AngularVelocityFrame::Body;
     parameters
-}
-
-/// The washout's input.
-fn input_of(motorcycle: &Motorcycle, engaged: bool) -> Input {
-    let now = motorcycle.output();
-    Input {
-        specific_force: now.specific_force,
-        angular_velocity: now.angular_velocity,
-        orientation: now.orientation,
-        speed: now.speed,
-        lean: now.lean,
-        engaged,
-    }
 }

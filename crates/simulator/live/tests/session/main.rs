@@ -1,8 +1,9 @@
 //! A session: any events at any time, with telemetry of a smooth ride.
 
 mod ride;
+mod sets;
 
-use std::ops::Range;
+use std::sync::Mutex;
 
 use moris_live::log::{self, Digest, Entry, Happening};
 use moris_live::{Commands, Event, STEP, Sample, Session, Settings, State};
@@ -301,28 +302,74 @@ proptest! {
     }
 }
 
-/// A million events, in sequences of hundreds:
-/// `MORIS_ALL_CASES=1 cargo test -p moris-live -- --ignored`.
+/// A million events, in sequences of hundreds, on all cores:
+/// `MORIS_ALL_CASES=1 cargo test -p moris-live -- --ignored million`.
 #[test]
-#[ignore = "takes half an hour"]
+#[ignore = "takes an hour"]
 fn no_sequence_of_a_million_events_is_felt_as_a_jolt() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
     let count: usize = if std::env::var_os("MORIS_ALL_CASES").is_some() { 10_000 } else { 100 };
-    let mut runner = TestRunner::deterministic();
+    let runner = Mutex::new((0..count, TestRunner::deterministic()));
     let sequences = prop::collection::vec(any_event(), 100);
-    let mut worst = [0.0_f64; 2];
-    let mut violations: Range<usize> = 0..0;
-    for case in 0..count {
-        let events = sequences.new_tree(&mut runner).unwrap().current();
-        let [shake, jolt] = discomfort(&Parameters::default(), Ride::default(), &events);
-        if shake > worst[0] || jolt > worst[1] {
-            worst = [worst[0].max(shake), worst[1].max(jolt)];
-            println!("sequence {case}: shake {shake:.3}, jolt {jolt:.3}; worst {worst:.3?}");
+    let next = || {
+        let (left, runner) = &mut *runner.lock().unwrap();
+        left.next().map(|case| (case, sequences.new_tree(runner).unwrap().current()))
+    };
+    let found = Mutex::new(([0.0_f64; 2], 0));
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some((case, events)) = next() {
+                    let [shake, jolt] = discomfort(&Parameters::default(), Ride::default(), &events);
+                    let (worst, violations) = &mut *found.lock().unwrap();
+                    if shake > worst[0] || jolt > worst[1] || case % 500 == 499 {
+                        *worst = [worst[0].max(shake), worst[1].max(jolt)];
+                        println!("sequence {case}: shake {shake:.3}, jolt {jolt:.3}; worst {worst:.3?}");
+                    }
+                    *violations += usize::from(shake > MOST[0] || jolt > MOST[1]);
+                }
+            });
         }
-        violations.end += usize::from(shake > MOST[0] || jolt > MOST[1]);
+    });
+    let (worst, violations) = found.into_inner().unwrap();
+    assert_eq!(violations, 0, "of {count} sequences, worst {worst:?}");
+}
+
+/// A day of engaging, driving, pauses and parking: `cargo test -p moris-live -- --ignored day`.
+#[test]
+#[cfg(target_os = "linux")]
+#[ignore = "takes minutes"]
+fn a_day_needs_no_more_memory_at_its_end() {
+    /// Resident memory [kB].
+    fn resident() -> u64 {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap();
+        status.lines().find_map(|line| line.strip_prefix("VmRSS:")?.trim().strip_suffix(" kB")?.parse().ok()).unwrap()
     }
-    assert!(violations.is_empty(), "{} of {count} sequences, worst {worst:?}", violations.len());
+    let (mut session, mut ride) = at_neutral(&presets::parameters(presets::CAR));
+    ride.sets = vec![(log::slot_of("scale.specificForce.x").unwrap(), [0.4, 0.6])];
+    let person = RideEvent::Person;
+    let hour = [
+        (1000.0, person(Event::Engage)),
+        (200.0, RideEvent::Set(1)),
+        (200.0, RideEvent::Pause),
+        (200.0, RideEvent::Run),
+        (200.0, RideEvent::Teleport),
+        (200.0, RideEvent::Silence),
+        (200.0, RideEvent::Run),
+        (1000.0, person(Event::Engage)),
+        (200.0, RideEvent::Set(0)),
+        (150.0, person(Event::Park)),
+        (50.0, person(Event::Start)),
+    ];
+    run(&mut session, &mut ride, &hour, |_| ());
+    let begin = resident();
+    for _ in 0..24 {
+        run(&mut session, &mut ride, &hour, |_| ());
+    }
+    let (hours, end) = (session.time() / 3600.0, resident());
+    println!("{begin} kB, and {end} kB at {hours:.1} hours");
+    assert!(hours > 25.0 && end <= begin + 256, "{begin} kB, and {end} kB at {hours} hours");
 }
 
 #[test]

@@ -3,7 +3,8 @@
 //! `moris_live` decides; here are its clock, its sockets and its threads:
 //!
 //! - `priority` asks for real time, `lateness` counts how late steps and frames are.
-//! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU.
+//! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU or a motorcycle.
+//! - `controls` has what the page holds of a vehicle's controls.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames, `journal` prints what happens and records the session.
 //! - `page` serves the page in a browser.
@@ -11,6 +12,7 @@
 //!
 //! Threads exchange values through rings without locks. The loop waits for none of them.
 
+mod controls;
 mod frames;
 mod journal;
 mod lateness;
@@ -36,6 +38,7 @@ use moris_live::{Event, STEP, Session, Settings, log, moog};
 use rtrb::{Producer, RingBuffer};
 
 use crate::setup_options::SetupOptions;
+use controls::{Controls, Handling};
 use frames::{Device, Sent, Sink};
 use page::{Desk, Order, Server, Start};
 
@@ -52,8 +55,8 @@ pub struct Options {
     list: Option<tables::List>,
 
     /// Telemetry: udp:PORT; or the FMU of a vehicle, or a recording, which run in real time
-    /// once the platform engages
-    #[arg(long, value_name = "udp:PORT|fmu:FILE|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
+    /// once the platform engages; or ride: a motorcycle that the page's controls ride then
+    #[arg(long, value_name = "udp:PORT|fmu:FILE|ride|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
     from: Option<String>,
 
     /// Format of the packets: a name of `moris live formats`, or a TOML file; of a recording: its
@@ -120,6 +123,10 @@ pub struct Options {
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
 
+    /// Add the page's votes between two parameter sets to a file, for tune
+    #[arg(long, value_name = "FILE", requires = "page")]
+    votes: Option<PathBuf>,
+
     /// Repeat a recorded session, as fast as possible, and check that each command is the same
     #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to", "record"])]
     replay: Option<PathBuf>,
@@ -160,7 +167,11 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         return Ok(empty_loop(options, out)?);
     }
     let setup = options.setup.load()?;
-    let settings = Settings { delay: options.delay, ignore_signs: options.ignore_signs, ..Settings::default() };
+    let from = options.from.as_deref().unwrap_or_default();
+    let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
+    // The motorcycle's signs are known, and its falls are like nothing that the test knows.
+    let ignore_signs = options.ignore_signs || input.handling() == Some(Handling::Rider);
+    let settings = Settings { delay: options.delay, ignore_signs, ..Settings::default() };
     let mut session = Session::new(&setup.parameters, &settings)?;
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
     let (device, interval) = if options.frames == moog::NAME {
@@ -172,13 +183,13 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
         (Device::Template(Box::new(encoder)), template.interval)
     };
-    let from = options.from.as_deref().unwrap_or_default();
-    let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
     if let Some(file) = &mut record {
         let header = log::header(&setup.parameters, &settings);
         file.write_all(header.as_bytes()).context("cannot record the session")?;
     }
+    let votes = options.votes.as_ref().map(|file| File::options().append(true).create(true).open(file));
+    let votes = votes.transpose().context("cannot write votes")?;
     let shared = Arc::new(Shared::default());
     let pressed = Arc::clone(&shared);
     let count = move || {
@@ -190,9 +201,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (commands, commanded) = RingBuffer::new(64);
     // As many as there are parameters, and more.
     let (to_loop, asked) = RingBuffer::new(1024);
-    let desk = Arc::new(Desk::new(&setup.parameters, to_loop, options.allow_control)?);
+    let controls = input.handling().map(|handling| Arc::new(Controls::new(handling)));
+    let desk = Arc::new(Desk::new(&setup, votes, to_loop, controls.clone(), options.allow_control)?);
     let server = match options.page {
-        Some(port) => Some(Server::open(port, options.listen, &Start::of(&setup), Arc::clone(&desk))?),
+        Some(port) => {
+            Some(Server::open(port, options.listen, &Start::of(&setup, input.handling()), Arc::clone(&desk))?)
+        }
         None => None,
     };
     let (shown, showing) = RingBuffer::new(256);
@@ -214,7 +228,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             scope.spawn(|| server.run(&shared));
             scope.spawn(|| desk.show(showing, &shared));
         }
-        scope.spawn(|| input.run(samples, &shared));
+        scope.spawn(|| input.run(controls.as_deref(), samples, &shared));
         let mut steps = steps::Steps {
             session: &mut session,
             shared: &shared,

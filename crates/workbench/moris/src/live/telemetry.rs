@@ -1,4 +1,4 @@
-//! Telemetry from a socket, or from a recording in real time.
+//! Telemetry from a socket, from a recording in real time, or from a vehicle that is stepped here.
 
 use std::net::UdpSocket;
 use std::path::Path;
@@ -14,7 +14,8 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::motion::orientation::Orientation;
 use rtrb::Producer;
 
-use super::vehicle::Vehicle;
+use super::controls::{Controls, Handling};
+use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Shared, pace, tables};
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 
@@ -38,8 +39,8 @@ pub enum Input {
     Udp(UdpSocket, Box<Format>),
     /// A recording.
     Played(Box<Recording>),
-    /// A vehicle's FMU.
-    Fmu(Box<Vehicle>),
+    /// A vehicle.
+    Driven(Box<dyn Vehicle>),
 }
 
 impl Input {
@@ -48,9 +49,12 @@ impl Input {
     /// # Errors
     /// The port, the format or the recording cannot be used.
     pub fn open(from: &str, format: Option<&str>, map: Option<&Path>, listen: bool) -> Result<Input> {
+        if from == "ride" {
+            return Ok(Input::Driven(Box::new(Motorcycle::new()?)));
+        }
         if let Some(file) = from.strip_prefix("fmu:") {
             let map = map.context("--map names the file that maps the FMU's variables")?;
-            return Ok(Input::Fmu(Box::new(Vehicle::open(Path::new(file), map)?)));
+            return Ok(Input::Driven(Box::new(Fmu::open(Path::new(file), map)?)));
         }
         let Some(port) = from.strip_prefix("udp:") else {
             let logger = format.map(|name| ValueEnum::from_str(name, true)).transpose();
@@ -58,7 +62,7 @@ impl Input {
             let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
             return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
         };
-        let port: u16 = port.parse().context("--from is udp:PORT, fmu:FILE or a recording")?;
+        let port: u16 = port.parse().context("--from is udp:PORT, fmu:FILE, ride or a recording")?;
         let format = tables::format(format.context("--format names the packets' format; see moris live formats")?)?;
         let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
         let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;
@@ -66,12 +70,20 @@ impl Input {
         Ok(Input::Udp(socket, Box::new(format)))
     }
 
-    /// Passes samples on until all has ended.
-    pub fn run(self, samples: Producer<Received>, shared: &Shared) {
+    /// The controls that it has.
+    pub fn handling(&self) -> Option<Handling> {
+        match self {
+            Input::Driven(vehicle) => vehicle.handling(),
+            Input::Udp(..) | Input::Played(_) => None,
+        }
+    }
+
+    /// Passes samples on until all has ended. `controls` are those of [`Input::handling`].
+    pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared) {
         match self {
             Input::Udp(socket, format) => receive(&socket, &format, samples, shared),
             Input::Played(recording) => play(&recording, samples, shared),
-            Input::Fmu(vehicle) => drive(*vehicle, samples, shared),
+            Input::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
         }
     }
 }
@@ -103,31 +115,8 @@ fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>,
     }
 }
 
-/// Steps a vehicle in real time once the platform engages; until then it stands at its beginning.
-fn drive(mut vehicle: Vehicle, mut samples: Producer<Received>, shared: &Shared) {
-    let step = Duration::from_secs_f64(vehicle.step);
-    let begin = pace::now();
-    let mut drives = false;
-    for sent in 0.. {
-        let time = step * sent;
-        pace::wait_until(begin + time);
-        if shared.done.load(Ordering::Relaxed) {
-            return;
-        }
-        drives |= engages(shared);
-        let advanced = if drives { vehicle.advance() } else { Ok(()) };
-        let sample = advanced.and_then(|()| vehicle.sample());
-        let Ok(sample) = sample.inspect_err(|error| eprintln!("the vehicle has ended: {error:#}")) else {
-            shared.played.store(true, Ordering::Relaxed);
-            return;
-        };
-        let sample = Sample { time: Some(time.as_secs_f64()), ..sample };
-        let _ = samples.push(Received { arrival: pace::now(), sample });
-    }
-}
-
 /// True if the platform engages.
-fn engages(shared: &Shared) -> bool {
+pub fn engages(shared: &Shared) -> bool {
     [State::Engaging, State::Engaged].map(|state| state as u8).contains(&shared.state.load(Ordering::Relaxed))
 }
 

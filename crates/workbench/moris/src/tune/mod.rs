@@ -25,13 +25,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use moris_interface::Group as _;
-use moris_setup::{NamedValues, Setup, all, parameter_file};
-use moris_washout::Parameters;
+use moris_setup::{NamedValues, Setup, all, overlaid, parameter_file};
+use moris_washout::{Parameters, check};
 use rayon::prelude::*;
 
 use crate::recording::{FADE_IN, Recording, table};
 use crate::simulate::{Outcome, write_page};
 use crate::status::WORSE;
+use crate::votes;
 use cost::Objective;
 pub use options::Options;
 use space::Space;
@@ -45,7 +46,7 @@ use tuner::Tuner;
 /// A recording, the rig or the parameters cannot be used, no parameters keep the limits, or a
 /// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
-    let before = options.setup.load()?;
+    let before = start(options)?;
     let tuned_on = objectives(options, &options.recordings, &before)?;
     let held_out = objectives(options, &options.hold_out, &before)?;
     let folds = folds::folds(tuned_on.len(), options.folds.unwrap_or(tuned_on.len()));
@@ -75,6 +76,17 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     let is_worse = Verdict::of(&results, fraction) == Verdict::Worse;
     Ok(if is_worse { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
+}
+
+/// The parameters that the search starts from.
+fn start(options: &Options) -> Result<Setup> {
+    let mut setup = options.setup.load()?;
+    let Some(file) = &options.votes else { return Ok(setup) };
+    let Some(values) = votes::preferred(&votes::read(file)?) else { return Ok(setup) };
+    setup.parameters = overlaid(&setup.rig_alone, &values);
+    check(&setup.parameters).with_context(|| file.display().to_string())?;
+    setup.parameters_name = format!("preferred in {}", file.display());
+    Ok(setup)
 }
 
 fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec<Objective>> {
@@ -140,4 +152,33 @@ fn write_reports<'a>(
         )?);
     }
     Ok(written)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    #[test]
+    fn the_search_starts_from_the_set_that_votes_prefer() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("votes");
+        let start_of = |votes: &str| {
+            fs::write(&file, votes).unwrap();
+            let line = Line::parse_from(["tune", "ride.csv", "--votes", file.to_str().unwrap()]);
+            start(&line.options)
+        };
+        let setup = start_of("{\"better\":{\"scale.specificForce.x\":0.6},\"worse\":{}}\n").unwrap();
+        assert!(all(&setup.parameters).contains(&("scale.specificForce.x".to_owned(), 0.6)));
+        assert_eq!(setup.rig_alone, Parameters::default());
+        let wrong = start_of("{\"better\":{\"tilt.angleLimit\":9},\"worse\":{}}\n").unwrap_err();
+        assert!(format!("{wrong:#}").contains("tilt.angleLimit"), "{wrong:#}");
+    }
 }

@@ -7,13 +7,13 @@ use std::time::Duration;
 use crate::rig::{Live, free_port};
 
 /// The page of a running command.
-struct Page {
+pub struct Page {
     address: SocketAddr,
     token: String,
 }
 
 impl Page {
-    fn of(live: &mut Live) -> Self {
+    pub fn of(live: &mut Live) -> Self {
         let link = live.after("page: http://");
         let (address, token) = link.split_once("/?token=").unwrap();
         Page { address: address.parse().unwrap(), token: token.to_owned() }
@@ -35,7 +35,7 @@ impl Page {
         (number, answer)
     }
 
-    fn get(&self, path: &str) -> (u16, String) {
+    pub fn get(&self, path: &str) -> (u16, String) {
         self.send(&format!("GET {path} HTTP/1.1\r\nHost: {}\r\n\r\n", self.address))
     }
 
@@ -48,12 +48,12 @@ impl Page {
     }
 
     /// The answer to an order of the own page.
-    fn ask(&self, client: &str, order: &str) -> u16 {
+    pub fn ask(&self, client: &str, order: &str) -> u16 {
         let own = format!("http://{}", self.address);
         self.post(&own, &self.token, &format!("{{\"client\":\"{client}\",\"ask\":{order}}}")).0
     }
 
-    fn events(&self) -> Events {
+    pub fn events(&self) -> Events {
         let mut stream = self.connect();
         let path = format!("/events?token={}", self.token);
         write!(stream, "GET {path} HTTP/1.1\r\nHost: {}\r\n\r\n", self.address).unwrap();
@@ -62,21 +62,21 @@ impl Page {
 }
 
 /// Events as a browser receives them.
-struct Events(std::io::Lines<BufReader<TcpStream>>);
+pub struct Events(std::io::Lines<BufReader<TcpStream>>);
 
 impl Events {
-    fn next(&mut self) -> serde_json::Value {
+    pub fn next(&mut self) -> serde_json::Value {
         let data = self.0.by_ref().map(Result::unwrap).find_map(|line| line.strip_prefix("data: ").map(str::to_owned));
         serde_json::from_str(&data.expect("no event")).unwrap()
     }
 
     /// The number of this browser, and whether it controls.
-    fn welcome(&mut self) -> (String, bool) {
+    pub fn welcome(&mut self) -> (String, bool) {
         let welcome = self.next();
         (welcome["client"].as_str().unwrap().to_owned(), welcome["controls"].as_bool().unwrap())
     }
 
-    fn wait_for(&mut self, is_there: impl Fn(&serde_json::Value) -> bool) {
+    pub fn wait_for(&mut self, mut is_there: impl FnMut(&serde_json::Value) -> bool) {
         while !is_there(&self.next()) {}
     }
 }
@@ -89,7 +89,7 @@ fn start(directory: &std::path::Path, arguments: &[&str]) -> (Live, Page) {
 }
 
 /// Ends the command; all its frames have been sent.
-fn end(live: Live) {
+pub fn end(live: Live) {
     live.interrupt();
     live.interrupt();
     let (status, printed, frames) = live.end();

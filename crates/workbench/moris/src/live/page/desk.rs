@@ -1,18 +1,23 @@
 //! The desk between the browsers and the loop: who controls, what is asked, and what is shown.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::fs::File;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use moris_interface::{Group as _, Reader, Writer, slots_of};
+use moris_interface::{Group as _, Reader, slots_of};
 use moris_live::session::retune;
 use moris_live::{Event, State, log};
+use moris_ride::Command;
+use moris_setup::{Setup, all};
 use moris_washout::{Parameters, Washout};
 use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
+use super::pair::{Pair, Which};
 use super::shown::{self, NAMES, Shown};
-use crate::live::Shared;
+use crate::live::controls::Controls;
+use crate::live::{Shared, pace};
 
 /// Time between messages.
 const INTERVAL: Duration = Duration::from_millis(40);
@@ -38,6 +43,16 @@ enum Ask {
     Event(String),
     /// Values of parameters by their names.
     Set(BTreeMap<String, f64>),
+    /// The vehicle's controls as they are held.
+    Drive(Command),
+    /// A new ride.
+    BeginAgain,
+    /// The parameters in force become one of the two sets.
+    Keep(Which),
+    /// One of the two sets comes into force.
+    GoTo(Which),
+    /// One of the two sets was better.
+    Vote(Which),
 }
 
 /// A browser's request, with the number that it was given.
@@ -53,7 +68,8 @@ pub struct Desk {
     inner: Mutex<Inner>,
     /// A new message, or the end.
     news: Condvar,
-    /// All browsers control.
+    controls: Option<Arc<Controls>>,
+    /// All browsers command. The first one alone drives.
     shared_control: bool,
 }
 
@@ -66,8 +82,9 @@ struct Inner {
     /// The browser that controls.
     controller: Option<String>,
     lines: VecDeque<String>,
-    /// Parameters that differ from their start, as JSON.
-    changed: String,
+    pair: Pair,
+    /// Members of a JSON object: parameters that differ from their start, and the pair.
+    told: String,
     /// The last message and its number.
     message: (u64, String),
     ended: bool,
@@ -78,6 +95,8 @@ struct Inner {
 pub struct Welcome {
     client: String,
     pub controls: bool,
+    /// It holds the vehicle's controls.
+    pub drives: bool,
     names: [&'static str; NAMES.len()],
 }
 
@@ -87,23 +106,27 @@ impl Desk {
     /// # Errors
     /// They cannot be used.
     pub fn new(
-        parameters: &Parameters,
+        setup: &Setup,
+        votes: Option<File>,
         orders: Producer<Order>,
+        controls: Option<Arc<Controls>>,
         shared_control: bool,
     ) -> Result<Self, moris_washout::ParameterError> {
-        let trial = Washout::new(parameters)?;
-        let inner = Inner {
+        let trial = Washout::new(&setup.parameters)?;
+        let mut inner = Inner {
             orders,
-            start: slots_of(parameters),
+            start: slots_of(&setup.parameters),
+            pair: Pair::new(all(&setup.rig_alone), votes),
             trial,
             state: State::Off,
             controller: None,
             lines: VecDeque::new(),
-            changed: "{}".to_owned(),
+            told: String::new(),
             message: (0, String::new()),
             ended: false,
         };
-        Ok(Desk { inner: Mutex::new(inner), news: Condvar::new(), shared_control })
+        inner.tell();
+        Ok(Desk { inner: Mutex::new(inner), news: Condvar::new(), controls, shared_control })
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
@@ -130,9 +153,14 @@ impl Desk {
                 taken.push(moment);
             }
             let mut inner = self.lock();
-            if let Some(text) = shown::message(&taken, &inner.lines, &inner.changed) {
+            inner.go_on(pace::now());
+            if let Some(text) = shown::message(&taken, &inner.lines, &inner.told) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, Shown::state);
+            }
+            if inner.state == State::Engaged {
+                let slots = slots_of(inner.trial.parameters());
+                inner.pair.feel(&slots);
             }
             inner.ended = ended;
             drop(inner);
@@ -161,8 +189,9 @@ impl Desk {
     pub fn enter(&self, client: &str) -> Welcome {
         let mut inner = self.lock();
         let holder = inner.controller.get_or_insert_with(|| client.to_owned());
-        let controls = self.shared_control || holder == client;
-        Welcome { client: client.to_owned(), controls, names: NAMES }
+        let is_first = holder == client;
+        let drives = is_first && self.controls.is_some();
+        Welcome { client: client.to_owned(), controls: self.shared_control || is_first, drives, names: NAMES }
     }
 
     /// A browser has gone.
@@ -170,6 +199,7 @@ impl Desk {
         let mut inner = self.lock();
         if inner.controller.as_deref() == Some(client) {
             inner.controller = None;
+            self.controls.as_ref().inspect(|controls| controls.release());
         }
     }
 
@@ -180,45 +210,104 @@ impl Desk {
     pub fn ask(&self, body: &[u8]) -> Result<(), (u16, String)> {
         let asked: Asked = serde_json::from_slice(body).map_err(|error| (400, error.to_string()))?;
         let mut inner = self.lock();
-        if !self.shared_control && inner.controller.as_ref() != Some(&asked.client) {
+        let drives = matches!(asked.ask, Ask::Drive(_) | Ask::BeginAgain);
+        if (drives || !self.shared_control) && inner.controller.as_ref() != Some(&asked.client) {
             return Err((403, "another page controls".to_owned()));
         }
-        let orders = match asked.ask {
+        let order = match asked.ask {
+            Ask::Drive(command) => return self.drive(|controls| controls.hold(&command, pace::now())),
+            Ask::BeginAgain => return self.drive(Controls::begin_again),
             Ask::Event(name) => {
                 let event = Event::of_person(&name).ok_or_else(|| (422, format!("there is no command {name}")))?;
-                vec![Order::Event(event)]
+                Order::Event(event)
             }
-            Ask::Set(values) => inner.choose(&values)?,
+            Ask::Set(values) => {
+                let values: Option<Vec<_>> =
+                    values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
+                let values = values.ok_or_else(|| (422, "there is no such parameter".to_owned()))?;
+                inner.pair.stay();
+                return inner.choose(&values);
+            }
+            Ask::Keep(which) => {
+                let slots = slots_of(inner.trial.parameters());
+                let kept = inner.pair.keep(which, slots);
+                inner.tell();
+                return kept.map_err(|why| (422, why));
+            }
+            Ask::GoTo(which) => return inner.go_to(which),
+            Ask::Vote(which) => return inner.pair.vote(which).map_err(|why| (422, why)),
         };
-        // All or none: a part of a set may not fit together.
-        let Ok(place) = inner.orders.write_chunk_uninit(orders.len()) else {
-            return Err((503, "the loop has not taken the last orders yet".to_owned()));
-        };
-        place.fill_from_iter(orders);
-        Ok(())
+        inner.send(&[order])
+    }
+
+    fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), (u16, String)> {
+        let controls = self.controls.as_ref().ok_or_else(|| (422, "this vehicle has no controls".to_owned()))?;
+        act(controls).map_err(|why| (422, why))
     }
 }
 
 impl Inner {
-    /// The orders for parameters that can be used now.
-    fn choose(&mut self, values: &BTreeMap<String, f64>) -> Result<Vec<Order>, (u16, String)> {
+    /// Passes orders on: all or none, because a part of a set may not fit together.
+    fn send(&mut self, orders: &[Order]) -> Result<(), (u16, String)> {
+        let Ok(place) = self.orders.write_chunk_uninit(orders.len()) else {
+            return Err((503, "the loop has not taken the last orders yet".to_owned()));
+        };
+        place.fill_from_iter(orders.iter().copied());
+        Ok(())
+    }
+
+    /// Puts values of slots in force if they can be used now.
+    fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), (u16, String)> {
         let mut slots = slots_of(self.trial.parameters());
-        let mut orders = Vec::with_capacity(values.len() + 1);
-        for (name, value) in values {
-            let slot = log::slot_of(name).ok_or_else(|| (422, format!("there is no parameter {name}")))?;
-            slots[slot] = *value;
-            orders.push(Order::Choose(slot as u16, *value));
-        }
-        orders.push(Order::Retune);
+        values.iter().for_each(|(slot, value)| slots[*slot] = *value);
+        let mut tried = self.trial.clone();
         let parameters = Parameters::read(&mut Reader::new(&slots));
-        retune(&mut self.trial, &parameters, self.state).map_err(|error| (422, error.to_string()))?;
-        self.trial.parameters().write(&mut Writer::new(&mut slots));
+        retune(&mut tried, &parameters, self.state).map_err(|error| (422, error.to_string()))?;
+        let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
+        self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
+        self.trial = tried;
+        self.tell();
+        Ok(())
+    }
+
+    /// Puts those of these values in force that differ from the present ones.
+    fn change_to(&mut self, slots: &[f64]) -> Result<(), (u16, String)> {
+        let present = slots_of(self.trial.parameters());
+        let differing = slots.iter().copied().enumerate().filter(|(slot, value)| present[*slot] != *value);
+        let differing: Vec<_> = differing.collect();
+        if differing.is_empty() { Ok(()) } else { self.choose(&differing) }
+    }
+
+    /// Goes to a kept set: at once at the lowest pose, otherwise in small changes.
+    fn go_to(&mut self, which: Which) -> Result<(), (u16, String)> {
+        let to = self.pair.slots(which).map_err(|why| (422, why))?.clone();
+        if matches!(self.state, State::Off | State::Settled) {
+            self.pair.stay();
+            return self.change_to(&to);
+        }
+        let parameters = Parameters::read(&mut Reader::new(&to));
+        retune(&mut self.trial.clone(), &parameters, self.state).map_err(|error| (422, error.to_string()))?;
+        self.pair.go(slots_of(self.trial.parameters()), to, pace::now());
+        Ok(())
+    }
+
+    /// The next change on the way to a set. One that cannot be used, or has no place, is left out.
+    fn go_on(&mut self, now: Duration) {
+        let Some((slots, is_there)) = self.pair.on_the_way(now) else { return };
+        let changed = self.change_to(&slots);
+        if is_there && changed.map_or_else(|(number, _)| number != 503, |()| true) {
+            self.pair.stay();
+        }
+    }
+
+    fn tell(&mut self) {
+        let slots = slots_of(self.trial.parameters());
         let changed: BTreeMap<String, f64> = (0..slots.len())
             .filter(|slot| slots[*slot] != self.start[*slot])
             .map(|slot| (log::name_of(slot), slots[slot]))
             .collect();
-        self.changed = serde_json::to_string(&changed).unwrap_or_default();
-        Ok(orders)
+        let changed = serde_json::to_string(&changed).unwrap_or_default();
+        self.told = format!("\"changed\":{changed},\"pair\":{}", self.pair.told(&slots));
     }
 }
 
@@ -228,9 +317,13 @@ mod tests {
 
     use super::*;
 
+    fn setup() -> Setup {
+        Setup::load(None, &[]).unwrap()
+    }
+
     fn desk(shared_control: bool) -> (Desk, Consumer<Order>) {
         let (orders, asked) = RingBuffer::new(64);
-        (Desk::new(&Parameters::default(), orders, shared_control).unwrap(), asked)
+        (Desk::new(&setup(), None, orders, None, shared_control).unwrap(), asked)
     }
 
     fn taken(orders: &mut Consumer<Order>) -> Vec<Order> {
@@ -275,8 +368,8 @@ mod tests {
             Order::Retune,
         ];
         assert_eq!(taken(&mut orders), expected);
-        let text = desk.lock().changed.clone();
-        assert_eq!(text, "{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}");
+        let text = desk.lock().told.clone();
+        assert!(text.starts_with("\"changed\":{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
         for (wrong, number) in [
             ("{\"tilt.angleLimit\":1e300}", 422),
             ("{\"actuator.maxLength\":3}", 422),
@@ -292,16 +385,63 @@ mod tests {
             assert_eq!(desk.ask(text.as_bytes()).unwrap_err().0, 422, "{wrong}");
         }
         assert!(taken(&mut orders).is_empty());
-        assert_eq!(desk.lock().changed, text);
+        assert_eq!(desk.lock().told, text);
     }
 
     #[test]
     fn orders_that_the_loop_does_not_take_are_refused_as_a_whole() {
         let (orders, mut asked) = RingBuffer::new(4);
-        let desk = Desk::new(&Parameters::default(), orders, true).unwrap();
+        let desk = Desk::new(&setup(), None, orders, None, true).unwrap();
         let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
         desk.ask(set).unwrap();
         assert_eq!(desk.ask(set).unwrap_err().0, 503);
         assert_eq!(taken(&mut asked).len(), 3);
+    }
+
+    #[test]
+    fn the_way_to_a_set_is_of_small_changes_and_both_sets_are_felt_before_a_vote() {
+        let directory = tempfile::tempdir().unwrap();
+        let file = directory.path().join("votes");
+        let (orders, mut asked) = RingBuffer::new(64);
+        let desk = Desk::new(&setup(), Some(File::create(&file).unwrap()), orders, None, true).unwrap();
+        let ask = |order: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{order}}}").as_bytes());
+        let number = |order: &str| ask(order).unwrap_err().0;
+        let scale = log::slot_of("scale.specificForce.x").unwrap() as u16;
+        assert_eq!(number("{\"go_to\":\"a\"}"), 422);
+        assert_eq!(number("{\"keep\":\"c\"}"), 400);
+        assert_eq!(number("{\"vote\":\"../../votes\"}"), 400);
+        ask("{\"keep\":\"a\"}").unwrap();
+        ask("{\"set\":{\"scale.specificForce.x\":0.25}}").unwrap();
+        ask("{\"keep\":\"b\"}").unwrap();
+        let feel = || {
+            let mut inner = desk.lock();
+            let slots = slots_of(inner.trial.parameters());
+            inner.pair.feel(&slots);
+        };
+        feel();
+        assert_eq!(number("{\"vote\":\"a\"}"), 422);
+        assert_eq!(taken(&mut asked), [Order::Choose(scale, 0.25), Order::Retune]);
+        desk.lock().state = State::Engaged;
+        ask("{\"go_to\":\"a\"}").unwrap();
+        assert_eq!(number("{\"keep\":\"a\"}"), 422);
+        let begin = pace::now();
+        let mut before = 0.25_f64;
+        // Equal factors, at most 1.5 of the mean at a time.
+        let most = 4.0_f64.powf(1.5 * 0.04 / 2.0 + 1e-3);
+        for change in 1..=51 {
+            desk.lock().go_on(begin + change * Duration::from_millis(40));
+            for order in taken(&mut asked) {
+                let Order::Choose(slot, value) = order else { continue };
+                assert!(slot == scale && value > before && value / before < most, "{value} after {before}");
+                before = value;
+            }
+        }
+        assert_eq!(before, 1.0);
+        feel();
+        assert!(desk.lock().told.contains("\"now\":\"A\""));
+        ask("{\"vote\":\"b\"}").unwrap();
+        let votes = crate::votes::read(&file).unwrap();
+        assert_eq!(votes[0].better, [("scale.specificForce.x".to_owned(), 0.25)].into());
+        assert!(votes[0].worse.is_empty() && votes.len() == 1);
     }
 }

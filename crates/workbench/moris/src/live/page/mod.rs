@@ -3,6 +3,7 @@
 //! - `http` reads requests, bounded, and checks where they come from.
 //! - `shown` is what the loop passes on, and the messages made of it.
 //! - `desk` knows who controls, and checks what is asked.
+//! - `pair` has two parameter sets, the way from one to the other, and votes.
 //! - `server` answers requests, each on a thread of its own.
 //!
 //! A browser gets messages as server-sent events, and sends orders by POST. A browser that reads
@@ -10,6 +11,7 @@
 
 mod desk;
 mod http;
+mod pair;
 mod server;
 mod shown;
 

@@ -15,11 +15,17 @@ use serde::Serialize;
 use super::desk::Desk;
 use super::http::{self, Access, Request};
 use crate::live::Shared;
+use crate::live::controls::Handling;
 use crate::simulate::simulator::{parameters, sets};
 
 const TEMPLATE: &str = include_str!("../../../page/live.html");
 const STYLE: &str = include_str!("../../../page/live.css");
-const SCRIPTS: [&str; 2] = [include_str!("../../../page/controls.js"), include_str!("../../../page/live.js")];
+const SCRIPTS: [&str; 4] = [
+    include_str!("../../../page/orders.js"),
+    include_str!("../../../page/driving.js"),
+    include_str!("../../../page/pair.js"),
+    include_str!("../../../page/live.js"),
+];
 /// Most connections at once.
 const MOST: usize = 16;
 /// Time between looks for a new connection.
@@ -32,16 +38,18 @@ pub struct Start {
     parameters: Vec<Parameter>,
     sets: Vec<(String, Vec<(String, f64)>)>,
     subtitle: String,
+    handling: Option<Handling>,
 }
 
 impl Start {
-    /// The page of a session with this rig and these parameters.
-    pub fn of(setup: &Setup) -> Self {
+    /// The page of a session with this rig, these parameters and controls.
+    pub fn of(setup: &Setup, handling: Option<Handling>) -> Self {
         Start {
             rig: (&setup.parameters).into(),
             parameters: parameters(&setup.parameters, &setup.rig_alone),
             sets: sets(),
             subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
+            handling,
         }
     }
 
@@ -52,7 +60,7 @@ impl Start {
             style: &[ride::STYLE, STYLE].join("\n"),
             policy: "script-src 'unsafe-inline'; connect-src 'self'",
         };
-        shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &SCRIPTS].concat())
+        shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &[ride::CONTROLS], &SCRIPTS].concat())
     }
 }
 

@@ -83,8 +83,8 @@ impl Shown {
     }
 }
 
-/// The message of some moments, as JSON in one line. `changed` is an object of parameters.
-pub fn message(moments: &[Shown], lines: &VecDeque<String>, changed: &str) -> Option<String> {
+/// The message of some moments, as JSON in one line. `told` has further members of the object.
+pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Option<String> {
     let last = moments.last()?;
     let mut text = String::from("{\"rows\":[");
     for (place, moment) in moments.iter().enumerate() {
@@ -102,7 +102,7 @@ pub fn message(moments: &[Shown], lines: &VecDeque<String>, changed: &str) -> Op
     let late = serde_json::to_string(&last.late).unwrap_or_default();
     let _ = write!(
         text,
-        "],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"lines\":{lines},\"changed\":{changed}}}"
+        "],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"lines\":{lines},{told}}}"
     );
     Some(text)
 }
@@ -120,7 +120,7 @@ mod tests {
         session.step();
         let moment = Shown::of(&session, &Lateness::default());
         let lines = VecDeque::from(["said \"so\"\n".to_owned()]);
-        let text = message(&[moment, moment], &lines, "{\"tilt.angleLimit\":0.3}").unwrap();
+        let text = message(&[moment, moment], &lines, "\"changed\":{\"tilt.angleLimit\":0.3}").unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         let row: Vec<f64> = serde_json::from_value(value["rows"][1].clone()).unwrap();
         let of = |name: &str| row[NAMES.iter().position(|known| *known == name).unwrap()];
@@ -138,6 +138,6 @@ mod tests {
         assert_eq!(value["lines"][0], "said \"so\"\n");
         assert_eq!((&value["state"], &value["health"]), (&"off".into(), &"waiting".into()));
         assert!(!text.contains('\n'));
-        assert!(message(&[], &lines, "{}").is_none());
+        assert!(message(&[], &lines, "\"changed\":{}").is_none());
     }
 }

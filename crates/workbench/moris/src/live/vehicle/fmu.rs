@@ -1,4 +1,4 @@
-//! A vehicle FMU as the source of telemetry.
+//! A vehicle FMU, with a map of its variables.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,24 +8,52 @@ use anyhow::{Context, Result, ensure};
 use moris_fmu_host::Running;
 use moris_live::Sample;
 use moris_live::format::{Format, Place};
+use moris_ride::Command;
+use serde::Deserialize;
+
+use super::{Handling, Vehicle};
 
 /// Words of a map that are not those of a table of fields.
-const OWN: [&str; 2] = ["start", "step"];
+const OWN: [&str; 3] = ["start", "step", "controls"];
 /// What a table of fields has, and a map needs not say.
 const DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
 
-/// A running vehicle and the map of its variables.
-pub struct Vehicle {
+/// A control of the page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Control {
+    Throttle,
+    Brake,
+    Stick,
+}
+
+/// The input that takes a control.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Taken {
+    /// Its name.
+    at: String,
+    #[serde(default = "one")]
+    scale: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// A running FMU and the map of its variables.
+pub struct Fmu {
     running: Running,
+    controls: BTreeMap<Control, Taken>,
     /// The fields, whose keys are names of variables.
     fields: Format,
     variables: Vec<String>,
     /// Time of a step \[s\].
-    pub step: f64,
+    step: f64,
     steps: u32,
 }
 
-impl Vehicle {
+impl Fmu {
     /// The FMU with the map in this file.
     ///
     /// # Errors
@@ -33,7 +61,7 @@ impl Vehicle {
     pub fn open(file: &Path, map: &Path) -> Result<Self> {
         let text = fs::read_to_string(map).with_context(|| map.display().to_string())?;
         let mut table: toml::Table = text.parse().with_context(|| map.display().to_string())?;
-        let [start, step] = OWN.map(|word| table.remove(word));
+        let [start, step, controls] = OWN.map(|word| table.remove(word));
         for (word, value) in DEFAULTS {
             table.entry(word).or_insert_with(|| value.into());
         }
@@ -41,6 +69,9 @@ impl Vehicle {
         let start: BTreeMap<String, f64> = start.map_or(Ok(BTreeMap::new()), toml::Value::try_into).context("start")?;
         let step: f64 = step.map_or(Ok(0.005), toml::Value::try_into).context("step")?;
         ensure!((1e-3..=0.05).contains(&step), "step must be from 0.001 to 0.05 s");
+        let controls: BTreeMap<Control, Taken> =
+            controls.map_or(Ok(BTreeMap::new()), toml::Value::try_into).context("controls")?;
+        ensure!(controls.values().all(|taken| taken.scale.is_finite()), "the scale of a control must be a number");
         let key = |place: &Place| match place {
             Place::Key(name) => Some(name.clone()),
             Place::Index(_) => None,
@@ -49,16 +80,36 @@ impl Vehicle {
         let variables = variables.context("a field's `at` is the name of a variable")?;
         let values: Vec<(&str, f64)> = start.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         let running = Running::start(file, &values).with_context(|| file.display().to_string())?;
-        let mut vehicle = Vehicle { running, fields, variables, step, steps: 0 };
-        vehicle.sample()?;
-        Ok(vehicle)
+        let mut fmu = Fmu { running, controls, fields, variables, step, steps: 0 };
+        fmu.sample()?;
+        fmu.control(&Command::default())?;
+        Ok(fmu)
     }
 
-    /// The motion now.
-    ///
-    /// # Errors
-    /// The FMU lacks a variable, or a value is no number.
-    pub fn sample(&mut self) -> Result<Sample> {
+    /// Sets the inputs that take controls.
+    fn control(&mut self, command: &Command) -> Result<()> {
+        for (control, Taken { at, scale }) in &self.controls {
+            let value = match control {
+                Control::Throttle => command.throttle,
+                Control::Brake => command.brake,
+                Control::Stick => command.stick,
+            };
+            self.running.set(at, scale * value)?;
+        }
+        Ok(())
+    }
+}
+
+impl Vehicle for Fmu {
+    fn step(&self) -> f64 {
+        self.step
+    }
+
+    fn handling(&self) -> Option<Handling> {
+        (!self.controls.is_empty()).then_some(Handling::Inputs)
+    }
+
+    fn sample(&mut self) -> Result<Sample> {
         let mut values = serde_json::Map::new();
         for name in &self.variables {
             values.insert(name.clone(), self.running.get(name)?.into());
@@ -69,11 +120,8 @@ impl Vehicle {
         Ok(sample)
     }
 
-    /// Steps the vehicle.
-    ///
-    /// # Errors
-    /// The FMU does not make the step.
-    pub fn advance(&mut self) -> Result<()> {
+    fn advance(&mut self, command: &Command) -> Result<()> {
+        self.control(command)?;
         self.running.step(f64::from(self.steps) * self.step, self.step)?;
         self.steps += 1;
         Ok(())

@@ -21,7 +21,7 @@ function listenToCommands(buttons, command, keys) {
   addEventListener("keydown", (event) => {
     if (event.repeat || event.ctrlKey || event.metaKey || event.altKey) return;
     const key = event.key.toLowerCase();
-    if (key !== "escape" && event.target.matches("input, select")) return;
+    if (key !== "escape" && event.target.matches("input:not([type=checkbox]), select")) return;
     if (COMMAND_KEYS[key]) command(COMMAND_KEYS[key]);
     else keys[key]?.();
   });

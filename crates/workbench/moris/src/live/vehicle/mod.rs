@@ -1,0 +1,74 @@
+//! Vehicles that this program steps, in real time, with the controls of the page.
+
+mod fmu;
+mod motorcycle;
+
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use anyhow::Result;
+use moris_live::Sample;
+use moris_ride::Command;
+use rtrb::Producer;
+
+use super::controls::{Controls, Handling};
+use super::telemetry::{Received, engages};
+use super::{Shared, pace};
+pub use fmu::Fmu;
+pub use motorcycle::Motorcycle;
+
+/// A vehicle that stands at its beginning.
+pub trait Vehicle: Send {
+    /// Time of a step \[s\].
+    fn step(&self) -> f64;
+
+    /// Its controls; none if it drives by itself.
+    fn handling(&self) -> Option<Handling>;
+
+    /// Makes a step with what is held.
+    ///
+    /// # Errors
+    /// It has ended.
+    fn advance(&mut self, command: &Command) -> Result<()>;
+
+    /// The motion now, without a time.
+    ///
+    /// # Errors
+    /// It has ended.
+    fn sample(&mut self) -> Result<Sample>;
+
+    /// Stands at its beginning again, if it can.
+    fn begin_again(&mut self) {}
+}
+
+/// Steps a vehicle in real time once the platform engages; until then it stands at its beginning.
+pub fn drive(
+    mut vehicle: Box<dyn Vehicle>,
+    controls: Option<&Controls>,
+    mut samples: Producer<Received>,
+    shared: &Shared,
+) {
+    let step = Duration::from_secs_f64(vehicle.step());
+    let begin = pace::now();
+    let mut drives = false;
+    for sent in 0.. {
+        let time = step * sent;
+        pace::wait_until(begin + time);
+        if shared.done.load(Ordering::Relaxed) {
+            return;
+        }
+        drives |= engages(shared);
+        if controls.is_some_and(Controls::begins_again) {
+            vehicle.begin_again();
+        }
+        let command = controls.map(|controls| controls.at(pace::now())).unwrap_or_default();
+        let advanced = if drives { vehicle.advance(&command) } else { Ok(()) };
+        let sample = advanced.and_then(|()| vehicle.sample());
+        let Ok(sample) = sample.inspect_err(|error| eprintln!("the vehicle has ended: {error:#}")) else {
+            shared.played.store(true, Ordering::Relaxed);
+            return;
+        };
+        let sample = Sample { time: Some(time.as_secs_f64()), ..sample };
+        let _ = samples.push(Received { arrival: pace::now(), sample });
+    }
+}

@@ -1,0 +1,180 @@
+"""Pulls each plug of a rig once: vehicle -> `moris live` -> controller, with emulators of both and of a browser.
+
+    python3 tests/live/plugs.py [SECONDS]
+
+Without a time the plugs follow each other at once; with one they are spread over it, as in a ride. Says what happened. Fails if
+a leg leaves its stroke or its speed, or if an event has not the effect that docs/live.md names.
+"""
+
+import os
+import socket
+import sys
+import tempfile
+import threading
+import time
+from collections import Counter
+from pathlib import Path
+
+from rig import Browser, Controller, Live, Vehicle
+
+from fuzz import packet
+
+SHORT = 0.3  # s between the plugs without a time
+
+
+class Ride:
+    def __init__(self, seconds, directory):
+        self.hold = seconds / 12 if seconds else SHORT
+        self.pipe = directory / "recording"
+        os.mkfifo(self.pipe)
+        self.disk = threading.Event()
+        threading.Thread(target=self.take_recording, daemon=True).start()
+        self.controller = Controller()
+        options = ["--engage", "--page", "--allow-control", "--record", str(self.pipe)]
+        self.live = Live(self.controller, *options)
+        self.address = self.live.wait_for("page: ").removeprefix("page: ")
+        self.browser = Browser(self.address)
+        self.vehicle = Vehicle(self.live.port)
+        self.begin = time.monotonic()
+
+    def take_recording(self):
+        with open(self.pipe, "rb") as recording:
+            while not self.disk.is_set():
+                recording.read1(65536)
+
+    def runs_again(self, since):
+        """Waits for the cue; in a long ride until it is whole."""
+        self.live.wait_for(" s  engaging", since)
+        if self.hold > SHORT:
+            self.live.wait_for(" s  engaged", since)
+
+    def pull(self, name, act, *effects):
+        """Does something, waits for what it is said to cause, and holds until the next."""
+        since, frames = len(self.live.said), self.controller.frames
+        at = time.monotonic() - self.begin
+        act()
+        for effect in effects:
+            self.live.wait_for(effect, since)
+        time.sleep(self.hold)
+        said = Counter(text.split(" s  ", 1)[-1] for text in self.live.said[since:])
+        said = "; ".join(text + (f" ({count} times)" if count > 1 else "") for text, count in said.items()) or "nothing is said"
+        print(f"{at:6.1f} s  {name:42} {said}; {self.controller.frames - frames} frames", flush=True)
+        assert not self.controller.faults, self.controller.faults[:5]
+        assert self.live.process.poll() is None
+
+    def broken(self, spoil, seconds):
+        """The vehicle sends what `spoil` makes of its lines for a while."""
+
+        def act():
+            self.vehicle.broken = spoil
+            time.sleep(seconds)
+            self.vehicle.broken = None
+
+        return act
+
+    def silent(self, seconds):
+        def act():
+            self.vehicle.runs = False
+            time.sleep(seconds)
+            self.vehicle.runs = True
+
+        return act
+
+    def without_controller(self):
+        self.controller.is_open = False
+        time.sleep(1.0)
+        self.controller.is_open = True
+        frames = self.controller.frames
+        time.sleep(0.5)
+        assert self.controller.frames > frames, "no frames after the controller is back"
+
+    def without_page(self):
+        self.browser.close()
+        time.sleep(0.2)
+        self.browser = Browser(self.address)
+
+    def garbage(self):
+        out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        for k in range(500):
+            out.sendto(packet(k)[:60_000], ("127.0.0.1", self.live.port))
+            time.sleep(0.002)
+
+    def full_disk(self):
+        self.disk.set()
+        # Refused commands are recorded, too, and a block is written when it is full.
+        for _ in range(1000):
+            if any("the recording has ended" in text for text in self.live.said):
+                break
+            self.live.command("start")
+            time.sleep(0.002)
+
+
+def fields(place, value):
+    """Replaces a field of a line."""
+
+    def spoil(text):
+        parts = text.split(",")
+        parts[place:place + 1] = [value]
+        return ",".join(parts)
+
+    return spoil
+
+
+def ride(seconds):
+    with tempfile.TemporaryDirectory() as directory:
+        one = Ride(seconds, Path(directory))
+        one.runs_again(0)
+        one.pull("nothing", lambda: None)
+        one.pull("the vehicle is paused", one.broken(lambda text: text + ",1", 0.5), "telemetry: paused", " s  frozen", "telemetry: running")
+        one.pull("the source falls silent for 1 s", one.silent(1.0), "telemetry: silent", " s  frozen", " s  engaging")
+        one.pull("NaN for 0.7 s", one.broken(fields(1, "nan"), 0.7), "telemetry: silent", " s  frozen", " s  engaging")
+        one.pull("the source's clock stands for 0.7 s", one.broken(fields(0, "1"), 0.7), " s  engaging")
+
+        def jump():
+            one.vehicle.ahead += 1000.0
+
+        # A glide is said where the cue was whole before.
+        glide = [" s  engaging"] if seconds else []
+        one.pull("the source's clock leaps by 1000 s", jump, *glide)
+        one.pull("a teleport: the roll jumps by 1 rad", one.broken(fields(7, "1"), 0.5), *glide)
+        one.pull("garbage on the source's port", one.garbage)
+        one.pull("the controller is away for 1 s", one.without_controller)
+        one.pull("the page is closed, and opened again", one.without_page)
+        one.pull("the recording's disk is full", one.full_disk, "the recording has ended")
+        one.pull("the source is killed", one.silent(2.0), " s  frozen", "telemetry: stale", " s  disengaging")
+        since = len(one.live.said)
+        one.live.interrupt()
+        one.live.wait_for(" s  parking", since)
+        if not seconds:
+            one.live.interrupt()
+        one.live.wait_for(" s  off", since)
+        status, printed = one.live.end()
+        words = ["park", "stop"] if seconds else ["stop"]
+        time.sleep(0.3)
+        assert status != 0 and one.controller.words[-len(words):] == words, (status, one.controller.words)
+        assert "panicked" not in "".join(one.live.said)
+        one.vehicle.ended.set()
+        one.controller.ended.set()
+        print(f"Ctrl-C: {', '.join(one.controller.words)}; the recording's error is the exit status\n{printed}")
+
+
+def killed():
+    """After kill -9 there are no more frames: a controller must have its own time-out."""
+    controller = Controller()
+    live = Live(controller)
+    live.command("start")
+    live.wait_for(" s  homing")
+    time.sleep(0.3)
+    live.process.kill()
+    live.process.wait()
+    time.sleep(0.2)
+    frames = controller.frames
+    time.sleep(0.3)
+    assert frames > 0 and controller.frames == frames and "stop" not in controller.words
+    controller.ended.set()
+    print(f"kill -9: {frames} frames, and no more")
+
+
+if __name__ == "__main__":
+    ride(float(sys.argv[1]) if len(sys.argv) > 1 else 0.0)
+    killed()

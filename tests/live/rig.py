@@ -1,0 +1,182 @@
+"""`moris live` between an emulated vehicle, an emulated controller and an emulated browser. For the scripts beside this file."""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "examples"))
+from vehicle import line  # noqa: E402
+
+MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]
+# The default rig's stroke, and its largest leg speed with the steps between two frames lost [m, m/s].
+STROKE = (1.0, 1.6)
+FASTEST = 1.05
+
+
+def free_port():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as free:
+        free.bind(("127.0.0.1", 0))
+        return free.getsockname()[1]
+
+
+class Controller:
+    """Receives frames of the form csv; holds what a controller may not see."""
+
+    def __init__(self):
+        self.port = free_port()
+        self.frames = 0
+        self.words = []
+        self.last = None
+        self.faults = []
+        self.is_open = True
+        self.ended = threading.Event()
+        threading.Thread(target=self.receive, daemon=True).start()
+
+    def receive(self):
+        while not self.ended.is_set():
+            if not self.is_open:
+                self.last = None
+                time.sleep(0.05)
+                continue
+            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
+                taken.bind(("127.0.0.1", self.port))
+                taken.settimeout(0.2)
+                while self.is_open and not self.ended.is_set():
+                    try:
+                        self.take(taken.recv(2000).decode())
+                    except TimeoutError:
+                        continue
+
+    def take(self, frame):
+        if "," not in frame:
+            self.words.append(frame.strip())
+            return
+        now, *numbers = map(float, frame.split(","))
+        legs = numbers[:6]
+        self.frames += 1
+        if not all(STROKE[0] <= leg <= STROKE[1] for leg in legs):
+            self.faults.append(f"{now} s: a leg beyond its stroke: {legs}")
+        if self.last and now > self.last[0]:
+            fastest = max(abs(leg - before) for leg, before in zip(legs, self.last[1])) / (now - self.last[0])
+            if fastest > FASTEST:
+                self.faults.append(f"{now} s: a leg at {fastest:.2f} m/s")
+        self.last = now, legs
+
+
+class Vehicle:
+    """Sends the drive of examples/vehicle.py at 60 Hz, or what `broken` makes of a line."""
+
+    def __init__(self, port):
+        self.port = port
+        self.runs = True
+        self.ahead = 0.0
+        self.broken = None
+        self.ended = threading.Event()
+        threading.Thread(target=self.send, daemon=True).start()
+
+    def send(self):
+        out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        begin = time.monotonic()
+        while not self.ended.wait(1 / 60):
+            if self.runs:
+                text = line(time.monotonic() - begin + self.ahead)
+                out.sendto((self.broken(text) if self.broken else text).encode(), ("127.0.0.1", self.port))
+
+
+class Live:
+    """The command. Lines that it says are in `said`."""
+
+    def __init__(self, controller, *options, source=None):
+        self.port = free_port()
+        source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
+        command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", *options]
+        self.process = subprocess.Popen(
+            command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        self.said = []
+        self.state = "off"
+        self.news = threading.Condition()
+        threading.Thread(target=self.listen, daemon=True).start()
+
+    def listen(self):
+        for text in self.process.stderr:
+            with self.news:
+                self.said.append(text.strip())
+                word = text.strip().rpartition(" s  ")[2]
+                if word in STATES:
+                    self.state = word
+                self.news.notify_all()
+
+    def wait_for(self, words, since=0, patience=60):
+        """The first line from `since` on that ends with these words."""
+        end = time.monotonic() + patience
+        with self.news:
+            while True:
+                found = [text for text in self.said[since:] if words in text]
+                if found:
+                    return found[0]
+                left = end - time.monotonic()
+                assert left > 0 and self.news.wait(left), f"not said: {words}; said: {self.said[-20:]}"
+
+    def command(self, name):
+        self.process.stdin.write(name + "\n")
+        self.process.stdin.flush()
+
+    def interrupt(self):
+        self.process.send_signal(signal.SIGINT)
+
+    def end(self):
+        """The exit status and what was printed."""
+        out = self.process.stdout.read()
+        return self.process.wait(), out
+
+    def resident(self):
+        """Resident memory [kB]."""
+        status = Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(next(text for text in status.splitlines() if text.startswith("VmRSS")).split()[1])
+
+
+STATES = ("off", "settled", "homing", "neutral", "engaging", "engaged", "frozen", "disengaging", "parking", "fault")
+
+
+class Browser:
+    """A page: reads its messages on a thread, and sends orders."""
+
+    def __init__(self, address):
+        self.own, self.token = address.split("/?token=")
+        self.events = urllib.request.urlopen(f"{self.own}/events?token={self.token}", timeout=30)
+        self.welcome = self.next()
+        self.message = {}
+        threading.Thread(target=self.read, daemon=True).start()
+
+    def next(self):
+        return json.loads(next(text for text in self.events if text.startswith(b"data: ")).removeprefix(b"data: "))
+
+    def read(self):
+        try:
+            while True:
+                self.message = self.next() or self.message
+        except (OSError, ValueError, StopIteration, AttributeError):
+            return
+
+    def close(self):
+        self.events.close()
+
+    def ask(self, order, **headers):
+        """The number of the answer."""
+        body = json.dumps({"client": self.welcome["client"], "ask": order}).encode()
+        request = urllib.request.Request(f"{self.own}/ask", body, {"X-Token": self.token, "Origin": self.own} | headers)
+        try:
+            with urllib.request.urlopen(request, timeout=10) as answer:
+                return answer.status
+        except urllib.error.HTTPError as refused:
+            return refused.code
