@@ -134,7 +134,7 @@ def platforms(options):
 
 def sources(options):
     """the sources in the washout's FMUs, compiled by C compilers"""
-    run(sys.executable, "tests/sources/run.py", *passed_on(options, "require"))
+    run(sys.executable, "tests/sources/run.py", *passed_on(options, "install", "require"))
 
 
 def pages(options):

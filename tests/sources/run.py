@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Compiles the sources in the washout's FMUs with C compilers, and compares the results with the libraries in the FMUs.
 
-    python3 tests/sources/run.py [--require]
+    python3 tests/sources/run.py [--install] [--require]
 
 FMPy compiles the FMUs of FMI 2.0 and 3.0 with CMake. The reference ride with each strategy has to give the numbers of the
 library that was compiled from Rust, to the bit. A program that includes the sources checks states, refusals, traps and that a
 step allocates nothing. Callgrind counts the instructions of a step in both. What is not installed is reported as missing;
-with --require that is an error.
+with --require that is an error. With --install it is installed first (apt and rustup).
 """
 
 import argparse
@@ -27,6 +27,8 @@ from ride import Ride  # noqa: E402
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 WORK = TARGET / "sources"
 VENV = WORK / "venv"
+APT = ["gcc", "wabt", "valgrind"]
+RUSTUP = ["wasm32-unknown-unknown"]
 # With CMake, which FMPy calls.
 PIP = ["fmpy==0.3.32"]
 MODEL = "MorisWashout"
@@ -49,6 +51,13 @@ class Missing(Exception):
 
 def run(*command, **options):
     return subprocess.run([str(part) for part in command], check=True, cwd=ROOT, **options)
+
+
+def install():
+    become_root = [] if os.geteuid() == 0 else ["sudo"]
+    run(*become_root, "apt-get", "update", "-qq")
+    run(*become_root, "apt-get", "install", "-qq", "-y", "--no-install-recommends", *APT)
+    run("rustup", "target", "add", *RUSTUP)
 
 
 def need(program, package):
@@ -158,14 +167,19 @@ def check_start_values():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--install", action="store_true", help="install what is needed first, with apt and rustup")
     parser.add_argument("--require", action="store_true", help="what is missing is an error")
-    require = parser.parse_args().require
+    options = parser.parse_args()
+    require = options.require
     if sys.platform != "linux":
         print("sources: missing (they are compiled on Linux only)")
         sys.exit(1 if require else 0)
     WORK.mkdir(parents=True, exist_ok=True)
+    if options.install:
+        install()
     try:
         need("gcc", "gcc")
+        need("valgrind", "valgrind")
         build()
         check_included()
         check_start_values()
