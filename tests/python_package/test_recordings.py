@@ -144,16 +144,15 @@ def test_what_cannot_be_is_refused_with_the_argument_that_helps(ride, change, op
         moris.Recording(ride, **options)
 
 
-def test_no_message_names_an_option_of_the_command():
-    """Every option that a message of the import code may name is an argument here."""
-    from moris._recording import FLAGS, OPTIONS, _in_python
-
-    for option in OPTIONS:
-        flag = option.replace("_", "-")
-        argument = f"{option}=True" if option in FLAGS else option
-        assert _in_python(f"use --{flag}.") == f"use {argument}."
-    text = 'correct it with --columns ax=NAME,ay=NAME, --force-unit m/s2 or "--time-unit"'
-    assert _in_python(text) == 'correct it with columns={"ax": "NAME", "ay": "NAME"}, force_unit="m/s2" or "time_unit"'
+def test_messages_name_arguments_and_not_the_options_of_the_command(ride):
+    ride["ay"] = ride["ay"].copy()
+    ride["ay"][len(ride["ay"]) // 2] += 40.0
+    ride["ax"] = ride["ax"] + 2.0
+    warnings = " ".join(moris.Recording(ride, fade_in=0.0).warnings)
+    assert "use repair=True to interpolate" in warnings and "fade_in=1 fades it in" in warnings
+    again = {name: np.concatenate([values, values]) for name, values in ride.items()}
+    with pytest.raises(moris.RecordingError, match="use lap=1 to lap=2 to read one of them"):
+        moris.Recording(again)
 
 
 def test_what_is_no_recording_is_refused(tmp_path):

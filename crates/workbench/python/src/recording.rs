@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use moris::recording::{ConventionOptions, Conventions, Recording};
+use moris::recording::{ConventionOptions, Conventions, Dialect, Recording};
 use moris_batch::Manoeuvre;
 use moris_interface::{Group, Writer, slot_count};
 use moris_washout::Input;
@@ -124,7 +124,8 @@ fn conventions(options: &Bound<PyDict>) -> PyResult<Conventions> {
     let refused = |message: String| error::recording(py, message);
     let options: ConventionOptions =
         toml::from_str(&given.to_string()).map_err(|error| refused(error.message().to_owned()))?;
-    options.load().map_err(|error| refused(error.to_string()))
+    let conventions = options.load().map_err(|error| refused(error.to_string()))?;
+    Ok(Conventions { dialect: Dialect::Python, ..conventions })
 }
 
 /// Whole numbers as reals: all numbers among the options are.

@@ -8,6 +8,7 @@ use moris_washout::Input;
 
 use super::conventions::{Conventions, Quantity, RateFrame, Unit};
 use super::header::UnitSource;
+use super::option::{given, named};
 use super::plausibility::{regression, remedy, smooth, unit};
 use super::table::Table;
 
@@ -73,7 +74,7 @@ fn speed_and_force(table: &Table, inputs: &[Input], conventions: &Conventions) -
             let remedy = remedy(table, Quantity::Speed, other.word);
             format!("it seems to be in {}, not in {}: {remedy}", other.word, unit(table, Quantity::Speed).0.word)
         }
-        None => "check --speed-unit".to_owned(),
+        None => format!("check {}", named("speed-unit")),
     };
     (!(1.0 / RATIO..RATIO).contains(&ratio)).then(|| format!("{fact}: {meaning}."))
 }
@@ -153,9 +154,9 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
 /// The remedy for a quantity with the wrong sign.
 fn turned(conventions: &Conventions, quantity: Quantity) -> String {
     if conventions.mounting.is_some() {
-        return "check --mounting".to_owned();
+        return format!("check {}", named("mounting"));
     }
     let name = conventions.column(quantity);
     let turned = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned);
-    format!("use --columns {}={turned}", quantity.key())
+    format!("use {}", given("columns", format!("{}={turned}", quantity.key())))
 }

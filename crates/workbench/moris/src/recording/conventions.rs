@@ -22,12 +22,12 @@ use moris_washout::interface::AngularVelocityFrame;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::RecordingError;
 pub use super::formats::Format;
 pub use super::mounting::Mounting;
 pub use super::quantity::Quantity;
 use super::units::choices;
 pub use super::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
+use super::{Dialect, RecordingError};
 
 choices! {
     /// Presence of gravity's reaction in the accelerations.
@@ -215,6 +215,8 @@ pub struct Conventions {
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
     pub fade_in: f64,
+    /// How messages write options.
+    pub dialect: Dialect,
 }
 
 impl Default for Conventions {
@@ -325,6 +327,7 @@ impl ConventionOptions {
             repair: self.repair,
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
+            dialect: Dialect::Command,
         }
     }
 }

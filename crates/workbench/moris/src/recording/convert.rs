@@ -8,6 +8,7 @@ use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 use super::RecordingError;
 use super::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
 use super::mounting::{self, Found, SensorMotion};
+use super::option::given;
 use super::sampling::at;
 use super::table::Table;
 
@@ -38,7 +39,11 @@ fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(
 
 fn find_mounting(table: &Table, conventions: &Conventions) -> Result<Found, String> {
     if conventions.gravity == Gravity::Removed {
-        return Err("--mounting auto needs gravity in the accelerations; give --mounting ROLL,PITCH,YAW".to_owned());
+        return Err(format!(
+            "{} needs gravity in the accelerations; give {}",
+            given("mounting", "auto"),
+            given("mounting", "ROLL,PITCH,YAW")
+        ));
     }
     let vectors = |quantity| -> Vec<Vector3<f64>> {
         (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 
 use moris_interface::shown;
 
+use super::Dialect;
+
 /// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
 pub enum RecordingError {
@@ -23,4 +25,17 @@ pub enum RecordingError {
     /// The file as a whole cannot be used.
     #[error("{}: {reason}", file.display())]
     Whole { file: PathBuf, reason: String },
+}
+
+impl RecordingError {
+    /// The same with the options in its reason written.
+    pub(super) fn written(self, dialect: Dialect) -> Self {
+        match self {
+            RecordingError::Line { file, line, column, reason } => {
+                RecordingError::Line { file, line, column, reason: dialect.written(&reason) }
+            }
+            RecordingError::Whole { file, reason } => RecordingError::Whole { file, reason: dialect.written(&reason) },
+            other => other,
+        }
+    }
 }

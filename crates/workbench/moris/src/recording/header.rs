@@ -8,6 +8,7 @@ use moris_setup::nearest;
 
 use super::RecordingError;
 use super::conventions::{Conventions, Format, Missing, Mounting, Quantity};
+use super::option::{given, named};
 use super::units::{Dimension, TimeUnit, Unit, any_spelled};
 
 /// Longest text of a file that a message quotes \[characters\].
@@ -202,9 +203,10 @@ impl Header {
                     for term in &terms {
                         if let Some(other) = used.insert(term.place, quantity) {
                             return Err(refused(format!(
-                                "column {} is given for both {} and {key}; give each a column of its own with --columns",
+                                "column {} is given for both {} and {key}; give each a column of its own with {}",
                                 self.shown(term.place),
-                                other.key()
+                                other.key(),
+                                named("columns")
                             )));
                         }
                     }
@@ -267,11 +269,11 @@ impl Header {
     fn ambiguous(&self, name: &str, first: usize, second: usize) -> String {
         let (one, other) = (self.shown(first), self.shown(second));
         let remedy = if self.titles[first].file != self.titles[second].file {
-            "give the file's name with it in --columns"
+            format!("give the file's name with it in {}", named("columns"))
         } else if self.titles[first].full == self.titles[second].full {
-            "remove or rename one of them, or give its number with --columns"
+            format!("remove or rename one of them, or give its number with {}", named("columns"))
         } else {
-            "give the whole name of one of them with --columns, or rename one"
+            format!("give the whole name of one of them with {}, or rename one", named("columns"))
         };
         format!(
             "two columns are called {}: {one}{} and {other}{}; {remedy}",
@@ -286,9 +288,8 @@ impl Header {
         let format = Format::value_variants().iter().find(|format| self.is_of(**format));
         if let Some(format) = format {
             let names = missing.iter().map(|(_, name)| quoted(name)).collect::<Vec<_>>().join(", ");
-            let (title, word) = (format.title(), format.word());
-            let reason =
-                format!("this looks like a recording of {title}; use --format {word} (there is no column {names})");
+            let (title, remedy) = (format.title(), given("format", format.word()));
+            let reason = format!("this looks like a recording of {title}; use {remedy} (there is no column {names})");
             return RecordingError::Whole { file: file.to_owned(), reason };
         }
         let like = |name: &str| {
@@ -302,17 +303,17 @@ impl Header {
         }
         let is_left_out = |key: &str| ["ay", "az", "wx", "wy", "wz"].contains(&key);
         let rest = match missing.iter().all(|(key, _)| is_left_out(key)) {
-            true => ", or use --missing rest if nothing measured them",
-            false => "",
+            true => format!(", or use {} if nothing measured them", given("missing", "rest")),
+            false => String::new(),
         };
         let keys: Vec<String> = missing.iter().map(|(key, _)| format!("{key}=NAME")).collect();
         let reason = format!(
-            "there {} no column{} {}; there are {}; name what is called otherwise with --columns {}{}",
+            "there {} no column{} {}; there are {}; name what is called otherwise with {}{}",
             if expected.len() == 1 { "is" } else { "are" },
             if expected.len() == 1 { "" } else { "s" },
             expected.join(", "),
             present.join(", "),
-            keys.join(","),
+            given("columns", keys.join(",")),
             rest
         );
         RecordingError::Whole { file: file.to_owned(), reason }
@@ -374,7 +375,7 @@ impl Header {
         conventions: &Conventions,
     ) -> Result<(Unit, UnitSource), String> {
         let given = conventions.unit(dimension);
-        let option = dimension.option();
+        let option = named(dimension.option());
         let title = self.shown(place);
         let Some(text) = &self.titles[place].unit else {
             return Ok(match given {
@@ -390,9 +391,10 @@ impl Header {
             (Some(unit), _) => Ok((unit, UnitSource::Header)),
             (None, _) if any_spelled(text).is_some() => Err(format!(
                 "column {title} is in {} by its header, which is no unit of {}; is it another quantity? \
-                 Name the right column with --columns",
+                 Name the right column with {}",
                 quoted(text),
-                dimension.name()
+                dimension.name(),
+                named("columns")
             )),
             (None, Some(given)) => Ok((given, UnitSource::Option)),
             (None, None) => Err(format!(

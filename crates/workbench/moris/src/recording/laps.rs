@@ -2,6 +2,7 @@
 
 use super::RecordingError;
 use super::conventions::Conventions;
+use super::option::{given, named};
 use super::table::Table;
 
 /// Least step back in time with which a lap begins \[s\].
@@ -17,14 +18,17 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
     let laps = starts.len();
     let Some(lap) = conventions.lap else {
         let Some(&second) = starts.get(1) else { return Ok(()) };
-        let reason =
-            format!("time starts again: there are {laps} laps; use --lap 1 to --lap {laps} to read one of them");
+        let reason = format!(
+            "time starts again: there are {laps} laps; use {} to {} to read one of them",
+            given("lap", 1),
+            given("lap", laps)
+        );
         let (file, line, column) = (table.file.clone(), table.lines[second], Some("time".to_owned()));
         return Err(RecordingError::Line { file, line, column, reason });
     };
     let end = starts.get(lap).copied().unwrap_or(table.time.len());
     let Some(range) = starts.get(lap - 1).map(|&start| start..end).filter(|range| range.len() > 1) else {
-        let reason = format!("has no samples of lap {lap}: time starts {laps} times; give another --lap");
+        let reason = format!("has no samples of lap {lap}: time starts {laps} times; give another {}", named("lap"));
         return Err(RecordingError::Whole { file: table.file.clone(), reason });
     };
     table.time = table.time[range.clone()].to_vec();

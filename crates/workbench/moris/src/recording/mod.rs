@@ -38,6 +38,7 @@ mod join;
 mod laps;
 pub mod mounting;
 mod numbers;
+mod option;
 mod outliers;
 pub mod plausibility;
 pub mod quantity;
@@ -58,6 +59,7 @@ use moris_washout::{Input, Parameters};
 
 pub use conventions::{ConventionOptions, Conventions, FADE_IN};
 pub use error::RecordingError;
+pub use option::Dialect;
 use table::Table;
 
 /// A recording.
@@ -90,7 +92,8 @@ impl Recording {
     /// - A unit in the header contradicts an option.
     /// - The units or axes are implausible.
     pub fn read(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
-        Self::of_table(source::name(file), table::read(file, conventions)?, conventions)
+        let read = || Self::of_table(source::name(file), table::read(file, conventions)?, conventions);
+        read().map_err(|error| error.written(conventions.dialect))
     }
 
     /// A recording of columns in memory, each a name and its values, read as the columns of a file.
@@ -102,7 +105,8 @@ impl Recording {
         columns: &[(String, Vec<f64>)],
         conventions: &Conventions,
     ) -> Result<Self, RecordingError> {
-        Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions)
+        let read = || Self::of_table(name.to_owned(), table::of_columns(name, columns, conventions)?, conventions);
+        read().map_err(|error| error.written(conventions.dialect))
     }
 
     fn of_table(name: String, mut table: Table, conventions: &Conventions) -> Result<Self, RecordingError> {
@@ -123,7 +127,7 @@ impl Recording {
             manoeuvre: Manoeuvre::new(table.step(), inputs),
             angular_velocity_frame: conventions.rate_frame.into(),
             has_orientation: table.has_orientation(),
-            warnings,
+            warnings: warnings.iter().map(|warning| conventions.dialect.written(warning)).collect(),
         })
     }
 

@@ -1,6 +1,7 @@
 //! The numbers of a text file's fields.
 
 use super::header::quoted;
+use super::option::given;
 
 /// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
 const LARGEST: f64 = 1e30;
@@ -38,10 +39,10 @@ impl Numbers {
                 Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)))
             }
             Ok(_) => Err(format!("is {}; cut this part off, or fill the gap with plausible values", quoted(text))),
-            Err(_) if text.is_empty() => Err(
-                "is empty; cut this part off, fill the gap with plausible values, or use --empty-fields interpolate"
-                    .to_owned(),
-            ),
+            Err(_) if text.is_empty() => Err(format!(
+                "is empty; cut this part off, fill the gap with plausible values, or use {}",
+                given("empty-fields", "interpolate")
+            )),
             Err(_) => Err(format!("is \"{}\", which is not a number", quoted(text))),
         }
     }

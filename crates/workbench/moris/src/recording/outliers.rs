@@ -5,6 +5,7 @@ use moris_interface::shown;
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use super::conventions::{Dimension, Quantity};
+use super::option::given;
 use super::table::Table;
 use super::{RecordingError, median};
 
@@ -63,10 +64,11 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingEr
             spikes(quantity, values).into_iter().filter(|spike| errors.binary_search(spike).is_err()).collect();
         if let (Some(&first), false) = (errors.first(), repair) {
             let reason = format!(
-                "is {}, as loggers write it where they have no value, {}; use --repair to interpolate over it, or cut \
-                 this part off",
+                "is {}, as loggers write it where they have no value, {}; use {} to interpolate over it, or cut this \
+                 part off",
                 shown(values[first] / unit(table, quantity)),
-                times(table, &errors)
+                times(table, &errors),
+                given("repair", "True")
             );
             let (file, line, column) = (table.file.clone(), table.lines[first], Some(name.to_owned()));
             return Err(RecordingError::Line { file, line, column, reason });
@@ -94,8 +96,9 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingEr
             let largest = spikes.iter().map(|&k| values[k]).max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
             warnings.push(format!(
                 "Column {name} has isolated spikes of up to {largest:.1} in SI units, {}. If no blow caused them, use \
-                 --repair to interpolate over them.",
-                times(table, &spikes)
+                 {} to interpolate over them.",
+                times(table, &spikes),
+                given("repair", "True")
             ));
         }
     }

@@ -16,6 +16,7 @@ use moris_washout::nalgebra::Vector3;
 
 use super::conventions::{AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, Unit};
 use super::header::UnitSource;
+use super::option::{given, named};
 use super::table::Table;
 use super::{RecordingError, median};
 
@@ -67,10 +68,10 @@ pub(super) fn unit(table: &Table, quantity: Quantity) -> (Unit, UnitSource) {
 
 /// The remedy for a unit: an option where the header leaves it open, otherwise the header.
 pub(super) fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
-    let (given, source) = unit(table, quantity);
+    let (unit, source) = unit(table, quantity);
     match source {
-        UnitSource::Header => format!("correct the header, which gives {}", given.word),
-        UnitSource::Option | UnitSource::Default => format!("use {} {word}", quantity.dimension().option()),
+        UnitSource::Header => format!("correct the header, which gives {}", unit.word),
+        UnitSource::Option | UnitSource::Default => format!("use {}", given(quantity.dimension().option(), word)),
     }
 }
 
@@ -89,7 +90,7 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
     let signs = if is_mounted { [1.0; 3] } else { conventions.axes.signs() };
     let shown = format!(
         "most of the time the accelerations{} are about ({:.2}, {:.2}, {:.2}) {}",
-        if is_mounted { ", turned by --mounting," } else { "" },
+        if is_mounted { format!(", turned by {},", named("mounting")) } else { String::new() },
         raw.x,
         raw.y * signs[1],
         raw.z * signs[2],
@@ -104,18 +105,24 @@ fn force_is_plausible(table: &Table, inputs: &[Input], conventions: &Conventions
         let remedy = remedy(table, Quantity::Force(2), other.word);
         format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
     } else if conventions.gravity == Gravity::Removed {
-        "which includes gravity although --gravity removed was given: use --gravity included".to_owned()
+        format!(
+            "which includes gravity although {} was given: use {}",
+            given("gravity", "removed"),
+            given("gravity", "included")
+        )
     } else if (median + gravity).norm() < GRAVITY_TOLERANCE {
         match conventions.axes {
-            Axes::ForwardLeftUp => "so z points down: use --axes forward-right-down".to_owned(),
-            Axes::ForwardRightDown => "so z points up: use --axes forward-left-up".to_owned(),
+            Axes::ForwardLeftUp => format!("so z points down: use {}", given("axes", "forward-right-down")),
+            Axes::ForwardRightDown => format!("so z points up: use {}", given("axes", "forward-left-up")),
         }
     } else if median.norm() < NO_GRAVITY {
-        "so gravity has been taken out: use --gravity removed".to_owned()
+        format!("so gravity has been taken out: use {}", given("gravity", "removed"))
     } else if (median.norm() - STANDARD_GRAVITY).abs() < GRAVITY_TOLERANCE {
         let axis = ["x", "y", "z"][median.iamax()];
         format!(
-            "so {axis} is nearest to the vertical; name the column of each axis with --columns, or use --mounting auto"
+            "so {axis} is nearest to the vertical; name the column of each axis with {}, or use {}",
+            named("columns"),
+            given("mounting", "auto")
         )
     } else {
         "which is gravity in no unit known here: convert the file to m/s2 or g".to_owned()
@@ -141,7 +148,7 @@ fn rates_are_plausible(table: &Table, inputs: &[Input], conventions: &Convention
     let Some(evidence) = evidence else { return Ok(()) };
     let remedy = remedy(table, Quantity::Rate(0), RateUnit::DegreePerSecond.word());
     let insist = if source == UnitSource::Default && fast <= FASTEST {
-        format!(" (or {} rad/s, if they are)", Quantity::Rate(0).dimension().option())
+        format!(" (or {}, if they are)", given(Quantity::Rate(0).dimension().option(), "rad/s"))
     } else {
         String::new()
     };
@@ -268,17 +275,22 @@ pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
     let fast = usual_maximum(inputs);
     if source == UnitSource::Default && fast > BRISK {
         warnings.push(format!(
-            "Angular velocities reach {fast:.1} {}, and neither the header nor --rate-unit gives a unit. If they are in \
-             deg/s, use --rate-unit deg/s.",
-            rate_unit.word
+            "Angular velocities reach {fast:.1} {}, and neither the header nor {} gives a unit. If they are in deg/s, \
+             use {}.",
+            rate_unit.word,
+            named("rate-unit"),
+            given("rate-unit", "deg/s")
         ));
     }
     let first = inputs[0].specific_force - Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
     if first.amax() > JOLT {
         warnings.push(format!(
             "The recording does not begin at rest: the specific force jumps by ({:.1}, {:.1}, {:.1}) m/s2 at once; \
-             --fade-in 1 fades it in from rest.",
-            first.x, first.y, first.z
+             {} fades it in from rest.",
+            first.x,
+            first.y,
+            first.z,
+            given("fade-in", 1)
         ));
     }
     warnings

@@ -4,6 +4,7 @@ use moris_interface::shown;
 
 use super::conventions::{Conventions, Quantity};
 use super::join::GAP;
+use super::option::{given, named};
 use super::table::Table;
 use super::{RecordingError, median};
 
@@ -60,7 +61,7 @@ pub fn remedy_for_equal_times(time: &[f64], sample: usize) -> String {
         return String::new();
     }
     let rate = (time.len() - 1) as f64 / duration;
-    format!("; if the times are rounded, --resample {rate:.0} spreads equal ones evenly")
+    format!("; if the times are rounded, {} spreads equal ones evenly", given("resample", format!("{rate:.0}")))
 }
 
 fn line_error(table: &Table, sample: usize, reason: String) -> RecordingError {
@@ -97,9 +98,9 @@ fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let usual = usual_step(table);
     let unit = table.column(Quantity::Time).map_or("s", |column| column.unit.word);
     let reason = if usual > COARSEST {
-        "too coarse for a washout; if time is in ms or another unit, give it with --time-unit"
+        format!("too coarse for a washout; if time is in ms or another unit, give it with {}", named("time-unit"))
     } else if usual < FINEST {
-        "finer than any recording; give the unit of time with --time-unit"
+        format!("finer than any recording; give the unit of time with {}", named("time-unit"))
     } else {
         return Ok(());
     };
@@ -118,10 +119,10 @@ fn check_equal(table: &Table) -> Result<(), RecordingError> {
     let step_to = |k: usize| table.time[k] - table.time[k - 1];
     let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
     let reason = format!(
-        "the samples do not come at equal steps: here {:.4} s after the one before, otherwise {usual:.4} s; \
-         --resample {:.0} interpolates them",
+        "the samples do not come at equal steps: here {:.4} s after the one before, otherwise {usual:.4} s; {} \
+         interpolates them",
         step_to(odd),
-        1.0 / usual
+        given("resample", format!("{:.0}", 1.0 / usual))
     );
     Err(line_error(table, odd, reason))
 }

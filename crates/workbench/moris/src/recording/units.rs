@@ -140,15 +140,15 @@ impl Dimension {
 
     fn entry(self) -> Entry {
         match self {
-            Dimension::Time => Entry { option: "--time-unit", name: "time", units: TimeUnit::SPELLED },
-            Dimension::Force => Entry { option: "--force-unit", name: "specific force", units: ForceUnit::SPELLED },
-            Dimension::Rate => Entry { option: "--rate-unit", name: "angular velocity", units: RateUnit::SPELLED },
-            Dimension::Angle => Entry { option: "--angle-unit", name: "angle", units: AngleUnit::SPELLED },
-            Dimension::Speed => Entry { option: "--speed-unit", name: "speed", units: SpeedUnit::SPELLED },
+            Dimension::Time => Entry { option: "time-unit", name: "time", units: TimeUnit::SPELLED },
+            Dimension::Force => Entry { option: "force-unit", name: "specific force", units: ForceUnit::SPELLED },
+            Dimension::Rate => Entry { option: "rate-unit", name: "angular velocity", units: RateUnit::SPELLED },
+            Dimension::Angle => Entry { option: "angle-unit", name: "angle", units: AngleUnit::SPELLED },
+            Dimension::Speed => Entry { option: "speed-unit", name: "speed", units: SpeedUnit::SPELLED },
         }
     }
 
-    /// The option that gives its unit.
+    /// Name of the option that gives its unit.
     pub fn option(self) -> &'static str {
         self.entry().option
     }

@@ -1,6 +1,5 @@
 """Recordings: tables, dicts of arrays, and files."""
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -29,9 +28,6 @@ OPTIONS = (
     "resample",
     "fade_in",
 )
-
-# Options that are true or false.
-FLAGS = ("repair",)
 
 
 class Recording:
@@ -65,13 +61,7 @@ class Recording:
         if unknown:
             raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(OPTIONS)}")
         options = {"fade_in": _moris.FADE_IN, **{option: value for option, value in options.items() if value is not None}}
-        try:
-            if isinstance(source, _moris.Recording):
-                self._native = source
-            else:
-                self._native = _read(source, name, options)
-        except RecordingError as error:
-            raise RecordingError(_in_python(str(error))) from None
+        self._native = source if isinstance(source, _moris.Recording) else _read(source, name, options)
 
     @property
     def name(self):
@@ -91,7 +81,7 @@ class Recording:
     @property
     def warnings(self):
         """Warnings, in sentences."""
-        return [_in_python(warning) for warning in self._native.warnings]
+        return self._native.warnings
 
     @property
     def inputs(self):
@@ -245,31 +235,3 @@ READERS = {
     ".mf4": _mdf,
     ".mdf": _mdf,
 }
-
-
-def _in_python(message):
-    """The message with the command's options written as the arguments of `Recording`."""
-    names = {option.replace("_", "-"): option for option in OPTIONS}
-
-    def columns(match):
-        pairs = (pair.split("=", 1) for pair in match[1].split(","))
-        return "columns={" + ", ".join(f'"{key}": "{name}"' for key, name in pairs) + "}"
-
-    def option(match):
-        word = match[2]
-        if match[1] not in names:
-            return match[0]
-        if match[1] in FLAGS:
-            return f"{names[match[1]]}=True"
-        if not word:
-            return names[match[1]]
-        return f"{names[match[1]]}={word}" if word.replace(".", "").isdigit() else f'{names[match[1]]}="{word}"'
-
-    message = re.sub(r"--mounting[= ](-?\d+(?:\.\d+)?(?:,-?\d+(?:\.\d+)?){2})", r"mounting=[\1]", message)
-    message = re.sub(r"--columns ((?:\w+=-?\w+)(?:,\w+=-?\w+)*)", columns, message)
-    formats = "phyphox|sensor-logger(?:-ios)?|sensorlog|androsensor|racechrono|aim|motec|vbox|iracing|px4"
-    words = (
-        "included|removed|forward-[a-z-]+|auto|interpolate|rest|body|world|[munµ]?s|m/s2|m?g|rad/s|deg/s|rad|deg|m/s|km/h|mph|kn|"
-        f"\\d+|{formats}"
-    )
-    return re.sub(rf"--([a-z]+(?:-[a-z]+)*)(?: ({words})(?![\w/]))?", option, message)

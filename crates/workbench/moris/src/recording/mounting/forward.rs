@@ -12,6 +12,7 @@
 
 use moris_washout::nalgebra::Vector3;
 
+use super::super::option::given;
 use super::blocks::{BLOCK, Blocks};
 
 /// Least change of speed that determines the forward direction, as a standard deviation
@@ -74,10 +75,14 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
     estimates.sort_by(|a, b| a.error.total_cmp(&b.error));
     let straight = level.straight_accelerations().filter(|estimate| estimate.error < USABLE);
     let Some(best) = estimates.first() else {
-        let axis = straight.ok_or(
-            "--mounting auto finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so \
-             forward is unknown; give --mounting ROLL,PITCH,YAW in degrees",
-        )?;
+        let axis = straight.ok_or_else(|| {
+            format!(
+                "{} finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so forward \
+                 is unknown; give {} in degrees",
+                given("mounting", "auto"),
+                given("mounting", "ROLL,PITCH,YAW")
+            )
+        })?;
         let (start, sign) = level.first_acceleration(blocks.first_rest(), &axis.direction);
         return Ok(Forward {
             direction: sign * axis.direction,
@@ -91,11 +96,12 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
         straight.map(|axis| Estimate { direction: axis.direction * sign(axis.direction.dot(&best.direction)), ..axis });
     if let Some(other) = estimates[1..].iter().chain(&straight).find(|other| contradicts(best, other)) {
         return Err(format!(
-            "--mounting auto finds forward from {} and from {}, {:.0} degrees apart; give --mounting ROLL,PITCH,YAW in \
-             degrees",
+            "{} finds forward from {} and from {}, {:.0} degrees apart; give {} in degrees",
+            given("mounting", "auto"),
             best.evidence,
             other.evidence,
-            best.direction.angle(&other.direction).to_degrees()
+            best.direction.angle(&other.direction).to_degrees(),
+            given("mounting", "ROLL,PITCH,YAW")
         ));
     }
     Ok(match straight.filter(|axis| axis.error <= best.error) {

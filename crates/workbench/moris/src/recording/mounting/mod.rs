@@ -9,6 +9,7 @@ use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::option::{given, named};
 use blocks::Blocks;
 use forward::Forward;
 
@@ -106,9 +107,11 @@ pub fn find(motion: &SensorMotion) -> Result<Found, String> {
     let gravity = rest.unwrap_or_else(whole);
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
         return Err(format!(
-            "--mounting auto finds no gravity: at rest the specific force is {:.2} m/s2; check --force-unit, or give \
-             --mounting ROLL,PITCH,YAW",
-            gravity.norm()
+            "{} finds no gravity: at rest the specific force is {:.2} m/s2; check {}, or give {}",
+            given("mounting", "auto"),
+            gravity.norm(),
+            named("force-unit"),
+            given("mounting", "ROLL,PITCH,YAW")
         ));
     }
     let up = gravity.normalize();
@@ -117,9 +120,10 @@ pub fn find(motion: &SensorMotion) -> Result<Found, String> {
     let option = option(&rotation);
     if error > LARGEST_ERROR {
         return Err(format!(
-            "--mounting auto finds forward from {evidence}, but only to {:.0} degrees; give --mounting ROLL,PITCH,YAW in \
-             degrees, or take {option}",
-            error.to_degrees()
+            "{} finds forward from {evidence}, but only to {:.0} degrees; give {} in degrees, or take {option}",
+            given("mounting", "auto"),
+            error.to_degrees(),
+            given("mounting", "ROLL,PITCH,YAW")
         ));
     }
     let level = if rest.is_some() { "gravity" } else { "the mean force, as there is no second of rest" };
@@ -144,5 +148,5 @@ fn axes(up: &Vector3<f64>, forward: &Vector3<f64>) -> Matrix3<f64> {
 fn option(rotation: &Matrix3<f64>) -> String {
     let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(*rotation).euler_angles();
     let [roll, pitch, yaw] = [roll, pitch, yaw].map(f64::to_degrees);
-    format!("--mounting={roll:.1},{pitch:.1},{yaw:.1}")
+    given("mounting", format!("{roll:.1},{pitch:.1},{yaw:.1}"))
 }
