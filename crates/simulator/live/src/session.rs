@@ -18,6 +18,8 @@ pub const STEP: f64 = 0.001;
 /// A leg is at neutral within this part of its stroke, at this part of it per second. A slow
 /// wash-out of the yaw goes on for long.
 const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
+/// Least time of engaging \[s\], also where the washout has stayed engaged through a pause.
+const LEAST_ENGAGING: f64 = 4.0;
 /// Glide after a gap: twice its length, within these \[s\].
 const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
 
@@ -335,7 +337,10 @@ impl Session {
         let at_neutral = (0..6).all(near);
         let arrived = match self.state {
             State::Homing => at_neutral && self.travel.is_up(),
-            State::Engaging => self.washout.engagement() == 1.0 && self.gate.is_open(),
+            State::Engaging => {
+                let lasts = (self.steps - self.since) as f64 * STEP >= LEAST_ENGAGING;
+                lasts && self.washout.engagement() == 1.0 && self.gate.is_open()
+            }
             State::Disengaging => faded && at_neutral,
             State::Parking => {
                 self.goes_up &= !(faded && at_neutral);
