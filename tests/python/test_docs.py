@@ -38,6 +38,11 @@ FENCE = re.compile(r"^```(?P<language>\w*) ?(?P<information>[^\n]*)\n(?P<text>.*
 FILES = ("toml", "csv")
 # The command that runs these tests.
 ALL_TESTS = "python3 tests/run.py"
+# By page: pictures of docs/, and the files in target/ that commands of the page draw.
+DRAWN = {
+    "README.md": {"first-ride.svg": "first-ride/ride.svg"},
+    "docs/strategies.md": {"strategies.svg": "paper-runs/strategies.svg"},
+}
 COPIED = ("docs", "examples", "target/fmu")
 LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "src", "tests")
 
@@ -116,10 +121,12 @@ def plain(output, directory=ROOT):
     return "\n".join(line.rstrip() for line in lines).strip("\n") + "\n"
 
 
-def pictures():
-    """The examples' pictures: each as it is in the repository, and as an example of the page has drawn it."""
-    drawn = page_directory(EXAMPLES) / "target" / "examples"
-    return [(file, drawn / file.name) for file in sorted(EXAMPLES.parent.glob("*.svg"))]
+def pictures(page):
+    """Pictures that a page's commands draw: each as it is in the repository, and as it has been drawn."""
+    if page == EXAMPLES:
+        drawn = page_directory(EXAMPLES) / "target" / "examples"
+        return [(file, drawn / file.name) for file in sorted(EXAMPLES.parent.glob("*.svg"))]
+    return [(ROOT / "docs" / shown, ROOT / "target" / drawn) for shown, drawn in DRAWN.get(name(page), {}).items()]
 
 
 def assert_same_picture(expected, drawn):
@@ -149,7 +156,7 @@ def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
     if sys.platform == "linux" and platform.machine() == "x86_64":
         for block, output in shown:
             assert output == plain(block.text), f"{block} is stale: run tests/python/test_docs.py --update"
-    for expected, drawn in pictures() if page == EXAMPLES else []:
+    for expected, drawn in pictures(page):
         assert_same_picture(expected, drawn)
 
 
@@ -224,7 +231,7 @@ def update(page):
         head, rest = text.split(f"```text output\n{block.text}```", 1)
         text = f"{head}```text output\n{output}```{rest}"
     page.write_text(text)
-    for expected, drawn in pictures() if page == EXAMPLES else []:
+    for expected, drawn in pictures(page):
         shutil.copy(drawn, expected)
 
 

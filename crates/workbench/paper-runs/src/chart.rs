@@ -3,6 +3,7 @@
 //! The coordinates of a drawing are whole pixels. So the canvas and its text are large: at half
 //! size, about the width of a page, the curves are smooth.
 
+use std::ops::Range;
 use std::path::Path;
 
 use anyhow::Result;
@@ -20,6 +21,11 @@ const TEXT: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(222, 222, 222);
 const LIMIT: RGBColor = RGBColor(190, 30, 45);
 
+/// Background of the second that is enlarged.
+const ENLARGED: RGBColor = RGBColor(238, 238, 238);
+/// Fraction of a panel's width for the whole, where a second is enlarged beside it.
+const WHOLE: f64 = 0.72;
+
 /// Fraction of a panel's height reserved for its legend, above the curves.
 const LEGEND_HEIGHT: f64 = 0.16;
 /// Largest error of a drawn curve, as a fraction of the panel's height: about a fifth of a pixel.
@@ -35,6 +41,8 @@ pub struct Panel {
     pub curves: Vec<Curve>,
     /// Limits of the curves, drawn as lines.
     pub limits: Vec<f64>,
+    /// Start of a second that is drawn enlarged beside the whole \[s\].
+    pub enlarged: Option<f64>,
 }
 
 /// One curve of a diagram.
@@ -81,20 +89,41 @@ pub fn draw(path: &Path, panels: &[Panel], panel_height: u32) -> Result<()> {
 }
 
 fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
-    let (bottom, top) = vertical_range(panel);
     let end = panel.curves.iter().filter_map(|curve| curve.points.last()).map(|point| point.0).fold(0.0, f64::max);
+    let Some(from) = panel.enlarged else {
+        return draw_diagram(area, panel, 0.0..end);
+    };
+    let (whole, second) = area.split_horizontally((100.0 * WHOLE).percent_width());
+    draw_diagram(&whole, panel, 0.0..end)?;
+    let part = |curve: &Curve| Curve { points: within(&curve.points, from, from + 1.0), ..curve.clone() };
+    let curves = panel.curves.iter().map(part).collect();
+    let title = "The roughest second".to_owned();
+    draw_diagram(&second, &Panel { title, curves, enlarged: None, ..panel.clone() }, from..from + 1.0)
+}
+
+fn within(points: &[(f64, f64)], from: f64, to: f64) -> Vec<(f64, f64)> {
+    points.iter().copied().filter(|&(time, _)| from <= time && time <= to).collect()
+}
+
+fn draw_diagram(area: &Area, panel: &Panel, times: Range<f64>) -> Result<()> {
+    let (bottom, top) = vertical_range(panel);
+    let Range { start, end } = times;
+    let is_part = start > 0.0;
     let mut chart = ChartBuilder::on(area)
         .caption(&panel.title, (FONT, FONT_SIZE + 4).into_font().color(&TEXT))
         .margin(14)
         .margin_right(40)
         .x_label_area_size(74)
-        .y_label_area_size(116)
-        .build_cartesian_2d(0.0..end, bottom..top)?;
+        .y_label_area_size(if is_part { 70 } else { 116 })
+        .build_cartesian_2d(start..end, bottom..top)?;
+    if let Some(from) = panel.enlarged {
+        chart.draw_series([Rectangle::new([(from, bottom), (from + 1.0, top)], ENLARGED.filled())])?;
+    }
     chart
         .configure_mesh()
         .x_desc("time [s]")
-        .y_desc(panel.quantity)
-        .x_labels(12)
+        .y_desc(if is_part { "" } else { panel.quantity })
+        .x_labels(if is_part { 5 } else { 12 })
         .y_labels(7)
         .x_label_formatter(&|value| tick(*value))
         .y_label_formatter(&|value| tick(*value))
@@ -105,7 +134,7 @@ fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
         .axis_desc_style((FONT, FONT_SIZE).into_font().color(&TEXT))
         .draw()?;
     for &limit in &panel.limits {
-        let line = [(0.0, limit), (end, limit)];
+        let line = [(start, limit), (end, limit)];
         chart.draw_series(DashedLineSeries::new(line, 18, 10, LIMIT.stroke_width(3)))?;
     }
     for curve in in_drawing_order(&panel.curves) {
@@ -116,6 +145,10 @@ fn draw_panel(area: &Area, panel: &Panel) -> Result<()> {
         } else {
             chart.draw_series(LineSeries::new(points, style))?;
         }
+    }
+    if is_part {
+        // The legend stands beside it.
+        return Ok(());
     }
     draw_legend(&chart.plotting_area().strip_coord_spec(), panel)
 }
@@ -138,20 +171,19 @@ fn vertical_range(panel: &Panel) -> (f64, f64) {
 
 /// The curves' labels in one row at the top of the plotting area.
 fn draw_legend(area: &Area, panel: &Panel) -> Result<()> {
-    const SAMPLE: i32 = 56;
     const GAP: i32 = 12;
-    const NEXT: i32 = 36;
+    let (sample, next) = if panel.enlarged.is_some() { (28, 14) } else { (56, 36) };
     let y = (LEGEND_HEIGHT * f64::from(area.dim_in_pixel().1) / 2.0) as i32;
     let text = (FONT, FONT_SIZE - 2).into_font().color(&TEXT);
     let mut x = 24;
     for (label, colour, stroke) in legend_entries(panel) {
-        let dashes = if stroke == Stroke::Dashed { vec![(0, 16), (20, 36), (40, 56)] } else { vec![(0, SAMPLE)] };
+        let dashes = if stroke == Stroke::Dashed { vec![(0, 16), (20, 36), (40, 56)] } else { vec![(0, sample)] };
         for (from, to) in dashes {
             area.draw(&PathElement::new([(x + from, y), (x + to, y)], colour.stroke_width(stroke.width())))?;
         }
-        x += SAMPLE + GAP;
+        x += sample + GAP;
         area.draw(&Text::new(label, (x, y - FONT_SIZE / 2 + 2), text.clone()))?;
-        x += label.chars().count() as i32 * FONT_SIZE * 11 / 20 + NEXT;
+        x += label.chars().count() as i32 * FONT_SIZE * 11 / 20 + next;
     }
     Ok(())
 }
@@ -184,7 +216,7 @@ mod tests {
     fn the_legend_has_its_share_of_the_height_to_itself() {
         let curve =
             Curve { label: "felt".into(), colour: BLACK, stroke: Stroke::Fine, points: vec![(0.0, -1.0), (1.0, 3.0)] };
-        let panel = Panel { title: String::new(), quantity: "", curves: vec![curve], limits: vec![4.0] };
+        let panel = Panel { title: String::new(), quantity: "", curves: vec![curve], limits: vec![4.0], enlarged: None };
         let (bottom, top) = vertical_range(&panel);
         assert!(bottom < -1.0);
         assert!((top - 4.0) / (top - bottom) > LEGEND_HEIGHT);

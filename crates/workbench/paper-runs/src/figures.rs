@@ -53,7 +53,8 @@ pub fn write_figures(directory: &Path, recordings: &[Recording]) -> Result<Vec<P
 /// One of these runs is missing from the recordings, or the file cannot be written.
 pub fn write_strategies(path: &Path, recordings: &[Recording]) -> Result<()> {
     let (c, town) = (runs(recordings, C.name)?, runs(recordings, TOWN.name)?);
-    let panels = [force("Strategies (a)", &c, 0), force("Strategies (b)", &town, 0), force("Strategies (c)", &town, 1)];
+    let panels = [("a", &c, 0), ("b", &town, 0), ("c", &town, 1)]
+        .map(|(letter, runs, axis)| with_roughest_second(force(&format!("Strategies ({letter})"), runs, axis)));
     draw(path, &panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
@@ -65,8 +66,11 @@ pub fn write_ride(path: &Path, recordings: &[Recording]) -> Result<()> {
     let ride = runs(recordings, TOWN.name)?;
     let title = |text: &str| text.to_owned();
     let panels = [
-        Panel { title: title("Surge: what the vehicle asks for, and what the rider feels"), ..force("", &ride, 0) },
-        Panel { title: title("Sway"), ..force("", &ride, 1) },
+        with_roughest_second(Panel {
+            title: title("Surge: what the vehicle asks for, and what the rider feels"),
+            ..force("", &ride, 0)
+        }),
+        with_roughest_second(Panel { title: title("Sway"), ..force("", &ride, 1) }),
         Panel { title: title("What the six legs do for it"), ..legs("", ride[0]) },
     ];
     draw(path, &panels, RIDE_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
@@ -86,6 +90,7 @@ fn force(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
         quantity: FORCE,
         curves: felt_against_desired(runs, |s| s.desired_force[axis], |s| s.felt_force[axis]),
         limits: vec![],
+        enlarged: None,
     }
 }
 
@@ -96,7 +101,33 @@ fn rate(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
         quantity: RATE,
         curves: felt_against_desired(runs, |s| s.desired_rate[axis].to_degrees(), |s| s.felt_rate[axis].to_degrees()),
         limits: vec![],
+        enlarged: None,
     }
+}
+
+/// The panel with the second in which a felt curve has least of the desired curve's shape: where
+/// the standard deviation of their difference is largest. The desired curve is the first.
+fn with_roughest_second(panel: Panel) -> Panel {
+    let (desired, felt) = panel.curves.split_first().expect("a desired curve");
+    let roughest = felt.iter().map(|curve| roughest_second(&desired.points, &curve.points));
+    let enlarged = roughest.max_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, from)| from);
+    Panel { enlarged, ..panel }
+}
+
+/// Largest variance within a second of the difference of two curves at the same times, and the
+/// start of that second.
+fn roughest_second(desired: &[(f64, f64)], felt: &[(f64, f64)]) -> (f64, f64) {
+    let step = felt[1].0 - felt[0].0;
+    let count = ((1.0 / step).round() as usize).clamp(1, felt.len());
+    let errors: Vec<f64> = desired.iter().zip(felt).map(|(desired, felt)| felt.1 - desired.1).collect();
+    let variance = |errors: &[f64]| {
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        errors.iter().map(|error| (error - mean).powi(2)).sum::<f64>() / errors.len() as f64
+    };
+    // Each twentieth of a second is near enough.
+    let begins = (0..=felt.len() - count).step_by((count / 20).max(1));
+    let each = begins.map(|begin| (variance(&errors[begin..begin + count]), felt[begin].0));
+    each.max_by(|one, other| one.0.total_cmp(&other.0)).expect("a curve of points")
 }
 
 /// Desired motion of a run, and felt motion with each parameter set.
@@ -137,6 +168,7 @@ fn legs(figure: &str, run: &Recording) -> Panel {
         quantity: "length [m]",
         curves: styles.into_iter().enumerate().map(leg).collect(),
         limits: run.stroke.to_vec(),
+        enlarged: None,
     }
 }
 
@@ -208,6 +240,18 @@ mod tests {
         std::fs::remove_file(&file).unwrap();
         assert!(["run c", "run town"].iter().all(|title| drawing.contains(title)));
         assert!(names.iter().all(|name| drawing.matches(name).count() == 3));
+    }
+
+    #[test]
+    fn the_roughest_second_has_the_needle_not_the_offset() {
+        let points = |value: &dyn Fn(f64) -> f64| (0..1000).map(|k| 0.01 * f64::from(k)).map(|t| (t, value(t))).collect();
+        let desired: Vec<(f64, f64)> = points(&|t: f64| t.sin());
+        let felt: Vec<(f64, f64)> =
+            points(&|t: f64| if t > 8.0 { t.sin() + 3.0 } else { t.sin() + 4.0 * (-(t - 5.3_f64).powi(2) / 0.002).exp() });
+        let (variance, from) = roughest_second(&desired[..800], &felt[..800]);
+        assert!(variance > 0.1 && (4.3..5.3).contains(&from), "{variance} from {from}");
+        let (variance, _) = roughest_second(&desired[810..], &felt[810..]);
+        assert!(variance < 1e-12, "a lasting offset is not rough: {variance}");
     }
 
     #[test]
