@@ -610,6 +610,8 @@ def noted(browser):
         page.get_by_label("strategy", exact=True).select_option(label="predictive")
         settled(page)
         page.locator(".chart").first.scroll_into_view_if_needed()
+        # What waits while a slider moves comes after 250 ms.
+        page.evaluate("new Promise((next) => setTimeout(next, 300))")
         page.evaluate(NOTED)
         yield page
 
@@ -635,6 +637,10 @@ def curves_come_before_measures(browser):
 def a_change_ends_the_run_under_way(browser):
     """The last of several changes is simulated to its end, and if it cannot be used, the curves are again the last whole ones."""
     with noted(browser) as page:
+        # Five times the steps: no run is at its end before its first part is drawn.
+        page.evaluate("change('solver.maxStep', 0.0002)")
+        settled(page)
+        page.evaluate("noted.length = 0")
         page.evaluate("inPart.push(() => change('scale.specificForce.x', 0.4), () => change('scale.specificForce.x', 0.8))")
         page.evaluate("change('scale.specificForce.x', 0.9)")
         settled(page)

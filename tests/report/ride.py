@@ -119,16 +119,17 @@ def a_phone_rides_by_touch_and_tilt(browser):
         touch("#hold-throttle", "#hold-left")
         wait(page, "now.view.roll < -0.05")
         touch()
-        assert page.evaluate("simulationRide.controls.held.size") == 0
+        wait(page, "simulationRide.controls.held.size === 0")
         page.locator("#tilt").tap()
-        assert page.locator("#tilt").inner_text() == "Lean: tilt the device"
+        wait(page, "document.getElementById('tilt').textContent === 'Lean: tilt the device'")
         tilt(40, 15)
-        assert page.evaluate("simulationRide.controls.tilt") == 0.5
+        wait(page, "simulationRide.controls.tilt === 0.5")
         wait(page, "now.view.roll > 0.05")
         size = {"width": PHONE["height"], "height": PHONE["width"], "deviceScaleFactor": 3, "mobile": True}
         session.send("Emulation.setDeviceMetricsOverride", size | {"screenOrientation": {"type": "landscapePrimary", "angle": 90}})
+        wait(page, "screen.orientation.angle === 90")
         tilt(-60, 15)
-        assert page.evaluate("[screen.orientation.angle, simulationRide.controls.tilt]") == [90, -1]
+        wait(page, "simulationRide.controls.tilt === -1")
 
 
 @check_everywhere

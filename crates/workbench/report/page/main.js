@@ -167,10 +167,10 @@ function restLater() {
   drawCharts.timer = setTimeout(showRest, REST);
 }
 
-/** What waits while a slider moves. */
+/** What waits while a slider moves; measures also wait for the end of the run whose first curves are shown. */
 function showRest() {
   timeLine.showList();
-  showAllMeasures();
+  if (!tuning?.isPart) showAllMeasures();
   drawCharts();
 }
 
