@@ -2,6 +2,7 @@
 
 import json
 import math
+import statistics
 import subprocess
 from contextlib import contextmanager
 
@@ -195,6 +196,29 @@ def charts_are_zoomed_and_clicked(browser):
         page.screenshot(path=PICTURES / "zoomed.png")
         page.get_by_role("button", name="Whole recording").click()
         assert page.evaluate("simulationReport.now.shown") == [0, 60]
+
+
+@check
+def the_roughest_second_is_shown(browser):
+    """By button and by key: the second of which the standard deviation of the error is largest, each second tried."""
+    with opened(browser, "ride") as page:
+        run = page.evaluate(
+            "(({ times, desired, felt }) => [times, ...[0, 1].flatMap((axis) => [desired, felt]"
+            ".map((cues) => cues.specific_force[axis]))].map((values) => [...values]))(simulationReport.now.run)"
+        )
+        times, *forces = run
+        errors = [[b - a for a, b in zip(*forces[:2])], [b - a for a, b in zip(*forces[2:])]]
+        count = 100  # at 100 Hz
+        roughness = {times[k]: max(statistics.pstdev(error[k : k + count + 1]) for error in errors) for k in range(len(times) - count)}
+        for act in (lambda: page.get_by_role("button", name="Roughest second").click(), lambda: page.keyboard.press("r")):
+            page.evaluate("document.activeElement.blur(), simulationReport.show(null)")
+            act()
+            begin, end = page.evaluate("simulationReport.now.shown")
+            near(end - begin, 1, 1e-9, "a second")
+            shown = roughness[min(roughness, key=lambda time: abs(time - begin))]
+            near(shown, max(roughness.values()), 1e-4, f"roughness from {begin} s")
+            near(page.evaluate("simulationReport.now.time"), begin + 0.5, 1e-9, "middle")
+        page.screenshot(path=PICTURES / "roughest.png")
 
 
 @check

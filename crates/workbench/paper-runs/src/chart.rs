@@ -216,7 +216,8 @@ mod tests {
     fn the_legend_has_its_share_of_the_height_to_itself() {
         let curve =
             Curve { label: "felt".into(), colour: BLACK, stroke: Stroke::Fine, points: vec![(0.0, -1.0), (1.0, 3.0)] };
-        let panel = Panel { title: String::new(), quantity: "", curves: vec![curve], limits: vec![4.0], enlarged: None };
+        let panel =
+            Panel { title: String::new(), quantity: "", curves: vec![curve], limits: vec![4.0], enlarged: None };
         let (bottom, top) = vertical_range(&panel);
         assert!(bottom < -1.0);
         assert!((top - 4.0) / (top - bottom) > LEGEND_HEIGHT);

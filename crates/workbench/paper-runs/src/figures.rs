@@ -244,10 +244,12 @@ mod tests {
 
     #[test]
     fn the_roughest_second_has_the_needle_not_the_offset() {
-        let points = |value: &dyn Fn(f64) -> f64| (0..1000).map(|k| 0.01 * f64::from(k)).map(|t| (t, value(t))).collect();
+        let points =
+            |value: &dyn Fn(f64) -> f64| (0..1000).map(|k| 0.01 * f64::from(k)).map(|t| (t, value(t))).collect();
         let desired: Vec<(f64, f64)> = points(&|t: f64| t.sin());
-        let felt: Vec<(f64, f64)> =
-            points(&|t: f64| if t > 8.0 { t.sin() + 3.0 } else { t.sin() + 4.0 * (-(t - 5.3_f64).powi(2) / 0.002).exp() });
+        let felt: Vec<(f64, f64)> = points(&|t: f64| {
+            if t > 8.0 { t.sin() + 3.0 } else { t.sin() + 4.0 * (-(t - 5.3_f64).powi(2) / 0.002).exp() }
+        });
         let (variance, from) = roughest_second(&desired[..800], &felt[..800]);
         assert!(variance > 0.1 && (4.3..5.3).contains(&from), "{variance} from {from}");
         let (variance, _) = roughest_second(&desired[810..], &felt[810..]);

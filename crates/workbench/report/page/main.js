@@ -46,6 +46,14 @@ function show(times) {
   seek(now.time);
 }
 
+/** Shows the roughest second of the shown run, and goes to its middle. */
+function showRoughest() {
+  const from = roughestSecond(now.run);
+  show([from, from + 1]);
+  seek(from + 0.5);
+  document.querySelector("#charts .chart")?.scrollIntoView({ block: "center" });
+}
+
 function play(on) {
   if (on && now.time >= recording.to) seek(recording.from);
   now.playing = on;
@@ -213,6 +221,7 @@ function setUpPlayer() {
   slider.addEventListener("input", () => seek(Number(slider.value)));
   byId("play").addEventListener("click", () => play(!now.playing));
   byId("whole").addEventListener("click", () => show(null));
+  byId("roughest").addEventListener("click", showRoughest);
   const speed = byId("speed");
   speed.append(...SPEEDS.map((factor) => element("option", { value: factor }, [`\u00d7 ${factor}`])));
   speed.value = "1";
@@ -225,6 +234,7 @@ function setUpPlayer() {
     else if (event.key === "ArrowRight") seek(now.time + step);
     else if (event.key === "+" || event.key === "=") zoom(0.5);
     else if (event.key === "-") zoom(2);
+    else if (event.key === "r" && !event.ctrlKey && !event.metaKey) showRoughest();
     else return;
     event.preventDefault();
   });

@@ -33,7 +33,7 @@ const SHARED: [&str; 10] = [
 ];
 
 /// The report's own scripts, likewise.
-const SCRIPTS: [&str; 13] = [
+const SCRIPTS: [&str; 14] = [
     include_str!("../page/data.js"),
     include_str!("../page/thin.js"),
     include_str!("../page/chart.js"),
@@ -41,6 +41,7 @@ const SCRIPTS: [&str; 13] = [
     include_str!("../page/gauges.js"),
     include_str!("../page/measures.js"),
     include_str!("../page/overlay.js"),
+    include_str!("../page/roughest.js"),
     include_str!("../page/panels.js"),
     include_str!("../page/simulator.js"),
     include_str!("../page/variants.js"),
