@@ -19,7 +19,7 @@ pub struct Table {
 
 /// Every table.
 pub const TABLES: &[Table] = &[
-    Table { page: "docs/fmu.md", name: "parameter sets", text: |_| parameter_sets() },
+    Table { page: "docs/parameter-sets.md", name: "parameter sets", text: |_| parameter_sets() },
     Table { page: "docs/fmu.md", name: "enumerations", text: |_| enumerations() },
     Table { page: "docs/motorcycle.md", name: "path.course", text: items },
     Table { page: "docs/strategies/adaptive.md", name: "adaptive", text: parameters },

@@ -41,7 +41,7 @@ fn every_table_is_that_of_the_models() {
 
 #[test]
 fn the_table_of_sets_has_the_values_of_every_set_and_no_others() {
-    let rows = table("docs/fmu.md", "parameter sets");
+    let rows = table("docs/parameter-sets.md", "parameter sets");
     let description = read("modelDescription/MorisWashout/modelDescription.xml");
     let document = Document::parse(&description).unwrap();
     let start = |name: &str| {

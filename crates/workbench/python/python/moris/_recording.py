@@ -41,7 +41,7 @@ class Recording:
         time needs no such column.
     name: of the recording; by default the file's, without extension.
     format: name of a logger's format, such as "phyphox"; `moris simulate --help` lists them.
-    columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/workbench.md.
+    columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/recordings.md.
     time_unit: "s", "ms", "us", "ns". force_unit: "m/s2", "g", "mg". rate_unit: "rad/s", "deg/s".
     angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn".
     gravity: "included" as an accelerometer reads it, or "removed".
