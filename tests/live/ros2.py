@@ -20,7 +20,6 @@ from cyclonedds.idl.types import array, float64, int32, uint32
 from cyclonedds.pub import DataWriter
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
-
 from rig import Controller, Live
 
 

@@ -260,7 +260,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (Ok(Ok(summary)), Ok(sent), Ok(kept)) = summary else {
         bail!("the loop has ended by an error of this program; the stop string has been sent");
     };
-    kept.context("cannot record the session")?;
     write!(out, "{summary}")?;
     let counts = session.source().counts();
     writeln!(
@@ -276,6 +275,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let Sent { sent, failed, skipped, passage } = sent;
     writeln!(out, "frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames)?;
     writeln!(out, "from a packet to the next frame: {}", passage.summary())?;
+    kept.context("cannot record the session")?;
     Ok(ExitCode::SUCCESS)
 }
 
