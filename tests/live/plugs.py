@@ -1,20 +1,22 @@
 """Pulls each plug of a rig once: vehicle -> `moris live` -> controller, with emulators of both and of a browser.
 
-    python3 tests/live/plugs.py [SECONDS]
+    python3 tests/live/plugs.py [SECONDS] [--picture FILE]
 
-Without a time the plugs follow each other at once; with one they are spread over it, as in a ride. Says what happened. Fails if
-a leg leaves its stroke or its speed, or if an event has not the effect that docs/live.md names.
+Without a time the plugs follow each other at once; with one they are spread over it, as in a ride. Says what happened, and draws
+it. Fails if a leg leaves its stroke or its speed, or if an event has not the effect that docs/live.md names. The picture in
+docs/live.md is that of 150 s.
 """
 
+import argparse
 import os
 import socket
-import sys
 import tempfile
 import threading
 import time
 from collections import Counter
 from pathlib import Path
 
+from drawing import draw
 from rig import Browser, Controller, Live, Vehicle
 
 from fuzz import packet
@@ -29,12 +31,13 @@ class Ride:
         os.mkfifo(self.pipe)
         self.disk = threading.Event()
         threading.Thread(target=self.take_recording, daemon=True).start()
-        self.controller = Controller()
+        self.controller = Controller(keeps=True)
         options = ["--engage", "--page", "--allow-control", "--record", str(self.pipe)]
         self.live = Live(self.controller, *options)
         self.address = self.live.wait_for("page: ").removeprefix("page: ")
         self.browser = Browser(self.address)
         self.vehicle = Vehicle(self.live.port)
+        self.plugs = []
         self.begin = time.monotonic()
 
     def take_recording(self):
@@ -52,6 +55,7 @@ class Ride:
         """Does something, waits for what it is said to cause, and holds until the next."""
         since, frames = len(self.live.said), self.controller.frames
         at = time.monotonic() - self.begin
+        self.plugs.append((self.controller.rows[-1][0], name))
         act()
         for effect in effects:
             self.live.wait_for(effect, since)
@@ -120,11 +124,12 @@ def fields(place, value):
     return spoil
 
 
-def ride(seconds):
+def ride(seconds, picture):
     with tempfile.TemporaryDirectory() as directory:
         one = Ride(seconds, Path(directory))
         one.runs_again(0)
-        one.pull("nothing", lambda: None)
+        if seconds:
+            time.sleep(one.hold)
         one.pull("the vehicle is paused", one.broken(lambda text: text + ",1", 0.5), "telemetry: paused", " s  frozen", "telemetry: running")
         one.pull("the source falls silent for 1 s", one.silent(1.0), "telemetry: silent", " s  frozen", " s  engaging")
         one.pull("NaN for 0.7 s", one.broken(fields(1, "nan"), 0.7), "telemetry: silent", " s  frozen", " s  engaging")
@@ -141,8 +146,9 @@ def ride(seconds):
         one.pull("the controller is away for 1 s", one.without_controller)
         one.pull("the page is closed, and opened again", one.without_page)
         one.pull("the recording's disk is full", one.full_disk, "the recording has ended")
-        one.pull("the source is killed", one.silent(2.0), " s  frozen", "telemetry: stale", " s  disengaging")
+        one.pull("the source is away for 2 s", one.silent(2.0), " s  frozen", "telemetry: stale", " s  disengaging")
         since = len(one.live.said)
+        one.plugs.append((one.controller.rows[-1][0], "Ctrl-C"))
         one.live.interrupt()
         one.live.wait_for(" s  parking", since)
         if not seconds:
@@ -156,6 +162,8 @@ def ride(seconds):
         one.vehicle.ended.set()
         one.controller.ended.set()
         print(f"Ctrl-C: {', '.join(one.controller.words)}; the recording's error is the exit status\n{printed}")
+        if picture:
+            Path(picture).write_text(draw(one.controller.rows, one.live.states, one.plugs))
 
 
 def killed():
@@ -176,5 +184,9 @@ def killed():
 
 
 if __name__ == "__main__":
-    ride(float(sys.argv[1]) if len(sys.argv) > 1 else 0.0)
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("seconds", nargs="?", type=float, default=0.0, help="time over which the plugs are spread")
+    parser.add_argument("--picture", help="SVG to draw")
+    arguments = parser.parse_args()
+    ride(arguments.seconds, arguments.picture)
     killed()

@@ -29,11 +29,13 @@ def free_port():
 
 
 class Controller:
-    """Receives frames of the form csv; holds what a controller may not see."""
+    """Receives frames of the form csv; holds what a controller may not see, and all numbers if it `keeps` them."""
 
-    def __init__(self):
+    def __init__(self, keeps=False):
         self.port = free_port()
         self.frames = 0
+        self.keeps = keeps
+        self.rows = []
         self.words = []
         self.last = None
         self.faults = []
@@ -70,6 +72,8 @@ class Controller:
             if fastest > FASTEST:
                 self.faults.append(f"{now} s: a leg at {fastest:.2f} m/s")
         self.last = now, legs
+        if self.keeps:
+            self.rows.append((now, numbers))
 
 
 class Vehicle:
@@ -104,6 +108,7 @@ class Live:
         )
         self.said = []
         self.state = "off"
+        self.states = []
         self.news = threading.Condition()
         threading.Thread(target=self.listen, daemon=True).start()
 
@@ -111,9 +116,10 @@ class Live:
         for text in self.process.stderr:
             with self.news:
                 self.said.append(text.strip())
-                word = text.strip().rpartition(" s  ")[2]
+                at, _, word = text.strip().rpartition(" s  ")
                 if word in STATES:
                     self.state = word
+                    self.states.append((float(at), word))
                 self.news.notify_all()
 
     def wait_for(self, words, since=0, patience=60):

@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
-"""Makes a picture of a report: a page of `cargo moris simulate` in, an SVG with the browser's picture in it out.
+"""Makes a picture of a page: a report of `cargo moris simulate` or the page of `moris live` in, an SVG with the browser's picture
+in it out.
 
     cargo moris simulate ride.csv --report report
     python3 tests/report/run.py --install          # once: Chromium and Playwright
     target/report/venv/bin/python tests/report/picture.py report/ride.html docs/report.svg --time 34.5 --tuned
+
+    python3 examples/vehicle.py 60 &
+    cargo moris live --from udp:4444 --format csv --dry --engage --parameters car --page --for 60
+    target/report/venv/bin/python tests/report/picture.py "http://127.0.0.1:PORT/?token=..." docs/live-page.svg --time 30
 """
 
 import argparse
@@ -35,6 +40,10 @@ def picture(page_file, time, is_tuned):
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=browser())
         page = chromium.new_page(viewport=SIZE)
+        if page_file.startswith("http:"):
+            page.goto(page_file)
+            page.wait_for_timeout(1000 * time)
+            return page.screenshot(type="jpeg", quality=75)
         page.goto(Path(page_file).resolve().as_uri())
         page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
         if is_tuned:
@@ -48,10 +57,10 @@ def picture(page_file, time, is_tuned):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("page", help="a report, as cargo moris simulate makes it")
+    parser.add_argument("page", help="a report, as cargo moris simulate makes it, or an address that moris live prints")
     parser.add_argument("picture", help="the SVG to write")
     parser.add_argument("--tuned", action="store_true", help="with the panel of parameters, a variant and a change")
-    parser.add_argument("--time", type=float, default=0.0, help="time of the ride in seconds")
+    parser.add_argument("--time", type=float, default=0.0, help="time of the ride in seconds; with an address the time to wait")
     arguments = parser.parse_args()
     image = base64.b64encode(picture(arguments.page, arguments.time, arguments.tuned)).decode()
     width, height = SIZE["width"], SIZE["height"]

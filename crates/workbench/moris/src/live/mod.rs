@@ -3,7 +3,8 @@
 //! `moris_live` decides; here are its clock, its sockets and its threads:
 //!
 //! - `priority` asks for real time, `lateness` counts how late steps and frames are.
-//! - `telemetry` receives packets, or plays a recording; `vehicle` steps an FMU or a motorcycle.
+//! - `telemetry` receives packets, or plays a recording; `ros2` subscribes to a topic; `vehicle`
+//!   steps an FMU or a motorcycle.
 //! - `controls` has what the page holds of a vehicle's controls.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames, `journal` prints what happens and records the session.
@@ -19,6 +20,8 @@ mod lateness;
 mod pace;
 mod page;
 mod priority;
+#[cfg(feature = "ros2")]
+mod ros2;
 mod steps;
 mod tables;
 mod telemetry;
@@ -54,9 +57,10 @@ pub struct Options {
     #[command(subcommand)]
     list: Option<tables::List>,
 
-    /// Telemetry: udp:PORT; or the FMU of a vehicle, or a recording, which run in real time
-    /// once the platform engages; or ride: a motorcycle that the page's controls ride then
-    #[arg(long, value_name = "udp:PORT|fmu:FILE|ride|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
+    /// Telemetry: udp:PORT, or a topic of ROS 2 with sensor_msgs/Imu. The FMU of a vehicle or a
+    /// recording runs in real time once the platform engages. ride: a motorcycle that the page's
+    /// controls ride then
+    #[arg(long, value_name = "udp:PORT|ros2:TOPIC|fmu:FILE|ride|RECORDING", required_unless_present_any = ["replay", "empty_loop"])]
     from: Option<String>,
 
     /// Format of the packets: a name of `moris live formats`, or a TOML file; of a recording: its
@@ -256,7 +260,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (Ok(Ok(summary)), Ok(sent), Ok(kept)) = summary else {
         bail!("the loop has ended by an error of this program; the stop string has been sent");
     };
-    kept.context("cannot record the session")?;
     write!(out, "{summary}")?;
     let counts = session.source().counts();
     writeln!(
@@ -272,6 +275,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let Sent { sent, failed, skipped, passage } = sent;
     writeln!(out, "frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames)?;
     writeln!(out, "from a packet to the next frame: {}", passage.summary())?;
+    kept.context("cannot record the session")?;
     Ok(ExitCode::SUCCESS)
 }
 

@@ -1,4 +1,5 @@
-//! Telemetry from a socket, from a recording in real time, or from a vehicle that is stepped here.
+//! Telemetry from a socket, from a topic of ROS 2, from a recording in real time, or from a vehicle
+//! that is stepped here.
 
 use std::net::UdpSocket;
 use std::path::Path;
@@ -15,6 +16,8 @@ use moris_washout::motion::orientation::Orientation;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
+#[cfg(feature = "ros2")]
+use super::ros2::Subscription;
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Shared, pace, tables};
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
@@ -31,12 +34,15 @@ pub struct Received {
 /// Largest packet \[bytes\].
 const LARGEST: usize = 65_536;
 /// Time after which a quiet socket is left to see whether all has ended.
-const PATIENCE: Duration = Duration::from_millis(100);
+pub const PATIENCE: Duration = Duration::from_millis(100);
 
 /// A source of telemetry.
 pub enum Input {
     /// Packets of a format.
     Udp(UdpSocket, Box<Format>),
+    /// A topic of ROS 2.
+    #[cfg(feature = "ros2")]
+    Ros2(Box<Subscription>),
     /// A recording.
     Played(Box<Recording>),
     /// A vehicle.
@@ -56,13 +62,16 @@ impl Input {
             let map = map.context("--map names the file that maps the FMU's variables")?;
             return Ok(Input::Driven(Box::new(Fmu::open(Path::new(file), map)?)));
         }
+        if let Some(topic) = from.strip_prefix("ros2:") {
+            return Input::open_ros2(topic, listen);
+        }
         let Some(port) = from.strip_prefix("udp:") else {
             let logger = format.map(|name| ValueEnum::from_str(name, true)).transpose();
             let format = logger.map_err(|_| anyhow::anyhow!("--format of a recording is a logger's name"))?;
             let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
             return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
         };
-        let port: u16 = port.parse().context("--from is udp:PORT, fmu:FILE, ride or a recording")?;
+        let port: u16 = port.parse().context("--from is udp:PORT, ros2:TOPIC, fmu:FILE, ride or a recording")?;
         let format = tables::format(format.context("--format names the packets' format; see moris live formats")?)?;
         let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
         let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;
@@ -70,10 +79,22 @@ impl Input {
         Ok(Input::Udp(socket, Box::new(format)))
     }
 
+    #[cfg(feature = "ros2")]
+    fn open_ros2(topic: &str, listen: bool) -> Result<Input> {
+        Ok(Input::Ros2(Box::new(Subscription::open(topic, listen)?)))
+    }
+
+    #[cfg(not(feature = "ros2"))]
+    fn open_ros2(_: &str, _: bool) -> Result<Input> {
+        anyhow::bail!("moris was built without ROS 2; build it with --features ros2")
+    }
+
     /// The controls that it has.
     pub fn handling(&self) -> Option<Handling> {
         match self {
             Input::Driven(vehicle) => vehicle.handling(),
+            #[cfg(feature = "ros2")]
+            Input::Ros2(_) => None,
             Input::Udp(..) | Input::Played(_) => None,
         }
     }
@@ -82,6 +103,8 @@ impl Input {
     pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared) {
         match self {
             Input::Udp(socket, format) => receive(&socket, &format, samples, shared),
+            #[cfg(feature = "ros2")]
+            Input::Ros2(subscription) => subscription.run(samples, shared),
             Input::Played(recording) => play(&recording, samples, shared),
             Input::Driven(vehicle) => vehicle::drive(vehicle, controls, samples, shared),
         }

@@ -31,8 +31,8 @@ fn a_recording_that_cannot_go_on_is_said_and_the_platform_parks_as_ever() {
     live.after("the recording has ended: ");
     live.interrupt();
     live.wait_for("off");
-    let (status, _, frames) = live.end();
-    assert!(!status.success());
+    let (status, printed, frames) = live.end();
+    assert!(!status.success() && printed.contains("late by more than one"), "{printed}");
     assert_eq!(frames[frames.len() - 2..], ["park\n", "stop\n"]);
     let last = &frames[frames.len() - 4..frames.len() - 2];
     // Slower than 10 mm/s.

@@ -2,6 +2,7 @@
 
 #![cfg(unix)]
 
+mod devices;
 mod driving;
 mod exits;
 mod moog;
@@ -126,7 +127,11 @@ fn what_cannot_be_used_is_said() {
     }
     for (arguments, text) in [
         (&["formats", "doom"][..], "there is no doom, only json, csv"),
-        (&["--from", "udp:0x", "--format", "csv", "--dry"], "--from is udp:PORT, fmu:FILE, ride or a recording"),
+        (
+            &["--from", "udp:0x", "--format", "csv", "--dry"],
+            "--from is udp:PORT, ros2:TOPIC, fmu:FILE, ride or a recording",
+        ),
+        (&["--from", "ros2:imu", "--dry"], if cfg!(feature = "ros2") { "like /imu/data" } else { "--features ros2" }),
         (&["--from", "udp:4444", "--dry"], "--format names the packets' format"),
         (&["--from", "udp:4444", "--format", "own.toml", "--dry"], "own.toml"),
         (&["--from", "udp:4444", "--format", "csv"], "--to"),
