@@ -3,11 +3,13 @@
 import pickle
 import subprocess
 import sys
+from typing import get_args
 
 import moris
 import numpy as np
 import pytest
 from conftest import ROOT, STANDARD_GRAVITY
+from moris import _types
 
 
 @pytest.fixture
@@ -200,9 +202,15 @@ def test_a_build_without_sources_or_toolchain_says_what_to_do(tmp_path, monkeypa
         moris.build_fmu(source=ROOT)
 
 
-def test_the_stubs_are_those_of_the_package():
-    done = subprocess.run([sys.executable, "-m", "mypy.stubtest", "--mypy-config-file", ROOT / "tests" / "python_package" / "mypy.ini", "moris"], capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+def test_the_package_keeps_to_its_types():
+    config = ROOT / "tests" / "python_package" / "mypy.ini"
+    for checked in (["mypy", "--config-file", config, "-p", "moris"], ["mypy.stubtest", "--mypy-config-file", config, "moris._moris"]):
+        done = subprocess.run([sys.executable, "-m", *checked], capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_strategies_of_the_types_are_those_of_the_washout():
+    assert get_args(_types.Strategy) == moris.variables()["strategy"].items
 
 
 def test_the_version_is_that_of_the_package():

@@ -4,11 +4,15 @@ A task needs nothing that only one worker has. Its context is a task, too, which
 worker that held it is lost.
 """
 
+from __future__ import annotations
+
 import hashlib
 import pickle
 import threading
 import time
 import warnings
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from ._errors import ClusterError
 from ._optional import need
@@ -24,10 +28,10 @@ LONGEST_WITHOUT_WORKERS = 60.0
 MOST_CONTEXTS = 4
 """Contexts that a process keeps."""
 
-_contexts = {}
+_contexts: dict[str, Any] = {}
 
 
-def _context(key, payload):
+def _context(key: str, payload: bytes) -> Any:
     """The context in a payload, made once in a process."""
     if key not in _contexts:
         while len(_contexts) >= MOST_CONTEXTS:
@@ -37,39 +41,39 @@ def _context(key, payload):
     return _contexts[key]
 
 
-def _same(payload):
+def _same(payload: bytes) -> bytes:
     return payload
 
 
-def _work(key, payload, function, arguments):
+def _work(key: str, payload: bytes, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
     return function(_context(key, payload), *arguments)
 
 
 class Cluster:
     """The workers of a dask.distributed.Client, with the context make(*arguments) on each that needs it."""
 
-    def __init__(self, client, make, arguments):
+    def __init__(self, client: Any, make: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
         need("distributed", "a cluster")
         if not hasattr(client, "scheduler_info"):
             raise TypeError(f"client must be a dask.distributed.Client, not {type(client).__name__}")
         if client.asynchronous:
             raise TypeError("client is asynchronous; make one without asynchronous=True")
         self._client = client
-        self._missing_since = None
+        self._missing_since: float | None = None
         self._warn_after = time.monotonic() + LONGEST_WITHOUT_WORKERS
         payload = pickle.dumps((make, arguments))
         self._key = hashlib.sha256(payload).hexdigest()
         self._payload = self._submit(_same, payload, key=f"moris-{self._key}")
 
-    def threads(self):
+    def threads(self) -> int:
         """Number of threads of all workers, 1 at least."""
         return max(1, sum(self._client.nthreads().values()))
 
-    def submit(self, function, *arguments):
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Begins function(context, *arguments) on some worker."""
         return self._submit(_work, self._key, self._payload, function, arguments, pure=False)
 
-    def result(self, future, cancelled=lambda: False):
+    def result(self, future: Any, cancelled: Callable[[], bool] = lambda: False) -> Any:
         """The result of a task, or None where `cancelled()` says to wait no longer.
 
         Raises ClusterError where the scheduler is lost, or the task with its workers again and again; otherwise the task's
@@ -95,7 +99,7 @@ class Cluster:
                 raise ClusterError(f"a worker lacks a package ({reason}); install moris-washout on every worker") from reason
         return None
 
-    def _waited(self, future, cancelled):
+    def _waited(self, future: Any, cancelled: Callable[[], bool]) -> bool:
         """True once the task is done, False where `cancelled()` says to wait no longer."""
         done = threading.Event()
         future.add_done_callback(lambda _: done.set())
@@ -107,7 +111,7 @@ class Cluster:
             self._warn_without_workers()
         return not cancelled()
 
-    def _warn_without_workers(self):
+    def _warn_without_workers(self) -> None:
         """Warns once if no worker has come for long."""
         if time.monotonic() > self._warn_after:
             self._warn_after = float("inf")
@@ -119,25 +123,25 @@ class Cluster:
                     stacklevel=2,
                 )
 
-    def cancel(self, futures):
+    def cancel(self, futures: Iterable[Any]) -> None:
         """Cancels tasks, as far as there is still a scheduler."""
         if self._client.status == "running":
             self._client.cancel(list(futures), force=True)
 
-    def _submit(self, *arguments, **options):
+    def _submit(self, *arguments: Any, **options: Any) -> Any:
         try:
             return self._client.submit(*arguments, **options)
         except Exception as reason:
             raise _lost(reason) from reason
 
-    def _is_lost(self):
+    def _is_lost(self) -> bool:
         if self._client.status == "running":
             self._missing_since = None
             return False
         self._missing_since = self._missing_since or time.monotonic()
-        return self._client.status == "closed" or time.monotonic() - self._missing_since > PATIENCE
+        return bool(self._client.status == "closed") or time.monotonic() - self._missing_since > PATIENCE
 
 
-def _lost(reason):
+def _lost(reason: object) -> ClusterError:
     why = str(reason) or type(reason).__name__
     return ClusterError(f"the Dask cluster's scheduler is lost ({why}); start a cluster again and repeat the call")

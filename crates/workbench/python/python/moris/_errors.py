@@ -1,5 +1,15 @@
 """Exceptions. Each message names the variable, the value, the reason and the remedy."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from ._types import Value
+
+if TYPE_CHECKING:
+    from ._sweep import Sweep
+
 
 class MorisError(ValueError):
     """Base of the exceptions of this package."""
@@ -11,14 +21,18 @@ class ParameterError(MorisError):
     parameter: name of the parameter, or None. value: its value, or None. suggestions: names that look like a wrong one.
     """
 
-    def __init__(self, message, parameter=None, value=None, suggestions=()):
+    parameter: str | None
+    value: Value | None
+    suggestions: tuple[str, ...]
+
+    def __init__(self, message: str, parameter: str | None = None, value: Value | None = None, suggestions: Iterable[str] = ()) -> None:
         super().__init__(message, parameter, value, tuple(suggestions))
         self.parameter = parameter
         self.value = value
         self.suggestions = tuple(suggestions)
 
-    def __str__(self):
-        return self.args[0]
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class RecordingError(MorisError):
@@ -36,7 +50,9 @@ class NoFeasibleParameters(MorisError):
 class ClusterError(RuntimeError):
     """The Dask cluster was lost, or ended a worker too often. `partial` holds what was done until then."""
 
-    def __init__(self, message, partial=None):
+    partial: Sweep | None
+
+    def __init__(self, message: str, partial: Sweep | None = None) -> None:
         super().__init__(message)
         self.partial = partial
 

@@ -1,7 +1,10 @@
 """The measures of a simulation."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable
 from html import escape
-from typing import NamedTuple, Optional
+from typing import Any, Dict, NamedTuple, Union
 
 from ._optional import pandas
 from ._variables import near_misses
@@ -14,34 +17,36 @@ class Measure(NamedTuple):
     """`specific force x`, `sensed angular velocity y`, `platform`, ..."""
     name: str
     """`RMS error`, `false cues`, ..."""
-    value: Optional[float]
+    value: float | None
     """In `unit`; None where the measure is not defined for this recording."""
     unit: str
     definition: str
     source: str
 
 
-class Measures(dict):
+class Measures(Dict[str, Union[float, None]]):
     """Measures by subject and name, each a number: `measures["specific force x RMS error"]` [m/s2].
 
     rows: the measures in order, each with its unit, definition and source.
     """
 
-    def __init__(self, rows):
+    rows: tuple[Measure, ...]
+
+    def __init__(self, rows: Iterable[tuple[str, str, float | None, str, str, str]]) -> None:
         self.rows = tuple(Measure(*row) for row in rows)
         super().__init__((f"{row.subject} {row.name}", row.value) for row in self.rows)
 
-    def __missing__(self, name):
+    def __missing__(self, name: str) -> float | None:
         raise KeyError(f"there is no measure {name}; {near_misses(name, self)}")
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.rows,)
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The measures as a pandas.DataFrame, a row each."""
         return pandas().DataFrame(self.rows, columns=Measure._fields)
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         cells = "".join(
             f"<tr title='{escape(row.definition)}'><td>{escape(row.subject)}</td><td>{escape(row.name)}</td>"
             f"<td>{'–' if row.value is None else f'{row.value:.4g}'}</td><td>{escape(row.unit)}</td></tr>"

@@ -1,21 +1,31 @@
 """Pictures with matplotlib."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from ._optional import need
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ._response import FrequencyResponse
+    from ._simulation import Simulation
 
 STANDARD_GRAVITY = 9.80665
 FORCES = ("surge", "sway", "heave")
 RATES = ("roll rate", "pitch rate", "yaw rate")
 
 
-def _figure(figure, size):
+def _figure(figure: Any, size: tuple[float, float]) -> Any:
     if figure is None:
         figure = need("matplotlib.pyplot", "a plot").figure(figsize=size, layout="constrained")
     return figure
 
 
-def plot(simulation, figure=None):
+def plot(simulation: Simulation, figure: Any = None) -> Any:
     """Felt over desired motion, channel by channel, the actuators' lengths, and when limits were active."""
     figure = _figure(figure, (11, 7))
     axes = figure.subplots(3, 3, sharex=True)
@@ -35,20 +45,20 @@ def plot(simulation, figure=None):
     return figure
 
 
-def _channel(axis, time, desired, felt, title):
+def _channel(axis: Any, time: NDArray[Any], desired: NDArray[Any], felt: NDArray[Any], title: str) -> None:
     axis.plot(time, desired, color="0.6", linewidth=1.2, label="desired")
     axis.plot(time, felt, color="C0", linewidth=1.0, label="felt")
     axis.set_title(title, fontsize="medium")
     axis.grid(alpha=0.3)
 
 
-def _lines(axis, time, values, title):
+def _lines(axis: Any, time: NDArray[Any], values: NDArray[Any], title: str) -> None:
     axis.plot(time, values, linewidth=0.9)
     axis.set_title(title, fontsize="medium")
     axis.grid(alpha=0.3)
 
 
-def _limits(axis, simulation):
+def _limits(axis: Any, simulation: Simulation) -> None:
     flags = {"tilt": "status.tiltLimited", "safety units": "status.safetyActive", "actuator guard": "status.actuatorLimited"}
     for height, name in enumerate(flags.values()):
         active = simulation[name]
@@ -59,7 +69,7 @@ def _limits(axis, simulation):
     axis.grid(alpha=0.3)
 
 
-def plot_response(response, figure=None):
+def plot_response(response: FrequencyResponse, figure: Any = None) -> Any:
     """Modulus and phase of the direct channels over frequency, with the test's amplitudes and for small signals."""
     figure = _figure(figure, (11, 5))
     axes = figure.subplots(2, 6, sharex=True, sharey="row")

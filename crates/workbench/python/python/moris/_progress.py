@@ -1,6 +1,10 @@
 """Progress: a bar of tqdm, a function of the caller, or nothing."""
 
+from __future__ import annotations
+
 import sys
+
+from ._types import Show
 
 
 class Progress:
@@ -10,7 +14,7 @@ class Progress:
         called with (done, total, text).
     """
 
-    def __init__(self, show, total, text, unit):
+    def __init__(self, show: Show, total: int | None, text: str, unit: str) -> None:
         self.total = total
         self._function = show if callable(show) else None
         self._bar = None
@@ -19,7 +23,7 @@ class Progress:
 
             self._bar = tqdm(total=total, desc=text, unit=unit)
 
-    def to(self, done, text):
+    def to(self, done: int, text: str) -> None:
         """So many are done."""
         if self._function is not None:
             self._function(done, self.total, text)
@@ -27,10 +31,10 @@ class Progress:
             self._bar.set_description(text, refresh=False)
             self._bar.update(done - self._bar.n)
 
-    def close(self):
+    def close(self) -> None:
         if self._bar is not None:
             self._bar.close()
 
 
-def _someone_looks():
+def _someone_looks() -> bool:
     return sys.stderr.isatty() or "ipykernel" in sys.modules

@@ -1,6 +1,11 @@
 """Recordings: tables, dicts of arrays, and files."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -8,26 +13,10 @@ from . import _moris
 from ._errors import RecordingError
 from ._optional import need
 from ._outputs import Outputs
+from ._types import RecordingOptions, Source, Sources
 
-OPTIONS = (
-    "format",
-    "columns",
-    "time_unit",
-    "force_unit",
-    "rate_unit",
-    "angle_unit",
-    "speed_unit",
-    "gravity",
-    "axes",
-    "mounting",
-    "rate_frame",
-    "empty_fields",
-    "missing",
-    "lap",
-    "repair",
-    "resample",
-    "fade_in",
-)
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Recording:
@@ -56,47 +45,47 @@ class Recording:
     Raises RecordingError where columns are missing or the units or axes are implausible, with the remedy.
     """
 
-    def __init__(self, source, name=None, **options):
-        unknown = [option for option in options if option not in OPTIONS]
+    def __init__(self, source: Source, name: str | None = None, **options: Unpack[RecordingOptions]) -> None:
+        unknown = [option for option in options if option not in RecordingOptions.__annotations__]
         if unknown:
-            raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(OPTIONS)}")
-        options = {"fade_in": _moris.FADE_IN, **{option: value for option, value in options.items() if value is not None}}
-        self._native = source if isinstance(source, _moris.Recording) else _read(source, name, options)
+            raise TypeError(f"there is no option {unknown[0]}; there are {', '.join(RecordingOptions.__annotations__)}")
+        given = {"fade_in": _moris.FADE_IN, **{option: value for option, value in options.items() if value is not None}}
+        self._native = source if isinstance(source, _moris.Recording) else _read(source, name, given)
 
     @property
-    def name(self):
+    def name(self) -> str:
         """Name of the recording."""
         return self._native.name
 
     @property
-    def step(self):
+    def step(self) -> float:
         """Time between samples [s]."""
         return self._native.step
 
     @property
-    def duration(self):
+    def duration(self) -> float:
         """Time from the first sample to the last [s]."""
         return self._native.duration
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """Warnings, in sentences."""
         return self._native.warnings
 
     @property
-    def inputs(self):
+    def inputs(self) -> Outputs:
         """The washout's inputs at each sample, by the names of the FMU's variables: Outputs."""
         return Outputs(*self._native.samples())
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The inputs as a pandas.DataFrame with the time [s] as its index."""
         return self.inputs.to_pandas()
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Recording({self.name!r}, {self.duration:g} s at {1 / self.step:g} Hz)"
 
 
-def recording_of(source, options):
+def recording_of(source: Source, options: RecordingOptions) -> Recording:
     """The recording itself, or one read with these options."""
     if isinstance(source, Recording):
         given = [option for option, value in options.items() if value is not None]
@@ -106,14 +95,14 @@ def recording_of(source, options):
     return Recording(source, **options)
 
 
-def recordings_of(sources, options):
+def recordings_of(sources: Sources, options: RecordingOptions) -> list[Recording]:
     """A list of recordings, of one source or of several; those that are not read yet are read with these options."""
-    if isinstance(sources, (Recording, str, Path, dict)) or _is_table(sources):
-        sources = [sources]
-    return [source if isinstance(source, Recording) else Recording(source, **options) for source in sources]
+    is_one = isinstance(sources, (Recording, str, PathLike, dict)) or _is_table(sources)
+    several: Any = [sources] if is_one else sources
+    return [source if isinstance(source, Recording) else Recording(source, **options) for source in several]
 
 
-def _read(source, name, options):
+def _read(source: Any, name: str | None, options: dict[str, Any]) -> _moris.Recording:
     if isinstance(source, (list, tuple)):
         source = "+".join(str(path) for path in source)
     if isinstance(source, (str, Path)):
@@ -131,17 +120,17 @@ def _read(source, name, options):
     return _of_columns(name or "recording", source, options)
 
 
-def _is_table(source):
+def _is_table(source: Any) -> bool:
     if isinstance(source, np.ndarray):
         return source.dtype.names is not None
     return _is_pandas(source) or hasattr(source, "__arrow_c_stream__") or hasattr(source, "__dataframe__")
 
 
-def _is_pandas(source):
+def _is_pandas(source: Any) -> bool:
     return hasattr(source, "columns") and hasattr(source, "index") and hasattr(source, "iloc")
 
 
-def _columns_of_table(table):
+def _columns_of_table(table: Any) -> dict[str, Any]:
     if isinstance(table, np.ndarray):
         return {name: table[name] for name in table.dtype.names}
     if _is_pandas(table):
@@ -153,12 +142,12 @@ def _columns_of_table(table):
     return _columns_of_frame(need("pandas", kind).api.interchange.from_dataframe(table))
 
 
-def _of_columns(name, columns, options):
+def _of_columns(name: str, columns: Mapping[str, Any], options: dict[str, Any]) -> _moris.Recording:
     # A column of text is one that is not used: its numbers are missing, and only that of a column in use matters.
     return _moris.Recording.of_columns(name, [(str(key), _numbers(values)) for key, values in columns.items()], options)
 
 
-def _numbers(values):
+def _numbers(values: Any) -> np.ndarray[Any, Any]:
     values = np.asarray(values)
     if values.dtype.kind in "mM":
         values = (values - values[0]) / np.timedelta64(1, "s") if values.dtype.kind == "M" else values / np.timedelta64(1, "s")
@@ -168,7 +157,7 @@ def _numbers(values):
         return np.full(len(values), np.nan)
 
 
-def _columns_of_frame(frame):
+def _columns_of_frame(frame: Any) -> dict[str, Any]:
     columns = {name: frame[name].to_numpy() for name in frame.columns}
     index = frame.index
     if str(index.name).lower().startswith("time") and not any(str(name).lower().startswith("time") for name in columns):
@@ -176,12 +165,12 @@ def _columns_of_frame(frame):
     return columns
 
 
-def _parquet(path):
+def _parquet(path: Path) -> dict[str, Any]:
     need("pyarrow", "a Parquet file")
     return _columns_of_frame(need("pandas", "a Parquet file").read_parquet(path))
 
 
-def _excel(path):
+def _excel(path: Path) -> dict[str, Any]:
     if path.suffix.lower() == ".xls":
         need("xlrd", "an old Excel workbook")
     else:
@@ -189,7 +178,7 @@ def _excel(path):
     return _columns_of_frame(need("pandas", "an Excel workbook").read_excel(path))
 
 
-def _matlab(path):
+def _matlab(path: Path) -> dict[str, Any]:
     io = need("scipy.io", "a MATLAB file")
     try:
         values = io.loadmat(path, squeeze_me=True, struct_as_record=True)
@@ -208,7 +197,7 @@ def _matlab(path):
     return {name: value for name, value in columns.items() if value.ndim == 1 and len(value) == longest}
 
 
-def _mdf(path):
+def _mdf(path: Path) -> dict[str, Any]:
     mdf = need("asammdf", "an MDF measurement").MDF(path)
     try:
         # Channels of several rates are brought onto the times of the fastest, linearly.
@@ -226,7 +215,7 @@ def _mdf(path):
     return columns
 
 
-READERS = {
+READERS: dict[str, Callable[[Path], dict[str, Any]]] = {
     ".parquet": _parquet,
     ".xlsx": _excel,
     ".xlsm": _excel,

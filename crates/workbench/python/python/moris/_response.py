@@ -1,10 +1,17 @@
 """The frequency response."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _moris
 from ._optional import pandas
 from ._plot import plot_response
+from ._types import Floats, ParameterSet, Rig, Strategy
 
 
 class FrequencyResponse:
@@ -19,13 +26,21 @@ class FrequencyResponse:
     settled: (6, 12), False where the response did not become periodic.
     """
 
-    def __init__(self, channels, frequencies, test, small):
+    channels: tuple[str, ...]
+    frequencies: Floats
+    ratios: NDArray[np.complex128]
+    small: NDArray[np.complex128]
+    distortion: Floats
+    limited: Floats
+    settled: NDArray[np.bool_]
+
+    def __init__(self, channels: Iterable[str], frequencies: Floats, test: Any, small: Any) -> None:
         self.channels = tuple(channels)
         self.frequencies = frequencies
         self.ratios, self.distortion, self.limited, self.settled = test
         self.small = small[0]
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The responses as a pandas.DataFrame: a row for each input, frequency and output."""
         rows = [
             (name, frequency, output, abs(ratio), np.degrees(np.angle(ratio)), abs(small), np.degrees(np.angle(small)))
@@ -36,21 +51,29 @@ class FrequencyResponse:
         columns = ["input", "frequency", "output", "modulus", "phase", "small modulus", "small phase"]
         return pandas().DataFrame(rows, columns=columns)
 
-    def plot(self, figure=None):
+    def plot(self, figure: Any = None) -> Any:
         """Draws modulus and phase of the direct channels; returns the matplotlib figure."""
         return plot_response(self, figure)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         low, high = self.frequencies[0], self.frequencies[-1]
         return f"FrequencyResponse({len(self.channels)} channels, {low:g} to {high:.3g} rad/s)"
 
 
-def frequency_response(rig=None, parameters=None, strategy=None, *, force=1.0, rate=None, gravity_turns=False):
+def frequency_response(
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    *,
+    force: float = 1.0,
+    rate: float | None = None,
+    gravity_turns: bool = False,
+) -> FrequencyResponse:
     """Measures the frequency response of the whole washout, after ICAO Doc 9625's objective motion cueing test.
 
     rig, parameters, strategy: as for Washout. force: amplitude of the specific force [m/s2]. rate: amplitude of the angular
     velocity [rad/s], by default 1 deg/s; an angle of six times and an angular acceleration of ten times as much bound it.
     gravity_turns: the vehicle's orientation follows its roll and pitch rates. Returns a FrequencyResponse. It uses all cores.
     """
-    rate = np.radians(1.0) if rate is None else rate
+    rate = float(np.radians(1.0)) if rate is None else rate
     return FrequencyResponse(*_moris.frequency_response(rig, parameters, strategy, force, rate, gravity_turns))

@@ -1,18 +1,24 @@
 """Simulations of recordings, and the bound."""
 
+from __future__ import annotations
+
 import base64
 import io
+from collections.abc import Iterable
 from html import escape
 from pathlib import Path
-from typing import NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _moris
+from . import _types as types
 from ._measures import Measures
 from ._outputs import Outputs
 from ._plot import plot
-from ._recording import recording_of
+from ._recording import Recording, recording_of
+from ._types import Floats, ParameterSet, RecordingOptions, Rig, Source, Strategy, Value
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 AXES = {"x": "surge", "y": "sway", "z": "heave"}
 
@@ -24,7 +30,7 @@ class Bound(NamedTuple):
     """[m/s2]"""
     desired_rms: float
     """RMS of the desired specific force as a deviation from rest [m/s2]: the error of a platform that stands still."""
-    felt: np.ndarray
+    felt: Floats
     """Felt specific force of the best trajectory, as a deviation from rest, (N,) [m/s2]."""
 
 
@@ -37,7 +43,15 @@ class Simulation(Outputs):
         a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time.
     """
 
-    def __init__(self, native, recording, preview=0.0):
+    recording: Recording
+    measures: Measures
+    findings: list[str]
+    parameters: dict[str, Value]
+    preview: float
+    fits: bool
+    name: str
+
+    def __init__(self, native: _moris.Simulation, recording: Recording, preview: float = 0.0) -> None:
         super().__init__(*native.samples())
         self._native = native
         self.recording = recording
@@ -50,15 +64,15 @@ class Simulation(Outputs):
         self.name = f"{recording.name}, {native.parameters_name} on {native.rig_name}{previewed}"
 
     @property
-    def desired(self):
+    def desired(self) -> tuple[Floats, Floats]:
         """Desired specific force and angular velocity in head axes: two arrays of shape (N, 3) [m/s2], [rad/s]."""
         return self["vehicle.specificForce"], self._native.desired_rates()
 
-    def plot(self, figure=None):
+    def plot(self, figure: Any = None) -> Any:
         """Draws felt over desired specific force and angular velocity, and the actuators; returns the matplotlib figure."""
         return plot(self, figure)
 
-    def report(self, path, compare=()):
+    def report(self, path: types.Path, compare: Iterable[Simulation] = ()) -> Path:
         """Writes the report, one HTML page without external files.
 
         path: of the page. compare: other simulations of the same recording, shown beside this one. Returns the path.
@@ -71,18 +85,18 @@ class Simulation(Outputs):
         path.write_text(page, encoding="utf-8")
         return path
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return Simulation, (self._native, self.recording, self.preview)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Simulation({self.name!r}: {len(self.time)} samples, {'fits' if self.fits else 'does not fit'} the rig)"
 
-    def _repr_html_(self):
+    def _repr_html_(self) -> str:
         findings = "".join(f"<li>{escape(finding)}</li>" for finding in self.findings)
         return f"<b>{escape(self.name)}</b><ul>{findings}</ul>{_picture(self)}{self.measures._repr_html_()}"
 
 
-def _picture(simulation):
+def _picture(simulation: Simulation) -> str:
     """The plot as an image in HTML; nothing where there is no matplotlib."""
     try:
         from matplotlib.figure import Figure
@@ -93,7 +107,16 @@ def _picture(simulation):
     return f'<img alt="felt over desired motion" src="data:image/png;base64,{base64.b64encode(image.getvalue()).decode()}">'
 
 
-def simulate(recording, rig=None, parameters=None, strategy=None, *, bound=False, preview=0.0, **options):
+def simulate(
+    recording: Source,
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    *,
+    bound: bool = False,
+    preview: float = 0.0,
+    **options: Unpack[RecordingOptions],
+) -> Simulation:
     """Simulates a recording from rest at neutral, the inputs going linearly from sample to sample.
 
     recording: a Recording, or what one is made of: a DataFrame, a dict of arrays or a path; `options` are those of
@@ -108,7 +131,9 @@ def simulate(recording, rig=None, parameters=None, strategy=None, *, bound=False
     return Simulation(_moris.Simulation(recording._native, rig, parameters, strategy, bound, preview), recording, preview)
 
 
-def bound(recording, rig=None, parameters=None, **options):
+def bound(
+    recording: Source, rig: Rig | None = None, parameters: ParameterSet | None = None, **options: Unpack[RecordingOptions]
+) -> dict[str, Bound]:
     """The least RMS error of specific force that any controller with full preview could reach on this rig.
 
     Returns a dict from "surge", "sway" and "heave" to Bound, without the axes on which nothing is desired. Computed for an
@@ -119,12 +144,16 @@ def bound(recording, rig=None, parameters=None, **options):
     return {axis: Bound(*found) for axis, found in zip(AXES.values(), bounds) if found is not None}
 
 
-def parameters(rig=None, parameters=None, strategy=None):
+def parameters(
+    rig: Rig | None = None, parameters: ParameterSet | None = None, strategy: Strategy | None = None
+) -> dict[str, Value]:
     """Every parameter by name, a dict: the defaults, with a rig, presets, files and dicts laid over them."""
     return _moris.parameter_values(rig, parameters, strategy)
 
 
-def write_parameters(path, parameters, rig=None, heading="Written by moris"):
+def write_parameters(
+    path: types.Path, parameters: ParameterSet, rig: Rig | None = None, heading: str = "Written by moris"
+) -> Path:
     """Writes a parameter file for `cargo build-fmu --parameters` and the workbench: the values that are not the rig's own.
 
     path: of the file. parameters: as for Washout. rig: the rig on which they are used. Returns the path.

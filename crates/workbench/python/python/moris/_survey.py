@@ -1,8 +1,11 @@
 """The survey of a rig."""
 
-from typing import NamedTuple, Optional
+from __future__ import annotations
+
+from typing import Any, NamedTuple
 
 from . import _moris
+from ._types import Rig
 
 
 class AxisReach(NamedTuple):
@@ -12,9 +15,9 @@ class AxisReach(NamedTuple):
     """[m] or [rad]"""
     max: float
     """[m] or [rad]"""
-    speed: Optional[float]
+    speed: float | None
     """[m/s] or [rad/s]; None where the legs do not limit it: the platform is singular at neutral"""
-    acceleration: Optional[float]
+    acceleration: float | None
     """[m/s2] or [rad/s2]; None as the speed"""
 
 
@@ -28,28 +31,38 @@ class Survey:
     closest_legs: numbers of the two legs that come closest to each other. leg_clearance: their distance there [m].
     """
 
-    def __init__(self, name, axes, volumes, condition, singular_at, closest, text, picture):
+    name: str
+    reach: dict[str, AxisReach]
+    volume: float
+    tilted_volume: float
+    smallest_singular_value: float | None
+    worst_condition: float | None
+    singular_at: list[float] | None
+    closest_legs: tuple[int, int]
+    leg_clearance: float
+
+    def __init__(self, name: str, axes: Any, volumes: Any, condition: Any, singular_at: Any, closest: Any, text: str, picture: str) -> None:
         self.name = name
         self.reach = {axis: AxisReach(*reach) for axis, *reach in axes}
         (self.volume, _), (self.tilted_volume, _) = volumes
         self.smallest_singular_value, self.worst_condition = condition or (None, None)
         self.singular_at = singular_at
         closest_legs, self.leg_clearance = closest
-        self.closest_legs = tuple(closest_legs)
+        self.closest_legs = (closest_legs[0], closest_legs[1])
         self._text = text
         self._picture = picture
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self._text
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Survey({self.name!r}, {'singular' if self.singular_at else 'free of singularities'})"
 
-    def _repr_svg_(self):
+    def _repr_svg_(self) -> str:
         return self._picture
 
 
-def survey(rig=None, samples=1_000_000):
+def survey(rig: Rig | None = None, samples: int = 1_000_000) -> Survey:
     """Surveys a rig: reach along each axis alone, workspace, and singularities inside the stroke of its legs.
 
     rig: as for Washout. samples: points that are tried for the volumes. Returns a Survey.

@@ -1,9 +1,13 @@
 """Sweeps: many parameter sets on many recordings, reduced as they come."""
 
+from __future__ import annotations
+
 import itertools
 import os
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sized
+from threading import Event
+from typing import TYPE_CHECKING, Any, List, Tuple, Union
 
 import numpy as np
 
@@ -13,12 +17,20 @@ from ._errors import ClusterError
 from ._optional import pandas
 from ._progress import Progress
 from ._recording import Recording, recordings_of
+from ._types import Floats, ParameterSet, RecordingOptions, Rig, Show, Sources, Strategy
 from ._variables import near_misses
 
-MEASURES = {f"{subject} {name}": unit for subject, name, unit in _moris.sweep_measures()}
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+MEASURES: dict[str, str] = {f"{subject} {name}": unit for subject, name, unit in _moris.sweep_measures()}
 """The measures of a sweep by name, each with its unit."""
 
 _COLUMNS = {name: column for column, name in enumerate(MEASURES)}
+
+# The measures of each set of a chunk, and errors; chunks with theirs.
+Measured = Tuple[Any, List[Union[str, None]]]
+Run = Generator[Tuple[List[ParameterSet], Measured], None, None]
 
 AHEAD = 4
 """Chunks on their way for each thread of a cluster."""
@@ -34,18 +46,23 @@ class Result:
 
     __slots__ = ("error", "index", "parameters", "values")
 
-    def __init__(self, index, parameters, values, error):
+    index: int
+    parameters: Any
+    values: Floats
+    error: str | None
+
+    def __init__(self, index: int, parameters: Any, values: Floats, error: str | None) -> None:
         self.index = index
         self.parameters = parameters
         self.values = values
         self.error = error
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> Floats:
         if name not in _COLUMNS:
             raise KeyError(f"there is no measure {name}; {near_misses(name, _COLUMNS)}")
         return self.values[:, _COLUMNS[name]]
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Result({self.index}, {self.parameters!r}{'' if self.error is None else f', error={self.error!r}'})"
 
 
@@ -56,13 +73,18 @@ class Sweep:
     before. recordings: the recordings' names.
     """
 
-    def __init__(self, value, done, complete, recordings):
+    value: Any
+    done: int
+    complete: bool
+    recordings: list[str]
+
+    def __init__(self, value: Any, done: int, complete: bool, recordings: list[str]) -> None:
         self.value = value
         self.done = done
         self.complete = complete
         self.recordings = recordings
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The measures as a pandas.DataFrame, a row for each set and recording: for sweeps without a reduction."""
         frames = []
         for result in self.value:
@@ -72,17 +94,17 @@ class Sweep:
             frames.append(frame)
         return pandas().concat(frames, ignore_index=True)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Sweep({self.done} parameter sets{'' if self.complete else ', ended before it was complete'})"
 
 
-def best(count, cost):
+def best(count: int, cost: Callable[[Result], float]) -> Callable[[Any, Result], list[tuple[float, Result]]]:
     """A reduction to the `count` results of the least cost.
 
     cost: function of a Result to a number; NaN and results with an error are left out.
     """
 
-    def reduce(kept, result):
+    def reduce(kept: Any, result: Result) -> list[tuple[float, Result]]:
         value = float("nan") if result.error else float(cost(result))
         if np.isnan(value):
             return kept or []
@@ -94,21 +116,21 @@ def best(count, cost):
 
 
 def sweep(
-    recordings,
-    parameter_sets,
-    reduce=None,
+    recordings: Sources,
+    parameter_sets: Iterable[ParameterSet],
+    reduce: Callable[[Any, Result], Any] | None = None,
     *,
-    initial=None,
-    rig=None,
-    base=None,
-    strategy=None,
-    preview=0.0,
-    client=None,
-    chunk=None,
-    progress=None,
-    cancel=None,
-    **options,
-):
+    initial: Any = None,
+    rig: Rig | None = None,
+    base: ParameterSet | None = None,
+    strategy: Strategy | None = None,
+    preview: float = 0.0,
+    client: Any = None,
+    chunk: int | None = None,
+    progress: Show = None,
+    cancel: Event | None = None,
+    **options: Unpack[RecordingOptions],
+) -> Sweep:
     """Simulates every recording with every parameter set, and reduces the measures as they come.
 
     recordings: one or several, each a Recording or what one is made of. parameter_sets: any iterable of sets, each as for
@@ -133,7 +155,7 @@ def sweep(
     recordings = recordings_of(recordings, options)
     if not recordings:
         raise ValueError("recordings is empty; give one at least")
-    total = len(parameter_sets) if hasattr(parameter_sets, "__len__") else None
+    total = len(parameter_sets) if isinstance(parameter_sets, Sized) else None
     chunk = chunk or _chunk(recordings)
     context = _Context([recording._native for recording in recordings], rig, base, strategy, preview)
     cancelled = cancel.is_set if cancel is not None else lambda: False
@@ -167,25 +189,27 @@ def sweep(
 class _Context:
     """What every task needs; pickled once for each worker."""
 
-    def __init__(self, recordings, rig, base, strategy, preview):
+    def __init__(
+        self, recordings: list[_moris.Recording], rig: Rig | None, base: ParameterSet | None, strategy: Strategy | None, preview: float
+    ) -> None:
         self.recordings = recordings
         self.rig = rig
         self.base = base
         self.strategy = strategy
         self.preview = preview
 
-    def measures(self, sets, threads):
-        sets = [[part for part in (self.base, parameters) if part is not None] for parameters in sets]
-        return _moris.sweep_chunk(self.recordings, self.rig, sets, self.strategy, self.preview, threads)
+    def measures(self, sets: list[ParameterSet], threads: int) -> Measured:
+        laid_over = [[part for part in (self.base, parameters) if part is not None] for parameters in sets]
+        return _moris.sweep_chunk(self.recordings, self.rig, laid_over, self.strategy, self.preview, threads)
 
 
-def _chunk(recordings):
+def _chunk(recordings: list[Recording]) -> int:
     """As many sets as take some tenths of a second on a core."""
     samples = sum(recording.duration / recording.step for recording in recordings)
     return max(1, min(256, round(1e5 / samples)))
 
 
-def _chunks(parameter_sets, chunk, client):
+def _chunks(parameter_sets: Iterable[ParameterSet], chunk: int, client: Any) -> Iterator[list[ParameterSet]]:
     # All cores of this machine share a chunk; a worker has one of its own.
     size = chunk if client is not None else chunk * (os.cpu_count() or 1)
     sets = iter(parameter_sets)
@@ -193,18 +217,18 @@ def _chunks(parameter_sets, chunk, client):
         yield part
 
 
-def _here(context, chunks, cancelled):
+def _here(context: _Context, chunks: Iterator[list[ParameterSet]], cancelled: Callable[[], bool]) -> Run:
     for sets in chunks:
         if cancelled():
             return
         yield sets, context.measures(sets, 0)
 
 
-def _on_cluster(client, context, chunks, cancelled):
+def _on_cluster(client: Any, context: _Context, chunks: Iterator[list[ParameterSet]], cancelled: Callable[[], bool]) -> Run:
     """Chunks with their measures, in order. As many are on their way as keep every thread busy, and no more."""
     cluster = Cluster(client, _Context, (context.recordings, context.rig, context.base, context.strategy, context.preview))
     ahead = AHEAD * cluster.threads()
-    underway = deque()
+    underway: deque[Any] = deque()
     try:
         while not cancelled():
             for sets in itertools.islice(chunks, ahead - len(underway)):

@@ -1,11 +1,22 @@
 """Tuning: the workbench's search for better parameters."""
 
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
 from . import _moris
+from . import _types as types
 from ._cluster import Cluster
 from ._optional import pandas
 from ._progress import Progress
 from ._recording import recordings_of
 from ._simulation import write_parameters
+from ._types import ParameterSet, RecordingOptions, Rig, Show, Sources, Strategy, Value
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class Tuned:
@@ -18,7 +29,25 @@ class Tuned:
         rest; None where there is none. interrupted: True if the search was ended early.
     """
 
-    def __init__(self, before, parameters, summary, verdict, is_worse, interrupted, errors, rig):
+    parameters: dict[str, Value]
+    changed: dict[str, Value]
+    summary: str
+    verdict: str
+    is_worse: bool
+    interrupted: bool
+    errors: dict[str, dict[str, float | None]]
+
+    def __init__(
+        self,
+        before: dict[str, Value],
+        parameters: dict[str, Value],
+        summary: str,
+        verdict: str,
+        is_worse: bool,
+        interrupted: bool,
+        errors: Any,
+        rig: Rig | None,
+    ) -> None:
         self.parameters = parameters
         self.changed = {name: value for name, value in parameters.items() if before[name] != value}
         self.summary = summary
@@ -28,41 +57,41 @@ class Tuned:
         self.errors = {name: {"before": old, "tuned": new, "unseen": unseen} for name, old, new, unseen in errors}
         self._rig = rig
 
-    def save(self, path):
+    def save(self, path: types.Path) -> Path:
         """Writes the parameter file, for the workbench and for `cargo build-fmu --parameters`; returns the path."""
         return write_parameters(path, self.parameters, self._rig, heading=self.verdict)
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """The errors as a pandas.DataFrame, a row for each recording."""
         return pandas().DataFrame.from_dict(self.errors, orient="index")
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Tuned({len(self.changed)} parameters changed; {self.verdict})"
 
-    def _repr_markdown_(self):
+    def _repr_markdown_(self) -> str:
         return self.summary
 
 
 def tune(
-    recordings,
-    rig=None,
-    parameters=None,
-    strategy=None,
+    recordings: Sources,
+    rig: Rig | None = None,
+    parameters: ParameterSet | None = None,
+    strategy: Strategy | None = None,
     *,
-    hold_out=(),
-    folds=None,
-    groups=("splitter", "angular", "scale", "strategy"),
-    weights=(1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
-    stroke_reserve=0.01,
-    comfort=(0.2, 4.0, 4.0),
-    evaluations=3000,
-    seed=1,
-    progress=None,
-    patience=None,
-    stop=None,
-    client=None,
-    **options,
-):
+    hold_out: Sources = (),
+    folds: int | None = None,
+    groups: Sequence[str] = ("splitter", "angular", "scale", "strategy"),
+    weights: Sequence[float] = (1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+    stroke_reserve: float = 0.01,
+    comfort: Sequence[float] = (0.2, 4.0, 4.0),
+    evaluations: int = 3000,
+    seed: int = 1,
+    progress: Show = None,
+    patience: int | None = None,
+    stop: Callable[[str, int, float | None], bool] | None = None,
+    client: Any = None,
+    **options: Unpack[RecordingOptions],
+) -> Tuned:
     """Searches for parameters with a small sensed error on all recordings, such that no limit of the platform is active.
 
     recordings: to tune on. hold_out: recordings to try the result on only. folds: number of groups of recordings that are
@@ -104,9 +133,9 @@ def tune(
     cluster = None if client is None else Cluster(client, _moris.Tuning, arguments)
     searches = 1 + (min(folds, len(tuned_on)) if len(tuned_on) > 1 else 0)
     bar = Progress(progress, searches * evaluations, "tuning", "set")
-    begun = []
+    begun: list[str] = []
 
-    def observe(search, tried, error):
+    def observe(search: str, tried: int, error: float | None) -> bool:
         if search not in begun:
             begun.append(search)
         done = begun.index(search) * evaluations + min(tried, evaluations)
@@ -129,7 +158,7 @@ def tune(
     return Tuned(before, *found, rig)
 
 
-def _costs(tuning, names, values):
+def _costs(tuning: _moris.Tuning, names: list[str], values: Any) -> Any:
     return tuning.costs(names, values)
 
 
