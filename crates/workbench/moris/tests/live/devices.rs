@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use crate::rig::{Live, free_port, vehicle};
 
-/// A device: its name, and its reading of a frame as positions from 0 to 1 of the actuators' strokes;
-/// none if it refuses the frame.
+/// A device: its name, and its reading of a frame as positions from 0 to 1 of the actuators'
+/// strokes; none if it refuses the frame.
 type Device = (&'static str, fn(&[u8]) -> Option<Vec<f64>>);
 
 const DEVICES: [Device; 5] = [
