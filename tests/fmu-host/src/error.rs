@@ -7,15 +7,15 @@ use crate::api::Status;
 /// Why an FMU could not be used.
 #[derive(Debug, thiserror::Error)]
 pub enum HostError {
-    #[error("{path}: {source}", path = path.display())]
+    #[error("cannot read {path}", path = path.display())]
     File { path: PathBuf, source: std::io::Error },
-    #[error("{path} is no FMU: {source}", path = path.display())]
+    #[error("{path} is no FMU", path = path.display())]
     Archive { path: PathBuf, source: zip::result::ZipError },
     #[error("modelDescription.xml: {0}")]
     Description(String),
     #[error("the FMU has no shared library for this platform, {0}")]
     NoBinary(String),
-    #[error("{path}: {source}", path = path.display())]
+    #[error("cannot load {path}", path = path.display())]
     Library { path: PathBuf, source: libloading::Error },
     #[error("the FMU cannot be instantiated: {0}")]
     Instantiate(String),

@@ -253,7 +253,7 @@ fn a_fault_is_told_with_its_line_and_column() {
     let fault = |line: usize, other: &str| refusal(&with(line, other), &default);
     assert_eq!(
         fault(12, "0.10,0,NaN,9.8,0,0,0"),
-        "ride.csv, line 12, column ay: is NaN; cut this part off, or fill the gap with plausible values"
+        "ride.csv, line 12, column ay: is NaN; cut this part off, fill the gap with plausible values, or use --empty-fields interpolate"
     );
     assert!(fault(12, "0.10,0,0,inf,0,0,0").starts_with("ride.csv, line 12, column az: is inf"));
     assert!(fault(12, "0.10,0,0,9.8,,0,0").starts_with("ride.csv, line 12, column wx: is empty"));

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use moris_interface::ParameterError;
 
 use crate::names::suggestion;
+use crate::parameter_sets::SETS;
 
 /// Why a rig file, a parameter file or both together cannot be used, in words that say what to do.
 #[derive(Debug, thiserror::Error)]
@@ -16,10 +17,7 @@ pub enum Error {
     /// Neither a file nor the name of a shipped set.
     #[error(
         "{name} is neither a file nor a parameter set that is shipped{}",
-        suggestion(
-            nearest,
-            "shipped are default, motorcycle, car, paper, small-motions, preaction, adaptive, optimal, predictive and preview"
-        )
+        suggestion(nearest, &format!("shipped are {}", SETS.map(|(name, _)| name).join(", ")))
     )]
     NoSuchSet { name: String, nearest: Vec<String> },
     /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows
@@ -33,6 +31,6 @@ pub enum Error {
     #[error("{source_name}: {name} {reason}")]
     WrongValue { source_name: String, name: String, reason: String },
     /// Each value could be used, but not all together.
-    #[error("{0}")]
+    #[error(transparent)]
     Refused(#[from] ParameterError),
 }

@@ -8,7 +8,7 @@ use moris_washout::presets::{
 pub type ParameterSet = &'static [(&'static str, f64)];
 
 /// The parameter sets that are shipped, by the names that users write.
-pub const SETS: &[(&str, ParameterSet)] = &[
+pub const SETS: [(&str, ParameterSet); 11] = [
     ("default", &[]),
     ("motorcycle", MOTORCYCLE),
     ("car", CAR),

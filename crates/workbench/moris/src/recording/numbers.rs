@@ -38,14 +38,16 @@ impl Numbers {
             Ok(number) if number.is_finite() => {
                 Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)))
             }
-            Ok(_) => Err(format!("is {}; cut this part off, or fill the gap with plausible values", quoted(text))),
-            Err(_) if text.is_empty() => Err(format!(
-                "is empty; cut this part off, fill the gap with plausible values, or use {}",
-                given("empty-fields", "interpolate")
-            )),
+            Ok(_) => Err(format!("is {}; {}", quoted(text), remedy())),
+            Err(_) if text.is_empty() => Err(format!("is empty; {}", remedy())),
             Err(_) => Err(format!("is \"{}\", which is not a number", quoted(text))),
         }
     }
+}
+
+/// How a gap is closed.
+fn remedy() -> String {
+    format!("cut this part off, fill the gap with plausible values, or use {}", given("empty-fields", "interpolate"))
 }
 
 /// True for a field that holds nothing: empty, or NaN.
