@@ -145,7 +145,7 @@ impl Moog {
 /// A packet with this part of the pose. The base has x forward, y right, z down.
 fn packet(command: Command, part: f64, values: &Values) -> [u8; PACKET] {
     let [x, y, _, roll, pitch, yaw] = values.pose;
-    let pose = [roll, -pitch, -values.heave, x, -yaw, -y].map(|value| ((part * value) as f32).to_be_bytes());
+    let pose = [roll, -pitch, -values.heave_above, x, -yaw, -y].map(|value| ((part * value) as f32).to_be_bytes());
     let mut packet = [0; PACKET];
     packet[..4].copy_from_slice(&(command as u32).to_be_bytes());
     for (place, value) in packet[4..28].chunks_exact_mut(4).zip(pose) {
@@ -166,7 +166,7 @@ mod tests {
     }
 
     fn values() -> Values {
-        Values { pose: [0.1, 0.2, 9.0, 0.01, 0.02, 0.03], heave: 0.3, ..Values::default() }
+        Values { pose: [0.1, 0.2, 9.0, 0.01, 0.02, 0.03], heave_above: 0.3, ..Values::default() }
     }
 
     fn command(packet: &[u8]) -> u32 {

@@ -2,6 +2,8 @@
 
 use moris_interface::{Group, Reader, Writer, slots_of};
 use moris_washout::interface::{AngularVelocityFrame, Output};
+use moris_washout::motion::orientation::Orientation;
+use moris_washout::platform::{Geometry, Pose, forward_kinematics};
 use moris_washout::{ParameterError, Parameters, Washout};
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +22,8 @@ pub const STEP: f64 = 0.001;
 const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
 /// Least time of engaging \[s\], also where the washout has stayed engaged through a pause.
 const LEAST_ENGAGING: f64 = 4.0;
+/// Part of the way to neutral that is too short to change a pose.
+const NO_WAY: f64 = 1e-9;
 /// Glide after a gap: twice its length, within these \[s\].
 const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
 
@@ -67,9 +71,12 @@ pub struct Commands {
     pub length: [f64; 6],
     /// Their velocities \[m/s\].
     pub velocity: [f64; 6],
-    /// Height of the platform above neutral, as the washout commands it \[m\].
+    /// Pose of the platform.
+    pub pose: Pose,
+    /// Its height above neutral \[m\].
     pub heave: f64,
-    /// All outputs of the washout. The lengths there are those at neutral and above.
+    /// All outputs of the washout. Lengths and pose there leave out the way between the lowest pose
+    /// and neutral.
     pub washout: Output,
 }
 
@@ -90,11 +97,19 @@ pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> R
     })
 }
 
+/// The pose with these lengths of the legs, at this part of the way to the washout's pose; that
+/// pose if no other is found.
+fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64) -> Pose {
+    let above = Pose { position: output.position, orientation: Orientation::new(output.orientation) };
+    if 1.0 - part < NO_WAY { above } else { forward_kinematics(geometry, length, &above).unwrap_or(above) }
+}
+
 /// The washout beside a running vehicle. A step allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Session {
     settings: Settings,
     washout: Washout,
+    geometry: Geometry,
     /// The parameters' values, with those that [`Session::retune`] will put in force.
     slots: Vec<f64>,
     state: State,
@@ -136,9 +151,20 @@ impl Session {
         let settled = [rig.min_length + part * (rig.max_length - rig.min_length); 6];
         let way = output.length.iter().zip(settled).map(|(neutral, settled)| (neutral - settled).abs());
         let speed = settings.travel_speed.min(0.25 * rig.velocity_limit);
-        let commands =
-            Commands { state: State::Off, time: 0.0, length: settled, velocity: [0.0; 6], heave: 0.0, washout: output };
+        let geometry = Geometry::from(rig);
+        let pose = pose_between(&geometry, &output, &settled, 0.0);
+        let heave = pose.position.z - rig.neutral_height;
+        let commands = Commands {
+            state: State::Off,
+            time: 0.0,
+            length: settled,
+            velocity: [0.0; 6],
+            pose,
+            heave,
+            washout: output,
+        };
         Ok(Session {
+            geometry,
             settings: *settings,
             slots: slots_of(&parameters),
             state: State::Off,
@@ -358,7 +384,8 @@ impl Session {
         let before = self.commands.length;
         let length = std::array::from_fn(|k| self.settled[k] + part * (output.length[k] - self.settled[k]));
         let velocity = std::array::from_fn(|k| (length[k] - before[k]) / STEP);
-        let heave = output.position.z - self.washout.parameters().rig.neutral_height;
-        self.commands = Commands { state: self.state, time: now, length, velocity, heave, washout: output };
+        let pose = pose_between(&self.geometry, &output, &length, part);
+        let heave = pose.position.z - self.washout.parameters().rig.neutral_height;
+        self.commands = Commands { state: self.state, time: now, length, velocity, pose, heave, washout: output };
     }
 }

@@ -52,12 +52,15 @@ pub struct Values {
     pub force: [f64; 3],
     /// Height of the platform above neutral \[m\].
     pub heave: f64,
+    /// The same without the way between the lowest pose and neutral \[m\], for a base that goes it
+    /// by itself.
+    pub heave_above: f64,
 }
 
 impl From<&Commands> for Values {
     fn from(commands: &Commands) -> Self {
-        let Commands { time, length, velocity, heave, washout, .. } = commands;
-        let (p, o) = (washout.position, washout.orientation);
+        let Commands { time, length, velocity, pose, heave, washout, .. } = commands;
+        let (p, o) = (pose.position, pose.orientation.angles);
         Values {
             time: *time,
             length: *length,
@@ -65,6 +68,7 @@ impl From<&Commands> for Values {
             pose: [p.x, p.y, p.z, o.roll, o.pitch, o.yaw],
             force: washout.felt_specific_force.into(),
             heave: *heave,
+            heave_above: heave - (p.z - washout.position.z),
         }
     }
 }

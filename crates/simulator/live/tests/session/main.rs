@@ -9,6 +9,7 @@ use moris_live::log::{self, Digest, Entry, Happening};
 use moris_live::{Commands, Event, STEP, Sample, Session, Settings, State};
 use moris_measures::comfort::comfort;
 use moris_washout::interface::StrategyKind;
+use moris_washout::platform::{Geometry, leg_lengths};
 use moris_washout::{Parameters, presets};
 use proptest::prelude::*;
 use ride::{Ride, RideEvent};
@@ -195,6 +196,22 @@ fn a_step_and_a_new_scale_allocate_nothing() {
         }
     });
     assert_eq!(count.count_total, 0);
+}
+
+#[test]
+fn the_pose_is_that_of_the_lengths_on_the_way_up_and_down() {
+    let (mut session, mut ride) = at_neutral(&Parameters::default());
+    let person = RideEvent::Person;
+    let geometry = Geometry::from(&session.washout().parameters().rig);
+    let mut range = [0.0_f64; 2];
+    let ways = [(30.0, person(Event::Park)), (10.0, person(Event::Start)), (20.0, person(Event::Engage))];
+    run(&mut session, &mut ride, &ways, |session| {
+        let Commands { length, pose, heave, .. } = session.commands();
+        let found = leg_lengths(&geometry, pose);
+        assert!((0..6).all(|k| (found[k] - length[k]).abs() < 1e-9), "{found:?}, not {length:?}");
+        range = [range[0].min(*heave), range[1].max(*heave)];
+    });
+    assert!(range[0] < -0.25 && range[1] < 0.2, "{range:?} m");
 }
 
 /// An event, and the time after it.

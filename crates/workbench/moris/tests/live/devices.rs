@@ -34,7 +34,7 @@ const DEVICES: [Device; 5] = [
         let position = |field: &str| field.parse::<u16>().ok().map(|leg| f64::from(leg) / 65_535.0);
         text.split(',').map(position).collect()
     }),
-    // No actuators: a pose of at most 500 mm and 500 degrees, without the way up to neutral.
+    // No actuators: a pose of at most 500 mm and 500 degrees, of which the heave goes up and down.
     ("vr-pose", |frame| {
         let numbers = frame.as_chunks::<8>();
         let number = |bytes: &[u8; 8]| 0.5 + f64::from_le_bytes(*bytes) / 1000.0;
@@ -96,7 +96,7 @@ fn ride(name: &str, read: fn(&[u8]) -> Option<Vec<f64>>) {
     let moved =
         |one: &[f64], other: &[f64]| one.iter().zip(other).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
     let largest = positions.iter().map(|one| moved(one, &positions[0])).fold(0.0, f64::max);
-    assert!(largest > 0.02, "{name}: {largest} of the stroke");
+    assert!(largest > 0.2, "{name}: {largest} of the stroke");
     let [.., before, last] = &positions[..] else { panic!("{name}: no frames") };
     assert!(moved(before, last) < 1e-4 && moved(&positions[0], last) < 0.05, "{name}: {before:?}, {last:?}");
 }
