@@ -51,6 +51,19 @@ def environment(directory, *packages, variables=None):
     return python
 
 
+def private_paths(root=ROOT):
+    """Directories that a program must not show, and the names in their place."""
+    printed = subprocess.run(["rustc", "--print", "sysroot"], check=True, capture_output=True, text=True).stdout.strip()
+    cargo = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
+    return {root: "workspace", Path(printed, "lib", "rustlib", "src", "rust"): "rust", cargo: "cargo"}
+
+
+def without_paths(root=ROOT):
+    """The environment in which cargo makes a program of the same bytes in any directory."""
+    flags = (f"--remap-path-prefix={path}={name}" for path, name in private_paths(root).items())
+    return os.environ | {"CARGO_ENCODED_RUSTFLAGS": "\x1f".join(flags)}
+
+
 def version():
     return re.search(r'^version = "(.+)"', (ROOT / "Cargo.toml").read_text(), re.MULTILINE)[1]
 
@@ -77,14 +90,18 @@ def systems(options):
 
 def program(options):
     """the command moris for this machine; it simulates a ride and makes an own FMU"""
-    run("cargo", "build", "--locked", "--package", "moris", "--profile", options.profile)
+    run("cargo", "build", "--locked", "--package", "moris", "--profile", options.profile, env=without_paths())
     built = ROOT / "target" / ("debug" if options.profile == "dev" else options.profile) / f"moris{PROGRAM}"
     system = {"Darwin": "macos"}.get(platform.system(), platform.system().lower())
     packed = options.output / f"moris-{version()}-{system}-{platform.machine().lower()}.zip"
-    with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        archive.write(built, built.name)
-        for name in ("LICENSE-MIT", "LICENSE-APACHE", "README.md"):
-            archive.write(ROOT / name, name)
+    shown = [str(path) for path in private_paths() if str(path).encode() in built.read_bytes()]
+    assert not shown, f"{built} shows the paths {shown}"
+    with zipfile.ZipFile(packed, "w") as archive:
+        for file in (built, *(ROOT / name for name in ("LICENSE-MIT", "LICENSE-APACHE", "README.md"))):
+            # Neither the time nor the permissions of this machine.
+            entry = zipfile.ZipInfo(file.name)
+            entry.create_system, entry.external_attr = 3, (0o755 if file == built else 0o644) << 16
+            archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED)
     with tempfile.TemporaryDirectory() as folder:
         shutil.unpack_archive(packed, folder)
         moris = Path(folder) / built.name
@@ -102,7 +119,7 @@ def wheel(options):
     with tempfile.TemporaryDirectory() as folder:
         maturin = environment(Path(folder) / "maturin", MATURIN)
         made = Path(folder) / "made"
-        run(maturin, "-m", "maturin", "build", "--locked", "--profile", options.profile, "--out", made)
+        run(maturin, "-m", "maturin", "build", "--locked", "--profile", options.profile, "--out", made, env=without_paths())
         run(maturin, "-m", "maturin", "sdist", "--out", made)
         shutil.copy(ROOT / "tests" / "python_package" / "try_wheel.py", folder)
         # The sources may lack a file that the working tree has: they are compiled, too.

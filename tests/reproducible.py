@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Builds the washout's FMUs of the present sources in another directory, and compares them with those of this one byte by byte.
+"""Builds the washout's FMUs, or the command moris, in another directory, and compares the files with those of this one byte by byte.
 
     python3 tests/reproducible.py [--platform PLATFORMS] [--model MODEL]
+    python3 tests/reproducible.py --program PROFILE
 
 The platforms are those given, else this machine's and, where its tools are installed, Windows.
 The other directory has another length and a blank in its name, and a target directory of its own for the libraries. The exit
-status is 1 if a file differs. Only files that git tracks are built.
+status is 1 if a file differs. Only files that git tracks are built. With --program the other directory compiles all
+dependencies again, which takes some ten minutes of two cores, so that tests/run.py leaves it out.
 """
 
 import argparse
@@ -57,11 +59,34 @@ def differences(first, second):
         return [name for name in names if read(one, name) != read(other, name)] or ["the order or dates of the files"]
 
 
+def program(profile):
+    """The command of each directory, as .ci/release.py makes it; true if they are equal."""
+    sys.path.insert(0, str(ROOT / ".ci"))
+    from release import PROGRAM, without_paths
+
+    made = []
+    with tempfile.TemporaryDirectory(prefix="another directory ") as folder:
+        sources = Path(folder) / "sources of it"
+        # The version of the command has the commit.
+        subprocess.run(["git", "clone", "--quiet", "--no-checkout", ROOT, sources], check=True)
+        copy_of_sources(sources)
+        for root in (ROOT, sources):
+            command = ["cargo", "build", "--quiet", "--locked", "--package", "moris", "--profile", profile]
+            subprocess.run([*command, "--target-dir", root / "target"], cwd=root, check=True, env=without_paths(root))
+            directory = root / "target" / ("debug" if profile == "dev" else profile)
+            made.append((directory / f"moris{PROGRAM}").read_bytes())
+    print(f"moris{PROGRAM}: {'the same bytes' if made[0] == made[1] else 'differs'} ({len(made[0])} bytes)")
+    return made[0] == made[1]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--platform", help="platforms as of cargo build-fmu")
     parser.add_argument("--model", default="MorisWashout", help="[default: MorisWashout]")
+    parser.add_argument("--program", metavar="PROFILE", help="the command moris of this profile in place of FMUs")
     options = parser.parse_args()
+    if options.program:
+        sys.exit(0 if program(options.program) else 1)
     platforms = ["--platform", options.platform] if options.platform else default_platforms()
     failed = False
     with tempfile.TemporaryDirectory(prefix="another directory ") as folder:

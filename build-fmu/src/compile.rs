@@ -29,13 +29,24 @@ pub enum Linker {
     Zig,
     /// GCC for Windows.
     Mingw,
+    /// The one that comes with Rust, for WebAssembly components.
+    Component,
 }
 
-/// Plans for these platforms, with all tools found; for this machine if the list is empty.
+/// The interface of a component, seen from the workspace's root, where cargo links. By its whole
+/// path the library would depend on the directory.
+const COMPONENT_INTERFACE: &str = "crates/fmi/wit/co-simulation-fmu.wit";
+
+/// Plans for libraries of this version of FMI for these platforms, with all tools found; for this
+/// machine if the list is empty.
 ///
 /// # Errors
-/// A tool that is missing, before anything is compiled.
-pub fn plan(platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
+/// A platform that the version does not have, or a tool that is missing, before anything is
+/// compiled.
+pub fn plan(fmi: FmiVersion, platforms: &[Platform]) -> Result<Vec<Plan>, Error> {
+    if let Some(&platform) = platforms.iter().find(|platform| !platform.is_of(fmi)) {
+        return Err(Error::NotOfVersion { platform, fmi });
+    }
     if platforms.is_empty() {
         return Ok(vec![plan_for(Platform::host().ok_or(Error::NoHostPlatform)?)?]);
     }
@@ -54,12 +65,13 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
         Platform::Darwin64 | Platform::Aarch64Darwin if cfg!(target_os = "macos") => Linker::Host,
         // zig links for macOS too, but also exports Rust's internal names.
         Platform::Darwin64 | Platform::Aarch64Darwin => Linker::Lld,
+        Platform::Wasm32Wasip2 => Linker::Component,
     };
     match linker {
         Linker::Zig => tools::zigbuild(platform)?,
         Linker::Mingw => tools::mingw(platform)?,
         Linker::Lld => tools::zig_library(platform).map(drop)?,
-        Linker::Host => {}
+        Linker::Host | Linker::Component => {}
     }
     tools::standard_library(platform)?;
     Ok(Plan { platform, linker })
@@ -67,6 +79,8 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
 
 /// The profile of the workspace's manifest by which the libraries are compiled.
 const PROFILE: &str = "fmu-library";
+/// The same for WebAssembly.
+pub const WEBASSEMBLY_PROFILE: &str = "page-simulation";
 
 /// Compiles the model's library for a version of FMI and returns it.
 ///
@@ -75,7 +89,7 @@ const PROFILE: &str = "fmu-library";
 pub fn compile(model: &FmuModel, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>, Error> {
     run_cargo(&[(model, fmi)], plan)?;
     let built = plan.platform.built_library(model.library(fmi));
-    let file = workspace::target_directory().join(plan.platform.target()).join(PROFILE).join(built);
+    let file = workspace::target_directory().join(plan.platform.target()).join(plan.profile()).join(built);
     fs::read(&file).map_err(|reason| Error::Read { file, reason })
 }
 
@@ -83,18 +97,20 @@ pub fn compile(model: &FmuModel, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>
 /// [`compile`] finds each of them done. The last stage of a library, which optimises it as a whole,
 /// keeps one core busy: together they take a fraction of the time.
 ///
-/// Apple's platforms are left to [`compile`], because a library there is compiled with its name.
+/// Apple's platforms are left to [`compile`], because a library there is compiled with its name,
+/// and components, because only their last stage has flags of theirs.
 ///
 /// # Errors
 /// The compiler cannot be run or fails.
 pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
-    if plan.platform.is_apple() || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, plan) }
+    let alone = plan.platform.is_apple() || plan.platform.is_component();
+    if alone || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, plan) }
 }
 
 /// Calls cargo for these libraries.
 fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
     let mut command = plan.cargo();
-    command.args(["--profile", PROFILE, "--target-dir"]).arg(workspace::target_directory());
+    command.args(["--profile", plan.profile(), "--target-dir"]).arg(workspace::target_directory());
     for (model, fmi) in libraries {
         command.args(["--package", model.package(*fmi)]);
     }
@@ -108,6 +124,11 @@ fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), E
         command.env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tools::mingw_linker()?);
         command.env("MORIS_TARGET_DIRECTORY", workspace::target_directory());
     }
+    if plan.linker == Linker::Component {
+        // Flags of the library alone: what it uses is compiled once for components and for sources.
+        command.args(["--features", "component", "--", "-Clinker=wasm-component-ld"]);
+        command.arg(format!("-Clink-arg=--component-type={COMPONENT_INTERFACE}"));
+    }
     let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
     if status.success() { Ok(()) } else { Err(Error::Compile { platform: plan.platform }) }
 }
@@ -118,27 +139,39 @@ impl Plan {
     /// else.
     fn cargo(&self) -> Command {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        command.args([if self.linker == Linker::Zig { "zigbuild" } else { "build" }, "--target", &self.target()]);
+        let subcommand = match self.linker {
+            Linker::Zig => "zigbuild",
+            Linker::Component => "rustc",
+            Linker::Host | Linker::Lld | Linker::Mingw => "build",
+        };
+        command.args([subcommand, "--target", &self.target()]);
         command
+    }
+
+    /// The profile by which it is compiled.
+    fn profile(&self) -> &'static str {
+        if self.linker == Linker::Component { WEBASSEMBLY_PROFILE } else { PROFILE }
     }
 
     /// The target as cargo and cargo-zigbuild name it.
     fn target(&self) -> String {
         match self.linker {
             Linker::Zig => format!("{}.{OLDEST_GLIBC}", self.platform.target()),
-            Linker::Host | Linker::Lld | Linker::Mingw => self.platform.target().to_owned(),
+            Linker::Host | Linker::Lld | Linker::Mingw | Linker::Component => self.platform.target().to_owned(),
         }
     }
 
     /// rustc's flags for a library of this name, in the form of `CARGO_ENCODED_RUSTFLAGS`: no
     /// symbols but the exported ones, no directory of this machine, no time of day.
     fn rust_flags(&self, library: &str) -> Result<OsString, Error> {
-        let mut flags = vec![OsString::from("-Cstrip=symbols")];
-        flags.extend(path_flags()?);
+        let mut flags = path_flags()?;
+        if self.linker != Linker::Component {
+            flags.insert(0, "-Cstrip=symbols".into());
+        }
         match self.linker {
             Linker::Mingw => flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into()),
             Linker::Lld => flags.extend(["-Clinker=rust-lld".into(), "-Clinker-flavor=ld64.lld".into()]),
-            Linker::Host | Linker::Zig => {}
+            Linker::Host | Linker::Zig | Linker::Component => {}
         }
         if self.platform.is_apple() {
             // A library there carries its own name, by default the path at which it was linked.
@@ -177,7 +210,19 @@ impl fmt::Display for Plan {
             Linker::Lld => "lld (untested)",
             Linker::Zig => "zig",
             Linker::Mingw => "GCC for Windows",
+            Linker::Component => "wasm-component-ld",
         };
         write!(formatter, "compiling for {}, linked by {linker}", self.target())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn components_are_for_fmi_3() {
+        let error = plan(FmiVersion::Fmi2, &[Platform::Linux64, Platform::Wasm32Wasip2]).unwrap_err();
+        assert!(error.to_string().contains("FMI 2.0 has no platform wasm32-wasip2; choose --fmi 3"), "{error}");
     }
 }

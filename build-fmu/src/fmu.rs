@@ -42,7 +42,11 @@ pub fn build(
 /// # Errors
 /// A tool that is missing, or a library that does not compile.
 pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], platforms: &[Platform]) -> Result<(), Error> {
-    compile::plan(platforms)?.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
+    for &(_, fmi) in libraries {
+        compile::plan(fmi, platforms)?;
+    }
+    let Some(&(_, fmi)) = libraries.first() else { return Ok(()) };
+    compile::plan(fmi, platforms)?.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
 }
 
 /// Builds a model's FMU and returns its bytes; otherwise as [`build`].
@@ -56,13 +60,18 @@ pub fn fmu(
     platforms: &[Platform],
     mut report: impl FnMut(&str),
 ) -> Result<Vec<u8>, Error> {
-    let plans = compile::plan(platforms)?;
+    let plans = compile::plan(fmi, platforms)?;
     let mut libraries = Vec::new();
     for plan in &plans {
         report(&format!("{}: {plan}", plan.platform));
         let bytes = compile::compile(model, fmi, plan)?;
-        let info = library::examine(&bytes, fmi.functions(), &workspace::private_paths()?)
-            .map_err(|reason| Error::Library { platform: plan.platform, reason })?;
+        let paths = workspace::private_paths()?;
+        let examined = if plan.platform.is_component() {
+            library::examine_component(&bytes, &paths)
+        } else {
+            library::examine(&bytes, fmi.functions(), &paths)
+        };
+        let info = examined.map_err(|reason| Error::Library { platform: plan.platform, reason })?;
         report(&format!("{}: {info}", plan.platform));
         libraries.push((plan.platform, bytes));
     }

@@ -15,8 +15,6 @@ use crate::archive::Contents;
 use crate::{Error, FmiVersion, FmuModel, Start, compile, library, tools, workspace};
 
 const TARGET: &str = "wasm32-unknown-unknown";
-/// The profile of the workspace's manifest for WebAssembly.
-const PROFILE: &str = "page-simulation";
 /// The version of WABT whose output the runtime in `build-fmu/c` serves.
 const WASM2C: &str = "1.0.32";
 /// Places of the module's two files in an FMU.
@@ -58,7 +56,7 @@ impl Sources {
     /// A tool is missing, or fails.
     pub fn make(model: &FmuModel, fmi: FmiVersion) -> Result<Self, Error> {
         tools::wasm2c(TARGET, WASM2C)?;
-        let directory = workspace::target_directory().join(TARGET).join(PROFILE);
+        let directory = workspace::target_directory().join(TARGET).join(compile::WEBASSEMBLY_PROFILE);
         let module = directory.join(format!("{}.wasm", model.library(fmi)));
         compile(model, fmi)?;
         let bytes = fs::read(&module).map_err(|reason| Error::Read { file: module.clone(), reason })?;
@@ -141,7 +139,16 @@ impl Sources {
 /// Compiles the model's library to WebAssembly.
 fn compile(model: &FmuModel, fmi: FmiVersion) -> Result<(), Error> {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    cargo.args(["build", "--target", TARGET, "--profile", PROFILE, "--package", model.package(fmi), "--target-dir"]);
+    cargo.args([
+        "build",
+        "--target",
+        TARGET,
+        "--profile",
+        compile::WEBASSEMBLY_PROFILE,
+        "--package",
+        model.package(fmi),
+        "--target-dir",
+    ]);
     cargo.arg(workspace::target_directory()).current_dir(workspace::root());
     cargo.env("CARGO_ENCODED_RUSTFLAGS", compile::encoded(&compile::path_flags()?));
     run(cargo, "cargo")

@@ -8,21 +8,21 @@ use std::{env, fs};
 use crate::Error;
 
 /// The root of the workspace: that of the package which cargo runs or tests, or around
-/// the working directory.
+/// the working directory or the program; else the working directory.
 ///
 /// It is not that of the compilation: cargo takes the program for fresh in a
-/// copy of the sources, too.
+/// copy of the sources, too. A released program shows no directory of the machine that made it.
 pub fn root() -> &'static Path {
     static ROOT: OnceLock<PathBuf> = OnceLock::new();
     ROOT.get_or_init(|| {
-        let starts = [env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from), env::current_dir().ok()];
+        let package = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+        let starts = [package, env::current_dir().ok(), env::current_exe().ok()];
         let around = |start: &PathBuf| {
             let manifest = start.ancestors().map(|directory| directory.join(MANIFEST)).find(|file| file.is_file())?;
             // A directory may be a link into the sources.
             fs::canonicalize(manifest).ok()?.ancestors().nth(2).map(Path::to_owned)
         };
-        let compiled = || Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace's directory").to_owned();
-        starts.iter().flatten().find_map(around).unwrap_or_else(compiled)
+        starts.iter().flatten().find_map(around).unwrap_or_else(|| PathBuf::from("."))
     })
 }
 

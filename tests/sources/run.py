@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Compiles the sources in the washout's FMUs with C compilers, and compares the results with the libraries in the FMUs.
+"""Compiles the sources in the washout's FMUs with C compilers, and compares them and the WebAssembly component with the libraries.
 
     python3 tests/sources/run.py [--install] [--require]
 
 FMPy compiles the FMUs of FMI 2.0 and 3.0 with CMake. The reference ride with each strategy has to give the numbers of the
 library that was compiled from Rust, to the bit. A program that includes the sources checks states, refusals, traps and that a
-step allocates nothing. Callgrind counts the instructions of a step in both. What is not installed is reported as missing;
+step allocates nothing. Callgrind counts the instructions of a step in both. The component in the FMU of FMI 3.0 makes the
+same rides in wasmtime. What is not installed is reported as missing;
 with --require that is an error. With --install it is installed first (apt and rustup).
 """
 
 import argparse
+import json
 import os
 import re
 import shutil
@@ -31,6 +33,9 @@ APT = ["gcc", "wabt", "valgrind"]
 RUSTUP = ["wasm32-unknown-unknown"]
 # With CMake, which FMPy calls.
 PIP = ["fmpy==0.3.32"]
+# Another environment: it is ready without the first.
+COMPONENT_VENV = WORK / "component-venv"
+COMPONENT_PIP = ["wasmtime==50.0.1"]
 MODEL = "MorisWashout"
 # The FMU's ending, the library's directory, and the option for a shared library.
 VERSIONS = {
@@ -84,11 +89,19 @@ def library(version):
     return directory(ending) / "binaries" / platform / f"{MODEL}.so"
 
 
+def interpreter(directory, packages):
+    """That of a virtual environment with these packages."""
+    python = directory / "bin" / "python"
+    if not (directory / "ready").exists():
+        venv.create(directory, with_pip=True)
+        run(python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *packages)
+        (directory / "ready").touch()
+    return python
+
+
 def compiled_by_fmpy(version):
     """The library that FMPy makes of the sources."""
-    if not (VENV / "bin" / "cmake").exists():
-        venv.create(VENV, with_pip=True)
-        run(VENV / "bin" / "python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check", *PIP)
+    python = interpreter(VENV, PIP)
     ending, platform, _ = VERSIONS[version]
     copy = WORK / f"compiled{ending}"
     shutil.rmtree(copy, ignore_errors=True)
@@ -97,7 +110,7 @@ def compiled_by_fmpy(version):
     made.unlink()
     code = f"from fmpy.build import build_platform_binary; build_platform_binary({str(copy)!r})"
     environment = os.environ | {"PATH": f"{VENV / 'bin'}{os.pathsep}{os.environ['PATH']}"}
-    run(VENV / "bin" / "python", "-c", code, env=environment, stdout=subprocess.DEVNULL)
+    run(python, "-c", code, env=environment, stdout=subprocess.DEVNULL)
     return made
 
 
@@ -135,6 +148,24 @@ def check_rides():
             ratio = instructions(host, made, version, ride, settings) / instructions(host, own, version, ride, settings)
             print(f"FMI {version}, {settings or 'strategy 1'}: {ratio:.2f} times the instructions of a step", flush=True)
             assert ratio <= MOST_INSTRUCTIONS, "a step costs too much"
+
+
+def check_component():
+    """The WebAssembly component of FMI 3.0, in wasmtime."""
+    folder = WORK / "component"
+    build = ["cargo", "build-fmu", "--model", MODEL, "--fmi", "3", "--output", folder]
+    run(*build, "--platform", "linux64,wasm32-wasip2", "--parameters", "motorcycle")
+    ending, platform, _ = VERSIONS["3"]
+    fmu = folder / f"{MODEL}{ending}"
+    with zipfile.ZipFile(fmu) as archive:
+        own = archive.extract(f"binaries/{platform}/{MODEL}.so", folder)
+    host, ride, python = compile_host(), Ride(fmu), interpreter(COMPONENT_VENV, COMPONENT_PIP)
+    numbers = lambda text: [[float(number) for number in line.split()] for line in text.splitlines()]
+    for settings in STRATEGIES:
+        done = subprocess.run([python, HERE / "component.py", fmu, json.dumps(settings)], capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        assert numbers(done.stdout) == numbers(answers(host, own, "3", ride, settings)), f"component, {settings}: other numbers"
+    print(f"FMI 3: the component in wasmtime, {len(STRATEGIES)} rides equal to the bit", flush=True)
 
 
 def check_included():
@@ -183,6 +214,7 @@ def main():
         build()
         check_included()
         check_start_values()
+        check_component()
         check_rides()
     except Missing as reason:
         print(f"sources: missing ({reason})")

@@ -23,11 +23,11 @@ macro_rules! export_fmi3 {
             #[allow(unused_imports)] // the model's path may be relative to the macro's place
             use super::*;
 
-            const SLOTS: usize = $crate::slot_count::<$model>();
+            pub(super) const SLOTS: usize = $crate::slot_count::<$model>();
             // Kept as a whole in the library's file, where a packing program replaces its values.
             #[used]
             static START: $crate::StartSection<SLOTS> = $crate::StartSection::own();
-            static TABLES: $crate::SharedTables<SLOTS> = $crate::SharedTables::new::<$model>(&START);
+            pub(super) static TABLES: $crate::SharedTables<SLOTS> = $crate::SharedTables::new::<$model>(&START);
 
             #[unsafe(no_mangle)]
             pub unsafe extern "C" fn fmi3GetVersion() -> fmi3String {

@@ -35,7 +35,7 @@ impl Numbers {
         };
         match number {
             Ok(number) if number.abs() <= LARGEST => Ok(number),
-            Ok(number) if number.is_finite() => {
+            Ok(number) if !number.is_nan() => {
                 Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)))
             }
             Ok(_) => Err(format!("is {}; {}", quoted(text), remedy())),
