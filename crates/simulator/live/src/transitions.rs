@@ -191,11 +191,11 @@ mod tests {
 
     #[test]
     fn the_page_shows_this_table() {
-        let page = include_str!("../../../../docs/live.md");
-        assert!(page.contains(&State::table()), "docs/live.md lacks this table:\n{}", State::table());
+        let page = include_str!("../../../../docs/live-reference.md");
+        assert!(page.contains(&State::table()), "docs/live-reference.md lacks this table:\n{}", State::table());
         for state in State::ALL {
             let row = format!("| {} | {} |", state.name(), state.text());
-            assert!(page.contains(&row), "docs/live.md lacks: {row}");
+            assert!(page.contains(&row), "docs/live-reference.md lacks: {row}");
         }
     }
 }
