@@ -154,7 +154,7 @@ fn optional(field: &str) -> Option<Option<f64>> {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ReplayError {
     /// The text is no recorded session.
-    #[error("line {0} is none of a recorded session of this version")]
+    #[error("line {0} is none of a session that this version has recorded by moris live --record")]
     Line(usize),
     /// A parameter cannot be used.
     #[error(transparent)]

@@ -32,7 +32,8 @@ pub fn read(file: &Path) -> Result<Vec<Vote>> {
     let text = fs::read_to_string(file).with_context(|| file.display().to_string())?;
     let vote = |(place, line): (usize, &str)| -> Result<Vote> {
         let here = || format!("{}, line {}", file.display(), place + 1);
-        let vote: Vote = serde_json::from_str(line).with_context(here)?;
+        let vote: Vote = serde_json::from_str(line)
+            .with_context(|| format!("{} is no vote; moris live --votes writes them", here()))?;
         match vote.better.keys().chain(vote.worse.keys()).find(|name| slot_of(name).is_none()) {
             Some(name) => bail!("{}: there is no parameter {name}", here()),
             None => Ok(vote),

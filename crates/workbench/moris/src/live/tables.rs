@@ -28,9 +28,9 @@ pub enum List {
 /// There is no table of this name.
 pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
     match list {
-        List::Formats { name: Some(name) } => write!(out, "{}", shipped(name, &format::SHIPPED)?)?,
+        List::Formats { name: Some(name) } => write!(out, "{}", shipped("format", name, &format::SHIPPED)?)?,
         List::Frames { name: Some(name) } if name == moog::NAME => writeln!(out, "{}", moog::ABOUT)?,
-        List::Frames { name: Some(name) } => write!(out, "{}", shipped(name, &frame::SHIPPED)?)?,
+        List::Frames { name: Some(name) } => write!(out, "{}", shipped("frames", name, &frame::SHIPPED)?)?,
         List::Formats { name: None } => {
             for (name, text) in format::SHIPPED {
                 writeln!(out, "{name:<12} {}", text.parse::<format::Format>()?.about)?;
@@ -51,7 +51,7 @@ pub fn main(list: &List, out: &mut dyn Write) -> Result<ExitCode> {
 /// # Errors
 /// There is none, or it cannot be used.
 pub fn format(name: &str) -> Result<format::Format> {
-    text(name, &format::SHIPPED)?.parse().with_context(|| name.to_owned())
+    text("format", name, &format::SHIPPED)?.parse().with_context(|| name.to_owned())
 }
 
 /// The template of this name or in this file.
@@ -59,23 +59,22 @@ pub fn format(name: &str) -> Result<format::Format> {
 /// # Errors
 /// As [`format()`].
 pub fn frames(name: &str) -> Result<frame::Frames> {
-    text(name, &frame::SHIPPED)?.parse().with_context(|| name.to_owned())
+    text("frames", name, &frame::SHIPPED)?.parse().with_context(|| name.to_owned())
 }
 
-fn text(name: &str, tables: &[(&str, &'static str)]) -> Result<String> {
-    match shipped(name, tables) {
+fn text(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<String> {
+    match shipped(option, name, tables) {
         Ok(text) => Ok(text.to_owned()),
         Err(_) if name.ends_with(".toml") => fs::read_to_string(name).with_context(|| name.to_owned()),
-        Err(error) => Err(error.context("a file's name ends with .toml")),
+        Err(error) => Err(error),
     }
 }
 
-fn shipped(name: &str, tables: &[(&str, &'static str)]) -> Result<&'static str> {
-    match tables.iter().find(|(of, _)| *of == name) {
-        Some((_, text)) => Ok(text),
-        None => {
-            let names: Vec<&str> = tables.iter().map(|(name, _)| *name).collect();
-            bail!("there is no {name}, only {}", names.join(", "))
-        }
+fn shipped(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<&'static str> {
+    if let Some((_, text)) = tables.iter().find(|(of, _)| *of == name) {
+        return Ok(text);
     }
+    let device = if option == "frames" { Some(moog::NAME) } else { None };
+    let names: Vec<&str> = tables.iter().map(|(name, _)| *name).chain(device).collect();
+    bail!("--{option} is {name}, but must be a file whose name ends with .toml, or one of {}", names.join(", "))
 }

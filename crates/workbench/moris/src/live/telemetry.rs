@@ -20,6 +20,7 @@ use super::controls::{Controls, Handling};
 use super::ros2::Subscription;
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Shared, pace, tables};
+use crate::recording::formats::Format as Logger;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 
 /// A sample, and when it arrived.
@@ -29,6 +30,16 @@ pub struct Received {
     pub arrival: Duration,
     /// The sample.
     pub sample: Sample,
+}
+
+/// What `--from` may be.
+const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, ros2:TOPIC, fmu:FILE, ride, or a recording's file";
+
+/// The format of recordings of this name.
+fn logger(name: &str) -> Result<Logger> {
+    let known = || Logger::value_variants().iter().map(|format| format.word()).collect::<Vec<_>>().join(", ");
+    Logger::from_str(name, true)
+        .map_err(|_| anyhow::anyhow!("--format is {name}, but a recording's must be one of {}", known()))
 }
 
 /// Largest packet \[bytes\].
@@ -66,12 +77,12 @@ impl Input {
             return Input::open_ros2(topic, listen);
         }
         let Some(port) = from.strip_prefix("udp:") else {
-            let logger = format.map(|name| ValueEnum::from_str(name, true)).transpose();
-            let format = logger.map_err(|_| anyhow::anyhow!("--format of a recording is a logger's name"))?;
+            anyhow::ensure!(Path::new(from).exists(), "--from is {from}, but {SOURCES}");
+            let format = format.map(logger).transpose()?;
             let conventions = ConventionOptions { format, ..ConventionOptions::default() }.load_or_fade_in(FADE_IN)?;
             return Ok(Input::Played(Box::new(Recording::read(Path::new(from), &conventions)?)));
         };
-        let port: u16 = port.parse().context("--from is udp:PORT, ros2:TOPIC, fmu:FILE, ride or a recording")?;
+        let port: u16 = port.parse().ok().with_context(|| format!("--from is {from}, but {SOURCES}"))?;
         let format = tables::format(format.context("--format names the packets' format; see moris live formats")?)?;
         let address = if listen { "0.0.0.0" } else { "127.0.0.1" };
         let socket = UdpSocket::bind((address, port)).with_context(|| format!("cannot receive at {address}:{port}"))?;

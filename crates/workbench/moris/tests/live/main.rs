@@ -126,17 +126,25 @@ fn what_cannot_be_used_is_said() {
         assert!(fine && printed.contains(text), "{printed}");
     }
     for (arguments, text) in [
-        (&["formats", "doom"][..], "there is no doom, only json, csv"),
+        (
+            &["formats", "doom"][..],
+            "--format is doom, but must be a file whose name ends with .toml, or one of json, csv",
+        ),
         (
             &["--from", "udp:0x", "--format", "csv", "--dry"],
-            "--from is udp:PORT, ros2:TOPIC, fmu:FILE, ride or a recording",
+            "--from is udp:0x, but must be udp:PORT with a port from 1 to 65535",
         ),
         (&["--from", "ros2:imu", "--dry"], if cfg!(feature = "ros2") { "like /imu/data" } else { "--features ros2" }),
         (&["--from", "udp:4444", "--dry"], "--format names the packets' format"),
         (&["--from", "udp:4444", "--format", "own.toml", "--dry"], "own.toml"),
         (&["--from", "udp:4444", "--format", "csv"], "--to"),
         (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT or serial:LINE:BAUD"),
-        (&["--from", "nothing.csv", "--dry"], "nothing.csv"),
+        (&["--from", "nothing.csv", "--dry"], "--from is nothing.csv, but must be udp:PORT"),
+        (
+            &["frames", "nothing"],
+            "--frames is nothing, but must be a file whose name ends with .toml, or one of json, csv",
+        ),
+        (&["frames", "nothing"], "moog-6dof2000e"),
         (&["--from", "udp:4444", "--format", "csv", "--dry", "--for", "soon"], "a number of seconds"),
     ] {
         let (fine, printed) = run(arguments);
