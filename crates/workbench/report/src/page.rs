@@ -49,7 +49,7 @@ const SCRIPTS: [&str; 13] = [
     include_str!("../page/main.js"),
 ];
 
-/// What the heads of pages differ in.
+/// Differences between the heads of pages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Head<'a> {
     /// Plain text, as the subtitle.
@@ -57,8 +57,8 @@ pub struct Head<'a> {
     pub subtitle: &'a str,
     /// Style after that of all pages.
     pub style: &'a str,
-    /// What the page may load and run: directives of a content security policy, beside its styles
-    /// and pictures.
+    /// Sources that the page may load and run: directives of a content security policy, beside
+    /// its styles and pictures.
     pub policy: &'a str,
 }
 

@@ -6,7 +6,7 @@ from . import _moris
 
 
 class AxisReach(NamedTuple):
-    """What a platform can do along one axis alone, from neutral."""
+    """Reach, speed and acceleration of a platform along one axis alone, from neutral."""
 
     min: float
     """[m] or [rad]"""
