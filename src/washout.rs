@@ -45,7 +45,7 @@ pub struct Washout {
     /// Fraction of the time to engage that has passed. 1: engaged, 0: disengaged.
     engaging: f64,
     /// The input at the end of the last step, and its cue.
-    last: Sample,
+    last: CuedInput,
     input_filter: InputFilter,
     preaction: StopPreaction,
     strategy: Strategy,
@@ -56,31 +56,31 @@ pub struct Washout {
     resting: f64,
     guard: ActuatorGuard,
     felt: Felt,
-    limited: Limited,
+    limited: ActiveLimits,
     /// Outputs without an exact derivative, one internal step ago.
     before: PreviousStep,
 }
 
 /// An input, the head with its lean, and the cue there.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Sample {
+struct CuedInput {
     input: Input,
     head: LocationFrame,
     cue: Cue,
 }
 
-impl Sample {
+impl CuedInput {
     #[inline(always)]
     fn new(input: Input, parameters: &Parameters) -> Self {
         let Parameters { conditioning, structure, .. } = parameters;
         let head = LocationFrame::new(structure, input.lean);
-        Sample { input, head, cue: cue(&input, conditioning, structure.gravity, head.lean) }
+        CuedInput { input, head, cue: cue(&input, conditioning, structure.gravity, head.lean) }
     }
 }
 
 /// Limits active in any internal step of the last communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Limited {
+struct ActiveLimits {
     tilt: bool,
     soft: bool,
     safety: bool,
@@ -118,7 +118,7 @@ impl Washout {
         let guard = ActuatorGuard::new(rig, structure.max_step);
         let strategy = Strategy::new(parameters)?;
         let soft_limits = SoftLimits::new(parameters, strategy.largest_heave());
-        let last = Sample::new(Input::default(), parameters);
+        let last = CuedInput::new(Input::default(), parameters);
         let at_rest = felt(guard.motion(), &last.head, structure.gravity);
         Ok(Washout {
             parameters: *parameters,
@@ -133,7 +133,7 @@ impl Washout {
             resting: 0.0,
             guard,
             felt: at_rest,
-            limited: Limited::default(),
+            limited: ActiveLimits::default(),
             before: PreviousStep { step: 0.0, acceleration: Vector3::zeros(), felt: at_rest },
         })
     }
@@ -141,7 +141,7 @@ impl Washout {
     /// The washout at rest at neutral before its first step, with this input. It is disengaged if
     /// the input is, and the head is where the rider's lean puts it.
     pub fn starting_with(mut self, input: &Input) -> Self {
-        self.last = Sample::new(input.sanitized(), &self.parameters);
+        self.last = CuedInput::new(input.sanitized(), &self.parameters);
         self.engaging = f64::from(input.engaged);
         self.felt = felt(self.guard.motion(), &self.last.head, self.parameters.structure.gravity);
         self.before.felt = self.felt;
@@ -171,7 +171,7 @@ impl Washout {
     #[inline]
     pub fn preview(&mut self, preview: &Preview) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
-        let Sample { input, head, .. } = &self.last;
+        let CuedInput { input, head, .. } = &self.last;
         let engagement = self.engagement();
         if let Some(law) = self.strategy.previewed() {
             law.preview(&Course::of(preview, |[surge, sway]| {
@@ -205,7 +205,7 @@ impl Washout {
 
     /// A step with the input held.
     fn hold(&mut self, input: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
-        let held = Sample::new(input.sanitized(), &self.parameters);
+        let held = CuedInput::new(input.sanitized(), &self.parameters);
         self.last = held;
         self.substep(step, |washout, _, step| washout.internal_step(&held, step), observe);
     }
@@ -214,7 +214,7 @@ impl Washout {
     fn ramp_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let end = end.sanitized();
         if let Some(start) = self.last.input.ramp_start(&end) {
-            self.last = Sample::new(start, &self.parameters);
+            self.last = CuedInput::new(start, &self.parameters);
         }
         self.last.input.engaged = end.engaged;
         if let Some(law) = self.strategy.previewed() {
@@ -233,7 +233,7 @@ impl Washout {
     /// step.
     pub fn step_between_observed(&mut self, start: &Input, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         if step >= SHORTEST_STEP {
-            self.last = Sample::new(start.sanitized(), &self.parameters);
+            self.last = CuedInput::new(start.sanitized(), &self.parameters);
             self.step_to(&end.sanitized(), step, observe);
         }
     }
@@ -242,7 +242,7 @@ impl Washout {
     fn step_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let start = self.last.input;
         let advance = |washout: &mut Self, fraction, step| {
-            let end = Sample::new(start.towards(end, fraction), &washout.parameters);
+            let end = CuedInput::new(start.towards(end, fraction), &washout.parameters);
             washout.internal_step(&end, step);
             washout.last = end;
         };
@@ -260,7 +260,7 @@ impl Washout {
     ) {
         let count = self.internal_steps(step);
         let internal_step = min(step / count, self.parameters.structure.max_step);
-        self.limited = Limited::default();
+        self.limited = ActiveLimits::default();
         let mut done = 0.0;
         while done < count {
             done += 1.0;
@@ -278,9 +278,9 @@ impl Washout {
     }
 
     /// One step of Fig. 4, from left to right. The cue goes linearly from the last sample to `end`.
-    fn internal_step(&mut self, end: &Sample, step: f64) {
+    fn internal_step(&mut self, end: &CuedInput, step: f64) {
         let head_at_end = &end.head;
-        let (mut cue_start, mut cue_end) = self.conditioned(self.last.cue, end.cue, self.last.input.engaged, step);
+        let (mut cue_start, mut cue_end) = self.conditioned_cues(self.last.cue, end.cue, self.last.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
         let rotation = self.guard.motion().orientation.rotation;
@@ -288,7 +288,7 @@ impl Washout {
         let force_start = rotation * self.last.head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
-        let beside_tilt = self.angular.advance(cue_start.rates, cue_end.rates, step);
+        let channel_angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
         // Disengaged, the platform does not make up for the rider's lean either.
         let lean = head_at_end.lean * self.engagement();
         let circumstances = Circumstances {
@@ -296,14 +296,14 @@ impl Washout {
             guard: &self.guard,
             head: head_at_end,
             force: cue_end.force,
-            angles: &beside_tilt,
+            angles: &channel_angles,
             lean,
             engagement: self.engagement(),
             time_to_stop: self.preaction.time_left(),
         };
         self.strategy.advance_tilt([force_start, force_end], &rotation_at_end, &circumstances, step);
         let [tilt_roll, tilt_pitch] = self.strategy.tilt();
-        let mut angles = beside_tilt;
+        let mut angles = channel_angles;
         angles.add_to_axis(0, &tilt_roll);
         angles.add_to_axis(1, &tilt_pitch);
         let turning = RotationalMotion::new(&angles);
@@ -374,7 +374,7 @@ impl Washout {
 
     /// The cue at the step's start and end as the channels receive it: filtered, and faded while
     /// the washout is being engaged or disengaged.
-    fn conditioned(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
+    fn conditioned_cues(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
         let before = self.engagement();
         self.engaging = engaging_after(self.engaging, engaged, &end.force, step);
         let (start, end) = (start.scaled(before), end.scaled(self.engagement()));
@@ -413,7 +413,7 @@ impl Washout {
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
         self.soft_limits = SoftLimits::new(parameters, self.strategy.largest_heave());
-        self.last = Sample::new(self.last.input, parameters);
+        self.last = CuedInput::new(self.last.input, parameters);
         let now = self.input_filter.output(self.last.cue.scaled(self.engagement()), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;

@@ -210,7 +210,7 @@ impl<M: Model> Instance<M> {
         }
     }
 
-    /// What the model makes of an input beyond its range.
+    /// The model's value for an input beyond its range.
     #[cold]
     #[inline(never)]
     pub(crate) fn about_range(&self, slot: u32, value: f64) -> String {

@@ -26,7 +26,7 @@ pub struct Machine {
     pub limits: Limits,
     /// Duration of a stop for each m/s of a leg \[s2/m\].
     pub(super) stop_time_per_speed: f64,
-    /// What the straight way to neutral needs.
+    /// Requirements of the straight path to neutral.
     pub(super) home: Home,
 }
 
@@ -74,7 +74,7 @@ pub struct Home {
     pub(super) longest: f64,
     /// The clearances at neutral from the shortest and the longest length \[m\].
     pub(super) clearance: [f64; 2],
-    /// How far beyond their clearances the legs are at least at neutral \[m\].
+    /// Least distance of the legs beyond their clearances at neutral \[m\].
     pub(super) beyond_clearance: [f64; 2],
     /// 1/(2 times the shortest length) \[1/m\].
     pub(super) per_two_lengths: f64,

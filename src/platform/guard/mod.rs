@@ -43,12 +43,12 @@ pub struct ActuatorGuard {
     speed: Speed,
     /// The certified way to rest. It starts at the present state, unless the last step followed it.
     plan: StopPlan,
-    limited: Option<Limited>,
+    limited: Option<Deviation>,
 }
 
 /// The rest of the state while the platform is kept from its demand.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Limited {
+struct Deviation {
     demand: PlatformCoordinates,
     coordinates: PlatformCoordinates,
     /// Of the legs' lengths, over the last step \[m/s2\].
@@ -153,7 +153,7 @@ impl ActuatorGuard {
             homeward.map(|fraction| if found.is_some() { min(FASTER * fraction, 1.0) } else { SLOWER * fraction });
         let (next, plan) = found.unwrap_or_else(|| (self.following(&followed, step), followed));
         self.accept(next.candidate(), plan);
-        self.limited = Some(Limited {
+        self.limited = Some(Deviation {
             demand: *demand.coordinates,
             coordinates: next.coordinates,
             leg_accelerations: std::array::from_fn(|i| (self.legs.velocity[i] - before.velocity[i]) / step),
@@ -166,7 +166,7 @@ impl ActuatorGuard {
     /// [`PATIENCE`], the platform stops. From rest it goes straight home, and the fraction of its
     /// speed is given. It goes on until it joins its demand or the input moves.
     fn patience(&self, resting: bool, step: f64) -> (f64, Option<f64>) {
-        let Some(Limited { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
+        let Some(Deviation { resting: before, homeward, .. }) = self.limited.filter(|_| resting) else {
             return (0.0, None);
         };
         let at_rest = self.speed == Speed::default();

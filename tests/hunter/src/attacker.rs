@@ -28,7 +28,7 @@ pub struct Attacker {
     pub amplitudes: BTreeMap<String, f64>,
 }
 
-/// What an attacker wants.
+/// An attacker's aim.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Aim {

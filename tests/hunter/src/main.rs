@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 use clap::{Parser, ValueEnum};
 use moris_hunter::episode::Episode;
 use moris_hunter::run::Runner;
-use moris_hunter::search::{Failure, Found, Plan, Summary, search};
+use moris_hunter::search::{Failure, FoundEpisode, Plan, Summary, search};
 use moris_hunter::target::{CrateTarget, FmuTarget, Target, Traced};
 use moris_hunter::variables::Variables;
 
@@ -160,7 +160,7 @@ fn line(summary: &Summary) -> String {
 }
 
 /// Prints what was found, and keeps it in a file if --save is given.
-fn report(arguments: &Arguments, number: usize, found: &Found) -> Result<()> {
+fn report(arguments: &Arguments, number: usize, found: &FoundEpisode) -> Result<()> {
     match &found.failure {
         Failure::Breach(breach) => println!("BREACH {breach}; found after {} steps", found.found_after),
         Failure::Refused(reason) => println!("FAILURE: {reason}"),

@@ -26,7 +26,7 @@ pub struct Previews {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Forces {
-    /// What the inputs will be.
+    /// The inputs to come.
     Ahead,
     /// The negative of it.
     Contrary,

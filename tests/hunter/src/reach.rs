@@ -1,8 +1,8 @@
-//! How near a sample is to the limits of legs and axes.
+//! Distance of a sample from the limits of legs and axes.
 
 use crate::oracle::{Machine, Safety, Sample};
 
-/// What a sample leaves of the limits. Legs and axes count alike.
+/// The part of the limits that a sample leaves unused. Legs and axes count alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
     /// The smallest distance from an end, as a fraction of half the range.

@@ -155,7 +155,7 @@ impl Runner {
         Ok(())
     }
 
-    /// What the steps of an episode need, on a machine of these parameters.
+    /// Settings of an episode's steps, on a machine of these parameters.
     fn drive<'a>(&'a self, episode: &'a Episode, slots: &[f64]) -> Result<Drive<'a>> {
         let signals = self.signals(episode)?;
         let attacker = episode.attacker.as_ref().map(|attacker| self.attack(attacker)).transpose()?;

@@ -49,7 +49,7 @@ pub enum Failure {
 
 /// An episode that fails.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Found {
+pub struct FoundEpisode {
     /// The episode, shrunk if that was asked for.
     pub episode: Episode,
     /// The failure in it.
@@ -73,7 +73,7 @@ pub struct Summary {
     /// The largest ratio of each quantity to its limit; of positions, the largest excess in
     /// units of the tolerance.
     pub worst: Vec<(String, f64)>,
-    pub found: Vec<Found>,
+    pub found: Vec<FoundEpisode>,
 }
 
 /// Episodes on a machine of the default geometry, and on others, which take longer to build.
@@ -91,7 +91,7 @@ struct Shared<'a> {
     episodes: AtomicU64,
     steps: AtomicU64,
     running: AtomicUsize,
-    found: Mutex<Vec<Found>>,
+    found: Mutex<Vec<FoundEpisode>>,
     worst: Mutex<Worst>,
     stop: AtomicBool,
 }
@@ -231,15 +231,15 @@ impl Shared<'_> {
         failure
     }
 
-    fn shrunk<T: Target>(&self, episode: Episode, failure: Failure, target: &mut T) -> Result<Found> {
+    fn shrunk<T: Target>(&self, episode: Episode, failure: Failure, target: &mut T) -> Result<FoundEpisode> {
         let found_after = match failure {
             Failure::Breach(breach) => breach.step + 1,
             Failure::Refused(_) => episode.count,
         };
-        let Failure::Breach(breach) = failure else { return Ok(Found { episode, failure, found_after }) };
+        let Failure::Breach(breach) = failure else { return Ok(FoundEpisode { episode, failure, found_after }) };
         let (episode, breach) =
             if self.plan.shrink { shrink(self.runner, target, &episode, breach)? } else { (episode, breach) };
-        Ok(Found { episode, failure: Failure::Breach(breach), found_after })
+        Ok(FoundEpisode { episode, failure: Failure::Breach(breach), found_after })
     }
 
     fn summary(&self, started: Instant) -> Summary {

@@ -48,7 +48,7 @@ pub enum Signal {
 /// angular, six of the legs.
 pub const VELOCITIES: usize = 12;
 
-/// What a signal may follow of the last output.
+/// Quantities of the last output that a signal may follow.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen {
     pub velocities: [f64; VELOCITIES],

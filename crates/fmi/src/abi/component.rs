@@ -24,7 +24,7 @@ pub trait Host {
     }
     /// Reports a stage of the instance's life to a host that logs events.
     fn event(&self, text: &str);
-    /// Logs a doubt about values that can be used.
+    /// Logs a warning about values that can be used.
     fn warning(&self, text: &str);
     /// Logs why a call failed. Returns the call's status.
     fn failure(&self, severity: Severity, text: &str) -> Self::Status;

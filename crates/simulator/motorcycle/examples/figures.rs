@@ -53,12 +53,12 @@ fn ride() -> Result<Vec<Panel>, Box<dyn Error>> {
     for k in 0..36_000 {
         let time = f64::from(k) * 0.001;
         motorcycle.step(&command(time), 0.001);
-        if k % 25 == 24 {
+        if k % 50 == 49 {
             recorded.push((time + 0.001, command(time), motorcycle.output()));
         }
     }
     let curve = |value: fn(&Input, &Output) -> f64| -> Vec<(f64, f64)> {
-        thinned(recorded.iter().map(|(time, input, output)| (*time, value(input, output))).collect())
+        recorded.iter().map(|(time, input, output)| (*time, value(input, output))).collect()
     };
     let across = "time [s]";
     let panel = |title, curves| Panel { title, across, curves, dotted: false };
@@ -88,24 +88,6 @@ fn ride() -> Result<Vec<Panel>, Box<dyn Error>> {
             ],
         ),
     ])
-}
-
-/// The curve with so few of its points that none of the others is off the lines between them by
-/// more than a thousandth of the curve's height.
-fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    let (low, high) = points.iter().fold((0.0, 0.0), |(low, high): (f64, f64), p| (low.min(p.1), high.max(p.1)));
-    let mut last = 0;
-    let mut kept = vec![points[0]];
-    for next in 2..points.len() {
-        let (from, to) = (points[last], points[next]);
-        let on_line = |time: f64| from.1 + (to.1 - from.1) * (time - from.0) / (to.0 - from.0);
-        if points[last + 1..next].iter().any(|p| (p.1 - on_line(p.0)).abs() > 0.001 * (high - low)) {
-            last = next - 1;
-            kept.push(points[last]);
-        }
-    }
-    kept.extend(points.last());
-    kept
 }
 
 fn modes() -> Result<Vec<Panel>, Box<dyn Error>> {

@@ -146,7 +146,7 @@ interface! {
     /// Masses and geometry: the parameters of a bicycle in Meijaard et al. (2007), and a
     /// steering damper. Lengths are measured from the rear tyre's contact, x forward;
     /// heights above the road.
-    pub struct Machine: Parameter, Fixed {
+    pub struct BicycleParameters: Parameter, Fixed {
         /// Distance between the two tyre contacts.
         "geometry.wheelbase" wheelbase: f64 [M] { 0.1 ..= 10.0 } = 1.448;
         /// Trail: distance of the front tyre contact behind the intersection of steering axis and road.
@@ -347,7 +347,7 @@ interface! {
 interface_tree! {
     /// All parameters.
     pub struct Parameters {
-        machine: Machine,
+        machine: BicycleParameters,
         tyres: Tyres,
         longitudinal: Longitudinal,
         suspension: Suspension,

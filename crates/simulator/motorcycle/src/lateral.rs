@@ -14,7 +14,7 @@
 use nalgebra::{Matrix2, Matrix4, SMatrix, SVector, Vector4};
 use serde::{Deserialize, Serialize};
 
-use crate::interface::{Machine, Parameters};
+use crate::interface::{BicycleParameters, Parameters};
 use crate::whipple::{Bicycle, Body, Totals, Wheel};
 
 /// Indices of the state's variables.
@@ -313,7 +313,7 @@ impl Design {
 }
 
 /// The bicycle with the machine's parameters.
-pub fn bicycle(machine: &Machine) -> Bicycle {
+pub fn bicycle(machine: &BicycleParameters) -> Bicycle {
     Bicycle {
         w: machine.wheelbase,
         c: machine.trail,

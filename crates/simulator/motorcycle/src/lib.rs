@@ -41,7 +41,7 @@ pub mod whipple;
 
 pub use interface::{Course, Input, Output, Parameters};
 pub use moris_interface::{Model, ParameterError};
-pub use motorcycle::{MOST_INTERNAL_STEPS, Motorcycle};
+pub use motorcycle::{MOST_MOTORCYCLE_STEPS, Motorcycle};
 
 // The snippets of `docs/motorcycle.md` as doc tests.
 #[cfg(doctest)]

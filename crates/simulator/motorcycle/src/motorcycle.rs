@@ -22,7 +22,7 @@ use crate::state::{Place, RunState, Stage, State};
 use crate::suspension::{self, Suspension};
 
 /// Largest number of internal steps in a communication step.
-pub const MOST_INTERNAL_STEPS: f64 = 100_000.0;
+pub const MOST_MOTORCYCLE_STEPS: f64 = 100_000.0;
 
 /// Limit of the rider's torque on the bars on a path \[N m\].
 const STRONGEST_TORQUE: f64 = 120.0;
@@ -153,18 +153,18 @@ impl Model for Motorcycle {
     }
 
     fn longest_step(&self) -> f64 {
-        MOST_INTERNAL_STEPS * self.parameters.run.max_step
+        MOST_MOTORCYCLE_STEPS * self.parameters.run.max_step
     }
 
     /// In equal internal steps of solver.maxStep at most. Any step is safe: one shorter than
-    /// [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_INTERNAL_STEPS`] internal
+    /// [`SHORTEST_STEP`] does nothing, and one longer than [`MOST_MOTORCYCLE_STEPS`] internal
     /// steps is cut off there.
     fn step_between(&mut self, start: &Input, end: &Input, step: f64) {
         if step.is_nan() || step < SHORTEST_STEP {
             return;
         }
         let longest = self.parameters.run.max_step;
-        let step = step.min(MOST_INTERNAL_STEPS * longest);
+        let step = step.min(MOST_MOTORCYCLE_STEPS * longest);
         let (start, end) = (start.sanitized(), end.sanitized());
         let steps = libm::ceil((step / longest - 1e-6).max(1.0));
         let size = step / steps;

@@ -249,10 +249,10 @@ fn design_gains(lateral: &Lateral, speed: f64, limits: &interface::Rider) -> Opt
     cost[place::STEER_RATE] = 0.25;
     cost[ERROR] = 100.0;
     let torque = inverse * torque;
-    let ease = limits.torque_weight * limits.torque_weight;
-    let spread = torque * torque.transpose() * ease;
+    let inverse_weight = limits.torque_weight * limits.torque_weight;
+    let spread = torque * torque.transpose() * inverse_weight;
     let to_go = riccati::solve::<SIZE, { 2 * SIZE }>(&(inverse * a * scale), &spread, &SMatrix::from_diagonal(&cost))?;
-    let gain = inverse * to_go * torque * ease;
+    let gain = inverse * to_go * torque * inverse_weight;
     let finite = gain.iter().chain(turn.iter()).chain([&turn_torque]).all(|number| number.is_finite());
     finite.then(|| GainSet {
         gain: gain.fixed_rows::<{ lateral::SIZE }>(0).into_owned(),

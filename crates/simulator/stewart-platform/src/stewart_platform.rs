@@ -47,7 +47,7 @@ pub struct StewartPlatform {
     /// One internal step ago, and its length \[s\].
     before: Instant,
     last_step: f64,
-    limited: Limited,
+    limited: DriveStatus,
 }
 
 /// Motion and forces at an instant.
@@ -65,7 +65,7 @@ struct Instant {
 
 /// Limits active in any internal step of the last communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Limited {
+struct DriveStatus {
     command: bool,
     drive: bool,
     force: bool,
@@ -94,7 +94,7 @@ impl Model for StewartPlatform {
             now,
             before: now,
             last_step: 0.0,
-            limited: Limited::default(),
+            limited: DriveStatus::default(),
         })
     }
 
@@ -141,7 +141,7 @@ impl Model for StewartPlatform {
             return;
         }
         let step = step.min(MOST_INTERNAL_STEPS * self.parameters.setting.max_step);
-        self.limited = Limited::default();
+        self.limited = DriveStatus::default();
         let from = self.possible(&start.length);
         let to = self.possible(&end.length);
         self.commands.push(&Ramp { duration: step, from, to });

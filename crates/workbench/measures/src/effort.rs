@@ -1,6 +1,6 @@
 //! Effort of the platform: stroke used, time limited, tilt rate.
 
-use crate::run::{Limited, Platform};
+use crate::run::{LimitFlags, Platform};
 
 /// Effort of the platform in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ pub fn effort(platform: &Platform) -> Effort {
 
 /// Fraction of the steps in which a limit was active, 0 to 1. The first sample is
 /// none: no step led to it.
-pub fn fraction(limited: &[Limited], at_work: impl Fn(&Limited) -> bool) -> f64 {
+pub fn fraction(limited: &[LimitFlags], at_work: impl Fn(&LimitFlags) -> bool) -> f64 {
     match limited {
         [] | [_] => 0.0,
         [_, steps @ ..] => steps.iter().filter(|limited| at_work(limited)).count() as f64 / steps.len() as f64,
@@ -63,7 +63,7 @@ mod tests {
 
     #[test]
     fn the_effort_is_counted_over_the_steps() {
-        let limited = |tilt, soft, safety, actuator| Limited { tilt, soft, safety, actuator };
+        let limited = |tilt, soft, safety, actuator| LimitFlags { tilt, soft, safety, actuator };
         let mut legs = [[1.3; 6]; 5];
         legs[2][2] = 1.1;
         legs[3][0] = 1.5;

@@ -36,4 +36,4 @@ pub mod vestibular;
 
 pub use listing::{Row, all_rows, bound_rows};
 pub use measures::{Axes, Measures, References, Rider};
-pub use run::{Limited, Platform, Run, RunError};
+pub use run::{LimitFlags, Platform, Run, RunError};

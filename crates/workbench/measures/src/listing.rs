@@ -5,7 +5,7 @@ use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
 use crate::measures::{Axes, Measures, Rider};
-use crate::run::{Limited, Platform, Run};
+use crate::run::{LimitFlags, Platform, Run};
 
 /// One measure.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +83,7 @@ pub fn all_rows() -> Vec<Row> {
             stroke: [0.5, 1.5],
             displacement: &still,
             tilt_rate: &vec![[0.0; 2]; moving.len()],
-            limited: &vec![Limited::default(); moving.len()],
+            limited: &vec![LimitFlags::default(); moving.len()],
         },
     };
     Measures::of(&run).expect("the run has equal series of numbers").rows()
@@ -373,7 +373,7 @@ mod tests {
                 stroke: [1.0, 1.6],
                 displacement: &[[0.0; 3]; COUNT],
                 tilt_rate: &[[0.0; 2]; COUNT],
-                limited: &[Limited::default(); COUNT],
+                limited: &[LimitFlags::default(); COUNT],
             },
         };
         Measures::of(&run).unwrap().rows()

@@ -38,7 +38,7 @@ pub struct Measures {
     pub rate_cues: Axes<Cues>,
     /// Effort of the platform.
     pub effort: Effort,
-    /// What the rider may say of the whole run.
+    /// The rider's likely words on the whole run.
     pub rider: Rider,
 }
 
@@ -140,7 +140,7 @@ impl Channel<'_> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Limited, Platform};
+    use crate::{LimitFlags, Platform};
 
     use super::*;
 
@@ -170,7 +170,7 @@ mod tests {
                     stroke: [1.0, 1.6],
                     displacement: &rest,
                     tilt_rate: &vec![[0.0; 2]; count],
-                    limited: &vec![Limited::default(); count],
+                    limited: &vec![LimitFlags::default(); count],
                 },
             };
             let measures = Measures::with(&run, &mut references).unwrap();

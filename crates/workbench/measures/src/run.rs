@@ -35,12 +35,12 @@ pub struct Platform<'a> {
     /// Rates of tilt coordination's roll and pitch \[rad/s\].
     pub tilt_rate: &'a [[f64; 2]],
     /// Limits active during the step before each sample.
-    pub limited: &'a [Limited],
+    pub limited: &'a [LimitFlags],
 }
 
 /// Which of the washout's limits were active.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Limited {
+pub struct LimitFlags {
     /// Tilt coordination.
     pub tilt: bool,
     /// The soft limits in front of the safety units and the actuator guard.

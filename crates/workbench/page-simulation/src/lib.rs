@@ -22,7 +22,7 @@ use serde::Serialize;
 const INPUTS: usize = slot_count(Input::ROWS);
 const PARAMETERS: usize = slot_count(Parameters::ROWS);
 
-/// What the page knows of a recording.
+/// A recording, as the page knows it.
 struct Recorded {
     manoeuvre: Manoeuvre,
     /// The parameters for which the bounds hold.
@@ -39,7 +39,7 @@ thread_local! {
     static CURVES: RefCell<Vec<f32>> = RefCell::default();
 }
 
-/// What holds for all parts of a simulation.
+/// Data common to all parts of a simulation.
 #[derive(Serialize)]
 struct Head {
     limits: Limits,
@@ -55,7 +55,7 @@ struct ChartHead {
     label: String,
 }
 
-/// What follows the curves.
+/// Data that follow the curves.
 #[derive(Serialize)]
 struct Evaluation {
     findings: Vec<Finding>,

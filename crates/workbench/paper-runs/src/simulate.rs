@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, ensure};
 use moris_fmu_host::{Fmu, Instance, Status};
-use moris_measures::Limited;
+use moris_measures::LimitFlags;
 
 use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;
@@ -120,7 +120,7 @@ impl References {
             legs: [l1, l2, l3, l4, l5, l6],
             position: [px, py, pz],
             tilt_rate: [roll_rate, pitch_rate],
-            limited: Limited { tilt, soft, safety, actuator },
+            limited: LimitFlags { tilt, soft, safety, actuator },
         })
     }
 }

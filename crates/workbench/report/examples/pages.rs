@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::exit;
 
 use moris_report::{
-    Better, Chart, Cues, Finding, Limited, Line, Measure, Report, Run, Vehicle, Weight, html, tilt_limits,
+    Better, Chart, Cues, Finding, LimitHistory, Line, Measure, Report, Run, Vehicle, Weight, html, tilt_limits,
 };
 use moris_washout::{Input, Parameters, Washout, presets};
 use serde_json::json;
@@ -41,7 +41,7 @@ fn write(directory: &Path, name: &str, report: &Report) -> std::io::Result<()> {
         .runs
         .iter()
         .map(|run| {
-            let Limited { tilt, soft, safety, actuator, .. } = &run.limited;
+            let LimitHistory { tilt, soft, safety, actuator, .. } = &run.limited;
             json!({
                 "limited": { "tilt": tilt, "soft": soft, "safety": safety, "actuator": actuator },
                 "name": run.name, "times": run.times, "position": run.position, "orientation": run.orientation,
@@ -204,7 +204,7 @@ fn keep(run: &mut Run, time: f64, input: &Input, washout: &Washout, limited: [bo
     run.tilt_rate[0].push(output.tilt_roll_rate);
     run.tilt_rate[1].push(output.tilt_pitch_rate);
     run.lean.push(input.lean);
-    let Limited { tilt, soft, safety, actuator, .. } = &mut run.limited;
+    let LimitHistory { tilt, soft, safety, actuator, .. } = &mut run.limited;
     for (flags, flag) in [tilt, soft, safety, actuator].into_iter().zip(limited) {
         flags.push(flag);
     }

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::data::{Limited, Report, Run};
+use crate::data::{LimitHistory, Report, Run};
 
 /// Why no page can be made.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
@@ -82,7 +82,7 @@ fn series_of(run: &Run) -> Vec<(String, usize)> {
         .iter()
         .flat_map(|(name, group)| group.iter().enumerate().map(move |(i, one)| (format!("{name}[{i}]"), one.len())))
         .collect();
-    let Limited { tilt, soft, safety, actuator, .. } = &run.limited;
+    let LimitHistory { tilt, soft, safety, actuator, .. } = &run.limited;
     for (name, flags) in [("tilt", tilt), ("soft", soft), ("safety", safety), ("actuator", actuator)] {
         lengths.push((format!("limited.{name}"), flags.len()));
     }
@@ -113,12 +113,12 @@ pub(crate) mod tests {
             legs: zeros(),
             tilt: zeros(),
             tilt_rate: zeros(),
-            limited: Limited {
+            limited: LimitHistory {
                 tilt: vec![false; 2],
                 soft: vec![false; 2],
                 safety: vec![false; 2],
                 actuator: vec![false; 2],
-                ..Limited::default()
+                ..LimitHistory::default()
             },
             ..Run::default()
         };

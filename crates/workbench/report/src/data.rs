@@ -22,7 +22,7 @@ pub struct Report {
     /// Facts for the foot of the page as name and value: files, versions, step.
     pub provenance: Vec<(String, String)>,
     pub rig: Rig,
-    /// What is drawn on the platform.
+    /// The drawing on the platform.
     pub vehicle: Vehicle,
     /// The runs, for instance with the default parameters and with tuned ones. At least one.
     pub runs: Vec<Run>,
@@ -124,7 +124,7 @@ pub struct Run {
     /// The rider's lean, positive to the right \[rad\]; empty for a rider without lean.
     #[serde(serialize_with = "curve::one")]
     pub lean: Vec<f64>,
-    pub limited: Limited,
+    pub limited: LimitHistory,
     pub limits: Limits,
     /// The table's rows for this run. Rows of several runs with the same group and name
     /// are shown side by side.
@@ -146,7 +146,7 @@ pub struct Cues {
 
 /// Limits active during the step before each sample.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Limited {
+pub struct LimitHistory {
     /// A limit held tilt coordination back from its target: any of `tilt_by`.
     #[serde(serialize_with = "flags")]
     pub tilt: Vec<bool>,

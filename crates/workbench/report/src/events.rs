@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::data::{Limited, Rig, Run};
+use crate::data::{LimitHistory, Rig, Run};
 use crate::tilt_limits::TiltLimit;
 
 /// A stretch of time in which something was limited.
@@ -48,7 +48,7 @@ impl Utilisation {
         Utilisation { fraction: if limit > 0.0 { value / limit } else { f64::NAN }, who: who.into(), limit: text }
     }
 
-    /// How much of the limit is used.
+    /// Used fraction of the limit.
     fn share(&self) -> String {
         format!("{} at {:.0} % of the {}", self.who, 100.0 * self.fraction, self.limit)
     }
@@ -56,7 +56,7 @@ impl Utilisation {
 
 /// Everything that was limited in a run, in the order of time.
 pub fn events(run: &Run, rig: &Rig) -> Vec<Event> {
-    let Limited { soft, safety, actuator, .. } = &run.limited;
+    let LimitHistory { soft, safety, actuator, .. } = &run.limited;
     let flags = [(Kind::Soft, soft), (Kind::Safety, safety), (Kind::Actuator, actuator)];
     let mut events: Vec<Event> = flags
         .iter()
@@ -242,11 +242,11 @@ mod tests {
             legs: std::array::from_fn(|_| all(1.3)),
             tilt: [all(0.0), all(0.0)],
             tilt_rate: [all(0.0), all(0.0)],
-            limited: Limited {
+            limited: LimitHistory {
                 soft: vec![false; 201],
                 safety: vec![false; 201],
                 actuator: vec![false; 201],
-                ..Limited::default()
+                ..LimitHistory::default()
             },
             limits: Limits {
                 tilt_angle: 0.38,

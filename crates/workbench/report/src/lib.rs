@@ -25,7 +25,7 @@ pub mod shared {
 }
 
 pub use check::{ReportError, check};
-pub use data::{Better, Chart, Cues, Finding, Limited, Limits, Line, Measure, Report, Rig, Run, Vehicle, Weight};
+pub use data::{Better, Chart, Cues, Finding, LimitHistory, Limits, Line, Measure, Report, Rig, Run, Vehicle, Weight};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
 pub use page::html;

@@ -50,7 +50,7 @@ const SCRIPTS: [&str; 14] = [
     include_str!("../page/main.js"),
 ];
 
-/// What the heads of pages differ in.
+/// Differences between the heads of pages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Head<'a> {
     /// Plain text, as the subtitle.
@@ -58,8 +58,8 @@ pub struct Head<'a> {
     pub subtitle: &'a str,
     /// Style after that of all pages.
     pub style: &'a str,
-    /// What the page may load and run: directives of a content security policy, beside its styles
-    /// and pictures.
+    /// Sources that the page may load and run: directives of a content security policy, beside
+    /// its styles and pictures.
     pub policy: &'a str,
 }
 

@@ -1,4 +1,4 @@
-//! What a page needs to simulate its recording again, with other parameters.
+//! Data with which a page can simulate its recording again, with other parameters.
 
 use serde::Serialize;
 

@@ -22,7 +22,7 @@ const SCRIPTS: [&str; 5] = [
     include_str!("../page/main.js"),
 ];
 
-/// What the page needs.
+/// Parts of the page.
 #[derive(Clone, Debug, Serialize)]
 pub struct Page {
     /// One line below the heading.

@@ -12,7 +12,7 @@ pub const DIVISIONS: usize = 10;
 /// Longest recording \[samples\]: 20 minutes.
 const LONGEST: usize = 120_000;
 
-/// What the washout received, and what the rider felt of it.
+/// Inputs of the washout, and the motion that the rider felt.
 #[derive(Clone, Debug)]
 pub struct Recording {
     /// Time between samples \[s\].

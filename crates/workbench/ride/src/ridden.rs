@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::ride::{HALF_WIDTH, STEP};
 use crate::rider;
 
-/// What the player asks of the rider.
+/// The player's commands to the rider.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Command {

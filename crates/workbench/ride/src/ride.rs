@@ -273,7 +273,7 @@ impl Ride {
         self.recording.ratings(lap.samples[0], lap.samples[1])
     }
 
-    /// What the page shows, by names. Lamps are lit if a limit was near since the last call.
+    /// Values that the page shows, by names. Lamps are lit if a limit was near since the last call.
     pub fn view(&mut self) -> Vec<(&'static str, f64)> {
         let (bike, out) = (self.motorcycle().output(), self.washout.output());
         let lamps = std::mem::take(&mut self.lamps).map(f64::from);

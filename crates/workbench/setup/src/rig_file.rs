@@ -300,7 +300,7 @@ impl RigFile {
     /// Checks that a washout can be constructed on this rig.
     ///
     /// # Errors
-    /// What is wrong with it: legs that do not reach neutral, a singularity inside the stroke, a
+    /// Errors of the rig: legs that do not reach neutral, a singularity inside the stroke, a
     /// value out of its range.
     pub fn check(&self) -> Result<(), ParameterError> {
         check(&self.parameters())

@@ -17,7 +17,7 @@ pub struct Capabilities {
     pub axes: [AxisAlone; 6],
     /// Result of the search for singularities.
     pub singularities: Singularities,
-    /// How close the legs come to each other.
+    /// Least distances between the legs.
     pub clearance: Clearance,
 }
 
@@ -90,13 +90,13 @@ impl Capabilities {
         )
     }
 
-    /// The safety units' limits, and doubts about them and the rig, as lines.
+    /// The safety units' limits, and warnings about them and the rig, as lines.
     pub fn safety(&self) -> Vec<String> {
         let limits = self.parameters.safety.position_limit;
         let texts: Vec<String> =
             ["x", "y", "z"].iter().enumerate().map(|(i, name)| format!("±{:.3} m in {name}", limits[i])).collect();
-        let doubts = warnings(&self.parameters).into_iter().map(|doubt| format!("  {doubt}"));
-        std::iter::once(format!("safety units: {}", texts.join(", "))).chain(doubts).collect()
+        let warnings = warnings(&self.parameters).into_iter().map(|warning| format!("  {warning}"));
+        std::iter::once(format!("safety units: {}", texts.join(", "))).chain(warnings).collect()
     }
 }
 

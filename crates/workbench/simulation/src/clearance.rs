@@ -32,7 +32,7 @@ pub struct Approach {
 /// Diameter of a leg of which none is given \[m\]: thinner than actuators of this size are.
 const ASSUMED_DIAMETER: f64 = 0.05;
 
-/// How close the legs come to each other.
+/// Least distances between the legs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clearance {
     /// The closest approach of each pair of legs, the closest pair first.

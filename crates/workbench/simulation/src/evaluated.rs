@@ -3,7 +3,7 @@
 use std::array;
 
 use moris_measures::{Axes, Measures, Row, bound_rows};
-use moris_report::{Better, Cues, Finding, Limited, Measure, Run, Thinning};
+use moris_report::{Better, Cues, Finding, LimitHistory, Measure, Run, Thinning};
 use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
@@ -85,7 +85,7 @@ impl Evaluated<'_> {
             tilt: [curve(|output| output.tilt_roll), curve(|output| output.tilt_pitch)],
             tilt_rate: [curve(|output| output.tilt_roll_rate), curve(|output| output.tilt_pitch_rate)],
             lean: if leans { thinning.at_times(|k| inputs[k].lean) } else { Vec::new() },
-            limited: Limited {
+            limited: LimitHistory {
                 tilt: thinning.any(|k| tilt_limits.iter().flatten().any(|flags| flags[k])),
                 tilt_by: tilt_limits.each_ref().map(|axis| axis.each_ref().map(|flags| thinning.any(|k| flags[k]))),
                 soft: thinning.any(|k| outputs[k].soft_limited),

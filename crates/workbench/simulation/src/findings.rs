@@ -48,8 +48,8 @@ const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 pub fn of(outcome: &Evaluated) -> Vec<Finding> {
     let mut findings = vec![fits(outcome)];
     findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
-    let doubts = moris_washout::warnings(&outcome.simulation.parameters);
-    findings.extend(doubts.into_iter().map(|doubt| finding(Weight::Warning, format!("{doubt}."))));
+    let warnings = moris_washout::warnings(&outcome.simulation.parameters);
+    findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
     let (worse, others): (Vec<Finding>, Vec<Finding>) =
         channels(outcome).iter().filter_map(Channel::finding).partition(|finding| finding.weight == Weight::Warning);
     findings.extend(worse);

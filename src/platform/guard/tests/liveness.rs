@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::interface::{Rig, SafetyParameters};
 use crate::motion::Motion;
-use crate::platform::guard::{ActuatorGuard, Limited, PATIENCE};
+use crate::platform::guard::{ActuatorGuard, Deviation, PATIENCE};
 use crate::platform::stop_plan::{StopDurations, StopPlan};
 use crate::platform::{Geometry, PlatformCoordinates, Pose, inverse_kinematics, leg_lengths, stroke_reserve};
 
@@ -112,7 +112,7 @@ fn at_a_corner(seed: u64) -> Option<(ActuatorGuard, Rig, SafetyParameters)> {
     guard.motion = motion;
     guard.legs = legs;
     guard.plan = StopPlan::new(&rest, StopDurations::common(0.0));
-    guard.limited = Some(Limited {
+    guard.limited = Some(Deviation {
         demand: PlatformCoordinates::default(),
         coordinates: rest,
         leg_accelerations: [0.0; 6],

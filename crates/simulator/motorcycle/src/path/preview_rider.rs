@@ -7,9 +7,9 @@
 //!
 //! z' = A z + b u - X ρ',
 //!
-//! and ρ' is known ahead. The control that minimises the integral of z' Q z + u^2 / ease is
+//! and ρ' is known ahead. The control that minimises the integral of z' Q z + r u^2 is
 //!
-//! u = -ease b' (P z - ∫ exp(A_c' τ) P X ρ'(t + τ) dτ),   A_c = A - ease b b' P,
+//! u = -b' (P z - ∫ exp(A_c' τ) P X ρ'(t + τ) dτ) / r,   A_c = A - b b' P / r,
 //!
 //! with P from the Riccati equation: R. S. Sharp, "Motorcycle steering control by road preview",
 //! J. Dyn. Syst. Meas. Control 129 (2007) 373-382, in continuous time. The integral is taken over
@@ -229,13 +229,13 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     for (coordinate, size) in WEIGHTS {
         cost[coordinate] = 1.0 / (size * size);
     }
-    let spread = control() * control().transpose() * EASE;
+    let spread = control() * control().transpose() * INVERSE_CONTROL_WEIGHT;
     let to_go = riccati::solve::<SIZE, { 2 * SIZE }>(&scaled, &spread, &PlantMatrix::from_diagonal(&cost))?;
-    let gain = to_go * control() * EASE;
+    let gain = to_go * control() * INVERSE_CONTROL_WEIGHT;
     let closed = scaled - control() * gain.transpose();
     // The mean of exp(A_c' τ) P X over each interval.
     let (flow, mean) = flow(&closed.transpose(), INTERVAL);
-    let mut weight = to_go * (inverse * turn) * EASE;
+    let mut weight = to_go * (inverse * turn) * INVERSE_CONTROL_WEIGHT;
     let mut preview = SVector::<f64, SAMPLES>::zeros();
     for k in 0..SAMPLES {
         preview[k] = (mean * weight)[REFERENCE_RATE];
@@ -246,9 +246,9 @@ fn design(lateral: &Lateral, rider: &Rider, speed: f64) -> Option<PreviewGains> 
     finite.then(|| PreviewGains { gain, preview, turn, lean_per_acceleration: 1.0 / (speed * yaw_rate) })
 }
 
-/// Deviations of equal cost. A control of 1 / sqrt([`EASE`]) has the same cost.
+/// Deviations of equal cost. A control of 1 / sqrt([`INVERSE_CONTROL_WEIGHT`]) has the same cost.
 pub const WEIGHTS: [(usize, f64); 4] = [(DEVIATION, 0.1), (HEADING, 0.1), (REFERENCE_RATE, 1.0), (INTEGRAL, 0.3)];
-pub const EASE: f64 = 16.0;
+pub const INVERSE_CONTROL_WEIGHT: f64 = 16.0;
 
 /// exp(A t), and the mean of exp(A τ) from 0 to t, by Taylor's series over a small part of the time
 /// and repeated doubling.

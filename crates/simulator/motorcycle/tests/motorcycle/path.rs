@@ -3,7 +3,9 @@
 
 use moris_interface::{Group, Writer, slot_count};
 use moris_motorcycle::interface::{PATH_POINTS, Path, PathColumn};
-use moris_motorcycle::path::preview_rider::{EASE, INTERVAL, Plant, REFERENCE_RATE, SAMPLES, WEIGHTS};
+use moris_motorcycle::path::preview_rider::{
+    INTERVAL, INVERSE_CONTROL_WEIGHT, Plant, REFERENCE_RATE, SAMPLES, WEIGHTS,
+};
 use moris_motorcycle::path::table::from_csv;
 use moris_motorcycle::{Course, Input, Model, Motorcycle, Output, Parameters};
 use nalgebra::{Vector2, Vector3};
@@ -205,7 +207,7 @@ fn its_preview_minimises_the_cost() {
                 let forward = gains.feedforward(&ahead) + addition * bump(time, at);
                 let control = forward - gains.gain.dot(&deviation);
                 let weighted = WEIGHTS.map(|(coordinate, unit)| (deviation[coordinate] / unit).powi(2));
-                cost += (weighted.iter().sum::<f64>() + control * control / EASE) * size;
+                cost += (weighted.iter().sum::<f64>() + control * control / INVERSE_CONTROL_WEIGHT) * size;
                 let rate = (steady_lean(time + size) - steady_lean(time)) / size;
                 // The middle of the step: the rule of second order.
                 let slope = |deviation: &Plant| {

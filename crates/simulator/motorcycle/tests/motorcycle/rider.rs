@@ -15,7 +15,7 @@ fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
     let parameters = Parameters::default();
     let vehicle = motorcycle(&parameters);
     let cost = [0.0, 0.0, 4.0, 0.25, 100.0, 25.0, 0.0, 0.0, 100.0];
-    let ease = parameters.rider.torque_weight * parameters.rider.torque_weight;
+    let inverse_weight = parameters.rider.torque_weight * parameters.rider.torque_weight;
     for knot in [32, 36, 40, 46] {
         let speed = vehicle.rider().knot(knot);
         assert!(speed > 3.0, "no feet on the road at {speed} m/s");
@@ -31,7 +31,7 @@ fn the_riders_gains_minimise_the_cost_that_they_are_said_to() {
             let g = matrix.lu().solve(&b).unwrap();
             let gain = gains.gain.push(gains.error_gain);
             let returned: Complex<f64> = (0..9).map(|i| g[i] * gain[i]).sum();
-            let expected = 1.0 + ease * (0..9).map(|i| cost[i] * g[i].norm_sqr()).sum::<f64>();
+            let expected = 1.0 + inverse_weight * (0..9).map(|i| cost[i] * g[i].norm_sqr()).sum::<f64>();
             assert_near(
                 (1.0 + returned).norm_sqr() / expected,
                 1.0,

@@ -1,6 +1,6 @@
 //! Steps: convergence, agreement of step sizes, no allocation, and continuation from saved bytes.
 
-use moris_motorcycle::{Input, MOST_INTERNAL_STEPS, Model, Motorcycle, Parameters};
+use moris_motorcycle::{Input, MOST_MOTORCYCLE_STEPS, Model, Motorcycle, Parameters};
 
 use crate::common::{at_speed, motorcycle};
 
@@ -50,7 +50,7 @@ fn a_step_that_is_none_does_nothing() {
 fn a_step_that_is_too_long_is_cut_off() {
     let mut longest = motorcycle(&at_speed(10.0));
     let mut endless = longest.clone();
-    longest.step(&input(0.0), MOST_INTERNAL_STEPS * longest.parameters().run.max_step);
+    longest.step(&input(0.0), MOST_MOTORCYCLE_STEPS * longest.parameters().run.max_step);
     endless.step(&input(0.0), f64::INFINITY);
     assert_eq!(endless.state(), longest.state());
     assert_eq!(endless.output_derivative(), longest.output_derivative());

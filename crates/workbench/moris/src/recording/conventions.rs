@@ -215,7 +215,7 @@ pub struct Conventions {
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
     pub fade_in: f64,
-    /// How messages write options.
+    /// Notation of options in messages.
     pub dialect: Dialect,
 }
 

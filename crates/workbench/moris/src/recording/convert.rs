@@ -7,7 +7,7 @@ use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::RecordingError;
 use super::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
-use super::mounting::{self, Found, SensorMotion};
+use super::mounting::{self, MountingEstimate, SensorMotion};
 use super::option::given;
 use super::sampling::at;
 use super::table::Table;
@@ -19,7 +19,9 @@ use super::table::Table;
 pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Vec<String>), RecordingError> {
     let found = match conventions.mounting {
         None => None,
-        Some(Mounting::Angles(angles)) => Some(Found { rotation: mounting::rotation(angles), warning: String::new() }),
+        Some(Mounting::Angles(angles)) => {
+            Some(MountingEstimate { rotation: mounting::rotation(angles), warning: String::new() })
+        }
         Some(Mounting::Auto) => Some(
             find_mounting(table, conventions)
                 .map_err(|reason| RecordingError::Whole { file: table.file.clone(), reason })?,
@@ -37,7 +39,7 @@ fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(
     Vector3::from_fn(|axis, _| at(table, quantity(axis), sample) * signs[axis])
 }
 
-fn find_mounting(table: &Table, conventions: &Conventions) -> Result<Found, String> {
+fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, String> {
     if conventions.gravity == Gravity::Removed {
         return Err(format!(
             "{} needs gravity in the accelerations; give {}",

@@ -3,7 +3,7 @@
 
 use std::fmt::Display;
 
-/// How options are written.
+/// Notation of options.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Dialect {
     /// As the command's: `--force-unit g`.

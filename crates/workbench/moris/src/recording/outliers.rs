@@ -28,7 +28,7 @@ const AWAY: f64 = 0.1;
 /// Largest number of times that a message lists.
 const MOST_LISTED: usize = 5;
 
-/// What a quantity may be, in SI units.
+/// Plausible values of a quantity, in SI units.
 struct Range {
     /// Beyond it an isolated sample is a spike, whatever the spread.
     largest: f64,

@@ -109,7 +109,7 @@ pub fn text(file: &Path) -> Result<String, RecordingError> {
     Ok(String::from_utf8(bytes).unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect()))
 }
 
-/// What a source holds.
+/// Contents of a source.
 #[derive(Debug, PartialEq)]
 enum Content {
     Bytes(Vec<u8>),

@@ -56,8 +56,10 @@ impl Workspace {
         let [low, high] = bounds(rig);
         let blocks = samples.div_ceil(BLOCK);
         let samples = blocks * BLOCK;
-        let found =
-            (0..blocks).into_par_iter().map(|block| tried(rig, low, high, block)).reduce(Found::nothing, Found::and);
+        let found = (0..blocks)
+            .into_par_iter()
+            .map(|block| tried(rig, low, high, block))
+            .reduce(Coverage::nothing, Coverage::and);
         let size = (high - low).product();
         let neutral = Pose::neutral(rig).position;
         let little = Vector3::repeat(0.1 * (rig.max_length - rig.min_length));
@@ -93,21 +95,21 @@ fn bounds(rig: &Rig) -> [Vector3<f64>; 2] {
 
 /// Result of a block of points.
 #[derive(Clone, Copy)]
-struct Found {
+struct Coverage {
     level: u32,
     tilted: u32,
     extent: [Vector3<f64>; 2],
 }
 
-impl Found {
+impl Coverage {
     fn nothing() -> Self {
         let nowhere = Vector3::repeat(f64::INFINITY);
-        Found { level: 0, tilted: 0, extent: [nowhere, -nowhere] }
+        Coverage { level: 0, tilted: 0, extent: [nowhere, -nowhere] }
     }
 
-    fn and(self, other: Found) -> Self {
+    fn and(self, other: Coverage) -> Self {
         let [low, high] = self.extent;
-        Found {
+        Coverage {
             level: self.level + other.level,
             tilted: self.tilted + other.tilted,
             extent: [low.inf(&other.extent[0]), high.sup(&other.extent[1])],
@@ -115,14 +117,14 @@ impl Found {
     }
 }
 
-fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Found {
+fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Coverage {
     let mut random = ChaCha8Rng::seed_from_u64(SEED);
     random.set_stream(u64::from(block));
     let geometry = Geometry::from(rig);
     let sign = |pose: &Pose| jacobian(&geometry, pose).determinant().signum();
     let neutral = sign(&Pose::neutral(rig));
     let level = Orientation::new(RollPitchYaw::default());
-    let mut found = Found::nothing();
+    let mut found = Coverage::nothing();
     for _ in 0..BLOCK {
         let fraction = Vector3::from_fn(|_, _| unit(&mut random));
         let position = low + fraction.component_mul(&(high - low));
@@ -131,7 +133,7 @@ fn tried(rig: &Rig, low: Vector3<f64>, high: Vector3<f64>, block: u32) -> Found 
             continue;
         }
         let tilted = tilts().all(|orientation| stroke_margin(rig, &Pose { position, orientation }) >= 0.0);
-        found = found.and(Found { level: 1, tilted: u32::from(tilted), extent: [position, position] });
+        found = found.and(Coverage { level: 1, tilted: u32::from(tilted), extent: [position, position] });
     }
     found
 }

@@ -1,4 +1,4 @@
-//! What the report's page needs to simulate the recording with other parameters.
+//! Data with which the report's page can simulate the recording with other parameters.
 
 use moris_interface::{Group as _, Kind, Row, slots_of};
 use moris_report::{Parameter, ParameterKind, Simulator};

@@ -54,7 +54,7 @@ const KEPT: usize = 10;
 
 /// A parameter set that kept all constraints on every recording.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct Candidate {
     /// The parameters.
     pub parameters: Parameters,
     /// The objective, in the search's long steps.
@@ -67,7 +67,7 @@ pub struct Found {
 #[derive(Clone, Debug)]
 pub struct Searched {
     /// Sets that kept all constraints on every recording, the best first; the first ten.
-    pub best: Vec<Found>,
+    pub best: Vec<Candidate>,
     /// The set of the least cost, even if it violates constraints.
     pub nearest: Parameters,
 }
@@ -199,7 +199,7 @@ fn at(space: &Space, point: &[f64]) -> Parameters {
 const WORTH_TIDYING: f64 = 2e-4;
 
 /// The set with every parameter reset to its initial value that hardly affects these recordings.
-fn tidied(recordings: &Recordings, space: &Space, found: &Found) -> Found {
+fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidate {
     let mut tidied = found.clone();
     for k in 0..found.point.len() {
         let mut point = tidied.point.clone();
@@ -207,7 +207,7 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Found) -> Found {
         let parameters = space.parameters(&nalgebra::DVector::from_column_slice(&point));
         let Some(judged) = recordings.objective(&parameters) else { continue };
         if judged.is_feasible() && judged.error < tidied.error + WORTH_TIDYING {
-            tidied = Found { parameters, error: judged.error, point, ..tidied };
+            tidied = Candidate { parameters, error: judged.error, point, ..tidied };
         }
     }
     tidied
@@ -285,7 +285,7 @@ fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &
     let distance = inside.norm_squared() / inside.len() as f64;
     let cost = error + PENALTY_OF_DISTANCE * distance;
     if judged.is_feasible() {
-        let found = Found { parameters, error, cost, point: inside.as_slice().to_vec() };
+        let found = Candidate { parameters, error, cost, point: inside.as_slice().to_vec() };
         best.lock().expect("no evaluation panics").add(found);
     }
     cost + PENALTY_OF_OUTSIDE * outside + judged.penalty()
@@ -293,11 +293,11 @@ fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &
 
 /// The best sets so far, the best first. They do not depend on the order of evaluation.
 #[derive(Default)]
-struct Best(Vec<Found>);
+struct Best(Vec<Candidate>);
 
 impl Best {
-    fn add(&mut self, found: Found) {
-        let before = |other: &Found| {
+    fn add(&mut self, found: Candidate) {
+        let before = |other: &Candidate| {
             let by_cost = other.cost.total_cmp(&found.cost);
             let by_point = || other.point.partial_cmp(&found.point);
             by_cost.is_lt() || (by_cost.is_eq() && by_point().is_some_and(std::cmp::Ordering::is_le))

@@ -79,7 +79,7 @@ impl RecordingResult {
     }
 }
 
-/// What is worse than before on a recording, with its figures:
+/// Measures that are worse than before on a recording, with their figures:
 ///
 /// - an error larger by more than 5 %,
 /// - limits that are active, or the reserve of stroke used, for longer by more

@@ -24,12 +24,12 @@ pub struct Study {
     /// On the commanded motion, without a machine.
     pub commanded: Figures,
     /// On each machine, in the order of the points; the first is nominal.
-    pub machines: Vec<Machine>,
+    pub machines: Vec<MachineFigures>,
 }
 
 /// A strategy's figures on a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Machine {
+pub struct MachineFigures {
     /// The machine.
     pub point: Point,
     /// Its figures.
@@ -68,7 +68,7 @@ impl Study {
                 Ok((desired.compared_with(&real.felt), real.force_limited, real.drive_limited))
             };
             let rides: Vec<(RideFigures, bool, bool)> = prepared.par_iter().map(on_ride).collect::<Result<_>>()?;
-            Ok(Machine {
+            Ok(MachineFigures {
                 point: *point,
                 figures: figures(rides.iter().map(|(figures, ..)| figures))?,
                 force_limited: rides.iter().any(|(_, limited, _)| *limited),
@@ -83,8 +83,8 @@ impl Study {
     }
 
     /// The machine with the largest value of a measure; of equal ones, the first.
-    pub fn worst(&self, measure: Measure) -> &Machine {
-        let value = |machine: &Machine| machine.figures[measure as usize];
+    pub fn worst(&self, measure: Measure) -> &MachineFigures {
+        let value = |machine: &MachineFigures| machine.figures[measure as usize];
         self.machines.iter().fold(&self.machines[0], |worst, next| {
             if value(next) > value(worst) * (1.0 + ROUNDING) { next } else { worst }
         })

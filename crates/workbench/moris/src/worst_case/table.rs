@@ -4,7 +4,7 @@ use moris_setup::Setup;
 
 use super::figures::Measure;
 use super::points::Point;
-use super::study::{Machine, Study};
+use super::study::{MachineFigures, Study};
 use crate::text_table::TextTable;
 
 /// The whole text.
@@ -80,10 +80,10 @@ fn effect_table(studies: &[Study]) -> TextTable {
         let nominal = study.machines[0].point;
         let largest = |of: &dyn Fn(&Point) -> bool| {
             let machines = study.machines.iter().filter(|machine| of(&machine.point));
-            let error = |machine: &Machine| machine.figures[Measure::Error as usize];
+            let error = |machine: &MachineFigures| machine.figures[Measure::Error as usize];
             number(Measure::Error, machines.map(error).fold(0.0, f64::max))
         };
-        let count = |limited: fn(&Machine) -> bool| {
+        let count = |limited: fn(&MachineFigures) -> bool| {
             study.machines.iter().filter(|machine| limited(machine)).count().to_string()
         };
         table.push(vec![

@@ -15,7 +15,7 @@ from ._types import Floats, ParameterSet, Rig, Strategy
 
 
 class FrequencyResponse:
-    """What is felt of sines on each channel, over what is desired.
+    """Felt sines on each channel, over the desired ones.
 
     channels: names of the six channels: surge, sway, heave [m/s2], roll rate, pitch rate, yaw rate [rad/s].
     frequencies: (12,) [rad/s].

@@ -9,7 +9,7 @@ from ._types import Rig
 
 
 class AxisReach(NamedTuple):
-    """What a platform can do along one axis alone, from neutral."""
+    """Reach, speed and acceleration of a platform along one axis alone, from neutral."""
 
     min: float
     """[m] or [rad]"""

@@ -67,7 +67,7 @@ class Result:
 
 
 class Sweep:
-    """What came of a sweep.
+    """Result of a sweep.
 
     value: of the reduction; without one, the list of Results. done: parameter sets in it. complete: False if it was ended
     before. recordings: the recordings' names.
@@ -187,7 +187,7 @@ def sweep(
 
 
 class _Context:
-    """What every task needs; pickled once for each worker."""
+    """Data of every task; pickled once for each worker."""
 
     def __init__(
         self, recordings: list[_moris.Recording], rig: Rig | None, base: ParameterSet | None, strategy: Strategy | None, preview: float

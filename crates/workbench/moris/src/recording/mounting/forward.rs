@@ -48,7 +48,7 @@ pub struct Forward {
     pub direction: Vector3<f64>,
     /// Standard error \[rad\].
     pub error: f64,
-    /// What it was found from, for a sentence.
+    /// Its source, for a sentence.
     pub evidence: String,
     /// True where the sign is that of the first acceleration alone.
     pub may_be_backward: bool,

@@ -84,7 +84,7 @@ pub struct SensorMotion<'a> {
 }
 
 /// A mounting that was found.
-pub struct Found {
+pub struct MountingEstimate {
     /// Rotation from the sensor's axes to the vehicle's.
     pub rotation: Matrix3<f64>,
     /// The angles and their evidence, in a sentence.
@@ -100,7 +100,7 @@ const LARGEST_ERROR: f64 = 15f64.to_radians();
 /// # Errors
 /// The recording contains no gravity, or forward is unknown, uncertain or contradictory. The
 /// message names the option that gives the mounting.
-pub fn find(motion: &SensorMotion) -> Result<Found, String> {
+pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, String> {
     let blocks = Blocks::new(motion);
     let rest = blocks.rest_force();
     let whole = || motion.forces.iter().sum::<Vector3<f64>>() / motion.forces.len() as f64;
@@ -136,7 +136,7 @@ pub fn find(motion: &SensorMotion) -> Result<Found, String> {
         let turned = self::option(&axes(&up, &-direction));
         warning.push_str(&format!(" If that acceleration is a braking, forward is backward: use {turned}."));
     }
-    Ok(Found { rotation, warning })
+    Ok(MountingEstimate { rotation, warning })
 }
 
 /// Rotation from the sensor's axes to the vehicle's, of the upward and the forward direction.

@@ -1,19 +1,16 @@
 //! Requirements of FMI 2.0 on a model description, and errors that no validator reports. They are
 //! checked on the text of the file with an independent XML reader.
 
-mod document;
-mod small_model;
-
 use std::collections::{BTreeSet, HashMap};
 
-use document::{child, elements, type_definitions, variables};
+use crate::document::{child, elements, type_definitions, variables};
+use crate::small_model::Small;
 use moris_interface::{Causality, Kind, Model, SlotModel};
 use moris_model_description::{fmi2::describe, to_xml};
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
 use roxmltree::{Document, Node};
-use small_model::Small;
 
 /// Every check, on every model of the workspace and on one with a variable of every kind.
 macro_rules! on_every_model {

@@ -1,11 +1,9 @@
 //! The documentation's tables of variables.
 
-mod small_model;
-
+use crate::small_model::Small;
 use moris_interface::start_values;
 use moris_model_description::fmi2::variables_html;
 use roxmltree::Document;
-use small_model::Small;
 
 /// The texts of a table's cells, row by row, from the tables under the heading with this anchor.
 fn cells(html: &str, anchor: &str) -> Vec<Vec<String>> {

@@ -1,13 +1,11 @@
 //! Requirements of FMI 3.0 on a model description. They are checked on the text of the file with an
 //! independent XML reader, and against the description for FMI 2.0, which has its own tests.
 
-mod document;
-mod small_model;
-
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
-use document::{child, elements, type_definitions, variables};
+use crate::document::{child, elements, type_definitions, variables};
+use crate::small_model::Small;
 use moris_interface::{Causality, Identity, Kind, Model, Row, SlotModel};
 use moris_model_description::fmi2::describe;
 use moris_model_description::fmi3::{self, Layout};
@@ -16,7 +14,6 @@ use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
 use moris_washout::Washout;
 use roxmltree::{Document, Node};
-use small_model::Small;
 
 /// Every check, on both descriptions of every model of the workspace and of one with a
 /// variable of every kind.

@@ -1,0 +1,4 @@
+//! Packages of connected FMUs: one binary for both topics, which is linked once.
+
+mod description;
+mod lap;

@@ -1,0 +1,14 @@
+//! The workbench's commands and library: one binary for all topics, which is linked once.
+
+mod commands;
+mod consistency;
+mod frequency_response;
+mod import;
+mod loggers;
+mod measure;
+mod mounting;
+mod outliers;
+mod recordings;
+mod tune;
+mod ways_in;
+mod worst_case;

@@ -1,0 +1,4 @@
+//! Rig files and parameter files: one binary for both, which is linked once.
+
+mod parameter_files;
+mod rig_files;
