@@ -129,7 +129,7 @@ mod tests {
         assert_eq!((of("time"), of("desired_z")), (0.001, 9.80665));
         for (name, expected) in [
             ("felt_z", commands.washout.felt_specific_force.z),
-            ("platform_z", commands.washout.position.z),
+            ("platform_z", commands.pose.position.z),
             ("leg6", commands.length[5]),
             ("leg_acceleration", 0.0),
         ] {
