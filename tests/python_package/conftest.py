@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,9 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 STANDARD_GRAVITY = 9.80665
+
+# A shell starts what runs in its background with Ctrl-C ignored; tests that raise it need Python's own handler.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def smooth(x):
