@@ -28,7 +28,7 @@ mod telemetry;
 mod vehicle;
 
 use std::fs::{self, File};
-use std::io::{self, Write, stdin};
+use std::io::{Write, stdin};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -103,6 +103,10 @@ pub struct Options {
     #[arg(long)]
     no_priority: bool,
 
+    /// Keep the loop on this core of the processor: one on which the system does little
+    #[arg(long, value_name = "NUMBER")]
+    core: Option<usize>,
+
     /// Only wait for each step, and print how late that was: what this computer can do at best
     #[arg(long, requires = "duration", conflicts_with_all = ["from", "replay"])]
     empty_loop: bool,
@@ -167,8 +171,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if let Some(file) = &options.replay {
         return replay(options, &fs::read_to_string(file).with_context(|| file.display().to_string())?, out);
     }
+    options.core.map_or(Ok(()), priority::check_core)?;
     if options.empty_loop {
-        return Ok(empty_loop(options, out)?);
+        return empty_loop(options, out);
     }
     let setup = options.setup.load()?;
     let from = options.from.as_deref().unwrap_or_default();
@@ -223,7 +228,6 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     }
     // It waits for a line for ever: nobody joins it.
     thread::spawn(move || read_commands(commands));
-    let real_time = !options.no_priority;
     let interval = if options.dry { interval.max(0.1) } else { interval };
     let summary = thread::scope(|scope| {
         let sender = scope.spawn(move || frames::send(to_send, device, &sink, from_device));
@@ -246,9 +250,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         };
         // In a thread of its own, so that its panic leaves the others to end.
         let summary = thread::Builder::new().name("steps".to_owned()).spawn_scoped(scope, move || {
-            if real_time {
-                eprintln!("{}", priority::claim());
-            }
+            prepare_loop(options);
             steps.run()
         });
         let summary = summary.map(thread::ScopedJoinHandle::join);
@@ -293,11 +295,19 @@ fn read_commands(mut commands: Producer<Order>) {
     }
 }
 
-/// Waits for each step and does nothing.
-fn empty_loop(options: &Options, out: &mut dyn Write) -> io::Result<ExitCode> {
+/// Gives the calling thread, the loop's, its priority and its core.
+fn prepare_loop(options: &Options) {
     if !options.no_priority {
         eprintln!("{}", priority::claim());
     }
+    if let Some(Err(error)) = options.core.map(priority::keep_on) {
+        eprintln!("the loop is on no core of its own: {error}");
+    }
+}
+
+/// Waits for each step and does nothing.
+fn empty_loop(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    prepare_loop(options);
     let lateness = steps::empty((options.duration.unwrap_or_default() / STEP) as u64);
     write!(out, "{lateness}")?;
     Ok(ExitCode::SUCCESS)
