@@ -642,106 +642,55 @@ macro_rules! export_fmi3_component {
                     () -> fmi3Status
                     => unsupported::never_allowed::<$model, Logger>;
                 "enter-step-mode" ENTER_STEP_MODE () -> fmi3Status => unsupported::never_allowed::<$model, Logger>;
-                "set-float64" SET_FLOAT64
-                    (references: *mut u32, length: usize, values: *mut fmi3Float64, count: usize) -> fmi3Status
-                    => component::set::<$model, fmi3Float64>;
-                "set-int32" SET_INT32
-                    (references: *mut u32, length: usize, values: *mut fmi3Int32, count: usize) -> fmi3Status
-                    => component::set::<$model, fmi3Int32>;
-                "set-int64" SET_INT64
-                    (references: *mut u32, length: usize, values: *mut fmi3Int64, count: usize) -> fmi3Status
-                    => component::set::<$model, fmi3Int64>;
-                "set-boolean" SET_BOOLEAN
-                    (references: *mut u32, length: usize, values: *mut fmi3Boolean, count: usize) -> fmi3Status
-                    => component::set::<$model, fmi3Boolean>;
-                "set-float32" SET_FLOAT32
-                    (references: *mut u32, length: usize, values: *mut f32, count: usize) -> fmi3Status
-                    => component::set_none::<$model, f32>;
-                "set-int8" SET_INT8
-                    (references: *mut u32, length: usize, values: *mut i8, count: usize) -> fmi3Status
-                    => component::set_none::<$model, i8>;
-                "set-uint8" SET_UINT8
-                    (references: *mut u32, length: usize, values: *mut u8, count: usize) -> fmi3Status
-                    => component::set_none::<$model, u8>;
-                "set-int16" SET_INT16
-                    (references: *mut u32, length: usize, values: *mut i16, count: usize) -> fmi3Status
-                    => component::set_none::<$model, i16>;
-                "set-uint16" SET_UINT16
-                    (references: *mut u32, length: usize, values: *mut u16, count: usize) -> fmi3Status
-                    => component::set_none::<$model, u16>;
-                "set-uint32" SET_UINT32
-                    (references: *mut u32, length: usize, values: *mut u32, count: usize) -> fmi3Status
-                    => component::set_none::<$model, u32>;
-                "set-uint64" SET_UINT64
-                    (references: *mut u32, length: usize, values: *mut u64, count: usize) -> fmi3Status
-                    => component::set_none::<$model, u64>;
-                "set-string" SET_STRING
-                    (references: *mut u32, length: usize, values: *mut List<u8>, count: usize) -> fmi3Status
-                    => component::set_no_texts::<$model>;
-                "set-binary" SET_BINARY
-                    (references: *mut u32, length: usize, values: *mut List<u8>, count: usize) -> fmi3Status
-                    => component::set_no_texts::<$model>;
                 "set-fmu-state" SET_FMU_STATE
                     (bytes: *mut u8, length: usize) -> fmi3Status
                     => component::set_fmu_state::<$model>;
-                "set-clock" SET_CLOCK
-                    (references: *mut u32, length: usize, values: *mut u8, count: usize) -> fmi3Status
-                    => component::set_never::<$model, _, _>;
-                "set-interval-decimal" SET_INTERVAL_DECIMAL
-                    (references: *mut u32, length: usize, values: *mut f64, count: usize) -> fmi3Status
-                    => component::set_never::<$model, _, _>;
-                "set-interval-fraction" SET_INTERVAL_FRACTION
-                    (references: *mut u32, length: usize, values: *mut Fraction, count: usize) -> fmi3Status
-                    => component::set_never::<$model, _, _>;
-                "set-shift-decimal" SET_SHIFT_DECIMAL
-                    (references: *mut u32, length: usize, values: *mut f64, count: usize) -> fmi3Status
-                    => component::set_never::<$model, _, _>;
-                "set-shift-fraction" SET_SHIFT_FRACTION
-                    (references: *mut u32, length: usize, values: *mut Fraction, count: usize) -> fmi3Status
-                    => component::set_never::<$model, _, _>;
-                "set-input-derivatives" SET_INPUT_DERIVATIVES
-                    (requests: *mut Request, length: usize, values: *mut f64, count: usize) -> fmi3Status
-                    => component::set_never::<$model, _, _>;
+            }
+
+            $crate::component_setters! {
+                "set-float64" SET_FLOAT64 (u32, fmi3Float64) => component::set::<$model, fmi3Float64>;
+                "set-int32" SET_INT32 (u32, fmi3Int32) => component::set::<$model, fmi3Int32>;
+                "set-int64" SET_INT64 (u32, fmi3Int64) => component::set::<$model, fmi3Int64>;
+                "set-boolean" SET_BOOLEAN (u32, fmi3Boolean) => component::set::<$model, fmi3Boolean>;
+                "set-float32" SET_FLOAT32 (u32, f32) => component::set_none::<$model, f32>;
+                "set-int8" SET_INT8 (u32, i8) => component::set_none::<$model, i8>;
+                "set-uint8" SET_UINT8 (u32, u8) => component::set_none::<$model, u8>;
+                "set-int16" SET_INT16 (u32, i16) => component::set_none::<$model, i16>;
+                "set-uint16" SET_UINT16 (u32, u16) => component::set_none::<$model, u16>;
+                "set-uint32" SET_UINT32 (u32, u32) => component::set_none::<$model, u32>;
+                "set-uint64" SET_UINT64 (u32, u64) => component::set_none::<$model, u64>;
+                "set-string" SET_STRING (u32, List<u8>) => component::set_no_texts::<$model>;
+                "set-binary" SET_BINARY (u32, List<u8>) => component::set_no_texts::<$model>;
+                "set-clock" SET_CLOCK (u32, u8) => component::set_never::<$model, _, _>;
+                "set-interval-decimal" SET_INTERVAL_DECIMAL (u32, f64) => component::set_never::<$model, _, _>;
+                "set-interval-fraction" SET_INTERVAL_FRACTION (u32, Fraction) => component::set_never::<$model, _, _>;
+                "set-shift-decimal" SET_SHIFT_DECIMAL (u32, f64) => component::set_never::<$model, _, _>;
+                "set-shift-fraction" SET_SHIFT_FRACTION (u32, Fraction) => component::set_never::<$model, _, _>;
+                "set-input-derivatives" SET_INPUT_DERIVATIVES (Request, f64) => component::set_never::<$model, _, _>;
+            }
+
+            $crate::component_getters! {
+                "get-float64" GET_FLOAT64 (List<fmi3Float64>) => component::get::<$model, fmi3Float64>;
+                "get-int32" GET_INT32 (List<fmi3Int32>) => component::get::<$model, fmi3Int32>;
+                "get-int64" GET_INT64 (List<fmi3Int64>) => component::get::<$model, fmi3Int64>;
+                "get-boolean" GET_BOOLEAN (List<fmi3Boolean>) => component::get::<$model, fmi3Boolean>;
+                "get-float32" GET_FLOAT32 (List<u8>) => component::get_none::<$model>;
+                "get-int8" GET_INT8 (List<u8>) => component::get_none::<$model>;
+                "get-uint8" GET_UINT8 (List<u8>) => component::get_none::<$model>;
+                "get-int16" GET_INT16 (List<u8>) => component::get_none::<$model>;
+                "get-uint16" GET_UINT16 (List<u8>) => component::get_none::<$model>;
+                "get-uint32" GET_UINT32 (List<u8>) => component::get_none::<$model>;
+                "get-uint64" GET_UINT64 (List<u8>) => component::get_none::<$model>;
+                "get-string" GET_STRING (List<u8>) => component::get_none::<$model>;
+                "get-binary" GET_BINARY (List<u8>) => component::get_none::<$model>;
+                "get-clock" GET_CLOCK (List<u8>) => component::get_never::<$model>;
+                "get-interval-decimal" GET_INTERVAL_DECIMAL (List<u8>) => component::get_never::<$model>;
+                "get-interval-fraction" GET_INTERVAL_FRACTION (List<u8>) => component::get_never::<$model>;
+                "get-shift-decimal" GET_SHIFT_DECIMAL (List<u8>) => component::get_never::<$model>;
+                "get-shift-fraction" GET_SHIFT_FRACTION (List<u8>) => component::get_never::<$model>;
             }
 
             $crate::component_answers! {
-                "get-float64" GET_FLOAT64
-                    (references: *mut u32, length: usize) -> List<fmi3Float64>
-                    => component::get::<$model, fmi3Float64>;
-                "get-int32" GET_INT32
-                    (references: *mut u32, length: usize) -> List<fmi3Int32>
-                    => component::get::<$model, fmi3Int32>;
-                "get-int64" GET_INT64
-                    (references: *mut u32, length: usize) -> List<fmi3Int64>
-                    => component::get::<$model, fmi3Int64>;
-                "get-boolean" GET_BOOLEAN
-                    (references: *mut u32, length: usize) -> List<fmi3Boolean>
-                    => component::get::<$model, fmi3Boolean>;
-                "get-float32" GET_FLOAT32
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-int8" GET_INT8 (references: *mut u32, length: usize) -> List<u8> => component::get_none::<$model>;
-                "get-uint8" GET_UINT8
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-int16" GET_INT16
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-uint16" GET_UINT16
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-uint32" GET_UINT32
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-uint64" GET_UINT64
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-string" GET_STRING
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
-                "get-binary" GET_BINARY
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_none::<$model>;
                 "get-output-derivatives" GET_OUTPUT_DERIVATIVES
                     (requests: *mut Request, length: usize) -> List<f64>
                     => component::get_output_derivatives::<$model>;
@@ -750,21 +699,6 @@ macro_rules! export_fmi3_component {
                     (time: f64, step: f64, no_going_back: fmi3Boolean) -> StepResult
                     => component::do_step::<$model>;
                 "update-discrete-states" UPDATE_DISCRETE_STATES () -> u64 => component::never::<$model>;
-                "get-clock" GET_CLOCK
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_never::<$model>;
-                "get-interval-decimal" GET_INTERVAL_DECIMAL
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_never::<$model>;
-                "get-interval-fraction" GET_INTERVAL_FRACTION
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_never::<$model>;
-                "get-shift-decimal" GET_SHIFT_DECIMAL
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_never::<$model>;
-                "get-shift-fraction" GET_SHIFT_FRACTION
-                    (references: *mut u32, length: usize) -> List<u8>
-                    => component::get_never::<$model>;
                 "get-number-of-variable-dependencies" GET_NUMBER_OF_VARIABLE_DEPENDENCIES
                     (reference: u32) -> u64
                     => component::no_dependencies::<$model, u64>;
@@ -819,5 +753,29 @@ macro_rules! component_answers {
                 }
             };
         )+
+    };
+}
+
+/// Methods that take a list of variables, each with the type of its items, and a list of values.
+#[doc(hidden)] // for `export_fmi3_component!`
+#[macro_export]
+macro_rules! component_setters {
+    ($($name:literal $constant:ident ($variable:ty, $value:ty) => $body:path;)+) => {
+        $crate::component_methods! {
+            $($name $constant
+                (variables: *mut $variable, length: usize, values: *mut $value, count: usize) -> fmi3Status
+                => $body;)+
+        }
+    };
+}
+
+/// Methods that take a list of value references and answer a list.
+#[doc(hidden)] // for `export_fmi3_component!`
+#[macro_export]
+macro_rules! component_getters {
+    ($($name:literal $constant:ident ($result:ty) => $body:path;)+) => {
+        $crate::component_answers! {
+            $($name $constant (references: *mut u32, length: usize) -> $result => $body;)+
+        }
     };
 }
