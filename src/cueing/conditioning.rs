@@ -49,7 +49,7 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
         AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, roll, pitch),
     };
     Cue {
-        force: conditioned(force, parameters),
+        force: scaled_and_limited(force, parameters),
         rates: rates.component_mul(&parameters.rate_scale).zip_map(&parameters.rate_limit, soft_limit),
     }
 }
@@ -63,11 +63,11 @@ pub fn cue_force(
     lean: f64,
 ) -> Vector3<f64> {
     let (roll, pitch) = (libm::sincos(input.orientation.roll + lean), libm::sincos(input.orientation.pitch));
-    conditioned(specific_force + gravity * removed_gravity(parameters.gravity_removal, roll, pitch), parameters)
+    scaled_and_limited(specific_force + gravity * removed_gravity(parameters.gravity_removal, roll, pitch), parameters)
 }
 
 /// A force without gravity, scaled and limited.
-fn conditioned(force: Vector3<f64>, parameters: &ConditioningParameters) -> Vector3<f64> {
+fn scaled_and_limited(force: Vector3<f64>, parameters: &ConditioningParameters) -> Vector3<f64> {
     force.component_mul(&parameters.force_scale).zip_map(&parameters.force_limit, soft_limit)
 }
 

@@ -52,7 +52,7 @@ const SENSITIVITY_DECAY: f64 = 0.2;
 /// The weights of travel increase when less than this is left of a stroke \[m\] ...
 const NEAR_END: f64 = 0.1;
 /// ... by up to this many times their value, at its end.
-const DEARER: f64 = 10.0;
+const LARGEST_INCREASE: f64 = 10.0;
 
 impl Law for Adaptive {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
@@ -93,9 +93,9 @@ impl Adaptive {
         step: f64,
     ) -> [Decision; 2] {
         let near_end = (1.0 - stroke_margin / NEAR_END).max(0.0);
-        let dearer = 1.0 + DEARER * near_end * near_end;
+        let weight_scale = 1.0 + LARGEST_INCREASE * near_end * near_end;
         [0, 1].map(|k: usize| {
-            self.axes[k].decide(&self.models[k], &self.parameters, &states[k], references[k], dearer, step)
+            self.axes[k].decide(&self.models[k], &self.parameters, &states[k], references[k], weight_scale, step)
         })
     }
 }
@@ -107,7 +107,7 @@ impl Adaptation {
         parameters: &AdaptiveParameters,
         state: &AxisState,
         reference: f64,
-        dearer: f64,
+        weight_scale: f64,
         step: f64,
     ) -> Decision {
         let AxisState { position, velocity, tilt, tilt_rate, .. } = *state;
@@ -135,8 +135,10 @@ impl Adaptation {
         let travel_acceleration = forced(self.to_travel_gain, inertial);
         let tilt_acceleration = forced(self.to_tilt_gain, travel_gain * left_to_travel);
 
-        let (weight_x, weight_v) =
-            (dearer * parameters.weight_position * position, dearer * parameters.weight_velocity * velocity);
+        let (weight_x, weight_v) = (
+            weight_scale * parameters.weight_position * position,
+            weight_scale * parameters.weight_velocity * velocity,
+        );
         let gradients = [
             dropped * travel_acceleration
                 + weight_x * self.to_travel_gain[0]
@@ -361,7 +363,9 @@ mod tests {
             assert_ne!(adaptive.axes[0], adaptive.axes[1], "each axis has its own sensitivities");
             adaptive.axes[1].gains[0]
         };
-        for (margin, factor) in [(0.3, 1.0), (NEAR_END, 1.0), (0.05, 1.0 + DEARER / 4.0), (0.0, 1.0 + DEARER)] {
+        for (margin, factor) in
+            [(0.3, 1.0), (NEAR_END, 1.0), (0.05, 1.0 + LARGEST_INCREASE / 4.0), (0.0, 1.0 + LARGEST_INCREASE)]
+        {
             assert!((change(margin, 1.0) - change(1.0, factor)).abs() < 1e-15, "{margin} m");
         }
         assert_ne!(change(0.05, 1.0), change(1.0, 1.0));

@@ -55,8 +55,8 @@ impl Machine {
         let distance = Distance::of(to.coordinates, self.radius);
         let (joint, angular) = (distance.joint + travel, distance.angular + turn);
         let turning = angular * angular * self.radius;
-        let sag = (joint * joint + (longest + joint) * turning) * per_two_lengths;
-        let lowest = self.limits.min + travel + max(sag - below, 0.0);
+        let chord_gap = (joint * joint + (longest + joint) * turning) * per_two_lengths;
+        let lowest = self.limits.min + travel + max(chord_gap - below, 0.0);
         let highest = self.limits.max - travel - max(0.5 * turning - above, 0.0);
         let [least, greatest] = to.legs.extremes();
         least >= lowest && greatest <= highest
@@ -66,7 +66,7 @@ impl Machine {
     pub fn sees_home(&self, rest: &PlatformCoordinates) -> bool {
         let distance = Distance::of(rest, self.radius);
         let turning = distance.angular * distance.angular * self.radius;
-        let sag = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
+        let chord_gap = distance.joint * distance.joint + (self.home.longest + distance.joint) * turning;
         let [low, high] = self.home.clearance;
         // Beyond the clearances, at the fraction s of the way: squares of lengths, and lengths.
         let beyond = |s: f64, lengths: &[f64; 6]| {
@@ -86,7 +86,7 @@ impl Machine {
         for _ in 1..MOST_POINTS {
             let end = begin + part;
             let right = if end < 1.0 { at(end) } else { neutral };
-            let least = [sag * part * part, 0.5 * turning * part * part];
+            let least = [chord_gap * part * part, 0.5 * turning * part * part];
             let certified = (0..6).all(|i| {
                 (0..2).all(|k| left[i][k] >= 0.0 && right[i][k] >= 0.0 && left[i][k] + right[i][k] >= least[k])
             });

@@ -101,7 +101,7 @@ pub struct Derivative {
 
 /// Limits of the actuators, and size of the machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Machine {
+pub struct MachineLimits {
     /// Shortest and longest length of a leg \[m\].
     pub stroke: [f64; 2],
     /// Speed of a leg \[m/s\].
@@ -116,7 +116,7 @@ pub struct Machine {
     pub longest_step: f64,
 }
 
-impl Machine {
+impl MachineLimits {
     /// The largest speed that a platform joint may have in this sample \[m/s\].
     #[inline(always)]
     fn joint_speed(&self, Sample { velocity, angular_velocity, .. }: &Sample) -> f64 {
@@ -254,7 +254,7 @@ impl Axis {
 /// Watches a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Oracle {
-    machine: Machine,
+    machine: MachineLimits,
     axes: [Axis; 3],
     /// True if the limits in force on some axis differ from those set last, and the
     /// remaining settling time \[s\].
@@ -270,7 +270,7 @@ pub struct Oracle {
 
 impl Oracle {
     /// An oracle for a platform at rest, with the outputs before the first step.
-    pub fn new(machine: Machine, safety: &Safety, at_rest: &Sample) -> Self {
+    pub fn new(machine: MachineLimits, safety: &Safety, at_rest: &Sample) -> Self {
         let axes = std::array::from_fn(|k| Axis {
             position_limit: safety.position[k],
             velocity_limit: safety.velocity[k],
@@ -352,7 +352,7 @@ impl Oracle {
     /// the limit is the tolerance.
     #[inline(always)]
     fn measure(&self, now: &Sample, step: f64, mut each: impl FnMut(Quantity, usize, f64, f64)) {
-        let Machine { stroke, velocity: fastest, acceleration: most, size, .. } = self.machine;
+        let MachineLimits { stroke, velocity: fastest, acceleration: most, size, .. } = self.machine;
         let before = &self.before;
         let joint_speed = self.machine.joint_speed(now).max(self.machine.joint_speed(before));
         let last = self.last_step;

@@ -1,6 +1,6 @@
 //! Distance of a sample from the limits of legs and axes.
 
-use crate::oracle::{Machine, Safety, Sample};
+use crate::oracle::{MachineLimits, Safety, Sample};
 
 /// The part of the limits that a sample leaves unused. Legs and axes count alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Reach {
 
 impl Reach {
     /// Of a sample on this machine within these limits.
-    pub fn of(sample: &Sample, machine: &Machine, safety: &Safety) -> Self {
+    pub fn of(sample: &Sample, machine: &MachineLimits, safety: &Safety) -> Self {
         let mut reach = Reach { room: f64::INFINITY, speed: 0.0, stop: 0.0 };
         let [shortest, longest] = machine.stroke;
         for (length, velocity) in sample.length.iter().zip(sample.leg_velocity) {

@@ -6,7 +6,7 @@ use moris_washout::interface::GravityRemoval;
 
 use crate::attacker::Attacker;
 use crate::episode::{Action, Episode, Rest, SCOPES, Scope, Values};
-use crate::oracle::{Breach, Machine, NEUTRAL_TOLERANCE, Oracle, Quantity, Safety, Sample, Worst};
+use crate::oracle::{Breach, MachineLimits, NEUTRAL_TOLERANCE, Oracle, Quantity, Safety, Sample, Worst};
 use crate::reach::Reach;
 use crate::signal::{Seen, Signal, VELOCITIES};
 use crate::target::{Inputs, Target};
@@ -198,13 +198,13 @@ impl Runner {
         Ok(signals)
     }
 
-    fn machine(&self, slots: &[f64]) -> Machine {
+    fn machine(&self, slots: &[f64]) -> MachineLimits {
         let farthest = |begin: usize| {
             let distance = |joint: &[f64]| joint.iter().map(|x| x * x).sum::<f64>().sqrt();
             slots[begin..begin + 18].chunks(3).map(distance).fold(0.0, f64::max)
         };
         let [base, radius] = self.geometry.map(farthest);
-        Machine {
+        MachineLimits {
             stroke: self.stroke.map(|slot| slots[slot]),
             velocity: slots[self.leg_velocity],
             acceleration: slots[self.leg_acceleration],
@@ -227,7 +227,7 @@ struct Drive<'a> {
     signals: [Signal; REAL_INPUTS + 1],
     follows_reach: bool,
     neutral_height: f64,
-    machine: Machine,
+    machine: MachineLimits,
     safety: Safety,
     attack: Option<Attack<'a>>,
 }

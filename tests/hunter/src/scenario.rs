@@ -14,7 +14,7 @@ use crate::variables::{REAL_INPUTS, Variables};
 
 /// Largest number of steps of an episode, and largest mean number of internal steps in a step.
 const MOST_STEPS: usize = 4000;
-const MOST_INTERNAL_STEPS: f64 = 12.0;
+const LONGEST_INTERNAL_STEPS: f64 = 12.0;
 /// The shortest and the longest communication step \[s\].
 const SHORTEST_STEP: f64 = 1e-6;
 const LONGEST_STEP: f64 = 0.1;
@@ -115,7 +115,7 @@ impl<'a> Scenarios<'a> {
 
     fn draw_steps(&self, random: &mut Random, machine: &Values) -> Steps {
         let longest = machine.get("solver.maxStep").copied().unwrap_or(1e-3);
-        let most = (longest * MOST_INTERNAL_STEPS).min(LONGEST_STEP);
+        let most = (longest * LONGEST_INTERNAL_STEPS).min(LONGEST_STEP);
         match random.below(10) {
             0 | 1 => Steps::Even { length: longest },
             2..=4 => Steps::Even { length: (longest * random.log_between(0.2, 1.0)).max(SHORTEST_STEP) },

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 
-use crate::recording::{Recording, Sample};
+use crate::trace::{Sample, Trace};
 
 /// Time between the rows \[s\], if the run's steps are shorter.
 const SPACING: f64 = 0.01;
@@ -16,30 +16,30 @@ felt force y [m/s2],felt force z [m/s2],desired rate x [rad/s],desired rate y [r
 felt rate x [rad/s],felt rate y [rad/s],felt rate z [rad/s],position x [m],position y [m],position z [m],\
 leg 1 [m],leg 2 [m],leg 3 [m],leg 4 [m],leg 5 [m],leg 6 [m]";
 
-/// Writes a CSV file for each recording into the directory and returns their paths.
+/// Writes a CSV file for each trace into the directory and returns their paths.
 ///
 /// # Errors
 /// A file cannot be written.
-pub fn write_curves(directory: &Path, recordings: &[Recording]) -> Result<Vec<PathBuf>> {
-    let write = |recording: &Recording| {
-        let path = directory.join(format!("{}.csv", file_stem(recording)));
-        fs::write(&path, table(recording)).with_context(|| format!("cannot write {}", path.display()))?;
+pub fn write_curves(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>> {
+    let write = |trace: &Trace| {
+        let path = directory.join(format!("{}.csv", file_stem(trace)));
+        fs::write(&path, table(trace)).with_context(|| format!("cannot write {}", path.display()))?;
         Ok(path)
     };
-    recordings.iter().map(write).collect()
+    traces.iter().map(write).collect()
 }
 
 /// Run and parameters, with hyphens for what is no letter or number.
-fn file_stem(recording: &Recording) -> String {
-    let name = format!("run {} {}", recording.run, recording.parameters);
+fn file_stem(trace: &Trace) -> String {
+    let name = format!("run {} {}", trace.run, trace.parameters);
     let words = name.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
     words.collect::<Vec<_>>().join("-").to_lowercase()
 }
 
-fn table(recording: &Recording) -> String {
-    let every = ((SPACING / recording.step).round() as usize).max(1);
+fn table(trace: &Trace) -> String {
+    let every = ((SPACING / trace.step).round() as usize).max(1);
     let mut text = format!("{COLUMNS}\n");
-    for sample in recording.samples.iter().step_by(every) {
+    for sample in trace.samples.iter().step_by(every) {
         let Sample { time, desired_force, felt_force, desired_rate, felt_rate, position, legs, .. } = sample;
         let _ = write!(text, "{time:.3}");
         let vectors = [desired_force, felt_force, desired_rate, felt_rate, position];
@@ -64,10 +64,9 @@ mod tests {
             ..Sample::default()
         };
         let samples = (0..=30).map(sample).collect();
-        let recording =
-            Recording { run: "a brisk", parameters: "paper + preaction", step: 0.001, samples, ..Recording::default() };
-        assert_eq!(file_stem(&recording), "run-a-brisk-paper-preaction");
-        let text = table(&recording);
+        let trace = Trace { run: "a brisk", parameters: "paper + preaction", step: 0.001, samples, ..Trace::default() };
+        assert_eq!(file_stem(&trace), "run-a-brisk-paper-preaction");
+        let text = table(&trace);
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
         assert_eq!(rows.len(), 5);
         assert!(rows.iter().all(|row| row.len() == rows[0].len()));

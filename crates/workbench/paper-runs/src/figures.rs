@@ -8,7 +8,7 @@ use plotters::style::{BLACK, RGBColor};
 
 use crate::chart::{Curve, Panel, Stroke, draw};
 use crate::manoeuvres::{A, B, C, TOWN};
-use crate::recording::{Recording, Sample};
+use crate::trace::{Sample, Trace};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
 const BLUE: RGBColor = RGBColor(0, 114, 178);
@@ -27,11 +27,11 @@ const RIDE_PANEL_HEIGHT: u32 = 360;
 /// Writes `figure-5.svg` to `figure-9.svg` into the directory and returns their paths.
 ///
 /// # Errors
-/// A run is missing from the recordings, or a file cannot be written.
-pub fn write_figures(directory: &Path, recordings: &[Recording]) -> Result<Vec<PathBuf>> {
-    let a = runs(recordings, A.name)?;
-    let b = runs(recordings, B.name)?;
-    let c = runs(recordings, C.name)?;
+/// A run is missing from the traces, or a file cannot be written.
+pub fn write_figures(directory: &Path, traces: &[Trace]) -> Result<Vec<PathBuf>> {
+    let a = runs(traces, A.name)?;
+    let b = runs(traces, B.name)?;
+    let c = runs(traces, C.name)?;
     let figures = [
         ("figure-5.svg", vec![force("Figure 5 (a)", &a, 0), force("Figure 5 (b)", &a, 2)]),
         ("figure-6.svg", vec![rate("Figure 6 (a)", &a, 1), legs("Figure 6 (b)", a[0])]),
@@ -50,9 +50,9 @@ pub fn write_figures(directory: &Path, recordings: &[Recording]) -> Result<Vec<P
 /// Writes a figure of the strategies on run c and on the ride through town.
 ///
 /// # Errors
-/// One of these runs is missing from the recordings, or the file cannot be written.
-pub fn write_strategies(path: &Path, recordings: &[Recording]) -> Result<()> {
-    let (c, town) = (runs(recordings, C.name)?, runs(recordings, TOWN.name)?);
+/// One of these runs is missing from the traces, or the file cannot be written.
+pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
+    let (c, town) = (runs(traces, C.name)?, runs(traces, TOWN.name)?);
     let panels = [("a", &c, 0), ("b", &town, 0), ("c", &town, 1)]
         .map(|(letter, runs, axis)| with_roughest_second(force(&format!("Strategies ({letter})"), runs, axis)));
     draw(path, &panels, PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
@@ -61,9 +61,9 @@ pub fn write_strategies(path: &Path, recordings: &[Recording]) -> Result<()> {
 /// Writes a figure of the ride through town: surge and sway, and the legs.
 ///
 /// # Errors
-/// The ride is missing from the recordings, or the file cannot be written.
-pub fn write_ride(path: &Path, recordings: &[Recording]) -> Result<()> {
-    let ride = runs(recordings, TOWN.name)?;
+/// The ride is missing from the traces, or the file cannot be written.
+pub fn write_ride(path: &Path, traces: &[Trace]) -> Result<()> {
+    let ride = runs(traces, TOWN.name)?;
     let title = |text: &str| text.to_owned();
     let panels = [
         with_roughest_second(Panel {
@@ -76,14 +76,14 @@ pub fn write_ride(path: &Path, recordings: &[Recording]) -> Result<()> {
     draw(path, &panels, RIDE_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
 
-/// The recordings of one run, at least one.
-fn runs<'a>(recordings: &'a [Recording], run: &str) -> Result<Vec<&'a Recording>> {
-    let runs: Vec<_> = recordings.iter().filter(|recording| recording.run == run).collect();
+/// The traces of one run, at least one.
+fn runs<'a>(traces: &'a [Trace], run: &str) -> Result<Vec<&'a Trace>> {
+    let runs: Vec<_> = traces.iter().filter(|trace| trace.run == run).collect();
     anyhow::ensure!(!runs.is_empty(), "run {run} has not been made");
     Ok(runs)
 }
 
-fn force(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
+fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     let quantity = format!("specific force along {}_H", ["x", "y", "z"][axis]);
     Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
@@ -94,7 +94,7 @@ fn force(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
     }
 }
 
-fn rate(figure: &str, runs: &[&Recording], axis: usize) -> Panel {
+fn rate(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
     let quantity = format!("ω_{} at the head", ["x", "y", "z"][axis]);
     Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
@@ -132,7 +132,7 @@ fn roughest_second(desired: &[(f64, f64)], felt: &[(f64, f64)]) -> (f64, f64) {
 
 /// Desired motion of a run, and felt motion with each parameter set.
 fn felt_against_desired(
-    runs: &[&Recording],
+    runs: &[&Trace],
     desired: impl Fn(&Sample) -> f64,
     felt: impl Fn(&Sample) -> f64,
 ) -> Vec<Curve> {
@@ -153,7 +153,7 @@ fn felt_against_desired(
 
 /// The six legs. In a straight run legs 2, 6 and 5 do as 1, 3 and 4 do, and are dashed on top of
 /// them to show it.
-fn legs(figure: &str, run: &Recording) -> Panel {
+fn legs(figure: &str, run: &Trace) -> Panel {
     let styles = [
         (BLUE, Stroke::Broad),
         (ORANGE, Stroke::Dashed),
@@ -172,14 +172,8 @@ fn legs(figure: &str, run: &Recording) -> Panel {
     }
 }
 
-fn curve(
-    label: &str,
-    colour: RGBColor,
-    stroke: Stroke,
-    recording: &Recording,
-    value: impl Fn(&Sample) -> f64,
-) -> Curve {
-    let points = recording.samples.iter().map(|sample| (sample.time, value(sample))).collect();
+fn curve(label: &str, colour: RGBColor, stroke: Stroke, trace: &Trace, value: impl Fn(&Sample) -> f64) -> Curve {
+    let points = trace.samples.iter().map(|sample| (sample.time, value(sample))).collect();
     Curve { label: label.into(), colour, stroke, points }
 }
 
@@ -190,7 +184,7 @@ mod tests {
     use crate::parameter_set::STRATEGIES;
 
     /// A run felt a tenth of a second late.
-    fn recording(run: &Manoeuvre, parameters: &'static str) -> Recording {
+    fn trace(run: &Manoeuvre, parameters: &'static str) -> Trace {
         let sample = |k: u32| {
             let time = f64::from(k) * 0.01;
             let (now, before) = (run.motion(time), run.motion(time - 0.1));
@@ -205,16 +199,15 @@ mod tests {
             }
         };
         let samples = (0..(100.0 * run.duration) as u32).map(sample).collect();
-        Recording { run: run.name, parameters, step: 0.01, stroke: [1.0, 1.6], samples, ..Recording::default() }
+        Trace { run: run.name, parameters, step: 0.01, stroke: [1.0, 1.6], samples, ..Trace::default() }
     }
 
     #[test]
     fn every_figure_is_drawn_with_its_title_and_legend() {
         let directory = std::env::temp_dir().join(format!("paper-runs-figures-{}", std::process::id()));
         std::fs::create_dir_all(&directory).unwrap();
-        let recordings =
-            [recording(&A, "paper"), recording(&B, "paper"), recording(&B, "small-motions"), recording(&C, "paper")];
-        let paths = write_figures(&directory, &recordings).unwrap();
+        let traces = [trace(&A, "paper"), trace(&B, "paper"), trace(&B, "small-motions"), trace(&C, "paper")];
+        let paths = write_figures(&directory, &traces).unwrap();
         let drawings: Vec<String> = paths.iter().map(|path| std::fs::read_to_string(path).unwrap()).collect();
         std::fs::remove_dir_all(&directory).unwrap();
 
@@ -234,8 +227,8 @@ mod tests {
     fn the_strategies_are_told_apart_in_their_figure() {
         let file = std::env::temp_dir().join(format!("paper-runs-strategies-{}.svg", std::process::id()));
         let names = STRATEGIES.map(|set| set.name);
-        let recordings: Vec<_> = [C, TOWN].iter().flat_map(|run| names.map(|name| recording(run, name))).collect();
-        write_strategies(&file, &recordings).unwrap();
+        let traces: Vec<_> = [C, TOWN].iter().flat_map(|run| names.map(|name| trace(run, name))).collect();
+        write_strategies(&file, &traces).unwrap();
         let drawing = std::fs::read_to_string(&file).unwrap();
         std::fs::remove_file(&file).unwrap();
         assert!(["run c", "run town"].iter().all(|title| drawing.contains(title)));
@@ -258,7 +251,7 @@ mod tests {
 
     #[test]
     fn a_missing_run_is_an_error_that_names_it() {
-        let error = write_figures(Path::new("."), &[recording(&A, "default")]).unwrap_err();
+        let error = write_figures(Path::new("."), &[trace(&A, "default")]).unwrap_err();
         assert_eq!(error.to_string(), "run b has not been made");
     }
 }

@@ -9,7 +9,7 @@ pub mod figures;
 pub mod fmu;
 pub mod manoeuvres;
 pub mod parameter_set;
-pub mod recording;
 pub mod simulate;
 pub mod table;
 mod thin;
+pub mod trace;

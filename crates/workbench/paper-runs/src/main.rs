@@ -13,9 +13,9 @@ use moris_paper_runs::figures::{write_figures, write_strategies};
 use moris_paper_runs::fmu::{built, open};
 use moris_paper_runs::manoeuvres::{A, A_BRISK, B, C, Manoeuvre, TOWN};
 use moris_paper_runs::parameter_set::{PAPER, PREACTION, ParameterSet, SMALL_MOTIONS, STRATEGIES};
-use moris_paper_runs::recording::Recording;
 use moris_paper_runs::simulate::simulate;
 use moris_paper_runs::table::{force_table, platform_table, rate_table};
+use moris_paper_runs::trace::Trace;
 
 /// Simulates the paper's runs with the washout's FMU, prints the errors of the felt motion, and
 /// draws figures 5 to 9; then compares the strategies. Writes the curves as CSV, too.
@@ -38,24 +38,24 @@ struct Options {
 fn main() -> Result<()> {
     let options = Options::parse();
     let fmu = if options.no_build { open(&workspace::default_output().join("MorisWashout.fmu"))? } else { built()? };
-    let recordings = make_runs(&fmu, &paper_runs(), options.step)?;
+    let traces = make_runs(&fmu, &paper_runs(), options.step)?;
     let compared = make_runs(&fmu, &strategy_runs(), options.step)?;
-    println!("{}", force_table(&recordings));
-    println!("{}", rate_table(&recordings));
-    println!("{}", platform_table(&recordings));
+    println!("{}", force_table(&traces));
+    println!("{}", rate_table(&traces));
+    println!("{}", platform_table(&traces));
     println!("The strategies\n");
     println!("{}", force_table(&compared));
     println!("{}", platform_table(&compared));
 
     let output = options.output.unwrap_or_else(|| workspace::root().join("target/paper-runs"));
     fs::create_dir_all(&output).with_context(|| format!("cannot make {}", output.display()))?;
-    for path in write_figures(&output, &recordings)? {
+    for path in write_figures(&output, &traces)? {
         println!("{}", path.display());
     }
     let strategies = output.join("strategies.svg");
     write_strategies(&strategies, &compared)?;
     println!("{}", strategies.display());
-    for path in write_curves(&output, &recordings)?.into_iter().chain(write_curves(&output, &compared)?) {
+    for path in write_curves(&output, &traces)?.into_iter().chain(write_curves(&output, &compared)?) {
         println!("{}", path.display());
     }
     Ok(())
@@ -71,7 +71,7 @@ fn strategy_runs() -> Vec<(Manoeuvre, ParameterSet)> {
     [C, TOWN].into_iter().flat_map(|run| STRATEGIES.map(|set| (run, set))).collect()
 }
 
-fn make_runs(fmu: &Fmu, runs: &[(Manoeuvre, ParameterSet)], step: f64) -> Result<Vec<Recording>> {
+fn make_runs(fmu: &Fmu, runs: &[(Manoeuvre, ParameterSet)], step: f64) -> Result<Vec<Trace>> {
     let make = |(run, parameters): &(Manoeuvre, ParameterSet)| {
         simulate(fmu, run, parameters, step)
             .with_context(|| format!("run {} with parameters {}", run.name, parameters.name))

@@ -6,7 +6,7 @@ use moris_measures::LimitFlags;
 
 use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;
-use crate::recording::{Recording, Sample};
+use crate::trace::{Sample, Trace};
 
 const INPUTS: [&str; 8] = [
     "vehicle.specificForce.x",
@@ -50,7 +50,7 @@ const FLAGS: [&str; 4] = ["status.tiltLimited", "status.softLimited", "status.sa
 /// # Errors
 /// The step is not between 0 and the run's duration, the FMU lacks a variable, or one of its
 /// functions fails. The error then contains the FMU's message.
-pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64) -> Result<Recording> {
+pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64) -> Result<Trace> {
     ensure!(step > 0.0 && step <= run.duration, "the step must be between 0 and {} s, not {step} s", run.duration);
     let references = References::of(fmu)?;
     let mut instance = fmu.instantiate(run.name)?;
@@ -66,7 +66,7 @@ pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64
         instance.step(time, step)?;
         samples.push(references.sample(&mut instance, run, time + step)?);
     }
-    Ok(Recording {
+    Ok(Trace {
         run: run.name,
         parameters: parameters.name,
         step,

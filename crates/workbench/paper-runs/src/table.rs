@@ -4,7 +4,7 @@ use std::fmt;
 
 use moris_measures::fidelity::{Fidelity, fidelity};
 
-use crate::recording::Recording;
+use crate::trace::Trace;
 
 /// Stands where a number is not defined.
 const UNDEFINED: &str = "–";
@@ -49,11 +49,11 @@ impl Table {
 }
 
 /// Felt against desired specific force.
-pub fn force_table(recordings: &[Recording]) -> Table {
-    let rows = recordings.iter().flat_map(|recording| {
-        fidelity_rows(recording, |axis| {
-            let desired = recording.series(|sample| sample.desired_force[axis]);
-            fidelity(&desired, &recording.series(|sample| sample.felt_force[axis]), recording.step)
+pub fn force_table(traces: &[Trace]) -> Table {
+    let rows = traces.iter().flat_map(|trace| {
+        fidelity_rows(trace, |axis| {
+            let desired = trace.series(|sample| sample.desired_force[axis]);
+            fidelity(&desired, &trace.series(|sample| sample.felt_force[axis]), trace.step)
         })
     });
     Table {
@@ -65,11 +65,11 @@ pub fn force_table(recordings: &[Recording]) -> Table {
 }
 
 /// Felt against desired angular velocity.
-pub fn rate_table(recordings: &[Recording]) -> Table {
-    let rows = recordings.iter().flat_map(|recording| {
-        fidelity_rows(recording, |axis| {
-            let desired = recording.series(|sample| sample.desired_rate[axis].to_degrees());
-            fidelity(&desired, &recording.series(|sample| sample.felt_rate[axis].to_degrees()), recording.step)
+pub fn rate_table(traces: &[Trace]) -> Table {
+    let rows = traces.iter().flat_map(|trace| {
+        fidelity_rows(trace, |axis| {
+            let desired = trace.series(|sample| sample.desired_rate[axis].to_degrees());
+            fidelity(&desired, &trace.series(|sample| sample.felt_rate[axis].to_degrees()), trace.step)
         })
     });
     Table {
@@ -89,10 +89,10 @@ pub fn rate_table(recordings: &[Recording]) -> Table {
 }
 
 /// A row for each axis on which something is desired or felt.
-fn fidelity_rows(recording: &Recording, on_axis: impl Fn(usize) -> Option<Fidelity>) -> Vec<Vec<String>> {
+fn fidelity_rows(trace: &Trace, on_axis: impl Fn(usize) -> Option<Fidelity>) -> Vec<Vec<String>> {
     let row = |axis: usize| {
         let fidelity = on_axis(axis)?;
-        let mut row = labels(recording);
+        let mut row = labels(trace);
         row.extend([
             AXES[axis].to_string(),
             number(fidelity.rms_error, 3),
@@ -106,10 +106,10 @@ fn fidelity_rows(recording: &Recording, on_axis: impl Fn(usize) -> Option<Fideli
 }
 
 /// Table of the platform's motion.
-pub fn platform_table(recordings: &[Recording]) -> Table {
-    let row = |recording: &Recording| {
-        let effort = recording.effort();
-        let mut row = labels(recording);
+pub fn platform_table(traces: &[Trace]) -> Table {
+    let row = |trace: &Trace| {
+        let effort = trace.effort();
+        let mut row = labels(trace);
         row.extend([
             number(effort.shortest_leg, 3),
             number(effort.longest_leg, 3),
@@ -135,12 +135,12 @@ pub fn platform_table(recordings: &[Recording]) -> Table {
             "final distance from neutral [mm]",
         ],
         text_columns: 2,
-        rows: recordings.iter().map(row).collect(),
+        rows: traces.iter().map(row).collect(),
     }
 }
 
-fn labels(recording: &Recording) -> Vec<String> {
-    vec![recording.run.to_string(), recording.parameters.to_string()]
+fn labels(trace: &Trace) -> Vec<String> {
+    vec![trace.run.to_string(), trace.parameters.to_string()]
 }
 
 /// A number with so many decimals, never a negative zero.
@@ -153,10 +153,10 @@ fn number(value: f64, decimals: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recording::Sample;
+    use crate::trace::Sample;
 
     /// Surge desired and felt, a constant heave that is missed, nothing in sway.
-    fn recording() -> Recording {
+    fn trace() -> Trace {
         let sample = |k: u32| {
             let time = f64::from(k) * 0.01;
             let surge = time.sin();
@@ -169,22 +169,22 @@ mod tests {
             }
         };
         let samples = (0..1000).map(sample).collect();
-        Recording { run: "a", parameters: "default", step: 0.01, samples, ..Recording::default() }
+        Trace { run: "a", parameters: "default", step: 0.01, samples, ..Trace::default() }
     }
 
     #[test]
     fn an_axis_without_motion_has_no_row_and_a_constant_one_no_correlation() {
-        let table = force_table(&[recording()]);
+        let table = force_table(&[trace()]);
         assert_eq!(table.rows.len(), 2);
         assert_eq!(table.rows[0], ["a", "default", "x", "0.000", "0.000", "1.0000", "0.0"]);
         assert_eq!(table.rows[1][2], "z");
         assert_eq!(table.rows[1][4..], ["0.100", "–", "–"]);
-        assert!(rate_table(&[recording()]).rows.is_empty());
+        assert!(rate_table(&[trace()]).rows.is_empty());
     }
 
     #[test]
     fn columns_are_aligned() {
-        let text = force_table(&[recording()]).to_string();
+        let text = force_table(&[trace()]).to_string();
         let lines: Vec<&str> = text.lines().skip(1).collect();
         assert_eq!(lines.len(), 4);
         assert!(lines.iter().all(|line| line.chars().count() == lines[0].chars().count()), "{text}");

@@ -54,7 +54,7 @@ impl Course {
     }
 
     /// Delays a course that has just been given by the time for which its reference lags \[s\].
-    pub fn put_off(&mut self, lag: f64) {
+    pub fn delay(&mut self, lag: f64) {
         if !self.begun {
             self.age = -lag;
         }
@@ -114,8 +114,8 @@ impl Courses {
     }
 
     /// Delays a course that has just been given by the time for which its reference lags \[s\].
-    pub fn put_off(&mut self, lag: f64) {
-        self.latest.put_off(lag);
+    pub fn delay(&mut self, lag: f64) {
+        self.latest.delay(lag);
     }
 
     /// Time from now to the last value; 0 once it is past \[s\].
@@ -373,10 +373,10 @@ mod tests {
     #[test]
     fn only_a_course_that_has_not_begun_is_put_off() {
         let mut course = Course { age: 0.0, begun: false, ..course() };
-        course.put_off(0.05);
+        course.delay(0.05);
         assert_eq!((course.age, course.length()), (-0.05, 0.2 * 8.0 + 0.05));
         course.advance(0.15);
-        course.put_off(0.3);
+        course.delay(0.3);
         assert!((course.age - 0.1).abs() < 1e-15 && (course.length() - 1.5).abs() < 1e-12);
     }
 

@@ -5,7 +5,7 @@ use super::palette;
 use super::world::World;
 
 /// A step is not divided into more internal ones than this, to get on.
-const MOST_INTERNAL_STEPS: f64 = 100.0;
+const MOST_HOSTILE_STEPS: f64 = 100.0;
 /// The library makes no step longer than a million internal ones.
 const LONGEST: f64 = 1e6;
 /// Distance from a limit, relative to it, within which a step may be accepted or rejected.
@@ -24,7 +24,7 @@ pub fn do_step(world: &mut World, who: usize) -> i32 {
         5 => choices.of(&[1e-9, 1e-4, 0.01, 0.004]),
         _ => 0.05 * choices.fraction() + 1e-6,
     };
-    step = step.min(MOST_INTERNAL_STEPS * max_step);
+    step = step.min(MOST_HOSTILE_STEPS * max_step);
     let mut right = vec![OK];
     match choices.below(24) {
         // As a host has it that multiplies where the library adds.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use anyhow::Result;
 use moris_hunter::attacker::{Aim, Attacker};
 use moris_hunter::episode::{Episode, Rest, Scope, Steps, Values};
-use moris_hunter::oracle::{Machine, Quantity, Safety, Sample};
+use moris_hunter::oracle::{MachineLimits, Quantity, Safety, Sample};
 use moris_hunter::preview::{Forces, Previews};
 use moris_hunter::reach::Reach;
 use moris_hunter::run::{Outcome, Runner};
@@ -100,8 +100,14 @@ fn episode(count: usize, inputs: &[(&str, Signal)]) -> Episode {
 }
 
 /// The limits of the default machine.
-const MACHINE: Machine =
-    Machine { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, longest_step: 0.005 };
+const MACHINE: MachineLimits = MachineLimits {
+    stroke: [1.0, 1.6],
+    velocity: 1.0,
+    acceleration: 15.0,
+    radius: 0.85,
+    size: 3.0,
+    longest_step: 0.005,
+};
 const SAFETY: Safety = Safety { position: [0.37, 0.37, 0.33], velocity: [1.0; 3], acceleration: [10.0; 3] };
 
 const SURGE: &str = "vehicle.specificForce.x";

@@ -1,9 +1,9 @@
 //! The oracle against motions of which it is known what they keep and break.
 
-use moris_hunter::oracle::{Breach, Derivative, Machine, Oracle, Quantity, Safety, Sample, Worst};
+use moris_hunter::oracle::{Breach, Derivative, MachineLimits, Oracle, Quantity, Safety, Sample, Worst};
 
-const MACHINE: Machine =
-    Machine { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, longest_step: 1.0 };
+const MACHINE: MachineLimits =
+    MachineLimits { stroke: [1.0, 1.6], velocity: 1.0, acceleration: 15.0, radius: 0.85, size: 3.0, longest_step: 1.0 };
 const SAFETY: Safety = Safety { position: [0.45; 3], velocity: [1.0; 3], acceleration: [10.0; 3] };
 const NEUTRAL: f64 = 1.3;
 
@@ -272,7 +272,7 @@ fn the_stop_of_an_axis_that_no_sample_shows_counts() {
     let settles = |longest_step: f64, wait: f64| {
         // Steady sway, and surge and heave that are at rest whenever they are seen.
         let sways = |time: f64| Sample { velocity: [0.0, 0.05, 0.0], position: [0.0, 0.05 * time, 0.0], ..at_rest() };
-        let mut oracle = Oracle::new(Machine { longest_step, ..MACHINE }, &SAFETY, &sways(0.0));
+        let mut oracle = Oracle::new(MachineLimits { longest_step, ..MACHINE }, &SAFETY, &sways(0.0));
         let mut worst = Worst::default();
         oracle.check(&sways(0.02), 0.02, &mut worst).unwrap();
         oracle.change(&Safety { acceleration: [0.2; 3], ..SAFETY });

@@ -4,7 +4,7 @@
 //! The state is the position p, the velocity v, the tilt q and its rate q'. The tilt is
 //! expressed as the force that it adds, q = g sin(tilt). Over an interval of length T, the
 //! inputs are the means and slopes of p'' and q'' ([`Projection`]). Two more are what the tilt's
-//! mean and slope have beyond those of a straight line between its ends, `sag` and `skew`. By
+//! mean and slope have beyond those of a straight line between its ends, `offset` and `skew`. By
 //! parts, for any motion:
 //!
 //! - v1 = v0 + T mean(p'');
@@ -13,19 +13,19 @@
 //! The same holds for q. The mean square of the error over an interval is at least e² + d². With f
 //! and s the mean and the slope of the desired force,
 //!
-//! e = mean(p'') - (h/g) mean(q'') + (q0 + q1)/2 + sag - f,
+//! e = mean(p'') - (h/g) mean(q'') + (q0 + q1)/2 + offset - f,
 //! d = slope(p'') - (h/g) slope(q'') + (q1 - q0)/sqrt(12) + skew - s.
 //!
 //! In the relaxed program, an input is the integral of an acceleration times a known function, and
 //! is limited by the acceleration's limit times the integral of the function's magnitude:
 //!
 //! - means by the limit itself, slopes by sqrt(12)/4 of it;
-//! - sag by T²/12, skew by sqrt(12) T²/192 times the limit of |q''|.
+//! - offset by T²/12, skew by sqrt(12) T²/192 times the limit of |q''|.
 //!
 //! The relaxed program limits p1 - p0 and q1 - q0 to T times the limits of |p'| and |q'|.
 //!
 //! In the restricted program, accelerations are constant over an interval. Their slopes and
-//! the skew are then zero, and sag = -T²/12 q''. Positions and tilts are parabolas within an
+//! the skew are then zero, and offset = -T²/12 q''. Positions and tilts are parabolas within an
 //! interval. A parabola lies between the least and the greatest of its two ends and the point
 //! where the tangents at its ends meet, p0 + v0 T/2. So the restricted program keeps this
 //! point within the limits.
@@ -138,7 +138,7 @@ pub fn restricted(desired: &[Projection], interval: f64, limits: &AxisLimits) ->
 }
 
 /// Surge or sway with its tilt in any motion. The inputs are the mean and the slope of p'', those
-/// of q'', sag and skew.
+/// of q'', offset and skew.
 pub fn relaxed_with_tilt(
     desired: &[Projection],
     interval: f64,

@@ -59,15 +59,15 @@ const PRIOR: [(f64, f64); 3] = [(0.1, 0.5), (1.0, 0.3), (6.0, 0.2)];
 const LEAST_ERROR: f64 = 1e-4;
 /// Squared error added to that of a forecast without preview \[(m/s2)^2\]. While nothing happens,
 /// neither the forecast nor the preview errs, but only the preview contains what comes.
-const DOUBT: f64 = 0.005;
+const FORECAST_FLOOR: f64 = 0.005;
 /// Squared error of a preview before any is known \[(m/s2)^2\].
 const UNPROVED: f64 = 0.002;
 /// Time constants with which the squared errors beside a preview follow larger
 /// and smaller ones \[s\].
 const PREVIEW_MEMORY: [f64; 2] = [1.5, 10.0];
 /// A preview has the same weight as the forecast without it where its squared errors are smaller by
-/// this factor. [`DOUBT`] is included in the forecast's errors.
-const CAUTION: f64 = 1.6;
+/// this factor. [`FORECAST_FLOOR`] is included in the forecast's errors.
+const UNCERTAINTY_FACTOR: f64 = 1.6;
 /// The first block that is as long as the usual time between the elements of a preview.
 const RESOLVED: usize = 3;
 /// Samples from one fit to the next.
@@ -99,7 +99,7 @@ pub struct Forecaster {
     step: f64,
     decays: SVector<f64, LOW_PASSES>,
     /// A ring of [`MEMORY`] samples, the latest at `latest`.
-    samples: Vec<Sample>,
+    samples: Vec<StoredSample>,
     latest: u32,
     /// Sums of x x' and x y' over the past, the prior included.
     squares: Covariance,
@@ -119,7 +119,7 @@ pub struct Forecaster {
 
 /// Stored data of an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-struct Sample {
+struct StoredSample {
     value: f64,
     low_passes: SVector<f64, LOW_PASSES>,
     integral: f64,
@@ -129,7 +129,7 @@ struct Sample {
     expected: Option<[SVector<f64, BLOCKS>; 2]>,
 }
 
-impl Sample {
+impl StoredSample {
     fn features(&self) -> Features {
         let low = &self.low_passes;
         Features::new(self.value, low[0], low[1], low[2], low[3], low[4])
@@ -233,7 +233,7 @@ impl Forecaster {
             integral: 0.0,
             step: 0.0,
             decays: SVector::zeros(),
-            samples: vec![Sample::default(); MEMORY],
+            samples: vec![StoredSample::default(); MEMORY],
             latest: 0,
             squares: tables.prior_squares,
             products: tables.prior_products,
@@ -267,7 +267,7 @@ impl Forecaster {
 
     /// Delays a preview that has just been given by `lag` seconds.
     pub fn put_off_preview(&mut self, lag: f64) {
-        self.courses.put_off(lag);
+        self.courses.delay(lag);
     }
 
     /// Time to the end of the preview \[s\].
@@ -294,7 +294,7 @@ impl Forecaster {
     fn previewed(&self, tables: &Tables, kind: ForecastKind) -> Option<Previewed> {
         let past = (TIME_CONSTANTS[QUICK], self.low_passes[QUICK]);
         let ahead = Ahead::new(&self.courses, past, self.beside)?;
-        let mut end = Sample { value: ahead.last(), ..Sample::default() };
+        let mut end = StoredSample { value: ahead.last(), ..StoredSample::default() };
         for (low, (now, time)) in end.low_passes.iter_mut().zip(self.low_passes.iter().zip(TIME_CONSTANTS)) {
             *low = ahead.low_pass(*now, time, ahead.length());
         }
@@ -306,18 +306,18 @@ impl Forecaster {
     /// The weight of the preview in each block of a horizon, from 0 to 1.
     ///
     /// It follows from the ratio of the preview's error to that of the forecast without it,
-    /// [`DOUBT`] included. The ratio in a block is the largest of the blocks up to it, since a
+    /// [`FORECAST_FLOOR`] included. The ratio in a block is the largest of the blocks up to it, since a
     /// preview that is worse for near blocks is not better for later ones. For later blocks, the
     /// first [`RESOLVED`] blocks are left out: they are shorter than what a preview resolves.
     fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
         let [learned, previewed] = &self.preview_errors;
-        let ratios = previewed.component_div(&learned.add_scalar(DOUBT));
+        let ratios = previewed.component_div(&learned.add_scalar(FORECAST_FLOOR));
         let own_ends = Horizon::Near.ends();
         let ends = horizon.ends();
         SVector::from_fn(|k, _| {
             let block = own_ends.iter().position(|end| *end >= ends[k]).unwrap_or(BLOCKS - 1);
             let first = block.min(RESOLVED);
-            let ratio = CAUTION * ratios.rows(first, block + 1 - first).max();
+            let ratio = UNCERTAINTY_FACTOR * ratios.rows(first, block + 1 - first).max();
             1.0 / (1.0 + ratio * ratio * ratio * ratio)
         })
     }
@@ -336,8 +336,12 @@ impl Forecaster {
     /// once every [`SAMPLE`].
     pub fn sample(&mut self, tables: &Tables, kind: ForecastKind, memory: &Memory) {
         self.latest = self.latest.wrapping_add(1) % MEMORY as u32;
-        let mut now =
-            Sample { value: self.value, low_passes: self.low_passes, integral: self.integral, ..Sample::default() };
+        let mut now = StoredSample {
+            value: self.value,
+            low_passes: self.low_passes,
+            integral: self.integral,
+            ..StoredSample::default()
+        };
         self.remember(&now);
         self.compare(tables, memory);
         self.learn(tables, memory);
@@ -349,7 +353,7 @@ impl Forecaster {
     }
 
     /// The experts' forecast from an instant on; `fitted` is the fit's forecast.
-    fn expected(&self, then: &Sample, fitted: &Targets, tables: &Tables, kind: ForecastKind) -> Forecast {
+    fn expected(&self, then: &StoredSample, fitted: &Targets, tables: &Tables, kind: ForecastKind) -> Forecast {
         let [hold, trend, fade] = then.fixed_forecasts(tables);
         let targets = match kind {
             ForecastKind::Hold => hold,
@@ -359,14 +363,14 @@ impl Forecaster {
         Forecast { means: targets.fixed_rows::<BLOCKS>(0).into_owned(), end: [targets[BLOCKS], targets[BLOCKS + 1]] }
     }
 
-    fn remember(&mut self, now: &Sample) {
+    fn remember(&mut self, now: &StoredSample) {
         if let Some(sample) = self.samples.get_mut(self.latest as usize) {
             *sample = *now;
         }
     }
 
     /// The sample that is `count` samples old.
-    fn ago(&self, count: usize) -> Sample {
+    fn ago(&self, count: usize) -> StoredSample {
         let index = (self.latest as usize + MEMORY - count) % MEMORY;
         self.samples.get(index).copied().unwrap_or_default()
     }

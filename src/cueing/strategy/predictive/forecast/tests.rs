@@ -302,7 +302,8 @@ fn the_fit_begins_as_the_fading_expert_with_the_priors_weight() {
     let expected = 50.0 * (prior_covariance() + 3e-3 * Covariance::identity());
     assert!((tables.prior_squares - expected).amax() < 1e-12);
     let fading = tables.prior_squares.try_inverse().unwrap() * tables.prior_products;
-    let sample = Sample { value: 1.3, low_passes: SVector::from_fn(|k, _| 0.2 * k as f64), ..Sample::default() };
+    let sample =
+        StoredSample { value: 1.3, low_passes: SVector::from_fn(|k, _| 0.2 * k as f64), ..StoredSample::default() };
     let [.., fade] = sample.fixed_forecasts(&tables);
     assert!((fading.tr_mul(&sample.features()) - fade).amax() < 1e-9);
 }

@@ -28,7 +28,7 @@ pub struct Sample {
 
 /// One run with one set of parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Recording {
+pub struct Trace {
     /// The manoeuvre's name.
     pub run: &'static str,
     /// The parameter set's name.
@@ -43,7 +43,7 @@ pub struct Recording {
     pub samples: Vec<Sample>,
 }
 
-impl Recording {
+impl Trace {
     /// One quantity at all samples.
     pub fn series<T>(&self, quantity: impl Fn(&Sample) -> T) -> Vec<T> {
         self.samples.iter().map(quantity).collect()
