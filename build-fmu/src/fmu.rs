@@ -42,11 +42,10 @@ pub fn build(
 /// # Errors
 /// A tool that is missing, or a library that does not compile.
 pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], platforms: &[Platform]) -> Result<(), Error> {
-    for &(_, fmi) in libraries {
-        compile::plan(fmi, platforms)?;
-    }
-    let Some(&(_, fmi)) = libraries.first() else { return Ok(()) };
-    compile::plan(fmi, platforms)?.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
+    let plans = libraries.iter().map(|&(_, fmi)| compile::plan(fmi, platforms)).collect::<Result<Vec<_>, _>>()?;
+    // They differ by what is checked alone.
+    let Some(plans) = plans.first() else { return Ok(()) };
+    plans.iter().try_for_each(|plan| compile::compile_together(libraries, plan))
 }
 
 /// Builds a model's FMU and returns its bytes; otherwise as [`build`].

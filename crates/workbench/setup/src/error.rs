@@ -22,8 +22,8 @@ pub enum Error {
     NoSuchSet { name: String, nearest: Vec<String> },
     /// The file is not TOML, or a key has a value of the wrong kind or is missing; the text shows
     /// the place.
-    #[error("{source_name}: {text}")]
-    Toml { source_name: String, text: String },
+    #[error("{source_name}: {}\n{remedy}", text.trim_end())]
+    Toml { source_name: String, text: String, remedy: &'static str },
     /// A name that is not one.
     #[error("{source_name}: there is no {what} {name}{}", suggestion(nearest, otherwise))]
     UnknownName { source_name: String, what: &'static str, name: String, nearest: Vec<String>, otherwise: &'static str },

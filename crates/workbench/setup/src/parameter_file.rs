@@ -27,6 +27,7 @@ pub fn read(text: &str, source_name: &str, rows: &[Row]) -> Result<NamedValues, 
     let table: Table = text.parse().map_err(|error: toml::de::Error| Error::Toml {
         source_name: source_name.to_owned(),
         text: error.to_string(),
+        remedy: "a parameter file is TOML; moris parameters prints one",
     })?;
     let mut values = NamedValues::new();
     let reader = Reader { source_name, rows };

@@ -156,8 +156,11 @@ const LARGEST_DIAMETER: f64 = 1.0;
 /// # Errors
 /// Text that is not TOML; a key that is not one, is missing or has a value that it cannot have.
 pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
-    let toml_error =
-        |error: toml::de::Error| Error::Toml { source_name: source_name.to_owned(), text: error.to_string() };
+    let toml_error = |error: toml::de::Error| Error::Toml {
+        source_name: source_name.to_owned(),
+        text: error.to_string(),
+        remedy: "a rig file is TOML; moris rig new writes one",
+    };
     let table: toml::Table = text.parse().map_err(toml_error)?;
     // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
     if let Some(name) = keys(&table).find(|key| !KEYS.contains(&key.as_str())) {

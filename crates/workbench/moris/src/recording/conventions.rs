@@ -181,7 +181,7 @@ pub struct ConventionOptions {
     pub resample: Option<f64>,
 
     /// Fade in a recording that does not begin at rest, over this time
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub fade_in: Option<f64>,
 
     /// TOML file with these options by the same names (force-unit = "g"), the names of

@@ -322,6 +322,14 @@ fn a_rig_with_numbers_that_cannot_be_fails_the_check_with_field_and_file() {
     }
 }
 
+#[test]
+fn a_negative_time_to_fade_in_has_the_range_as_its_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let output = moris(directory.path(), &["simulate", "ride.csv", "--fade-in", "-1"]);
+    let message = text(&output.stderr);
+    assert!(message.contains("fade-in is -1, but must be from 0 to 1000 seconds"), "{message}");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_source_that_is_no_recording_and_has_no_end_is_an_error() {
