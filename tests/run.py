@@ -10,11 +10,13 @@ With --install what other platforms and the pages need is installed first; with 
 """
 
 import argparse
+import json
 import os
 import subprocess
 import sys
 import time
 import venv
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
 
@@ -74,12 +76,37 @@ def fmu(options):
         run("cargo", "build-ssp", "--system", system, "--flat")
 
 
+def test_programs(command):
+    """Test programs that are compiled, and the directory of each one's package; those that take longest first."""
+    report = subprocess.run([*command, "--no-run", "--message-format", "json"], cwd=ROOT, check=True, capture_output=True, text=True)
+    artifacts = [json.loads(line) for line in report.stdout.splitlines() if '"executable":"' in line]
+    programs = [(one["executable"], Path(one["manifest_path"]).parent) for one in artifacts if one["profile"]["test"]]
+    assert programs, "cargo names no test program"
+    return sorted(programs, key=lambda program: -Path(program[0]).stat().st_size)
+
+
+def failure(program, directory, *arguments, **environment):
+    """The output of a test program that fails, else nothing."""
+    # A test loads its own library.
+    done = subprocess.run([program, *arguments], cwd=directory, env=os.environ | environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    output = done.stdout.decode(errors="replace")
+    print("$", Path(program).name, output.strip().splitlines()[-1], flush=True)
+    return output if done.returncode else ""
+
+
 def rust(options):
     """all tests in Rust"""
     chosen = [options.k] if options.k else []
-    # PROPTEST_CASES holds where a test takes proptest's own number of cases, 256.
-    cases = {"MORIS_ALL_CASES": "1"} if options.all else {"PROPTEST_CASES": "64"}
-    run("cargo", "test", "--workspace", *features(options), *chosen, "--", "--quiet", **cases)
+    # PROPTEST_CASES holds where a test takes proptest's own number of cases, 256, or a part of it.
+    cases = {"MORIS_ALL_CASES": "1"} if options.all else {"PROPTEST_CASES": "48"}
+    command = ["cargo", "test", "--workspace", *features(options)]
+    run(*command, "--no-run")
+    # Side by side: some wait for sockets and clocks, and the last tests of one leave a core idle.
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        failed = [output for output in pool.map(lambda test: failure(*test, *chosen, "--quiet", **cases), test_programs(command)) if output]
+    if failed:
+        sys.exit("\n".join(failed))
+    run(*command, "--doc", *chosen, "--", "--quiet")
     if options.all:
         # The only tests of this library that the command above leaves out: a search of minutes.
         run("cargo", "test", "--package", "moris-washout", "--lib", *chosen, "--", "--quiet", "--ignored")

@@ -20,6 +20,11 @@ use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::platform::inverse::leg_motion;
 
+/// Number of cases: a tenth of these unless all are wanted.
+fn case_count(all: u32) -> u32 {
+    if std::env::var_os("MORIS_ALL_CASES").is_some() { all } else { all / 10 }
+}
+
 fn search(cases: u32) -> TestRunner {
     let config = Config { rng_seed: RngSeed::Fixed(11), failure_persistence: None, ..Config::with_cases(cases) };
     TestRunner::new(config)
@@ -64,7 +69,7 @@ fn no_leg_exceeds_the_bounds_on_its_derivatives() {
         .prop_map(|(a, b, c, d)| [a, b, c, d].map(|exponent| 10.0_f64.powf(exponent)));
     let pieces = speeds.prop_flat_map(|[v, w, s, e]| (moving(0.4, v, s), moving(0.8, w, e)));
     let closest = [const { Cell::new(0.0_f64) }; 3];
-    search(1_000_000)
+    search(case_count(1_000_000))
         .run(&(pieces, 0..6_usize), |((linear, angles), i)| {
             let start = PlatformCoordinates { linear, angles };
             let geometry = crate::platform::Geometry::from(&rig);
@@ -127,15 +132,15 @@ fn keep(machine: &Machine, coordinates: &PlatformCoordinates) -> bool {
 
 #[test]
 fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
-    let cases = machines().prop_flat_map(|(machine, safety)| {
+    let states = machines().prop_flat_map(|(machine, safety)| {
         let fastest = machine.limits.velocity;
         let hardest = machine.limits.acceleration;
         let state = (moving(0.3, fastest, hardest), moving(0.3, fastest, hardest));
         (Just(machine), Just(safety), state, -4.0..-1.3_f64, 0.01..1.0_f64)
     });
     let [certified, refused] = [const { Cell::new(0) }; 2];
-    search(200_000)
-        .run(&cases, |(machine, safety, (linear, angles), step, size)| {
+    search(case_count(200_000))
+        .run(&states, |(machine, safety, (linear, angles), step, size)| {
             let step = 10.0_f64.powf(step).min(machine.limits.longest_step);
             let scaled = |motions: &Motion<Vector3<f64>>| Motion {
                 position: motions.position,
@@ -180,7 +185,7 @@ fn a_certified_way_keeps_every_limit_between_the_points_looked_at() {
         })
         .unwrap();
     let (certified, refused) = (certified.get(), refused.get());
-    assert!(certified > 10_000 && refused > 10_000, "{certified} certified, {refused} refused");
+    assert!(certified.min(refused) > case_count(200_000) / 20, "{certified} certified, {refused} refused");
 }
 
 /// A machine without limits.

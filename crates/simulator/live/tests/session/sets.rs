@@ -36,7 +36,7 @@ fn is_usable(parameters: &Parameters, sets: &[(usize, [f64; 2])]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 8, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 32, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Each parameter 0.7 to 1.4 times that of the base, in both sets.
     #[test]

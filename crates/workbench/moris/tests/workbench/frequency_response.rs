@@ -10,6 +10,9 @@
 //!   like a tilt, adds -(g - h s^2 LP) s^3/D w along surge. Along sway the sign is opposite: a roll
 //!   to the right feels like a force to the left.
 
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use moris::frequency_response::channel::Channel::{self, Heave, Pitch, Roll, Surge, Sway, Yaw};
 use moris::frequency_response::excitation::{Amplitudes, frequencies};
 use moris::frequency_response::{Measured, Response, picture, response, table};
@@ -126,20 +129,22 @@ fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
     assert!((removed - alone).norm() < 1e-3 * felt.norm(), "{removed} is not {alone}");
 }
 
-/// All tests, coarsely stepped.
-fn measured(progress: impl Fn() + Sync) -> Measured {
+/// All tests, coarsely stepped, and how often they told of their progress.
+static MEASURED: LazyLock<(Measured, u64)> = LazyLock::new(|| {
     let mut parameters = presets::parameters(presets::PAPER);
     parameters.structure.max_step = 0.02;
-    Measured::of(&parameters, Amplitudes::default(), false, progress).unwrap()
-}
+    let count = AtomicU64::new(0);
+    let progress = || {
+        count.fetch_add(1, Ordering::Relaxed);
+    };
+    let measured = Measured::of(&parameters, Amplitudes::default(), false, progress).unwrap();
+    (measured, count.into_inner())
+});
 
 #[test]
 fn everything_is_measured_once_and_in_order() {
-    let count = std::sync::atomic::AtomicU64::new(0);
-    let measured = measured(|| {
-        count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-    });
-    assert_eq!(count.into_inner(), Measured::TESTS);
+    let (measured, count) = &*MEASURED;
+    assert_eq!(*count, Measured::TESTS);
     for responses in [&measured.test, &measured.small] {
         let found: Vec<(Channel, f64)> = responses.iter().map(|one| (one.input, one.frequency)).collect();
         let wanted: Vec<(Channel, f64)> =
@@ -150,10 +155,10 @@ fn everything_is_measured_once_and_in_order() {
 
 #[test]
 fn the_files_hold_what_was_measured() {
-    let measured = measured(|| ());
+    let (measured, _) = &*MEASURED;
     let directory = tempfile::tempdir().unwrap();
     let file = |name: &str| directory.path().join(name);
-    table::write(&file("response.csv"), &measured).unwrap();
+    table::write(&file("response.csv"), measured).unwrap();
     let mut rows = csv::Reader::from_path(file("response.csv")).unwrap();
     let rows: Vec<csv::StringRecord> = rows.records().map(Result::unwrap).collect();
     assert_eq!(rows.len() as u64, Measured::TESTS * 6);
@@ -177,9 +182,9 @@ fn the_files_hold_what_was_measured() {
         [("direct.svg", ["Surge", "Yaw rate"]), ("cross.svg", ["Pitch rate to surge", "Sway to roll rate"])]
     {
         let draw = if name == "direct.svg" { picture::direct } else { picture::cross };
-        draw(&file(name), &measured).unwrap();
+        draw(&file(name), measured).unwrap();
         let drawn = std::fs::read_to_string(file(name)).unwrap();
         assert!(titles.iter().all(|title| drawn.contains(title)), "{name}");
     }
-    assert!(picture::direct(&file("no/such/direct.svg"), &measured).is_err());
+    assert!(picture::direct(&file("no/such/direct.svg"), measured).is_err());
 }
