@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use moris_interface::shown;
 
-use super::conventions::Quantity;
-use super::header::{Column, Term, UnitSource};
-use super::sheet::{Samples, Sheet};
-use super::units::Unit;
-use super::{RecordingError, median, sampling};
+use super::sampling;
+use crate::recording::columns::header::{Column, Term, UnitSource};
+use crate::recording::columns::units::Unit;
+use crate::recording::conventions::Quantity;
+use crate::recording::median;
+use crate::recording::message::RecordingError;
+use crate::recording::read::sheet::{Samples, Sheet};
 
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const GAP: f64 = 0.2;

@@ -1,9 +1,8 @@
 //! Laps in one file, of which each starts with the time of the first.
 
-use super::RecordingError;
-use super::conventions::Conventions;
-use super::option::{given, named};
-use super::table::Table;
+use super::Table;
+use crate::recording::conventions::Conventions;
+use crate::recording::message::{RecordingError, given, named};
 
 /// Least step back in time with which a lap begins \[s\].
 const RESTART: f64 = 1.0;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use moris_interface::shown;
 
-use super::Dialect;
+use super::option::Dialect;
 
 /// The reason why a recording cannot be simulated, with its place and the remedy.
 #[derive(Debug, thiserror::Error)]
@@ -29,7 +29,7 @@ pub enum RecordingError {
 
 impl RecordingError {
     /// The same with the options in its reason written.
-    pub(super) fn written(self, dialect: Dialect) -> Self {
+    pub(in crate::recording) fn written(self, dialect: Dialect) -> Self {
         match self {
             RecordingError::Line { file, line, column, reason } => {
                 RecordingError::Line { file, line, column, reason: dialect.written(&reason) }

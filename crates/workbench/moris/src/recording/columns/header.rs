@@ -6,10 +6,9 @@ use std::path::Path;
 use clap::ValueEnum;
 use moris_setup::nearest;
 
-use super::RecordingError;
-use super::conventions::{Conventions, Format, Missing, Mounting, Quantity};
-use super::option::{given, named};
 use super::units::{Dimension, TimeUnit, Unit, any_spelled};
+use crate::recording::conventions::{Conventions, Format, Missing, Mounting, Quantity};
+use crate::recording::message::{RecordingError, given, named};
 
 /// Longest text of a file that a message quotes \[characters\].
 const LONGEST_QUOTE: usize = 40;

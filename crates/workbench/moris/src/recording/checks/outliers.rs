@@ -4,10 +4,10 @@
 use moris_interface::shown;
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use super::conventions::{Dimension, Quantity};
-use super::option::given;
-use super::table::Table;
-use super::{RecordingError, median};
+use crate::recording::conventions::{Dimension, Quantity};
+use crate::recording::median;
+use crate::recording::message::{RecordingError, given};
+use crate::recording::table::Table;
 
 /// Values that loggers and converters write where they have none, of either sign.
 const ERROR_VALUES: [f64; 7] = [9999.0, 99_999.0, 32_767.0, 32_768.0, 65_535.0, 999_999.0, 1e6];

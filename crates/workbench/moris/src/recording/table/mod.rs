@@ -1,16 +1,20 @@
 //! The numbers of a recording, column by column, in SI units.
 
+pub mod join;
+pub mod laps;
+pub mod sampling;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use super::RecordingError;
-use super::conventions::{Conventions, Gravity, Quantity};
-use super::header::{Column, Header, quoted};
-use super::join::{self, Part};
-use super::sheet::Sheet;
-use super::source;
+use crate::recording::columns::header::{Column, Header, quoted};
+use crate::recording::conventions::{Conventions, Gravity, Quantity};
+use crate::recording::message::RecordingError;
+use crate::recording::read::sheet::Sheet;
+use crate::recording::read::source;
+use join::Part;
 
 /// A recording's columns.
 #[derive(Clone, Debug, PartialEq)]

@@ -41,7 +41,7 @@ macro_rules! choices {
         }
     };
 }
-pub(super) use choices;
+pub(in crate::recording) use choices;
 
 /// Declares the units of one dimension: word, item, factor to SI, and other spellings, as
 /// [`plain`] leaves them.

@@ -9,7 +9,7 @@ use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::option::{given, named};
+use crate::recording::message::{given, named};
 use blocks::Blocks;
 use forward::Forward;
 
@@ -26,7 +26,7 @@ pub enum Mounting {
 /// The mounting in a file of conventions.
 #[derive(Deserialize, JsonSchema)]
 #[serde(untagged)]
-pub(super) enum Written {
+pub(in crate::recording) enum Written {
     /// auto
     Word(String),
     /// Roll, pitch and yaw of the sensor in the vehicle's axes, in degrees

@@ -5,12 +5,11 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
-use super::RecordingError;
-use super::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
 use super::mounting::{self, MountingEstimate, SensorMotion};
-use super::option::given;
-use super::sampling::at;
-use super::table::Table;
+use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
+use crate::recording::message::{RecordingError, given};
+use crate::recording::table::Table;
+use crate::recording::table::sampling::at;
 
 /// The washout's input at each sample, with warnings.
 ///

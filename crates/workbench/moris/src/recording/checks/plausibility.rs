@@ -14,11 +14,13 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use super::conventions::{AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, Unit};
-use super::header::UnitSource;
-use super::option::{given, named};
-use super::table::Table;
-use super::{RecordingError, median};
+use crate::recording::columns::header::UnitSource;
+use crate::recording::conventions::{
+    AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, Unit,
+};
+use crate::recording::median;
+use crate::recording::message::{RecordingError, given, named};
+use crate::recording::table::Table;
 
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
 /// are biased and tilted.

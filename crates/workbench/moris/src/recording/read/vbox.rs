@@ -4,7 +4,7 @@
 //! last ones, `[column names]` a line of names, and `[data]` numbers between spaces.
 //! <https://developers.racelogic.co.uk/Portal/Tutorials/tutorialVBOfilestructure.html>
 
-use super::units::any_spelled;
+use crate::recording::columns::units::any_spelled;
 
 /// Names of channels in the loggers' spellings without spaces and signs, and as the format `vbox`
 /// has them. The first that a file has counts: an inertial unit's before a satellite receiver's.

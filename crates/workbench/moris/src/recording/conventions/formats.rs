@@ -4,8 +4,8 @@ use clap::ValueEnum;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::conventions::ConventionOptions;
-use super::units::choices;
+use super::ConventionOptions;
+use crate::recording::columns::units::choices;
 
 choices! {
     /// A logger or simulator whose files are read without further options.
@@ -39,17 +39,17 @@ impl Format {
     /// The format's conventions as a file of conventions, with the source of its names in comments.
     pub fn file(self) -> &'static str {
         match self {
-            Format::Phyphox => include_str!("../../formats/phyphox.toml"),
-            Format::SensorLogger => include_str!("../../formats/sensor-logger.toml"),
-            Format::SensorLoggerIos => include_str!("../../formats/sensor-logger-ios.toml"),
-            Format::SensorLog => include_str!("../../formats/sensorlog.toml"),
-            Format::AndroSensor => include_str!("../../formats/androsensor.toml"),
-            Format::RaceChrono => include_str!("../../formats/racechrono.toml"),
-            Format::Aim => include_str!("../../formats/aim.toml"),
-            Format::Motec => include_str!("../../formats/motec.toml"),
-            Format::Vbox => include_str!("../../formats/vbox.toml"),
-            Format::IRacing => include_str!("../../formats/iracing.toml"),
-            Format::Px4 => include_str!("../../formats/px4.toml"),
+            Format::Phyphox => include_str!("../../../formats/phyphox.toml"),
+            Format::SensorLogger => include_str!("../../../formats/sensor-logger.toml"),
+            Format::SensorLoggerIos => include_str!("../../../formats/sensor-logger-ios.toml"),
+            Format::SensorLog => include_str!("../../../formats/sensorlog.toml"),
+            Format::AndroSensor => include_str!("../../../formats/androsensor.toml"),
+            Format::RaceChrono => include_str!("../../../formats/racechrono.toml"),
+            Format::Aim => include_str!("../../../formats/aim.toml"),
+            Format::Motec => include_str!("../../../formats/motec.toml"),
+            Format::Vbox => include_str!("../../../formats/vbox.toml"),
+            Format::IRacing => include_str!("../../../formats/iracing.toml"),
+            Format::Px4 => include_str!("../../../formats/px4.toml"),
         }
     }
 

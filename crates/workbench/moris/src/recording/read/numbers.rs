@@ -1,7 +1,7 @@
 //! The numbers of a text file's fields.
 
-use super::header::quoted;
-use super::option::given;
+use crate::recording::columns::header::quoted;
+use crate::recording::message::given;
 
 /// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
 const LARGEST: f64 = 1e30;

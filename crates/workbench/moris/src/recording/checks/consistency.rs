@@ -6,11 +6,11 @@
 
 use moris_washout::Input;
 
-use super::conventions::{Conventions, Quantity, RateFrame, Unit};
-use super::header::UnitSource;
-use super::option::{given, named};
 use super::plausibility::{regression, remedy, smooth, unit};
-use super::table::Table;
+use crate::recording::columns::header::UnitSource;
+use crate::recording::conventions::{Conventions, Quantity, RateFrame, Unit};
+use crate::recording::message::{given, named};
+use crate::recording::table::Table;
 
 /// Time over which changes of speed are compared with the force \[s\].
 const WINDOW: f64 = 2.0;

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use csv::{Reader, ReaderBuilder, StringRecord};
 
-use super::RecordingError;
-use super::conventions::{Conventions, EmptyFields, Quantity};
-use super::header::Header;
 use super::numbers::{Numbers, is_empty, is_number};
 use super::time::{Times, is_written_out};
 use super::{source, vbox};
+use crate::recording::columns::header::Header;
+use crate::recording::conventions::{Conventions, EmptyFields, Quantity};
+use crate::recording::message::RecordingError;
 
 /// Most lines before the header.
 const LONGEST_PREAMBLE: usize = 100;

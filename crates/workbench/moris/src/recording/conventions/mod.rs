@@ -13,6 +13,8 @@
 //! ax = "accel_x"
 //! ```
 
+pub mod formats;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
@@ -22,12 +24,12 @@ use moris_washout::interface::AngularVelocityFrame;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-pub use super::formats::Format;
-pub use super::mounting::Mounting;
-pub use super::quantity::Quantity;
-use super::units::choices;
-pub use super::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
-use super::{Dialect, RecordingError};
+pub use crate::recording::axes::mounting::Mounting;
+pub use crate::recording::columns::quantity::Quantity;
+use crate::recording::columns::units::choices;
+pub use crate::recording::columns::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
+use crate::recording::message::{Dialect, RecordingError};
+pub use formats::Format;
 
 choices! {
     /// Presence of gravity's reaction in the accelerations.
@@ -153,7 +155,7 @@ pub struct ConventionOptions {
     /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
     /// gravity, bends and accelerations, and from the speed where there is one
     #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
-    #[schemars(with = "Option<super::mounting::Written>")]
+    #[schemars(with = "Option<crate::recording::axes::mounting::Written>")]
     pub mounting: Option<Mounting>,
 
     /// The axes of wx wy wz [default: body]

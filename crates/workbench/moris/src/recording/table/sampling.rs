@@ -2,11 +2,11 @@
 
 use moris_interface::shown;
 
-use super::conventions::{Conventions, Quantity};
+use super::Table;
 use super::join::GAP;
-use super::option::{given, named};
-use super::table::Table;
-use super::{RecordingError, median};
+use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::median;
+use crate::recording::message::{RecordingError, given, named};
 
 /// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
 /// times written with few digits.

@@ -12,8 +12,8 @@
 
 use moris_washout::nalgebra::Vector3;
 
-use super::super::option::given;
 use super::blocks::{BLOCK, Blocks};
+use crate::recording::message::given;
 
 /// Least change of speed that determines the forward direction, as a standard deviation
 /// of its rate \[m/s2\].

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
-use super::RecordingError;
+use crate::recording::message::RecordingError;
 
 /// The argument that stands for standard input.
 const STANDARD_INPUT: &str = "-";

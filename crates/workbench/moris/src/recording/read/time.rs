@@ -36,7 +36,7 @@ impl Times {
         let Some(time) = time_of_day(text) else {
             return Err(format!(
                 "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z or 12:30:00.25",
-                super::header::quoted(text)
+                crate::recording::columns::header::quoted(text)
             ));
         };
         if time + self.midnights < self.last - DAY / 2.0 {

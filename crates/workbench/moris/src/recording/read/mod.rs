@@ -1,0 +1,7 @@
+//! From files to rows of numbers.
+
+mod numbers;
+pub mod sheet;
+pub mod source;
+mod time;
+mod vbox;
