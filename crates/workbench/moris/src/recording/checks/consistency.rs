@@ -7,7 +7,7 @@
 use moris_washout::Input;
 
 use super::plausibility::{regression, remedy, smooth, unit};
-use crate::recording::columns::header::UnitSource;
+use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Conventions, Quantity, RateFrame, Unit};
 use crate::recording::message::{given, named};
 use crate::recording::table::Table;

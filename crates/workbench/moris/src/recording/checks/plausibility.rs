@@ -14,7 +14,7 @@ use moris_washout::Input;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
-use crate::recording::columns::header::UnitSource;
+use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{
     AngleUnit, Axes, Conventions, ForceUnit, Gravity, Quantity, RateFrame, RateUnit, Unit,
 };

@@ -14,21 +14,11 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Every quantity with its key, which is also its column's name unless another is given.
-    pub const ALL: [(Quantity, &'static str); 12] = [
-        (Quantity::Time, "time"),
-        (Quantity::Force(0), "ax"),
-        (Quantity::Force(1), "ay"),
-        (Quantity::Force(2), "az"),
-        (Quantity::Rate(0), "wx"),
-        (Quantity::Rate(1), "wy"),
-        (Quantity::Rate(2), "wz"),
-        (Quantity::Angle(0), "roll"),
-        (Quantity::Angle(1), "pitch"),
-        (Quantity::Angle(2), "yaw"),
-        (Quantity::Speed, "speed"),
-        (Quantity::Lean, "lean"),
-    ];
+    /// Every quantity, in the order of columns.
+    pub const ALL: [Quantity; 12] = {
+        use Quantity::{Angle, Force, Lean, Rate, Speed, Time};
+        [Time, Force(0), Force(1), Force(2), Rate(0), Rate(1), Rate(2), Angle(0), Angle(1), Angle(2), Speed, Lean]
+    };
 
     /// True for time, specific force and rates, which every recording must have.
     pub fn is_required(self) -> bool {
@@ -46,10 +36,16 @@ impl Quantity {
         }
     }
 
-    /// The quantity's key.
+    /// The quantity's key, which is also its column's name unless another is given.
     pub fn key(self) -> &'static str {
-        let found = Self::ALL.iter().find(|(quantity, _)| *quantity == self);
-        found.map_or("", |(_, key)| key)
+        match self {
+            Quantity::Time => "time",
+            Quantity::Force(axis) => ["ax", "ay", "az"][axis],
+            Quantity::Rate(axis) => ["wx", "wy", "wz"][axis],
+            Quantity::Angle(axis) => ["roll", "pitch", "yaw"][axis],
+            Quantity::Speed => "speed",
+            Quantity::Lean => "lean",
+        }
     }
 
     /// The quantity of a key.
@@ -57,8 +53,8 @@ impl Quantity {
     /// # Errors
     /// The key is unknown. The message lists the known ones.
     pub fn of_key(key: &str) -> Result<Self, String> {
-        let found = Self::ALL.iter().find(|(_, known)| *known == key);
-        let keys = || Self::ALL.map(|(_, key)| key).join(", ");
-        found.map(|(quantity, _)| *quantity).ok_or_else(|| format!("there is no key {key}; there are {}", keys()))
+        let keys = || Self::ALL.map(Self::key).join(", ");
+        let found = Self::ALL.into_iter().find(|quantity| quantity.key() == key);
+        found.ok_or_else(|| format!("there is no key {key}; there are {}", keys()))
     }
 }

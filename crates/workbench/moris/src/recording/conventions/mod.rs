@@ -25,7 +25,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use crate::recording::axes::mounting::Mounting;
-pub use crate::recording::columns::quantity::Quantity;
+pub use crate::recording::columns::Quantity;
 use crate::recording::columns::units::choices;
 pub use crate::recording::columns::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
 use crate::recording::message::{Dialect, RecordingError};
@@ -231,6 +231,29 @@ impl Conventions {
     /// The name of a quantity's column.
     pub fn column(&self, quantity: Quantity) -> &str {
         self.columns.get(&quantity).map_or(quantity.key(), String::as_str)
+    }
+
+    /// True for a quantity that a recording must have.
+    pub fn needs(&self, quantity: Quantity) -> bool {
+        quantity.is_required() && !self.is_at_rest(quantity)
+    }
+
+    /// True for a quantity that a recording must have, or whose column is named.
+    pub fn expects(&self, quantity: Quantity) -> bool {
+        // Speed helps formats that have it, and no format needs it.
+        let is_named = self.columns.contains_key(&quantity) && (quantity != Quantity::Speed || self.format.is_none());
+        self.needs(quantity) || is_named && !quantity.is_required()
+    }
+
+    /// True for a quantity that is as at rest where a recording lacks it. A turned
+    /// sensor's is not known.
+    fn is_at_rest(&self, quantity: Quantity) -> bool {
+        let is_known = match quantity {
+            Quantity::Rate(_) => self.mounting != Some(Mounting::Auto),
+            Quantity::Force(axis) => axis > 0 && self.mounting.is_none(),
+            _ => false,
+        };
+        is_known && self.missing == Missing::Rest
     }
 
     /// The unit that is given for a dimension.

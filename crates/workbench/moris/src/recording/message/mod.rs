@@ -1,7 +1,9 @@
 //! Messages to whom reads a recording.
 
 mod error;
-pub mod option;
+mod option;
+mod quote;
 
 pub use error::RecordingError;
 pub use option::{Dialect, given, named};
+pub use quote::quoted;

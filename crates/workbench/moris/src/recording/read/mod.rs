@@ -5,3 +5,5 @@ pub mod sheet;
 pub mod source;
 mod time;
 mod vbox;
+
+pub use numbers::is_number;

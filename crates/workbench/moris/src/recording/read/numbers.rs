@@ -1,7 +1,6 @@
 //! The numbers of a text file's fields.
 
-use crate::recording::columns::header::quoted;
-use crate::recording::message::given;
+use crate::recording::message::{given, quoted};
 
 /// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
 const LARGEST: f64 = 1e30;

@@ -7,7 +7,7 @@ use csv::{Reader, ReaderBuilder, StringRecord};
 use super::numbers::{Numbers, is_empty, is_number};
 use super::time::{Times, is_written_out};
 use super::{source, vbox};
-use crate::recording::columns::header::Header;
+use crate::recording::columns::Header;
 use crate::recording::conventions::{Conventions, EmptyFields, Quantity};
 use crate::recording::message::RecordingError;
 

@@ -7,6 +7,8 @@ use jiff::Timestamp;
 use jiff::civil::DateTime;
 use jiff::tz::TimeZone;
 
+use crate::recording::message::quoted;
+
 /// A day \[s\].
 const DAY: f64 = 86_400.0;
 
@@ -36,7 +38,7 @@ impl Times {
         let Some(time) = time_of_day(text) else {
             return Err(format!(
                 "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z or 12:30:00.25",
-                crate::recording::columns::header::quoted(text)
+                quoted(text)
             ));
         };
         if time + self.midnights < self.last - DAY / 2.0 {

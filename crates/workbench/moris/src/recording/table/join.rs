@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use moris_interface::shown;
 
 use super::sampling;
-use crate::recording::columns::header::{Column, Term, UnitSource};
 use crate::recording::columns::units::Unit;
+use crate::recording::columns::{Column, Term, UnitSource};
 use crate::recording::conventions::Quantity;
 use crate::recording::median;
 use crate::recording::message::RecordingError;

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use crate::recording::columns::header::{Column, Header, quoted};
+use crate::recording::columns::{Column, Header};
 use crate::recording::conventions::{Conventions, Gravity, Quantity};
-use crate::recording::message::RecordingError;
+use crate::recording::message::{RecordingError, quoted};
 use crate::recording::read::sheet::Sheet;
 use crate::recording::read::source;
 use join::Part;
@@ -76,17 +76,17 @@ impl Table {
 
     /// Adds the quantities that the recording lacks as at rest, with a warning.
     fn at_rest(mut self, conventions: &Conventions) -> Self {
-        let is_missing = |(quantity, _): &&(Quantity, &str)| {
+        let is_missing = |quantity: &Quantity| {
             quantity.is_required() && *quantity != Quantity::Time && !self.columns.contains_key(quantity)
         };
-        let missing: Vec<(Quantity, &str)> = Quantity::ALL.iter().filter(is_missing).copied().collect();
-        for (quantity, _) in &missing {
-            let is_vertical = *quantity == Quantity::Force(2) && conventions.gravity == Gravity::Included;
+        let missing: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_missing).collect();
+        for &quantity in &missing {
+            let is_vertical = quantity == Quantity::Force(2) && conventions.gravity == Gravity::Included;
             let rest = if is_vertical { STANDARD_GRAVITY * conventions.axes.signs()[2] } else { 0.0 };
-            self.columns.insert(*quantity, vec![rest; self.time.len()]);
+            self.columns.insert(quantity, vec![rest; self.time.len()]);
         }
         if !missing.is_empty() {
-            let names = missing.iter().map(|(_, key)| *key).collect::<Vec<_>>().join(", ");
+            let names = missing.iter().map(|quantity| quantity.key()).collect::<Vec<_>>().join(", ");
             self.warnings.push(format!("The recording has no {names}: they are taken as at rest."));
         }
         self
@@ -122,7 +122,7 @@ pub fn recordings(paths: &[PathBuf], conventions: &Conventions) -> Vec<PathBuf> 
 fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingError> {
     let sheet = Sheet::open(file, conventions)?;
     let whole = |reason| RecordingError::Whole { file: sheet.file.clone(), reason };
-    let mut layout = sheet.header.columns(&sheet.file, conventions, sheet.has_written_times)?;
+    let mut layout = sheet.header.columns(conventions, sheet.has_written_times).map_err(whole)?;
     let time = sheet.time.ok_or_else(|| whole(format!("there is no column {}", conventions.column(Quantity::Time))))?;
     let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(whole)?;
     if sheet.has_written_times {
@@ -153,7 +153,8 @@ fn of_files(
         }
     }
     let header = Header::of_files(sheets.iter().map(|(name, sheet)| (name.as_str(), &sheet.header)));
-    let layout = header.columns(&name, conventions, true)?;
+    let layout =
+        header.columns(conventions, true).map_err(|reason| RecordingError::Whole { file: name.clone(), reason })?;
     let mut parts = Vec::new();
     let mut first_place = 0;
     for (_, sheet) in &sheets {
@@ -202,7 +203,7 @@ pub fn of_columns(
     let file = PathBuf::from(name);
     let whole = |reason: String| RecordingError::Whole { file: file.clone(), reason };
     let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
-    let layout = header.columns(&file, conventions, false)?;
+    let layout = header.columns(conventions, false).map_err(whole)?;
     let samples = layout.first().map_or(0, |column| columns[column.terms[0].place].1.len());
     if samples < 2 {
         return Err(whole("has fewer than two samples".to_owned()));
