@@ -9,7 +9,6 @@ use super::mounting::{self, MountingEstimate, SensorMotion};
 use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
 use crate::recording::message::{RecordingError, given};
 use crate::recording::table::Table;
-use crate::recording::table::sampling::at;
 
 /// The washout's input at each sample, with warnings.
 ///
@@ -21,10 +20,7 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, V
         Some(Mounting::Angles(angles)) => {
             Some(MountingEstimate { rotation: mounting::rotation(angles), warning: String::new() })
         }
-        Some(Mounting::Auto) => Some(
-            find_mounting(table, conventions)
-                .map_err(|reason| RecordingError::Whole { file: table.file.clone(), reason })?,
-        ),
+        Some(Mounting::Auto) => Some(find_mounting(table, conventions).map_err(|reason| table.refused(reason))?),
     };
     let mounting = found.as_ref().map(|found| found.rotation);
     let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
@@ -35,7 +31,7 @@ pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, V
 fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(usize) -> Quantity) -> Vector3<f64> {
     // Roll is about x, which keeps its sign; pitch and yaw are about y and z, which may not.
     let signs = conventions.axes.signs();
-    Vector3::from_fn(|axis, _| at(table, quantity(axis), sample) * signs[axis])
+    Vector3::from_fn(|axis, _| table.value(quantity(axis), sample) * signs[axis])
 }
 
 fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, String> {
@@ -77,8 +73,8 @@ fn input(table: &Table, conventions: &Conventions, mounting: Option<&Matrix3<f64
         specific_force: turned(vector(Quantity::Force)) + gravity,
         angular_velocity: if conventions.rate_frame == RateFrame::Body { turned(rates) } else { rates },
         orientation,
-        speed: at(table, Quantity::Speed, sample),
-        lean: at(table, Quantity::Lean, sample),
+        speed: table.value(Quantity::Speed, sample),
+        lean: table.value(Quantity::Lean, sample),
         engaged: true,
     }
 }

@@ -27,6 +27,12 @@ pub struct Column {
     pub source: UnitSource,
 }
 
+/// The places of all columns in use but the time, each once.
+pub fn value_places(layout: &[Column]) -> Vec<usize> {
+    let used = layout.iter().filter(|column| column.quantity != Quantity::Time);
+    used.flat_map(|column| column.terms.iter().map(|term| term.place)).collect()
+}
+
 impl Header {
     /// The columns that are used. `skips_time` is set where each of several files has its own time.
     ///

@@ -16,7 +16,7 @@ mod title;
 mod unit_choice;
 pub mod units;
 
-pub use choice::{Column, UnitSource};
+pub use choice::{Column, UnitSource, value_places};
 pub use header::Header;
 pub use quantity::Quantity;
-pub use sum::Term;
+use sum::Term;

@@ -1,7 +1,7 @@
 //! Reasons why a recording cannot be simulated.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use moris_interface::shown;
 
@@ -28,14 +28,21 @@ pub enum RecordingError {
 }
 
 impl RecordingError {
+    /// A file that cannot be used as a whole.
+    pub fn whole(file: &Path, reason: impl Into<String>) -> Self {
+        RecordingError::Whole { file: file.to_owned(), reason: reason.into() }
+    }
+
+    /// A line that cannot be used, or the value of a column in it.
+    pub fn line(file: &Path, line: u64, column: Option<String>, reason: impl Into<String>) -> Self {
+        RecordingError::Line { file: file.to_owned(), line, column, reason: reason.into() }
+    }
+
     /// The same with the options in its reason written.
-    pub(in crate::recording) fn written(self, dialect: Dialect) -> Self {
-        match self {
-            RecordingError::Line { file, line, column, reason } => {
-                RecordingError::Line { file, line, column, reason: dialect.written(&reason) }
-            }
-            RecordingError::Whole { file, reason } => RecordingError::Whole { file, reason: dialect.written(&reason) },
-            other => other,
+    pub(in crate::recording) fn written(mut self, dialect: Dialect) -> Self {
+        if let RecordingError::Line { reason, .. } | RecordingError::Whole { reason, .. } = &mut self {
+            *reason = dialect.written(reason);
         }
+        self
     }
 }

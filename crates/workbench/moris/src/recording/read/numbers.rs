@@ -18,20 +18,17 @@ impl Numbers {
     /// The reason why it is none.
     pub fn parse(&mut self, field: Option<&str>) -> Result<f64, String> {
         let text = field.ok_or("is missing: the line has too few fields")?.trim();
-        let number = match text.find([',', '.']).map(|place| text.as_bytes()[place] as char) {
-            None => text.parse::<f64>(),
-            Some(mark) => {
-                let number = if mark == ',' { text.replacen(',', ".", 1).parse::<f64>() } else { text.parse::<f64>() };
-                if number.is_ok() && *self.mark.get_or_insert(mark) != mark {
-                    return Err(format!(
-                        "is {}, but numbers before it have a decimal {}; write all with the same",
-                        quoted(text),
-                        if mark == ',' { "point" } else { "comma" }
-                    ));
-                }
-                number
-            }
-        };
+        let mark = text.chars().find(|c| [',', '.'].contains(c));
+        let number = if mark == Some(',') { text.replacen(',', ".", 1).parse::<f64>() } else { text.parse::<f64>() };
+        if let (Some(mark), Ok(_)) = (mark, &number)
+            && *self.mark.get_or_insert(mark) != mark
+        {
+            return Err(format!(
+                "is {}, but numbers before it have a decimal {}; write all with the same",
+                quoted(text),
+                if mark == ',' { "point" } else { "comma" }
+            ));
+        }
         match number {
             Ok(number) if number.abs() <= LARGEST => Ok(number),
             Ok(number) if !number.is_nan() => {

@@ -1,7 +1,7 @@
 //! Laps in one file, of which each starts with the time of the first.
 
 use super::Table;
-use crate::recording::conventions::Conventions;
+use crate::recording::conventions::{Conventions, Quantity};
 use crate::recording::message::{RecordingError, given, named};
 
 /// Least step back in time with which a lap begins \[s\].
@@ -22,18 +22,13 @@ pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), Record
             given("lap", 1),
             given("lap", laps)
         );
-        let (file, line, column) = (table.file.clone(), table.lines[second], Some("time".to_owned()));
-        return Err(RecordingError::Line { file, line, column, reason });
+        return Err(table.refused_at(second, Quantity::Time, reason));
     };
     let end = starts.get(lap).copied().unwrap_or(table.time.len());
     let Some(range) = starts.get(lap - 1).map(|&start| start..end).filter(|range| range.len() > 1) else {
         let reason = format!("has no samples of lap {lap}: time starts {laps} times; give another {}", named("lap"));
-        return Err(RecordingError::Whole { file: table.file.clone(), reason });
+        return Err(table.refused(reason));
     };
-    table.time = table.time[range.clone()].to_vec();
-    table.lines = table.lines[range.clone()].to_vec();
-    for values in table.columns.values_mut() {
-        *values = values[range.clone()].to_vec();
-    }
+    table.keep(range);
     Ok(())
 }
