@@ -12,7 +12,7 @@
 //!   contradict each other.
 //!
 //! [`conventions`] are the names, units and axes given by options, or by one of the [`formats`].
-//! `message` names these options in errors and warnings.
+//! `message` names these options in errors and warnings, and `signal` has the statistics of all steps.
 //!
 //! # Gravity without orientation
 //!
@@ -33,6 +33,7 @@ mod columns;
 pub mod conventions;
 mod message;
 mod read;
+mod signal;
 pub mod table;
 
 use std::path::Path;
@@ -43,7 +44,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use axes::convert;
-use checks::{consistency, outliers, plausibility};
+use checks::{consistency, outliers, unusual};
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};
 pub(crate) use read::source;
@@ -104,10 +105,10 @@ impl Recording {
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);
-        plausibility::check(&table, &inputs, conventions)?;
+        checks::plausibility(&table, &inputs, conventions)?;
         warnings.extend(consistency::warnings(&table, &inputs, conventions));
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
-        warnings.extend(plausibility::warnings(&table, &inputs));
+        warnings.extend(unusual::warnings(&table, &inputs));
         Ok(Recording {
             name,
             start: table.time[0],
@@ -145,11 +146,4 @@ impl Recording {
     pub fn times(&self) -> impl Iterator<Item = f64> {
         (0..self.inputs().len()).map(|k| k as f64 * self.step())
     }
-}
-
-/// The median of at least one value; the upper one of two in the middle.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -6,10 +6,11 @@
 
 use moris_washout::Input;
 
-use super::plausibility::{regression, remedy, smooth, unit};
+use super::remedy;
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Conventions, Quantity, RateFrame, Unit};
 use crate::recording::message::{given, named};
+use crate::recording::signal::{centred, integral, regression, root_mean_square, smooth};
 use crate::recording::table::Table;
 
 /// Time over which changes of speed are compared with the force \[s\].
@@ -36,34 +37,25 @@ pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> V
     pairs.into_iter().flatten().chain(angles_and_rates(table, inputs, conventions)).collect()
 }
 
-fn root_mean_square(values: &[f64]) -> f64 {
-    (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
-}
-
-/// The values without their mean.
-fn centred(values: Vec<f64>) -> Vec<f64> {
-    let mean = values.iter().sum::<f64>() / values.len().max(1) as f64;
-    values.into_iter().map(|value| value - mean).collect()
+/// Factor from the signal that is expected to the other; none where one is small, or they do not go
+/// together.
+fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
+    let is_small = |values| root_mean_square(values) < least;
+    if is_small(expected) || is_small(found) { None } else { regression(expected, found) }
 }
 
 /// Compares changes of speed with the integral of the force along x.
 fn speed_and_force(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
     let step = table.step();
     let window = ((WINDOW / step).round() as usize).max(1);
-    let integral: Vec<f64> = inputs
-        .iter()
-        .scan(0.0, |integral, input| {
-            *integral += input.specific_force.x * step;
-            Some(*integral)
-        })
-        .collect();
+    let integral = integral(inputs.iter().map(|input| input.specific_force.x), step);
     let starts = 0..inputs.len().saturating_sub(window);
     let changes: Vec<f64> = starts.clone().map(|k| inputs[k + window].speed - inputs[k].speed).collect();
-    let expected = centred(starts.map(|k| integral[k + window] - integral[k]).collect());
+    let expected = centred(starts.map(|k| integral[k + window] - integral[k]));
     if root_mean_square(&changes) < LEAST_CHANGE || root_mean_square(&expected) < LEAST_CHANGE {
         return None;
     }
-    let ratio = regression(&expected, &centred(changes))?;
+    let ratio = regression(&expected, &centred(changes.into_iter()))?;
     let fact = format!("The speed changes {ratio:.1} times as much as the integral of the force along x");
     if ratio < OPPOSITE {
         let remedy = turned(conventions, Quantity::Force(0));
@@ -72,7 +64,7 @@ fn speed_and_force(table: &Table, inputs: &[Input], conventions: &Conventions) -
     let meaning = match other_unit(table, ratio) {
         Some(other) => {
             let remedy = remedy(table, Quantity::Speed, other.word);
-            format!("it seems to be in {}, not in {}: {remedy}", other.word, unit(table, Quantity::Speed).0.word)
+            format!("it seems to be in {}, not in {}: {remedy}", other.word, table.unit(Quantity::Speed).0.word)
         }
         None => format!("check {}", named("speed-unit")),
     };
@@ -81,7 +73,7 @@ fn speed_and_force(table: &Table, inputs: &[Input], conventions: &Conventions) -
 
 /// The unit of a speed that is so many times too large.
 fn other_unit(table: &Table, ratio: f64) -> Option<Unit> {
-    let (given, _) = unit(table, Quantity::Speed);
+    let (given, _) = table.unit(Quantity::Speed);
     let distance = |other: &Unit| (ratio * other.in_si / given.in_si).ln().abs();
     let others = Quantity::Speed.dimension().units().filter(|other| *other != given);
     let nearest = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
@@ -93,10 +85,7 @@ fn bends(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<S
     let step = table.step();
     let expected = smooth(inputs.iter().map(|input| input.speed * input.angular_velocity.z), step);
     let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
-    if root_mean_square(&expected) < LEAST_SWAY || root_mean_square(&lateral) < LEAST_SWAY {
-        return None;
-    }
-    let ratio = regression(&expected, &lateral)?;
+    let ratio = ratio(&expected, &lateral, LEAST_SWAY)?;
     if ratio < OPPOSITE {
         let rate = turned(conventions, Quantity::Rate(2));
         let force = turned(conventions, Quantity::Force(1));
@@ -110,7 +99,7 @@ fn bends(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<S
              that applies: {remedy}."
         ));
     }
-    let (given, source) = unit(table, Quantity::Speed);
+    let (given, source) = table.unit(Quantity::Speed);
     let other = other_unit(table, 1.0 / ratio).filter(|_| source == UnitSource::Default && ratio < 1.0 / RATIO)?;
     Some(format!(
         "In bends the lateral force is {ratio:.2} times speed by yaw rate. If the vehicle does not lean, its speed is in {}, \
@@ -134,10 +123,7 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
         let changes = inputs.windows(2).map(|pair| (angle(&pair[1]) - angle(&pair[0])).sin() / step);
         let derivative = smooth(changes, step);
         let rate = smooth(inputs[1..].iter().map(|input| input.angular_velocity[axis]), step);
-        if root_mean_square(&derivative) < LEAST_RATE || root_mean_square(&rate) < LEAST_RATE {
-            return None;
-        }
-        let ratio = regression(&derivative, &rate)?;
+        let ratio = ratio(&derivative, &rate, LEAST_RATE)?;
         let name = ["roll", "pitch", "yaw"][axis];
         let remedy = turned(conventions, Quantity::Rate(axis));
         (ratio < OPPOSITE).then(|| {

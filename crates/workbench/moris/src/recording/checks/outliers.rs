@@ -5,8 +5,8 @@ use moris_interface::shown;
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::recording::conventions::{Dimension, Quantity};
-use crate::recording::median;
 use crate::recording::message::{RecordingError, given};
+use crate::recording::signal::{median, sorted};
 use crate::recording::table::Table;
 
 /// Values that loggers and converters write where they have none, of either sign.
@@ -57,61 +57,68 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingEr
     let mut warnings = Vec::new();
     let quantities: Vec<Quantity> = table.columns.keys().copied().collect();
     for quantity in quantities {
-        let name = quantity.key();
         let values = &table.columns[&quantity];
         let errors = error_values(table, quantity, values);
+        if let (Some(&first), false) = (errors.first(), repair) {
+            return Err(table.refused_at(first, quantity, error_reason(table, quantity, &errors)));
+        }
         let spikes: Vec<usize> =
             spikes(quantity, values).into_iter().filter(|spike| errors.binary_search(spike).is_err()).collect();
-        if let (Some(&first), false) = (errors.first(), repair) {
-            let reason = format!(
-                "is {}, as loggers write it where they have no value, {}; use {} to interpolate over it, or cut this \
-                 part off",
-                shown(values[first] / unit(table, quantity)),
-                times(table, &errors),
-                given("repair", "True")
-            );
-            let (file, line, column) = (table.file.clone(), table.lines[first], Some(name.to_owned()));
-            return Err(RecordingError::Line { file, line, column, reason });
-        }
-        for tops in flat_tops(values) {
-            warnings.push(format!(
-                "Column {name} stays at its extreme {} for {FLAT} samples or more in a row, {}: the sensor seems to be at the \
-                 end of its range, and the peaks are cut off. They cannot be repaired.",
-                shown(values[tops[0]]),
-                times(table, &tops)
-            ));
-        }
+        warnings.extend(flat_tops(values).iter().map(|tops| flat_top_warning(table, quantity, tops)));
         if repair && !(errors.is_empty() && spikes.is_empty()) {
             let mut wrong = [errors, spikes].concat();
             wrong.sort_unstable();
-            warnings.push(format!(
-                "Repaired: {} of column {name} {} interpolated over, {}.",
-                if wrong.len() == 1 { "a sample".to_owned() } else { format!("{} samples", wrong.len()) },
-                if wrong.len() == 1 { "is" } else { "are" },
-                times(table, &wrong)
-            ));
+            warnings.push(repair_warning(table, quantity, &wrong));
             let repaired = interpolated(values, &wrong);
             table.columns.insert(quantity, repaired);
         } else if !spikes.is_empty() {
-            let largest = spikes.iter().map(|&k| values[k]).max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
-            warnings.push(format!(
-                "Column {name} has isolated spikes of up to {largest:.1} in SI units, {}. If no blow caused them, use \
-                 {} to interpolate over them.",
-                times(table, &spikes),
-                given("repair", "True")
-            ));
+            warnings.push(spike_warning(table, quantity, &spikes));
         }
     }
     Ok(warnings)
 }
 
-/// The unit of a quantity's column in SI units.
-fn unit(table: &Table, quantity: Quantity) -> f64 {
-    table.column(quantity).map_or(1.0, |column| column.unit.in_si)
+fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> String {
+    format!(
+        "is {}, as loggers write it where they have no value, {}; use {} to interpolate over it, or cut this part off",
+        shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si),
+        times(table, errors),
+        given("repair", "True")
+    )
+}
+
+fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> String {
+    format!(
+        "Column {} stays at its extreme {} for {FLAT} samples or more in a row, {}: the sensor seems to be at the end of \
+         its range, and the peaks are cut off. They cannot be repaired.",
+        quantity.key(),
+        shown(table.value(quantity, tops[0])),
+        times(table, tops)
+    )
+}
+
+fn repair_warning(table: &Table, quantity: Quantity, wrong: &[usize]) -> String {
+    let samples = match wrong.len() {
+        1 => format!("a sample of column {} is", quantity.key()),
+        count => format!("{count} samples of column {} are", quantity.key()),
+    };
+    format!("Repaired: {samples} interpolated over, {}.", times(table, wrong))
+}
+
+fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> String {
+    let values = spikes.iter().map(|&spike| table.value(quantity, spike));
+    let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
+    format!(
+        "Column {} has isolated spikes of up to {largest:.1} in SI units, {}. If no blow caused them, use {} to \
+         interpolate over them.",
+        quantity.key(),
+        times(table, spikes),
+        given("repair", "True")
+    )
 }
 
 fn error_values(table: &Table, quantity: Quantity, values: &[f64]) -> Vec<usize> {
-    let unit = unit(table, quantity);
+    let unit = table.unit(quantity).0.in_si;
     let largest = range(quantity.dimension()).largest;
     let is_error = |value: f64| {
         let written = (value / unit).abs();
@@ -139,8 +146,7 @@ fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
 
 /// Standard deviation of sizes, which a few spikes among them do not change.
 fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
-    let mut sizes: Vec<f64> = sizes.collect();
-    sizes.sort_by(f64::total_cmp);
+    let sizes = sorted(sizes);
     sizes[sizes.len() * 9 / 10] / QUANTILE
 }
 

@@ -20,8 +20,8 @@ use std::path::PathBuf;
 
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use crate::recording::columns::Column;
-use crate::recording::conventions::{Conventions, Gravity, Quantity};
+use crate::recording::columns::{Column, UnitSource};
+use crate::recording::conventions::{Conventions, Gravity, Quantity, Unit};
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
 pub use files::{read, recordings};
@@ -91,9 +91,11 @@ impl Table {
         self.columns.contains_key(&Quantity::Angle(0)) && self.columns.contains_key(&Quantity::Angle(1))
     }
 
-    /// The column of a quantity in the file.
-    pub fn column(&self, quantity: Quantity) -> Option<&Column> {
-        self.layout.iter().find(|column| column.quantity == quantity)
+    /// The unit of a quantity's column, and its source.
+    pub fn unit(&self, quantity: Quantity) -> (Unit, UnitSource) {
+        let column = self.layout.iter().find(|column| column.quantity == quantity);
+        let default = (quantity.dimension().default_unit(), UnitSource::Default);
+        column.map_or(default, |column| (column.unit, column.source))
     }
 
     /// The value of a quantity at a sample; zero where there is no such column.

@@ -38,7 +38,7 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
 
 fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let usual = usual_step(&table.time);
-    let unit = table.column(Quantity::Time).map_or("s", |column| column.unit.word);
+    let unit = table.unit(Quantity::Time).0.word;
     let reason = if usual > COARSEST {
         format!("too coarse for a washout; if time is in ms or another unit, give it with {}", named("time-unit"))
     } else if usual < FINEST {

@@ -2,8 +2,8 @@
 
 use moris_interface::shown;
 
-use crate::recording::median;
 use crate::recording::message::given;
+use crate::recording::signal::median;
 
 /// Longest gap that is interpolated over without a warning \[s\].
 pub const LONGEST_GAP: f64 = 0.2;

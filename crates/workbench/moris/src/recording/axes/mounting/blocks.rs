@@ -3,7 +3,7 @@
 use moris_washout::nalgebra::Vector3;
 
 use super::SensorMotion;
-use crate::recording::median;
+use crate::recording::signal::median;
 
 /// Time over which samples are averaged before the search \[s\].
 pub const BLOCK: f64 = 0.1;
