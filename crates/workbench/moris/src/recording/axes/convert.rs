@@ -10,21 +10,21 @@ use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, Ra
 use crate::recording::message::{RecordingError, given};
 use crate::recording::table::Table;
 
-/// The washout's input at each sample, with warnings.
+/// The washout's input at each sample, with a warning where the mounting was found.
 ///
 /// # Errors
 /// The mounting is to be found and cannot be.
-pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Vec<String>), RecordingError> {
-    let found = match conventions.mounting {
-        None => None,
-        Some(Mounting::Angles(angles)) => {
-            Some(MountingEstimate { rotation: mounting::rotation(angles), warning: String::new() })
+pub fn inputs(table: &Table, conventions: &Conventions) -> Result<(Vec<Input>, Option<String>), RecordingError> {
+    let (mounting, warning) = match conventions.mounting {
+        None => (None, None),
+        Some(Mounting::Angles(angles)) => (Some(Orientation::new(angles).rotation), None),
+        Some(Mounting::Auto) => {
+            let found = find_mounting(table, conventions).map_err(|reason| table.refused(reason))?;
+            (Some(found.rotation), Some(found.warning))
         }
-        Some(Mounting::Auto) => Some(find_mounting(table, conventions).map_err(|reason| table.refused(reason))?),
     };
-    let mounting = found.as_ref().map(|found| found.rotation);
     let inputs = (0..table.time.len()).map(|sample| input(table, conventions, mounting.as_ref(), sample)).collect();
-    Ok((inputs, found.map(|found| found.warning).into_iter().filter(|warning| !warning.is_empty()).collect()))
+    Ok((inputs, warning))
 }
 
 /// Three columns at a sample, turned to x forward, y left, z up of the sensor.

@@ -1,4 +1,4 @@
-//! From the recording's axes to the washout's inputs.
+//! From the recording's axes to the washout's inputs: `convert` turns them by the [`mounting`].
 
 pub mod convert;
-pub mod mounting;
+mod mounting;

@@ -1,9 +1,8 @@
 //! Units that a recording may be in, and their spellings in the headers of loggers.
 
-use clap::ValueEnum;
 use moris_washout::interface::STANDARD_GRAVITY;
-use schemars::JsonSchema;
-use serde::Deserialize;
+
+use crate::recording::conventions::choices;
 
 /// A unit of one of the quantities of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,25 +22,6 @@ pub enum Dimension {
     Angle,
     Speed,
 }
-
-/// Declares an enumeration whose items users write, on the command line and in TOML alike.
-macro_rules! choices {
-    ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
-        $(#[$attribute])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Deserialize, JsonSchema)]
-        pub enum $name {
-            $( $(#[doc = $text])+ #[value(name = $word)] #[serde(rename = $word)] $item, )+
-        }
-
-        impl $name {
-            /// Word for it on the command line.
-            pub fn word(self) -> &'static str {
-                match self { $( $name::$item => $word, )+ }
-            }
-        }
-    };
-}
-pub(in crate::recording) use choices;
 
 /// Declares the units of one dimension: word, item, factor to SI, and other spellings, as
 /// [`plain`] leaves them.

@@ -1,11 +1,8 @@
 //! Formats of public loggers: conventions by name.
 
 use clap::ValueEnum;
-use schemars::JsonSchema;
-use serde::Deserialize;
 
-use super::ConventionOptions;
-use crate::recording::columns::units::choices;
+use super::{ConventionOptions, choices};
 
 choices! {
     /// A logger or simulator whose files are read without further options.

@@ -1,75 +1,18 @@
-//! The sensor's mounting in the vehicle: given as angles, or found from the recording.
+//! The sensor's mounting in the vehicle, found from the recording.
+//!
+//! - `blocks` averages short blocks of the recording, and finds rest among them.
+//! - `level` finds horizontal directions, and `forward` decides between them.
 
 mod blocks;
 mod forward;
+mod level;
 
 use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::motion::orientation::{Orientation, RollPitchYaw};
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
-use schemars::JsonSchema;
-use serde::Deserialize;
 
 use crate::recording::message::{given, named};
 use blocks::Blocks;
 use forward::Forward;
-
-/// The sensor's orientation in the vehicle.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "Written")]
-pub enum Mounting {
-    /// To be found from gravity, accelerations and bends.
-    Auto,
-    /// Roll, pitch and yaw of the sensor in the vehicle's axes \[rad\].
-    Angles(RollPitchYaw),
-}
-
-/// The mounting in a file of conventions.
-#[derive(Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub(in crate::recording) enum Written {
-    /// auto
-    Word(String),
-    /// Roll, pitch and yaw of the sensor in the vehicle's axes, in degrees
-    Angles([f64; 3]),
-}
-
-impl TryFrom<Written> for Mounting {
-    type Error = String;
-
-    fn try_from(written: Written) -> Result<Self, String> {
-        match written {
-            Written::Word(word) => Mounting::parse(&word),
-            Written::Angles(degrees) => Mounting::of_degrees(degrees),
-        }
-    }
-}
-
-impl Mounting {
-    /// `auto`, or `ROLL,PITCH,YAW` in degrees.
-    ///
-    /// # Errors
-    /// The text is neither.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        if text.trim() == "auto" {
-            return Ok(Mounting::Auto);
-        }
-        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-        let angles = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
-        Self::of_degrees(angles.ok_or("write auto, or ROLL,PITCH,YAW in degrees, as in 0,90,0")?)
-    }
-
-    fn of_degrees(degrees: [f64; 3]) -> Result<Self, String> {
-        if degrees.iter().any(|angle| !(-360.0..=360.0).contains(angle)) {
-            return Err("roll, pitch and yaw must be from -360 to 360 degrees".to_owned());
-        }
-        Ok(Mounting::Angles(RollPitchYaw::from_vector(Vector3::from(degrees).map(f64::to_radians))))
-    }
-}
-
-/// Rotation from the sensor's axes to the vehicle's.
-pub fn rotation(angles: RollPitchYaw) -> Matrix3<f64> {
-    Orientation::new(angles).rotation
-}
 
 /// A recording in the sensor's axes.
 pub struct SensorMotion<'a> {
