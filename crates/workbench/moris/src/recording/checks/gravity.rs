@@ -5,7 +5,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::Vector3;
 
 use super::remedy;
-use crate::recording::conventions::{Axes, Conventions, ForceUnit, Gravity, Quantity};
+use crate::recording::conventions::{Axes, Conventions, Gravity, Quantity, Unit};
 use crate::recording::message::{given, named};
 use crate::recording::signal::median;
 use crate::recording::table::Table;
@@ -29,29 +29,35 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     let raw = (median - added) / unit.in_si;
     let is_mounted = conventions.mounting.is_some();
     let signs = if is_mounted { [1.0; 3] } else { conventions.axes.signs() };
-    let shown = format!(
-        "most of the time the accelerations{} are about ({:.2}, {:.2}, {:.2}) {}",
+    let size = raw.norm();
+    let is_gravity_in = |other: &Unit| (0.75..1.25).contains(&(size * other.in_si / STANDARD_GRAVITY));
+    let mut other_units = Quantity::Force(2).dimension().units().filter(|other| *other != unit);
+    let meaning = match other_units.find(is_gravity_in) {
+        Some(other) => {
+            let remedy = remedy(table, Quantity::Force(2), other.word);
+            format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
+        }
+        None => meaning(&median, conventions),
+    };
+    Err(format!(
+        "most of the time the accelerations{} are about ({:.2}, {:.2}, {:.2}) {}, {meaning}",
         if is_mounted { format!(", turned by {},", named("mounting")) } else { String::new() },
         raw.x,
         raw.y * signs[1],
         raw.z * signs[2],
         unit.word
-    );
-    let size = raw.norm();
-    let other_unit = [ForceUnit::MetrePerSecondSquared, ForceUnit::Gravity, ForceUnit::MilliGravity]
-        .map(ForceUnit::unit)
-        .into_iter()
-        .find(|other| *other != unit && (0.75..1.25).contains(&(size * other.in_si / STANDARD_GRAVITY)));
-    let meaning = if let Some(other) = other_unit {
-        let remedy = remedy(table, Quantity::Force(2), other.word);
-        format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
-    } else if conventions.gravity == Gravity::Removed {
+    ))
+}
+
+/// The meaning of a median in the right unit that is not gravity along z.
+fn meaning(median: &Vector3<f64>, conventions: &Conventions) -> String {
+    if conventions.gravity == Gravity::Removed {
         format!(
             "which includes gravity although {} was given: use {}",
             given("gravity", "removed"),
             given("gravity", "included")
         )
-    } else if (median + gravity).norm() < GRAVITY_TOLERANCE {
+    } else if (median + Vector3::new(0.0, 0.0, STANDARD_GRAVITY)).norm() < GRAVITY_TOLERANCE {
         match conventions.axes {
             Axes::ForwardLeftUp => format!("so z points down: use {}", given("axes", "forward-right-down")),
             Axes::ForwardRightDown => format!("so z points up: use {}", given("axes", "forward-left-up")),
@@ -67,6 +73,5 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
         )
     } else {
         "which is gravity in no unit known here: convert the file to m/s2 or g".to_owned()
-    };
-    Err(format!("{shown}, {meaning}"))
+    }
 }

@@ -39,20 +39,16 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
         return Ok(());
     }
     let fast = usual_maximum(inputs);
-    let evidence = if fast > FASTEST {
-        Some(format!("angular velocities reach {fast:.0}"))
+    let (evidence, insist) = if fast > FASTEST {
+        (Some(format!("angular velocities reach {fast:.0}")), String::new())
     } else if source == UnitSource::Default {
-        not_radians(table, inputs, conventions)
+        let option = given(Quantity::Rate(0).dimension().option(), "rad/s");
+        (not_radians(table, inputs, conventions), format!(" (or {option}, if they are)"))
     } else {
-        None
+        (None, String::new())
     };
     let Some(evidence) = evidence else { return Ok(()) };
     let remedy = remedy(table, Quantity::Rate(0), RateUnit::DegreePerSecond.word());
-    let insist = if source == UnitSource::Default && fast <= FASTEST {
-        format!(" (or {}, if they are)", given(Quantity::Rate(0).dimension().option(), "rad/s"))
-    } else {
-        String::new()
-    };
     Err(format!("{evidence}: these are degrees a second, not radians; {remedy}{insist}"))
 }
 
@@ -65,28 +61,39 @@ pub fn usual_maximum(inputs: &[Input]) -> f64 {
 /// Evidence that angular velocities are not in rad/s.
 fn not_radians(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
     let step = table.step();
-    let rates = |axis: usize| inputs.iter().map(move |input| input.angular_velocity[axis]);
+    let by_angle = |(axis, name)| {
+        let derivative = || derivative_differs(inputs, axis, name, step).filter(|_| table.has_orientation());
+        derivative().or_else(|| swings_too_wide(inputs, axis, name, step))
+    };
+    let angles = [(0, "roll"), (1, "pitch")];
     let is_body = conventions.rate_frame == RateFrame::Body;
-    for (axis, name) in ["roll", "pitch"].into_iter().enumerate() {
-        if table.has_orientation() && is_body {
-            let angle = |input: &Input| input.orientation.to_vector()[axis];
-            let derivative: Vec<f64> =
-                inputs.windows(2).map(|pair| (angle(&pair[1]) - angle(&pair[0])) / step).collect();
-            let scale = regression(&derivative, &rates(axis).take(derivative.len()).collect::<Vec<f64>>());
-            if let Some(scale) = scale.filter(|scale| (30.0..100.0).contains(scale)) {
-                return Some(format!("angular velocities are {scale:.0} times the derivative of {name}"));
-            }
-        }
-        let swing = widest_swing(rates(axis), step);
-        if is_body && swing > WIDEST_SWING {
-            return Some(format!("in rad/s, {name} would swing by {:.0} degrees within {DRIFT} s", swing.to_degrees()));
-        }
-    }
+    angles.into_iter().filter(|_| is_body).find_map(by_angle).or_else(|| turns_too_tight(inputs, step))
+}
+
+fn rates(inputs: &[Input], axis: usize) -> impl Iterator<Item = f64> {
+    inputs.iter().map(move |input| input.angular_velocity[axis])
+}
+
+fn derivative_differs(inputs: &[Input], axis: usize, name: &str, step: f64) -> Option<String> {
+    let angle = |input: &Input| input.orientation.to_vector()[axis];
+    let derivative: Vec<f64> = inputs.windows(2).map(|pair| (angle(&pair[1]) - angle(&pair[0])) / step).collect();
+    let rates: Vec<f64> = rates(inputs, axis).take(derivative.len()).collect();
+    let scale = regression(&derivative, &rates).filter(|scale| (30.0..100.0).contains(scale))?;
+    Some(format!("angular velocities are {scale:.0} times the derivative of {name}"))
+}
+
+fn swings_too_wide(inputs: &[Input], axis: usize, name: &str, step: f64) -> Option<String> {
+    let swing = widest_swing(rates(inputs, axis), step);
+    (swing > WIDEST_SWING)
+        .then(|| format!("in rad/s, {name} would swing by {:.0} degrees within {DRIFT} s", swing.to_degrees()))
+}
+
+fn turns_too_tight(inputs: &[Input], step: f64) -> Option<String> {
     let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
-    let yaw = smooth(rates(2), step);
     if root_mean_square(&lateral) < TURN {
         return None;
     }
+    let yaw = smooth(rates(inputs, 2), step);
     // a = v omega of a turn; a two-wheeler has no lateral force in its turns, and none that has the yaw rate's sign.
     let speed = regression(&yaw, &lateral)?;
     let radius = speed / root_mean_square(&yaw);

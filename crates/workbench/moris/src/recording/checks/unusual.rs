@@ -19,38 +19,43 @@ const JOLT: f64 = 1.0;
 
 /// Warnings about a recording that is unusual but possible.
 pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for (axis, name) in ["x", "y"].into_iter().enumerate() {
-        let mean = inputs.iter().map(|input| input.specific_force[axis]).sum::<f64>() / inputs.len() as f64;
-        if mean.abs() > BIAS {
-            warnings.push(format!(
-                "The specific force along {name} is {mean:.2} m/s2 on average: the sensor is tilted by {:.1} degrees or \
-                 biased, or the recording ends faster than it begins, or uphill. The platform will lean as much.",
-                (mean / STANDARD_GRAVITY).clamp(-1.0, 1.0).asin().to_degrees()
-            ));
-        }
-    }
-    let (rate_unit, source) = table.unit(Quantity::Rate(0));
+    [bias(inputs, 0, "x"), bias(inputs, 1, "y"), fast_rates(table, inputs), jolt(&inputs[0])]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+fn bias(inputs: &[Input], axis: usize, name: &str) -> Option<String> {
+    let mean = inputs.iter().map(|input| input.specific_force[axis]).sum::<f64>() / inputs.len() as f64;
+    let tilt = (mean / STANDARD_GRAVITY).clamp(-1.0, 1.0).asin().to_degrees();
+    (mean.abs() > BIAS).then(|| {
+        format!(
+            "The specific force along {name} is {mean:.2} m/s2 on average: the sensor is tilted by {tilt:.1} degrees or \
+             biased, or the recording ends faster than it begins, or uphill. The platform will lean as much."
+        )
+    })
+}
+
+fn fast_rates(table: &Table, inputs: &[Input]) -> Option<String> {
+    let (unit, source) = table.unit(Quantity::Rate(0));
     let fast = usual_maximum(inputs);
-    if source == UnitSource::Default && fast > BRISK {
-        warnings.push(format!(
-            "Angular velocities reach {fast:.1} {}, and neither the header nor {} gives a unit. If they are in deg/s, \
-             use {}.",
-            rate_unit.word,
-            named("rate-unit"),
-            given("rate-unit", "deg/s")
-        ));
-    }
-    let first = inputs[0].specific_force - Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
-    if first.amax() > JOLT {
-        warnings.push(format!(
+    (source == UnitSource::Default && fast > BRISK).then(|| {
+        let (unit, option, remedy) = (unit.word, named("rate-unit"), given("rate-unit", "deg/s"));
+        format!(
+            "Angular velocities reach {fast:.1} {unit}, and neither the header nor {option} gives a unit. If they are in \
+             deg/s, use {remedy}."
+        )
+    })
+}
+
+fn jolt(first: &Input) -> Option<String> {
+    let cue = first.specific_force - Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+    let remedy = given("fade-in", 1);
+    (cue.amax() > JOLT).then(|| {
+        format!(
             "The recording does not begin at rest: the specific force jumps by ({:.1}, {:.1}, {:.1}) m/s2 at once; \
-             {} fades it in from rest.",
-            first.x,
-            first.y,
-            first.z,
-            given("fade-in", 1)
-        ));
-    }
-    warnings
+             {remedy} fades it in from rest.",
+            cue.x, cue.y, cue.z
+        )
+    })
 }

@@ -18,10 +18,10 @@ impl Header {
 
     /// The header of several files, each with its name.
     pub fn of_files<'a>(files: impl IntoIterator<Item = (&'a str, &'a Header)>) -> Self {
-        let named = |file: &'a str, header: &'a Header| {
+        let with_file = |(file, header): (&'a str, &'a Header)| {
             header.titles.iter().map(move |title| Title { file: Some(file.to_owned()), ..title.clone() })
         };
-        Header { titles: files.into_iter().flat_map(|(file, header)| named(file, header)).collect() }
+        Header { titles: files.into_iter().flat_map(with_file).collect() }
     }
 
     /// Number of columns.

@@ -17,12 +17,10 @@ impl Header {
         for term in &terms[1..] {
             let (other, _) = self.unit(term.place, dimension, conventions)?;
             if other != unit {
+                let [one, two] = [&terms[0], term].map(|term| self.shown(term.place));
+                let (unit, other) = (unit.word, other.word);
                 return Err(format!(
-                    "columns {} and {} are added, but are in {} and {}; convert one of them",
-                    self.shown(terms[0].place),
-                    self.shown(term.place),
-                    unit.word,
-                    other.word
+                    "columns {one} and {two} are added, but are in {unit} and {other}; convert one of them"
                 ));
             }
         }
@@ -48,14 +46,11 @@ impl Header {
         conventions: &Conventions,
     ) -> Result<(Unit, UnitSource), String> {
         let given = conventions.unit(dimension);
-        let option = named(dimension.option());
-        let title = self.shown(place);
+        let of_option = given.map(|unit| (unit, UnitSource::Option));
         let Some(text) = &self.titles[place].unit else {
-            return Ok(match given {
-                Some(unit) => (unit, UnitSource::Option),
-                None => (dimension.default_unit(), UnitSource::Default),
-            });
+            return Ok(of_option.unwrap_or((dimension.default_unit(), UnitSource::Default)));
         };
+        let (title, option) = (self.shown(place), named(dimension.option()));
         match (dimension.spelled(text), given) {
             (Some(unit), Some(given)) if unit != given => Err(format!(
                 "column {title} is in {} by its header, but {option} gives {}; leave {option} out, or correct the header",
@@ -89,14 +84,11 @@ impl Header {
             let open: Vec<String> = of(UnitSource::Default).map(|column| self.shown(column.terms[0].place)).collect();
             let stated = of(UnitSource::Header).find(|column| column.unit != dimension.default_unit());
             if let Some(stated) = stated.filter(|_| !open.is_empty()) {
+                let (title, unit) = (self.shown(stated.terms[0].place), stated.unit.word);
+                let (verb, open) = (if open.len() == 1 { "is" } else { "are" }, open.join(", "));
                 return Err(format!(
-                    "column {} is in {} by its header, but {} without a unit; write the unit into the header of each",
-                    self.shown(stated.terms[0].place),
-                    stated.unit.word,
-                    match &open[..] {
-                        [one] => format!("{one} is"),
-                        many => format!("{} are", many.join(", ")),
-                    }
+                    "column {title} is in {unit} by its header, but {open} {verb} without a unit; write the unit into \
+                     the header of each"
                 ));
             }
         }

@@ -27,7 +27,6 @@ pub struct Blocks {
 impl Blocks {
     pub fn new(motion: &SensorMotion) -> Self {
         let size = ((BLOCK / motion.step).round() as usize).max(1);
-        let mean = |vectors: &[Vector3<f64>]| vectors.iter().sum::<Vector3<f64>>() / vectors.len() as f64;
         let means = |vectors: &[Vector3<f64>]| vectors.chunks_exact(size).map(mean).collect::<Vec<_>>();
         let speeds = motion.speeds.unwrap_or_default().chunks_exact(size);
         let (forces, rates) = (means(motion.forces), means(motion.rates));
@@ -57,13 +56,14 @@ impl Blocks {
     }
 
     fn median_at_rest(&self, vectors: &[Vector3<f64>]) -> Option<Vector3<f64>> {
-        let means: Vec<Vector3<f64>> = self
-            .rests
-            .iter()
-            .map(|&start| vectors[start..start + REST].iter().sum::<Vector3<f64>>() / REST as f64)
-            .collect();
+        let means: Vec<Vector3<f64>> = self.rests.iter().map(|&start| mean(&vectors[start..start + REST])).collect();
         (!means.is_empty()).then(|| Vector3::from_fn(|axis, _| median(means.iter().map(|mean| mean[axis]))))
     }
+}
+
+/// The mean of at least one vector.
+pub fn mean(vectors: &[Vector3<f64>]) -> Vector3<f64> {
+    vectors.iter().sum::<Vector3<f64>>() / vectors.len() as f64
 }
 
 fn rests(forces: &[Vector3<f64>], rates: &[Vector3<f64>]) -> Vec<usize> {

@@ -2,7 +2,7 @@
 
 use moris_washout::nalgebra::Vector3;
 
-use super::blocks::{BLOCK, Blocks};
+use super::blocks::{BLOCK, Blocks, mean};
 
 /// Least change of speed that determines the forward direction, as a standard deviation
 /// of its rate \[m/s2\].
@@ -93,7 +93,7 @@ impl Level {
         let around = |k: usize| k.saturating_sub(SMOOTHING / 2)..(k + SMOOTHING / 2 + 1).min(count);
         let smooth = |k: usize| {
             let blocks = around(k);
-            let force = self.forces[blocks.clone()].iter().sum::<Vector3<f64>>() / blocks.len() as f64;
+            let force = mean(&self.forces[blocks.clone()]);
             let yaw_rate = self.yaw_rates[blocks.clone()].iter().sum::<f64>() / blocks.len() as f64;
             let is_straight = force.norm() > ACCELERATION && yaw_rate.abs() * BEND_SPEED[1] < force.norm();
             if is_straight { force } else { Vector3::zeros() }

@@ -11,7 +11,7 @@ use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
 use crate::recording::message::{given, named};
-use blocks::Blocks;
+use blocks::{Blocks, mean};
 use forward::Forward;
 
 /// A recording in the sensor's axes.
@@ -46,8 +46,7 @@ const LARGEST_ERROR: f64 = 15f64.to_radians();
 pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, String> {
     let blocks = Blocks::new(motion);
     let rest = blocks.rest_force();
-    let whole = || motion.forces.iter().sum::<Vector3<f64>>() / motion.forces.len() as f64;
-    let gravity = rest.unwrap_or_else(whole);
+    let gravity = rest.unwrap_or_else(|| mean(motion.forces));
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
         return Err(format!(
             "{} finds no gravity: at rest the specific force is {:.2} m/s2; check {}, or give {}",
