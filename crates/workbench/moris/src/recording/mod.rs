@@ -5,14 +5,15 @@
 //!
 //! - `read` reads a file's text and its lines, as numbers.
 //! - `columns` finds the columns of the quantities in the header, and their units.
-//! - [`table`] collects the numbers in SI units, joins those of several files, chooses one of several
-//!   laps, and makes the time steps equal.
+//! - [`table`] collects the numbers in SI units, joins those of several files, chooses one of
+//!   several laps, and makes the time steps equal.
 //! - `axes` rotates the vectors by the sensor's mounting, to the washout's inputs.
 //! - `checks` finds samples that no vehicle causes, wrong units and axes, and channels that
 //!   contradict each other.
 //!
-//! [`conventions`] are the names, units and axes given by options, or by one of the [`formats`].
-//! `message` names these options in errors and warnings, and `signal` has the statistics of all steps.
+//! [`conventions`] are the names, units and axes given by options, or by one of the
+//! [`formats`]. `message` names these options in errors and warnings, and `signal` has the
+//! statistics of all steps.
 //!
 //! # Gravity without orientation
 //!

@@ -7,7 +7,7 @@ use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::mounting::{self, MountingEstimate, SensorMotion};
 use crate::recording::conventions::{Conventions, Gravity, Mounting, Quantity, RateFrame};
-use crate::recording::message::{RecordingError, given};
+use crate::recording::message::RecordingError;
 use crate::recording::table::Table;
 
 /// The washout's input at each sample, with a warning where the mounting was found.
@@ -36,11 +36,8 @@ fn vector(table: &Table, conventions: &Conventions, sample: usize, quantity: fn(
 
 fn find_mounting(table: &Table, conventions: &Conventions) -> Result<MountingEstimate, String> {
     if conventions.gravity == Gravity::Removed {
-        return Err(format!(
-            "{} needs gravity in the accelerations; give {}",
-            given("mounting", "auto"),
-            given("mounting", "ROLL,PITCH,YAW")
-        ));
+        let [auto, angles] = Mounting::options();
+        return Err(format!("{auto} needs gravity in the accelerations; give {angles}"));
     }
     let vectors = |quantity| -> Vec<Vector3<f64>> {
         (0..table.time.len()).map(|sample| vector(table, conventions, sample, quantity)).collect()

@@ -31,10 +31,9 @@ const OPPOSITE: f64 = -0.5;
 
 /// Warnings that name the options for channels that contradict each other.
 pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
-    let speed = table.columns.contains_key(&Quantity::Speed);
-    let with_speed = || [speed_and_force(table, inputs, conventions), bends(table, inputs, conventions)];
-    let pairs = if speed { with_speed() } else { [None, None] };
-    pairs.into_iter().flatten().chain(angles_and_rates(table, inputs, conventions)).collect()
+    let of_speed = || [speed_and_force(table, inputs, conventions), bends(table, inputs, conventions)];
+    let of_speed = table.columns.contains_key(&Quantity::Speed).then(of_speed).into_iter().flatten().flatten();
+    of_speed.chain(angles_and_rates(table, inputs, conventions)).collect()
 }
 
 /// Factor from the signal that is expected to the other; none where one is small, or they do not go

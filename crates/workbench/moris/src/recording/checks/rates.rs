@@ -16,7 +16,7 @@ use super::remedy;
 use crate::recording::columns::UnitSource;
 use crate::recording::conventions::{Conventions, Quantity, RateFrame, RateUnit};
 use crate::recording::message::given;
-use crate::recording::signal::{integral, regression, root_mean_square, smooth, sorted};
+use crate::recording::signal::{extremes, integral, regression, root_mean_square, smooth, sorted};
 use crate::recording::table::Table;
 
 /// Angular velocity that no head exceeds for a hundredth of a recording \[rad/s\].
@@ -112,7 +112,7 @@ fn widest_swing(rates: impl Iterator<Item = f64>, step: f64) -> f64 {
         let (first, last) = (part[0], part[part.len() - 1]);
         let slope = (last - first) / (part.len() - 1) as f64;
         let level = part.iter().enumerate().map(|(k, angle)| angle - slope * k as f64);
-        let (low, high) = level.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), a| (low.min(a), high.max(a)));
+        let (low, high) = extremes(level);
         high - low
     };
     let parts = (0..angles.len()).step_by(window / 2).map(|start| &angles[start..(start + window).min(angles.len())]);

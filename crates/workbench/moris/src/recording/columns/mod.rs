@@ -1,7 +1,7 @@
 //! The columns of a recording: their names, quantities and units.
 //!
-//! - [`Header`] has the titles of a file, a `title` each. `lookup` finds a name in it, and `sum` the
-//!   terms of a sum of columns.
+//! - [`Header`] has the titles of a file, a `title` each. `lookup` finds a name in it, and `sum`
+//!   the terms of a sum of columns.
 //! - `choice` chooses the columns of the quantities and `unit_choice` their units, of those that
 //!   [`units`] lists.
 //! - `missing` says which columns there are where one is missing.

@@ -5,6 +5,8 @@ use moris_washout::nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::recording::message::given;
+
 /// The sensor's orientation in the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(try_from = "Written")]
@@ -48,6 +50,11 @@ impl Mounting {
         let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
         let angles = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
         Self::of_degrees(angles.ok_or("write auto, or ROLL,PITCH,YAW in degrees, as in 0,90,0")?)
+    }
+
+    /// The options that find it and that give it, for messages.
+    pub fn options() -> [String; 2] {
+        ["auto", "ROLL,PITCH,YAW"].map(|value| given("mounting", value))
     }
 
     fn of_degrees(degrees: [f64; 3]) -> Result<Self, String> {

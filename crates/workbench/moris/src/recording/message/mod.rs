@@ -1,4 +1,4 @@
-//! Messages to whom reads a recording.
+//! Messages about a recording: errors, the options that help, and quotations of the file.
 
 mod error;
 mod option;

@@ -41,7 +41,7 @@ impl Numbers {
     }
 }
 
-/// How a gap is closed.
+/// The remedy for a gap.
 fn remedy() -> String {
     format!("cut this part off, fill the gap with plausible values, or use {}", given("empty-fields", "interpolate"))
 }

@@ -40,7 +40,8 @@ pub fn header_start(text: &str, conventions: &Conventions) -> (usize, u64) {
     widest.1
 }
 
-/// The one of comma, semicolon and tabulator that is most often in the first line that is no comment.
+/// The one of comma, semicolon and tabulator that is most often in the first
+/// line that is no comment.
 pub fn delimiter(text: &str) -> u8 {
     let header = text.lines().find(|line| !is_skipped(line)).unwrap_or_default();
     let count = |delimiter: u8| header.bytes().filter(|&byte| byte == delimiter).count();

@@ -9,8 +9,8 @@ use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
 
-/// Longest gap that is interpolated over without a warning where a file's samples are further apart,
-/// as those of a satellite receiver \[steps\].
+/// Longest gap that is interpolated over without a warning where a file's samples are further
+/// apart, as those of a satellite receiver \[steps\].
 const GAP_STEPS: f64 = 2.5;
 
 /// The samples of one file, with the time in seconds.

@@ -3,7 +3,7 @@
 use moris_washout::nalgebra::Vector3;
 
 use super::SensorMotion;
-use crate::recording::signal::median;
+use crate::recording::signal::{extremes, median};
 
 /// Time over which samples are averaged before the search \[s\].
 pub const BLOCK: f64 = 0.1;
@@ -69,8 +69,8 @@ pub fn mean(vectors: &[Vector3<f64>]) -> Vector3<f64> {
 fn rests(forces: &[Vector3<f64>], rates: &[Vector3<f64>]) -> Vec<usize> {
     let is_at_rest = |&start: &usize| {
         let steady = (0..3).all(|axis| {
-            let values = forces[start..start + REST].iter().map(|force| force[axis]);
-            values.clone().fold(f64::MIN, f64::max) - values.fold(f64::MAX, f64::min) < REST_FORCE
+            let (least, greatest) = extremes(forces[start..start + REST].iter().map(|force| force[axis]));
+            greatest - least < REST_FORCE
         });
         steady && rates[start..start + REST].iter().all(|rate| rate.norm() < REST_RATE)
     };

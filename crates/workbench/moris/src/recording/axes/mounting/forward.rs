@@ -14,7 +14,7 @@ use moris_washout::nalgebra::Vector3;
 
 use super::blocks::{BLOCK, Blocks};
 use super::level::{Estimate, Level, sign};
-use crate::recording::message::given;
+use crate::recording::conventions::Mounting;
 
 /// Largest standard error of a source that is used: it still tells forward from backward \[rad\].
 const USABLE: f64 = 45f64.to_radians();
@@ -38,6 +38,7 @@ pub struct Forward {
 /// # Errors
 /// No source tells it, or two contradict each other.
 pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
+    let [auto, angles] = Mounting::options();
     let level = Level::new(blocks, up);
     let sources = [level.along_speed(&blocks.speeds), level.in_bends(), level.in_leaning_bends()];
     let is_usable = |estimate: &Estimate| estimate.error < USABLE;
@@ -47,10 +48,8 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
     let Some(best) = estimates.first() else {
         let axis = straight.ok_or_else(|| {
             format!(
-                "{} finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so forward \
-                 is unknown; give {} in degrees",
-                given("mounting", "auto"),
-                given("mounting", "ROLL,PITCH,YAW")
+                "{auto} finds no acceleration straight ahead that lasts 0.5 s, and no bends of more than 3 m/s, so \
+                 forward is unknown; give {angles} in degrees"
             )
         })?;
         let (start, sign) = level.first_acceleration(blocks.first_rest(), &axis.direction);
@@ -65,13 +64,9 @@ pub fn find(blocks: &Blocks, up: &Vector3<f64>) -> Result<Forward, String> {
     let straight =
         straight.map(|axis| Estimate { direction: axis.direction * sign(axis.direction.dot(&best.direction)), ..axis });
     if let Some(other) = estimates[1..].iter().chain(&straight).find(|other| contradicts(best, other)) {
+        let (one, two, angle) = (best.evidence, other.evidence, best.direction.angle(&other.direction).to_degrees());
         return Err(format!(
-            "{} finds forward from {} and from {}, {:.0} degrees apart; give {} in degrees",
-            given("mounting", "auto"),
-            best.evidence,
-            other.evidence,
-            best.direction.angle(&other.direction).to_degrees(),
-            given("mounting", "ROLL,PITCH,YAW")
+            "{auto} finds forward from {one} and from {two}, {angle:.0} degrees apart; give {angles} in degrees"
         ));
     }
     let (finest, evidence) = match &straight {

@@ -10,6 +10,7 @@ mod level;
 use moris_washout::interface::STANDARD_GRAVITY;
 use moris_washout::nalgebra::{Matrix3, Rotation3, Vector3};
 
+use crate::recording::conventions::Mounting;
 use crate::recording::message::{given, named};
 use blocks::{Blocks, mean};
 use forward::Forward;
@@ -44,35 +45,30 @@ const LARGEST_ERROR: f64 = 15f64.to_radians();
 /// The recording contains no gravity, or forward is unknown, uncertain or contradictory. The
 /// message names the option that gives the mounting.
 pub fn find(motion: &SensorMotion) -> Result<MountingEstimate, String> {
+    let [auto, angles] = Mounting::options();
     let blocks = Blocks::new(motion);
     let rest = blocks.rest_force();
     let gravity = rest.unwrap_or_else(|| mean(motion.forces));
     if (gravity.norm() / STANDARD_GRAVITY - 1.0).abs() > 0.2 {
+        let (size, unit) = (gravity.norm(), named("force-unit"));
         return Err(format!(
-            "{} finds no gravity: at rest the specific force is {:.2} m/s2; check {}, or give {}",
-            given("mounting", "auto"),
-            gravity.norm(),
-            named("force-unit"),
-            given("mounting", "ROLL,PITCH,YAW")
+            "{auto} finds no gravity: at rest the specific force is {size:.2} m/s2; check {unit}, or give {angles}"
         ));
     }
     let up = gravity.normalize();
     let Forward { direction, error, evidence, may_be_backward } = forward::find(&blocks, &up)?;
     let rotation = axes(&up, &direction);
-    let option = option(&rotation);
+    let (option, degrees) = (option(&rotation), error.to_degrees());
     if error > LARGEST_ERROR {
         return Err(format!(
-            "{} finds forward from {evidence}, but only to {:.0} degrees; give {} in degrees, or take {option}",
-            given("mounting", "auto"),
-            error.to_degrees(),
-            given("mounting", "ROLL,PITCH,YAW")
+            "{auto} finds forward from {evidence}, but only to {degrees:.0} degrees; give {angles} in degrees, or take \
+             {option}"
         ));
     }
     let level = if rest.is_some() { "gravity" } else { "the mean force, as there is no second of rest" };
     let mut warning = format!(
-        "The sensor's mounting was found, up from {level}, and forward to {:.0} degrees from {evidence}: {option} gives the \
-         same.",
-        error.to_degrees()
+        "The sensor's mounting was found, up from {level}, and forward to {degrees:.0} degrees from {evidence}: {option} \
+         gives the same."
     );
     if may_be_backward {
         let turned = self::option(&axes(&up, &-direction));
