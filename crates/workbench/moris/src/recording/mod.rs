@@ -1,19 +1,19 @@
 //! Recordings: read from CSV, converted to the washout's frames and units, and
 //! checked for plausibility.
 //!
-//! [`Recording::read`] reads a recording in these steps:
+//! [`Recording::read`] reads a recording in these steps, each a folder:
 //!
-//! - `source` reads the text and `sheet` its lines.
-//! - [`header`] finds the columns and their [`units`].
-//! - [`table`] collects the numbers, and `join` those of several files.
-//! - `laps` chooses one of several.
-//! - `outliers` finds samples that no vehicle causes.
-//! - [`sampling`] makes the time steps equal.
-//! - `convert` rotates the axes by the [`mounting`].
-//! - [`plausibility`] detects wrong units and axes, and `consistency` channels that contradict each
-//!   other.
+//! - `read` reads a file's text and its lines, as numbers.
+//! - `columns` finds the columns of the quantities in the header, and their units.
+//! - [`table`] collects the numbers in SI units, joins those of several files, chooses one of
+//!   several laps, and makes the time steps equal.
+//! - `axes` rotates the vectors by the sensor's mounting, to the washout's inputs.
+//! - `checks` finds samples that no vehicle causes, wrong units and axes, and channels that
+//!   contradict each other.
 //!
-//! [`conventions`] are the names, units and axes given by options, or by one of the [`formats`].
+//! [`conventions`] are the names, units and axes given by options, or by one of the
+//! [`formats`]. `message` names these options in errors and warnings, and `signal` has the
+//! statistics of all steps.
 //!
 //! # Gravity without orientation
 //!
@@ -28,27 +28,14 @@
 //! Orientation columns are used if the recording has them. Gravity is then removed as the parameter
 //! `gravityRemoval` specifies.
 
-mod consistency;
+mod axes;
+mod checks;
+mod columns;
 pub mod conventions;
-mod convert;
-mod error;
-pub mod formats;
-pub mod header;
-mod join;
-mod laps;
-pub mod mounting;
-mod numbers;
-mod option;
-mod outliers;
-pub mod plausibility;
-pub mod quantity;
-pub mod sampling;
-mod sheet;
-pub(crate) mod source;
+mod message;
+mod read;
+mod signal;
 pub mod table;
-mod time;
-pub mod units;
-mod vbox;
 
 use std::path::Path;
 
@@ -57,10 +44,12 @@ pub use moris_simulation::preview;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
-pub use conventions::{ConventionOptions, Conventions, FADE_IN};
-pub use error::RecordingError;
-pub use option::Dialect;
-use table::Table;
+use axes::convert;
+use checks::{consistency, outliers, unusual};
+pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
+pub use message::{Dialect, RecordingError};
+pub(crate) use read::source;
+use table::{Table, laps, sampling};
 
 /// A recording.
 #[derive(Clone, Debug)]
@@ -117,10 +106,10 @@ impl Recording {
         warnings.extend(table.warnings.iter().cloned());
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);
-        plausibility::check(&table, &inputs, conventions)?;
+        checks::plausibility(&table, &inputs, conventions)?;
         warnings.extend(consistency::warnings(&table, &inputs, conventions));
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
-        warnings.extend(plausibility::warnings(&table, &inputs));
+        warnings.extend(unusual::warnings(&table, &inputs));
         Ok(Recording {
             name,
             start: table.time[0],
@@ -158,11 +147,4 @@ impl Recording {
     pub fn times(&self) -> impl Iterator<Item = f64> {
         (0..self.inputs().len()).map(|k| k as f64 * self.step())
     }
-}
-
-/// The median of at least one value; the upper one of two in the middle.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values[values.len() / 2]
 }

@@ -1,0 +1,77 @@
+//! Wrong units and axes of the specific force, by gravity.
+
+use moris_washout::Input;
+use moris_washout::interface::STANDARD_GRAVITY;
+use moris_washout::nalgebra::Vector3;
+
+use super::remedy;
+use crate::recording::conventions::{Axes, Conventions, Gravity, Quantity, Unit};
+use crate::recording::message::{given, named};
+use crate::recording::signal::median;
+use crate::recording::table::Table;
+
+/// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
+/// are biased and tilted.
+const GRAVITY_TOLERANCE: f64 = 3.0;
+/// Medians below this contain no gravity \[m/s2\].
+const NO_GRAVITY: f64 = 3.0;
+
+/// Compares the medians of the accelerations, which manoeuvres hardly change, with gravity.
+pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
+    let median = Vector3::from_fn(|axis, _| median(inputs.iter().map(|input| input.specific_force[axis])));
+    let gravity = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
+    if (median - gravity).norm() < GRAVITY_TOLERANCE {
+        return Ok(());
+    }
+    // As the file has it: without the gravity that conversion has added, in the file's unit.
+    let added = if conventions.gravity == Gravity::Removed { gravity } else { Vector3::zeros() };
+    let (unit, _) = table.unit(Quantity::Force(2));
+    let raw = (median - added) / unit.in_si;
+    let is_mounted = conventions.mounting.is_some();
+    let signs = if is_mounted { [1.0; 3] } else { conventions.axes.signs() };
+    let size = raw.norm();
+    let is_gravity_in = |other: &Unit| (0.75..1.25).contains(&(size * other.in_si / STANDARD_GRAVITY));
+    let mut other_units = Quantity::Force(2).dimension().units().filter(|other| *other != unit);
+    let meaning = match other_units.find(is_gravity_in) {
+        Some(other) => {
+            let remedy = remedy(table, Quantity::Force(2), other.word);
+            format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
+        }
+        None => meaning(&median, conventions),
+    };
+    Err(format!(
+        "most of the time the accelerations{} are about ({:.2}, {:.2}, {:.2}) {}, {meaning}",
+        if is_mounted { format!(", turned by {},", named("mounting")) } else { String::new() },
+        raw.x,
+        raw.y * signs[1],
+        raw.z * signs[2],
+        unit.word
+    ))
+}
+
+/// The meaning of a median in the right unit that is not gravity along z.
+fn meaning(median: &Vector3<f64>, conventions: &Conventions) -> String {
+    if conventions.gravity == Gravity::Removed {
+        format!(
+            "which includes gravity although {} was given: use {}",
+            given("gravity", "removed"),
+            given("gravity", "included")
+        )
+    } else if (median + Vector3::new(0.0, 0.0, STANDARD_GRAVITY)).norm() < GRAVITY_TOLERANCE {
+        match conventions.axes {
+            Axes::ForwardLeftUp => format!("so z points down: use {}", given("axes", "forward-right-down")),
+            Axes::ForwardRightDown => format!("so z points up: use {}", given("axes", "forward-left-up")),
+        }
+    } else if median.norm() < NO_GRAVITY {
+        format!("so gravity has been taken out: use {}", given("gravity", "removed"))
+    } else if (median.norm() - STANDARD_GRAVITY).abs() < GRAVITY_TOLERANCE {
+        let axis = ["x", "y", "z"][median.iamax()];
+        format!(
+            "so {axis} is nearest to the vertical; name the column of each axis with {}, or use {}",
+            named("columns"),
+            given("mounting", "auto")
+        )
+    } else {
+        "which is gravity in no unit known here: convert the file to m/s2 or g".to_owned()
+    }
+}

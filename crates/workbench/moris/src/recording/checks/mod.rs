@@ -1,0 +1,40 @@
+//! Checks of a recording in SI units and the washout's axes.
+//!
+//! - [`outliers`] finds samples that no vehicle causes.
+//! - `gravity`, `angles` and `rates` detect wrong units and axes.
+//! - [`consistency`] detects channels that contradict each other.
+//! - [`unusual`] warns about recordings that are possible.
+
+mod angles;
+pub mod consistency;
+mod gravity;
+pub mod outliers;
+mod rates;
+pub mod unusual;
+
+use moris_washout::Input;
+
+use super::columns::UnitSource;
+use super::conventions::{Conventions, Quantity};
+use super::message::{RecordingError, given};
+use super::table::Table;
+
+/// Checks that units and axes are plausible.
+///
+/// # Errors
+/// They are not. The message names those that fit, and the option for them.
+pub fn plausibility(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), RecordingError> {
+    gravity::check(table, inputs, conventions)
+        .and_then(|()| angles::check(table, inputs))
+        .and_then(|()| rates::check(table, inputs, conventions))
+        .map_err(|reason| table.refused(reason))
+}
+
+/// The remedy for a unit: an option where the header leaves it open, otherwise the header.
+fn remedy(table: &Table, quantity: Quantity, word: &str) -> String {
+    let (unit, source) = table.unit(quantity);
+    match source {
+        UnitSource::Header => format!("correct the header, which gives {}", unit.word),
+        UnitSource::Option | UnitSource::Default => format!("use {}", given(quantity.dimension().option(), word)),
+    }
+}

@@ -1,0 +1,113 @@
+//! The search for samples that no vehicle causes.
+
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use crate::recording::conventions::{Dimension, Quantity};
+use crate::recording::signal::{extremes, median, sorted};
+use crate::recording::table::Table;
+
+/// Values that loggers and converters write where they have none, of either sign.
+const ERROR_VALUES: [f64; 7] = [9999.0, 99_999.0, 32_767.0, 32_768.0, 65_535.0, 999_999.0, 1e6];
+/// Samples on either side of a sample whose median shows that it is isolated.
+const NEIGHBOURS: usize = 2;
+/// Samples on either side whose spread is the local one.
+const AROUND: usize = 50;
+/// Standard deviations beyond which an isolated sample is a spike.
+const SPREADS: f64 = 20.0;
+/// The 90 % quantile of sizes in standard deviations: a tenth of the samples may be spikes.
+const QUANTILE: f64 = 1.645;
+/// Shortest run of the extreme value that is a flat top \[samples\].
+pub const FLAT: usize = 4;
+/// The same in lengths of the longest run of any other value, which signals of few digits have.
+const FLAT_RUNS: usize = 3;
+/// Least distance of a flat top from the values at rest \[fractions of the signal's range\].
+const AWAY: f64 = 0.1;
+
+/// Plausible values of a quantity, in SI units.
+struct Range {
+    /// Beyond it an isolated sample is a spike, whatever the spread.
+    largest: f64,
+    /// Least deviation of a spike.
+    least_spike: f64,
+}
+
+fn range(dimension: Dimension) -> Range {
+    let (largest, least_spike) = match dimension {
+        // 10 g; a kerb; and 2000 degrees a second.
+        Dimension::Force => (98.0665, 5.0),
+        Dimension::Rate => (35.0, 1.0),
+        Dimension::Angle => (7.0, 0.3),
+        Dimension::Speed => (150.0, 5.0),
+        Dimension::Time => (f64::INFINITY, f64::INFINITY),
+    };
+    Range { largest, least_spike }
+}
+
+/// Samples with the error values of loggers.
+pub fn error_values(table: &Table, quantity: Quantity, values: &[f64]) -> Vec<usize> {
+    let unit = table.unit(quantity).0.in_si;
+    let largest = range(quantity.dimension()).largest;
+    let is_error = |value: f64| {
+        let written = (value / unit).abs();
+        value.abs() > largest && ERROR_VALUES.iter().any(|error| (written / error - 1.0).abs() < 1e-9)
+    };
+    (0..values.len()).filter(|&k| is_error(values[k])).collect()
+}
+
+/// Isolated samples: one or two that are far from those before and after them.
+pub fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
+    // Yaw jumps by a turn.
+    if quantity == Quantity::Angle(2) {
+        return Vec::new();
+    }
+    let Range { largest, least_spike } = range(quantity.dimension());
+    let window = |k: usize, reach: usize| k.saturating_sub(reach)..(k + reach + 1).min(values.len());
+    let deviation = |k: usize| (values[k] - median(values[window(k, NEIGHBOURS)].iter().copied())).abs();
+    let is_spike = |&k: &usize| {
+        let deviation_here = deviation(k);
+        deviation_here > least_spike
+            && (values[k].abs() > largest || deviation_here > SPREADS * spread(window(k, AROUND).map(deviation)))
+    };
+    (0..values.len()).filter(is_spike).collect()
+}
+
+/// Standard deviation of sizes, which a few spikes among them do not change.
+fn spread(sizes: impl Iterator<Item = f64>) -> f64 {
+    let sizes = sorted(sizes);
+    sizes[sizes.len() * 9 / 10] / QUANTILE
+}
+
+/// First samples of the runs of the greatest, and of the least value.
+pub fn flat_tops(values: &[f64]) -> Vec<Vec<usize>> {
+    let (least, greatest) = extremes(values.iter().copied());
+    let mut start = 0;
+    let runs: Vec<(usize, usize)> = values
+        .chunk_by(|a, b| a == b)
+        .map(|run| {
+            start += run.len();
+            (start - run.len(), run.len())
+        })
+        .collect();
+    // A computed ride stands still at the extreme where all its bends are to one side.
+    let usual = median(values.iter().copied());
+    let is_rest = |extreme: &f64| {
+        let near = |value: f64| (extreme - value).abs() < AWAY * (greatest - least);
+        near(usual) || near(0.0) || near(STANDARD_GRAVITY)
+    };
+    let is_extreme = |first: usize| values[first] == least || values[first] == greatest;
+    let longest = runs.iter().filter(|(first, _)| !is_extreme(*first)).map(|(_, length)| *length).max();
+    // A signal of one or two values is not measured.
+    let Some(longest) = longest else { return Vec::new() };
+    let tops = |extreme: f64| -> Vec<usize> {
+        let is_flat = |&&(first, length): &&(usize, usize)| {
+            values[first] == extreme && length >= FLAT && length >= FLAT_RUNS * longest
+        };
+        runs.iter().filter(is_flat).map(|(first, _)| *first).collect()
+    };
+    [least, greatest]
+        .into_iter()
+        .filter(|extreme| !is_rest(extreme))
+        .map(tops)
+        .filter(|tops| !tops.is_empty())
+        .collect()
+}

@@ -1,0 +1,112 @@
+//! Samples that no vehicle causes: error values of loggers, isolated spikes, and flat tops of a
+//! sensor that is at the end of its range.
+
+mod find;
+
+use moris_interface::shown;
+
+use crate::recording::conventions::Quantity;
+use crate::recording::message::{RecordingError, given};
+use crate::recording::table::Table;
+use find::{FLAT, error_values, flat_tops, spikes};
+
+/// Largest number of times that a message lists.
+const MOST_LISTED: usize = 5;
+
+/// Finds samples that no vehicle causes, and interpolates over them if `repair` is set. Returns
+/// warnings that name the samples.
+///
+/// # Errors
+/// There are error values, and `repair` is not set.
+pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingError> {
+    let mut warnings = Vec::new();
+    let quantities: Vec<Quantity> = table.columns.keys().copied().collect();
+    for quantity in quantities {
+        let values = &table.columns[&quantity];
+        let errors = error_values(table, quantity, values);
+        if let (Some(&first), false) = (errors.first(), repair) {
+            return Err(table.refused_at(first, quantity, error_reason(table, quantity, &errors)));
+        }
+        let spikes: Vec<usize> =
+            spikes(quantity, values).into_iter().filter(|spike| errors.binary_search(spike).is_err()).collect();
+        warnings.extend(flat_tops(values).iter().map(|tops| flat_top_warning(table, quantity, tops)));
+        if repair && !(errors.is_empty() && spikes.is_empty()) {
+            let mut wrong = [errors, spikes].concat();
+            wrong.sort_unstable();
+            warnings.push(repair_warning(table, quantity, &wrong));
+            let repaired = interpolated(values, &wrong);
+            table.columns.insert(quantity, repaired);
+        } else if !spikes.is_empty() {
+            warnings.push(spike_warning(table, quantity, &spikes));
+        }
+    }
+    Ok(warnings)
+}
+
+fn error_reason(table: &Table, quantity: Quantity, errors: &[usize]) -> String {
+    format!(
+        "is {}, as loggers write it where they have no value, {}; use {} to interpolate over it, or cut this part off",
+        shown(table.value(quantity, errors[0]) / table.unit(quantity).0.in_si),
+        times(table, errors),
+        given("repair", "True")
+    )
+}
+
+fn flat_top_warning(table: &Table, quantity: Quantity, tops: &[usize]) -> String {
+    format!(
+        "Column {} stays at its extreme {} for {FLAT} samples or more in a row, {}: the sensor seems to be at the end of \
+         its range, and the peaks are cut off. They cannot be repaired.",
+        quantity.key(),
+        shown(table.value(quantity, tops[0])),
+        times(table, tops)
+    )
+}
+
+fn repair_warning(table: &Table, quantity: Quantity, wrong: &[usize]) -> String {
+    let samples = match wrong.len() {
+        1 => format!("a sample of column {} is", quantity.key()),
+        count => format!("{count} samples of column {} are", quantity.key()),
+    };
+    format!("Repaired: {samples} interpolated over, {}.", times(table, wrong))
+}
+
+fn spike_warning(table: &Table, quantity: Quantity, spikes: &[usize]) -> String {
+    let values = spikes.iter().map(|&spike| table.value(quantity, spike));
+    let largest = values.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
+    format!(
+        "Column {} has isolated spikes of up to {largest:.1} in SI units, {}. If no blow caused them, use {} to \
+         interpolate over them.",
+        quantity.key(),
+        times(table, spikes),
+        given("repair", "True")
+    )
+}
+
+/// Times and lines of samples, for a message.
+fn times(table: &Table, samples: &[usize]) -> String {
+    let shown: Vec<String> = samples
+        .iter()
+        .take(MOST_LISTED)
+        .map(|&k| format!("{:.2} s (line {})", table.time[k] - table.time[0], table.lines[k]))
+        .collect();
+    let more = samples.len().saturating_sub(MOST_LISTED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!("at {}{more}", shown.join(", "))
+}
+
+/// The values with those at the ascending indices `wrong` on straight lines
+/// between their neighbours.
+fn interpolated(values: &[f64], wrong: &[usize]) -> Vec<f64> {
+    let mut repaired = values.to_vec();
+    for part in wrong.chunk_by(|a, b| a + 1 == *b) {
+        let (first, last) = (part[0], part[part.len() - 1]);
+        let after = values.get(last + 1).copied();
+        let before = first.checked_sub(1).map(|k| values[k]).or(after).unwrap_or(0.0);
+        let after = after.unwrap_or(before);
+        for (place, &k) in part.iter().enumerate() {
+            let t = (place + 1) as f64 / (part.len() + 1) as f64;
+            repaired[k] = before + t * (after - before);
+        }
+    }
+    repaired
+}

@@ -1,0 +1,92 @@
+//! The choice of columns for the quantities.
+
+use std::collections::BTreeMap;
+
+use super::units::Unit;
+use super::{Header, Quantity, Term};
+use crate::recording::conventions::Conventions;
+use crate::recording::message::named;
+
+/// The source of a column's unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnitSource {
+    /// The column's name, or the line of units below it.
+    Header,
+    /// An option, or the file of conventions.
+    Option,
+    /// Neither.
+    Default,
+}
+
+/// A quantity of the file: the sum of columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    pub quantity: Quantity,
+    pub terms: Vec<Term>,
+    pub unit: Unit,
+    pub source: UnitSource,
+}
+
+/// The places of all columns in use but the time, each once.
+pub fn value_places(layout: &[Column]) -> Vec<usize> {
+    let used = layout.iter().filter(|column| column.quantity != Quantity::Time);
+    used.flat_map(|column| column.terms.iter().map(|term| term.place)).collect()
+}
+
+impl Header {
+    /// The columns that are used. `skips_time` is set where each of several files has its own time.
+    ///
+    /// # Errors
+    /// - Columns are missing. The message names all of them.
+    /// - A name occurs twice, or a column is given for two quantities.
+    /// - A unit is unknown, or contradicts an option.
+    pub fn columns(&self, conventions: &Conventions, skips_time: bool) -> Result<Vec<Column>, String> {
+        let mut columns = Vec::new();
+        for (quantity, terms) in self.terms_of_quantities(conventions, skips_time)? {
+            let (unit, source) = self.unit_of_sum(&terms, quantity.dimension(), conventions)?;
+            columns.push(Column { quantity, terms, unit, source });
+        }
+        self.check_units_are_complete(&columns)?;
+        Ok(columns)
+    }
+
+    fn terms_of_quantities(
+        &self,
+        conventions: &Conventions,
+        skips_time: bool,
+    ) -> Result<Vec<(Quantity, Vec<Term>)>, String> {
+        let (mut chosen, mut missing, mut ambiguous) = (Vec::new(), Vec::new(), None);
+        for quantity in Quantity::ALL.into_iter().filter(|&quantity| !(skips_time && quantity == Quantity::Time)) {
+            match self.terms(conventions.column(quantity)) {
+                Ok(Some(terms)) => chosen.push((quantity, terms)),
+                Ok(None) if conventions.expects(quantity) => missing.push(quantity),
+                Ok(None) => (),
+                Err(reason) => ambiguous = ambiguous.or(Some(reason)),
+            }
+        }
+        self.check_each_is_used_once(&chosen)?;
+        match ambiguous {
+            _ if !missing.is_empty() => Err(self.missing(&missing, conventions)),
+            Some(reason) => Err(reason),
+            None => Ok(chosen),
+        }
+    }
+
+    fn check_each_is_used_once(&self, chosen: &[(Quantity, Vec<Term>)]) -> Result<(), String> {
+        let mut used = BTreeMap::new();
+        for (quantity, terms) in chosen {
+            for term in terms {
+                if let Some(other) = used.insert(term.place, *quantity) {
+                    return Err(format!(
+                        "column {} is given for both {} and {}; give each a column of its own with {}",
+                        self.shown(term.place),
+                        other.key(),
+                        quantity.key(),
+                        named("columns")
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,78 @@
+//! Columns that a header lacks.
+
+use clap::ValueEnum;
+use moris_setup::nearest;
+
+use super::{Header, Quantity, Term};
+use crate::recording::conventions::{Conventions, Format};
+use crate::recording::message::{given, quoted};
+
+/// Most columns that a message lists.
+const MOST_LISTED: usize = 30;
+
+impl Header {
+    /// True if all required columns exist.
+    pub fn has_needed_columns(&self, conventions: &Conventions) -> bool {
+        self.needed(conventions).all(|(_, found)| found != Ok(None))
+    }
+
+    /// True if the columns of a logger's format exist.
+    fn is_of(&self, format: Format) -> bool {
+        format.options().load().is_ok_and(|conventions| {
+            // Each of several files has a time.
+            self.needed(&conventions).all(|(quantity, found)| match found {
+                Ok(found) => found.is_some(),
+                Err(_) => quantity == Quantity::Time,
+            })
+        })
+    }
+
+    /// The quantities that a recording needs, with their columns.
+    fn needed(&self, conventions: &Conventions) -> impl Iterator<Item = (Quantity, Result<Option<Vec<Term>>, String>)> {
+        let needed = Quantity::ALL.into_iter().filter(|&quantity| conventions.needs(quantity));
+        needed.map(|quantity| (quantity, self.terms(conventions.column(quantity))))
+    }
+
+    /// The reason for a refusal where quantities have no column.
+    pub(super) fn missing(&self, missing: &[Quantity], conventions: &Conventions) -> String {
+        let names: Vec<&str> = missing.iter().map(|&quantity| conventions.column(quantity)).collect();
+        if let Some(&format) = Format::value_variants().iter().find(|&&format| self.is_of(format)) {
+            let names = names.into_iter().map(quoted).collect::<Vec<_>>().join(", ");
+            let (title, remedy) = (format.title(), given("format", format.word()));
+            return format!("this looks like a recording of {title}; use {remedy} (there is no column {names})");
+        }
+        let keys: Vec<String> = missing.iter().map(|quantity| format!("{}=NAME", quantity.key())).collect();
+        let may_rest = |quantity: &Quantity| matches!(quantity, Quantity::Force(1..) | Quantity::Rate(_));
+        format!(
+            "there {} {}; there are {}; name what is called otherwise with {}{}",
+            if names.len() == 1 { "is no column" } else { "are no columns" },
+            self.with_nearest(&names),
+            self.listed(),
+            given("columns", keys.join(",")),
+            if missing.iter().all(may_rest) {
+                format!(", or use {} if nothing measured them", given("missing", "rest"))
+            } else {
+                String::new()
+            }
+        )
+    }
+
+    /// Names, each with the one that is nearest to it in the header.
+    fn with_nearest(&self, names: &[&str]) -> String {
+        let present = || self.titles.iter().map(|title| title.name.as_str());
+        let like = |&name: &&str| match nearest(name, present()).first() {
+            Some(like) => format!("{} (is it {}?)", quoted(name), quoted(like)),
+            None => quoted(name),
+        };
+        names.iter().map(like).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The columns that there are.
+    fn listed(&self) -> String {
+        let mut listed: Vec<String> = (0..self.width()).take(MOST_LISTED).map(|place| self.shown(place)).collect();
+        if self.width() > MOST_LISTED {
+            listed.push(format!("{} more", self.width() - MOST_LISTED));
+        }
+        listed.join(", ")
+    }
+}

@@ -1,0 +1,60 @@
+//! The quantities that a recording may hold.
+
+use super::units::Dimension;
+
+/// A quantity that a recording may hold, by the key under which its column is named.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    Time,
+    Force(usize),
+    Rate(usize),
+    Angle(usize),
+    Speed,
+    Lean,
+}
+
+impl Quantity {
+    /// Every quantity, in the order of columns.
+    pub const ALL: [Quantity; 12] = {
+        use Quantity::{Angle, Force, Lean, Rate, Speed, Time};
+        [Time, Force(0), Force(1), Force(2), Rate(0), Rate(1), Rate(2), Angle(0), Angle(1), Angle(2), Speed, Lean]
+    };
+
+    /// True for time, specific force and rates, which every recording must have.
+    pub fn is_required(self) -> bool {
+        matches!(self, Quantity::Time | Quantity::Force(_) | Quantity::Rate(_))
+    }
+
+    /// The dimension of its units.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Quantity::Time => Dimension::Time,
+            Quantity::Force(_) => Dimension::Force,
+            Quantity::Rate(_) => Dimension::Rate,
+            Quantity::Angle(_) | Quantity::Lean => Dimension::Angle,
+            Quantity::Speed => Dimension::Speed,
+        }
+    }
+
+    /// The quantity's key, which is also its column's name unless another is given.
+    pub fn key(self) -> &'static str {
+        match self {
+            Quantity::Time => "time",
+            Quantity::Force(axis) => ["ax", "ay", "az"][axis],
+            Quantity::Rate(axis) => ["wx", "wy", "wz"][axis],
+            Quantity::Angle(axis) => ["roll", "pitch", "yaw"][axis],
+            Quantity::Speed => "speed",
+            Quantity::Lean => "lean",
+        }
+    }
+
+    /// The quantity of a key.
+    ///
+    /// # Errors
+    /// The key is unknown. The message lists the known ones.
+    pub fn of_key(key: &str) -> Result<Self, String> {
+        let keys = || Self::ALL.map(Self::key).join(", ");
+        let found = Self::ALL.into_iter().find(|quantity| quantity.key() == key);
+        found.ok_or_else(|| format!("there is no key {key}; there are {}", keys()))
+    }
+}

@@ -1,0 +1,97 @@
+//! The units of columns: those of the header, of options, or by default.
+
+use super::units::{Dimension, TimeUnit, Unit, any_spelled};
+use super::{Column, Header, Term, UnitSource};
+use crate::recording::conventions::Conventions;
+use crate::recording::message::{named, quoted};
+
+impl Header {
+    /// The unit of columns that are added, which must be one.
+    pub(super) fn unit_of_sum(
+        &self,
+        terms: &[Term],
+        dimension: Dimension,
+        conventions: &Conventions,
+    ) -> Result<(Unit, UnitSource), String> {
+        let (unit, source) = self.unit(terms[0].place, dimension, conventions)?;
+        for term in &terms[1..] {
+            let (other, _) = self.unit(term.place, dimension, conventions)?;
+            if other != unit {
+                let [one, two] = [&terms[0], term].map(|term| self.shown(term.place));
+                let (unit, other) = (unit.word, other.word);
+                return Err(format!(
+                    "columns {one} and {two} are added, but are in {unit} and {other}; convert one of them"
+                ));
+            }
+        }
+        Ok((unit, source))
+    }
+
+    /// The time's unit: seconds where it is written out as dates or times of day.
+    ///
+    /// # Errors
+    /// As [`Header::columns`].
+    pub fn time_unit(&self, place: usize, is_written_out: bool, conventions: &Conventions) -> Result<Unit, String> {
+        if is_written_out {
+            return Ok(TimeUnit::Second.unit());
+        }
+        self.unit(place, Dimension::Time, conventions).map(|(unit, _)| unit)
+    }
+
+    /// The unit of a column: the header's, the option's, or the default, in this order.
+    fn unit(
+        &self,
+        place: usize,
+        dimension: Dimension,
+        conventions: &Conventions,
+    ) -> Result<(Unit, UnitSource), String> {
+        let given = conventions.unit(dimension);
+        let of_option = given.map(|unit| (unit, UnitSource::Option));
+        let Some(text) = &self.titles[place].unit else {
+            return Ok(of_option.unwrap_or((dimension.default_unit(), UnitSource::Default)));
+        };
+        let (title, option) = (self.shown(place), named(dimension.option()));
+        match (dimension.spelled(text), given) {
+            (Some(unit), Some(given)) if unit != given => Err(format!(
+                "column {title} is in {} by its header, but {option} gives {}; leave {option} out, or correct the header",
+                unit.word, given.word
+            )),
+            (Some(unit), _) => Ok((unit, UnitSource::Header)),
+            (None, _) if any_spelled(text).is_some() => Err(format!(
+                "column {title} is in {} by its header, which is no unit of {}; is it another quantity? \
+                 Name the right column with {}",
+                quoted(text),
+                dimension.name(),
+                named("columns")
+            )),
+            (None, Some(given)) => Ok((given, UnitSource::Option)),
+            (None, None) => Err(format!(
+                "column {title} has the unit {}, which is not known; known are {}; convert the column, or give its unit \
+                 with {option}",
+                quoted(text),
+                dimension.words().join(", ")
+            )),
+        }
+    }
+
+    /// Checks that the columns of one dimension all have units, or none has. A unit missing beside
+    /// one that is not the default is not guessed.
+    pub(super) fn check_units_are_complete(&self, columns: &[Column]) -> Result<(), String> {
+        for dimension in Dimension::ALL {
+            let of = |source| {
+                columns.iter().filter(move |column| column.quantity.dimension() == dimension && column.source == source)
+            };
+            let open: Vec<String> = of(UnitSource::Default).map(|column| self.shown(column.terms[0].place)).collect();
+            let stated = of(UnitSource::Header).find(|column| column.unit != dimension.default_unit());
+            if let Some(stated) = stated.filter(|_| !open.is_empty()) {
+                let (title, unit) = (self.shown(stated.terms[0].place), stated.unit.word);
+                let (verb, open) = (if open.len() == 1 { "is" } else { "are" }, open.join(", "));
+                return Err(format!(
+                    "column {title} is in {unit} by its header, but {open} {verb} without a unit; write the unit into \
+                     the header of each"
+                ));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,221 @@
+//! Units that a recording may be in, and their spellings in the headers of loggers.
+
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use crate::recording::conventions::choices;
+
+/// A unit of one of the quantities of a recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// Word for it on the command line.
+    pub word: &'static str,
+    /// Factor to the SI unit.
+    pub in_si: f64,
+}
+
+/// Kinds of quantities, each with units of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Dimension {
+    Time,
+    Force,
+    Rate,
+    Angle,
+    Speed,
+}
+
+/// Declares the units of one dimension: word, item, factor to SI, and other spellings, as
+/// [`plain`] leaves them.
+macro_rules! units {
+    ($(#[$attribute:meta])* $name:ident {
+        $( $(#[doc = $text:literal])+ $word:literal $item:ident = $in_si:expr, [$($spelling:literal)*], )+
+    }) => {
+        choices! { $(#[$attribute])* $name { $( $(#[doc = $text])+ $word $item, )+ } }
+
+        impl $name {
+            /// All units, in the order of the items, with their other spellings.
+            const SPELLED: &[(Unit, &[&str])] =
+                &[$( (Unit { word: $word, in_si: $in_si }, &[$($spelling),*]), )+];
+
+            /// The unit with its factor to SI.
+            pub fn unit(self) -> Unit {
+                Self::SPELLED[self as usize].0
+            }
+        }
+    };
+}
+
+units! {
+    /// Unit of the time.
+    TimeUnit {
+        /// Seconds
+        "s" Second = 1.0, ["sec" "secs" "second" "seconds"],
+        /// Milliseconds
+        "ms" Millisecond = 1e-3, ["msec" "msecs" "millisecond" "milliseconds" "millis"],
+        /// Microseconds
+        "us" Microsecond = 1e-6, ["µs" "usec" "microsecond" "microseconds" "micros"],
+        /// Nanoseconds
+        "ns" Nanosecond = 1e-9, ["nsec" "nanosecond" "nanoseconds" "nanos"],
+    }
+}
+
+units! {
+    /// Unit of the specific force.
+    ForceUnit {
+        /// Metres per second squared
+        "m/s2" MetrePerSecondSquared = 1.0,
+            ["ms-2" "m/s/s" "m/(s2)" "mps2" "mpss" "m/sec2" "m/sec/sec" "metres/second2" "meters/second2"],
+        /// Standard gravity, 9.80665 m/s2
+        "g" Gravity = STANDARD_GRAVITY, ["gs" "gee" "g0" "gn" "gforce" "g-force"],
+        /// Thousandths of standard gravity
+        "mg" MilliGravity = 1e-3 * STANDARD_GRAVITY, ["milli-g" "millig"],
+    }
+}
+
+units! {
+    /// Unit of the angular velocity.
+    RateUnit {
+        /// Radians per second
+        "rad/s" RadianPerSecond = 1.0, ["rads-1" "rps" "rad/sec" "rads/s" "rads/sec" "radian/s" "radians/s" "radians/second"],
+        /// Degrees per second
+        "deg/s" DegreePerSecond = 1f64.to_radians(),
+            ["°/s" "°s-1" "°/sec" "dps" "degs-1" "deg/sec" "degs/s" "degree/s" "degrees/s" "degrees/sec" "degrees/second"],
+    }
+}
+
+units! {
+    /// Unit of the angles.
+    AngleUnit {
+        /// Radians
+        "rad" Radian = 1.0, ["rads" "radian" "radians"],
+        /// Degrees
+        "deg" Degree = 1f64.to_radians(), ["°" "degs" "degree" "degrees"],
+    }
+}
+
+units! {
+    /// Unit of the speed.
+    SpeedUnit {
+        /// Metres per second
+        "m/s" MetrePerSecond = 1.0, ["ms-1" "mps" "m/sec" "metres/second" "meters/second"],
+        /// Kilometres per hour
+        "km/h" KilometrePerHour = 1.0 / 3.6, ["kmh" "kmh-1" "km/hr" "km/hour" "kph" "kmph"],
+        /// Miles per hour
+        "mph" MilePerHour = 0.44704, ["mi/h" "miles/h" "miles/hour"],
+        /// Knots
+        "kn" Knot = 1852.0 / 3600.0, ["kt" "kts" "knot" "knots"],
+    }
+}
+
+/// Texts and units of a dimension.
+struct Entry {
+    option: &'static str,
+    name: &'static str,
+    /// The units, the SI unit first, each with its other spellings.
+    units: &'static [(Unit, &'static [&'static str])],
+}
+
+impl Dimension {
+    pub const ALL: [Dimension; 5] =
+        [Dimension::Time, Dimension::Force, Dimension::Rate, Dimension::Angle, Dimension::Speed];
+
+    fn entry(self) -> Entry {
+        match self {
+            Dimension::Time => Entry { option: "time-unit", name: "time", units: TimeUnit::SPELLED },
+            Dimension::Force => Entry { option: "force-unit", name: "specific force", units: ForceUnit::SPELLED },
+            Dimension::Rate => Entry { option: "rate-unit", name: "angular velocity", units: RateUnit::SPELLED },
+            Dimension::Angle => Entry { option: "angle-unit", name: "angle", units: AngleUnit::SPELLED },
+            Dimension::Speed => Entry { option: "speed-unit", name: "speed", units: SpeedUnit::SPELLED },
+        }
+    }
+
+    /// Name of the option that gives its unit.
+    pub fn option(self) -> &'static str {
+        self.entry().option
+    }
+
+    /// Its name in messages.
+    pub fn name(self) -> &'static str {
+        self.entry().name
+    }
+
+    /// Words of its units, for messages.
+    pub fn words(self) -> Vec<&'static str> {
+        self.units().map(|unit| unit.word).collect()
+    }
+
+    /// Its units.
+    pub fn units(self) -> impl Iterator<Item = Unit> {
+        self.entry().units.iter().map(|(unit, _)| *unit)
+    }
+
+    /// The unit of a recording that gives none: the SI unit, which is the first.
+    pub fn default_unit(self) -> Unit {
+        self.entry().units[0].0
+    }
+
+    /// The unit with this spelling in a header, whatever its case and signs; none if it is no
+    /// unit of this dimension.
+    pub fn spelled(self, text: &str) -> Option<Unit> {
+        let plain = plain(text);
+        let is_spelled = |(unit, others): &&(Unit, &[&str])| unit.word == plain || others.contains(&plain.as_str());
+        self.entry().units.iter().find(is_spelled).map(|(unit, _)| *unit)
+    }
+}
+
+/// The dimension and unit with this spelling.
+pub fn any_spelled(text: &str) -> Option<(Dimension, Unit)> {
+    Dimension::ALL.into_iter().find_map(|dimension| Some((dimension, dimension.spelled(text)?)))
+}
+
+/// A unit in lower case, without spaces and signs of multiplication, with plain
+/// exponents: `m·s⁻²` is `ms-2`.
+fn plain(text: &str) -> String {
+    let plain = |c: char| match c {
+        '^' | '*' | '·' | '⋅' | '.' => None,
+        _ if c.is_whitespace() => None,
+        '²' => Some('2'),
+        '¹' => Some('1'),
+        '⁻' | '−' => Some('-'),
+        'º' | '˚' => Some('°'),
+        'μ' => Some('µ'),
+        _ => Some(c),
+    };
+    // The Greek letter is mapped after lowering the case, which leaves either micro sign alone.
+    text.to_lowercase().chars().filter_map(plain).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_recognised_in_any_usual_spelling() {
+        let spelled = |text: &str| any_spelled(text).map(|(dimension, unit)| (dimension, unit.word));
+        for text in ["m/s2", "m/s^2", "m/s²", "m / s²", "m·s⁻²", "m s^-2", "m/s/s", "M/S2"] {
+            assert_eq!(spelled(text), Some((Dimension::Force, "m/s2")), "{text}");
+        }
+        for text in ["deg/s", "°/s", "º/s", "dps", "DPS", "deg s^-1", "degrees/second"] {
+            assert_eq!(spelled(text), Some((Dimension::Rate, "deg/s")), "{text}");
+        }
+        for text in ["µs", "μs", "us"] {
+            assert_eq!(spelled(text), Some((Dimension::Time, "us")), "{text}");
+        }
+        for text in ["km/h", "kph", "km·h⁻¹", "KMH"] {
+            assert_eq!(spelled(text), Some((Dimension::Speed, "km/h")), "{text}");
+        }
+        assert_eq!(spelled("G"), Some((Dimension::Force, "g")));
+        assert_eq!(spelled("m s-1"), Some((Dimension::Speed, "m/s")));
+        assert_eq!((spelled("counts"), spelled("")), (None, None));
+    }
+
+    /// No spelling belongs to two dimensions: a unit alone says the dimension that it is of.
+    #[test]
+    fn every_spelling_has_one_meaning() {
+        for text in
+            ["s", "ms", "us", "ns", "g", "mg", "m/s2", "ms-2", "rad/s", "rps", "dps", "rad", "°", "mps", "ms-1", "kt"]
+        {
+            let meanings = Dimension::ALL.into_iter().filter(|dimension| dimension.spelled(text).is_some()).count();
+            assert_eq!(meanings, 1, "{text}");
+        }
+    }
+}

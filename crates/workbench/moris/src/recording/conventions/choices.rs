@@ -1,0 +1,92 @@
+//! Words of which options choose one.
+
+use moris_washout::interface::AngularVelocityFrame;
+
+/// Declares an enumeration whose items users write, on the command line and in TOML alike.
+macro_rules! choices {
+    ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
+        $(#[$attribute])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Deserialize, schemars::JsonSchema)]
+        pub enum $name {
+            $( $(#[doc = $text])+ #[value(name = $word)] #[serde(rename = $word)] $item, )+
+        }
+
+        impl $name {
+            /// Word for it on the command line.
+            pub fn word(self) -> &'static str {
+                match self { $( $name::$item => $word, )+ }
+            }
+        }
+    };
+}
+pub(in crate::recording) use choices;
+
+choices! {
+    /// Presence of gravity's reaction in the accelerations.
+    Gravity {
+        /// Gravity's reaction is in: (0, 0, +9.81) at rest, what an accelerometer reads
+        "included" Included,
+        /// Gravity has been taken out: (0, 0, 0) at rest
+        "removed" Removed,
+    }
+}
+
+choices! {
+    /// Directions of x, y and z.
+    Axes {
+        /// x forward, y left, z up (ISO 8855)
+        "forward-left-up" ForwardLeftUp,
+        /// x forward, y right, z down (aviation, SAE J670)
+        "forward-right-down" ForwardRightDown,
+    }
+}
+
+choices! {
+    /// The axes in which the angular velocity is given.
+    RateFrame {
+        /// The vehicle's own: what gyroscopes measure
+        "body" Body,
+        /// The world's
+        "world" World,
+    }
+}
+
+choices! {
+    /// Fields that are empty.
+    EmptyFields {
+        /// They are errors
+        "error" Error,
+        /// They are interpolated between their neighbours: the channels are
+        /// sampled at different rates
+        "interpolate" Interpolate,
+    }
+}
+
+choices! {
+    /// Columns of specific force and angular velocity that a recording lacks.
+    Missing {
+        /// They are errors
+        "error" Error,
+        /// They are as at rest: zero, and g along z
+        "rest" Rest,
+    }
+}
+
+impl Axes {
+    /// Factors that turn x, y and z into x forward, y left, z up.
+    pub fn signs(self) -> [f64; 3] {
+        match self {
+            Axes::ForwardLeftUp => [1.0, 1.0, 1.0],
+            Axes::ForwardRightDown => [1.0, -1.0, -1.0],
+        }
+    }
+}
+
+impl From<RateFrame> for AngularVelocityFrame {
+    fn from(frame: RateFrame) -> Self {
+        match frame {
+            RateFrame::Body => AngularVelocityFrame::Body,
+            RateFrame::World => AngularVelocityFrame::World,
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Formats of public loggers: conventions by name.
+
+use clap::ValueEnum;
+
+use super::{ConventionOptions, choices};
+
+choices! {
+    /// A logger or simulator whose files are read without further options.
+    Format {
+        /// phyphox, a directory of CSV files
+        "phyphox" Phyphox,
+        /// Sensor Logger on Android, a directory of CSV files
+        "sensor-logger" SensorLogger,
+        /// Sensor Logger on iOS, a directory of CSV files
+        "sensor-logger-ios" SensorLoggerIos,
+        /// SensorLog on iOS
+        "sensorlog" SensorLog,
+        /// AndroSensor
+        "androsensor" AndroSensor,
+        /// RaceChrono, CSV v3
+        "racechrono" RaceChrono,
+        /// AiM, CSV of Race Studio
+        "aim" Aim,
+        /// MoTeC i2, CSV
+        "motec" Motec,
+        /// Racelogic VBOX, .vbo
+        "vbox" Vbox,
+        /// iRacing, .ibt converted to CSV
+        "iracing" IRacing,
+        /// PX4, sensor_combined of ulog2csv
+        "px4" Px4,
+    }
+}
+
+impl Format {
+    /// The format's conventions as a file of conventions, with the source of its names in comments.
+    pub fn file(self) -> &'static str {
+        match self {
+            Format::Phyphox => include_str!("../../../formats/phyphox.toml"),
+            Format::SensorLogger => include_str!("../../../formats/sensor-logger.toml"),
+            Format::SensorLoggerIos => include_str!("../../../formats/sensor-logger-ios.toml"),
+            Format::SensorLog => include_str!("../../../formats/sensorlog.toml"),
+            Format::AndroSensor => include_str!("../../../formats/androsensor.toml"),
+            Format::RaceChrono => include_str!("../../../formats/racechrono.toml"),
+            Format::Aim => include_str!("../../../formats/aim.toml"),
+            Format::Motec => include_str!("../../../formats/motec.toml"),
+            Format::Vbox => include_str!("../../../formats/vbox.toml"),
+            Format::IRacing => include_str!("../../../formats/iracing.toml"),
+            Format::Px4 => include_str!("../../../formats/px4.toml"),
+        }
+    }
+
+    /// Name of the logger.
+    pub fn title(self) -> String {
+        let help = self.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
+        help.and_then(|help| help.split(',').next().map(str::to_owned)).unwrap_or_else(|| self.word().to_owned())
+    }
+
+    /// The format's conventions.
+    ///
+    /// # Panics
+    /// Never: a test reads every file.
+    pub fn options(self) -> ConventionOptions {
+        toml::from_str(self.file()).expect("the formats' files are valid")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_title_is_the_logger_s_name() {
+        assert_eq!(Format::Aim.title(), "AiM");
+    }
+
+    #[test]
+    fn every_format_names_what_a_recording_needs() {
+        for format in Format::value_variants() {
+            let conventions = format.options().load().unwrap();
+            assert!(conventions.columns.len() >= 7, "{}", format.word());
+            assert!(!format.title().contains(',') && format.title() != "", "{}", format.word());
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Names, units and axes of a recording's columns.
+//!
+//! They are given by options, by a small TOML file with the same words, or by the name of a
+//! logger's format. Options take precedence over the file, and the file over the format. Units in
+//! the recording's header take precedence over the defaults.
+//!
+//! ```toml
+//! axes = "forward-right-down"
+//! force-unit = "g"
+//! rate-unit = "deg/s"
+//! [columns]
+//! time = "t"
+//! ax = "accel_x"
+//! ```
+
+mod choices;
+pub mod formats;
+mod mounting;
+mod options;
+
+use std::collections::BTreeMap;
+
+pub use crate::recording::columns::Quantity;
+pub use crate::recording::columns::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
+use crate::recording::message::Dialect;
+pub(super) use choices::choices;
+pub use choices::{Axes, EmptyFields, Gravity, Missing, RateFrame};
+pub use formats::Format;
+pub use mounting::Mounting;
+pub use options::ConventionOptions;
+
+/// Time over which commands fade recordings in from rest \[s\]: one that is cut out of a longer
+/// recording begins in motion, and the platform at rest.
+pub const FADE_IN: f64 = 1.0;
+
+/// Names, units and axes of a recording, given or by default.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conventions {
+    /// The logger's format that the others are of.
+    pub format: Option<Format>,
+    /// Column names that are not the keys.
+    pub columns: BTreeMap<Quantity, String>,
+    /// Units that are given; the header gives the others, or the defaults hold.
+    pub units: BTreeMap<Dimension, Unit>,
+    pub gravity: Gravity,
+    pub axes: Axes,
+    /// The sensor's orientation in the vehicle; none if its axes are the vehicle's.
+    pub mounting: Option<Mounting>,
+    pub rate_frame: RateFrame,
+    pub empty_fields: EmptyFields,
+    pub missing: Missing,
+    /// The lap that is read of several, from 1.
+    pub lap: Option<usize>,
+    /// Interpolates over error values and spikes.
+    pub repair: bool,
+    /// Samples a second to interpolate at \[1/s\].
+    pub resample: Option<f64>,
+    /// Time over which the recording is faded in from rest \[s\].
+    pub fade_in: f64,
+    /// Notation of options in messages.
+    pub dialect: Dialect,
+}
+
+impl Default for Conventions {
+    fn default() -> Self {
+        ConventionOptions::default().conventions()
+    }
+}
+
+impl Conventions {
+    /// The name of a quantity's column.
+    pub fn column(&self, quantity: Quantity) -> &str {
+        self.columns.get(&quantity).map_or(quantity.key(), String::as_str)
+    }
+
+    /// True for a quantity that a recording must have.
+    pub fn needs(&self, quantity: Quantity) -> bool {
+        quantity.is_required() && !self.is_at_rest(quantity)
+    }
+
+    /// True for a quantity that a recording must have, or whose column is named.
+    pub fn expects(&self, quantity: Quantity) -> bool {
+        // Speed helps formats that have it, and no format needs it.
+        let is_named = self.columns.contains_key(&quantity) && (quantity != Quantity::Speed || self.format.is_none());
+        self.needs(quantity) || is_named && !quantity.is_required()
+    }
+
+    /// True for a quantity that is as at rest where a recording lacks it. A turned
+    /// sensor's is not known.
+    fn is_at_rest(&self, quantity: Quantity) -> bool {
+        let is_known = match quantity {
+            Quantity::Rate(_) => self.mounting != Some(Mounting::Auto),
+            Quantity::Force(axis) => axis > 0 && self.mounting.is_none(),
+            _ => false,
+        };
+        is_known && self.missing == Missing::Rest
+    }
+
+    /// The unit that is given for a dimension.
+    pub fn unit(&self, dimension: Dimension) -> Option<Unit> {
+        self.units.get(&dimension).copied()
+    }
+}

@@ -1,0 +1,210 @@
+//! The options for conventions, on the command line and in a file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::mounting::Written;
+use super::{
+    AngleUnit, Axes, Conventions, Dimension, EmptyFields, ForceUnit, Format, Gravity, Missing, Mounting, Quantity,
+    RateFrame, RateUnit, SpeedUnit, TimeUnit,
+};
+use crate::recording::message::{Dialect, RecordingError};
+
+/// Options that describe a recording.
+#[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[command(next_help_heading = "Columns of the recording")]
+pub struct ConventionOptions {
+    /// Conventions of a logger, which the other options override
+    #[arg(long, value_name = "NAME")]
+    pub format: Option<Format>,
+
+    /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
+    /// roll pitch yaw, speed, lean): time=t,ax=accel_x. A sign turns an axis round:
+    /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
+    /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
+    /// Upper and lower case are the same
+    #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
+    #[serde(deserialize_with = "columns_of_table")]
+    #[schemars(with = "BTreeMap<String, String>")]
+    pub columns: Vec<(Quantity, String)>,
+
+    /// Unit of time [default: the header's, otherwise s]
+    #[arg(long, value_name = "UNIT")]
+    pub time_unit: Option<TimeUnit>,
+
+    /// Unit of ax ay az [default: the header's, otherwise m/s2]
+    #[arg(long, value_name = "UNIT")]
+    pub force_unit: Option<ForceUnit>,
+
+    /// Unit of wx wy wz [default: the header's, otherwise rad/s]
+    #[arg(long, value_name = "UNIT")]
+    pub rate_unit: Option<RateUnit>,
+
+    /// Unit of roll pitch yaw and lean [default: the header's, otherwise rad]
+    #[arg(long, value_name = "UNIT")]
+    pub angle_unit: Option<AngleUnit>,
+
+    /// Unit of speed [default: the header's, otherwise m/s]
+    #[arg(long, value_name = "UNIT")]
+    pub speed_unit: Option<SpeedUnit>,
+
+    /// Presence of gravity's reaction in ax ay az, as an accelerometer reads it [default: included]
+    #[arg(long, value_name = "GRAVITY")]
+    pub gravity: Option<Gravity>,
+
+    /// Directions of x, y and z [default: forward-left-up]
+    #[arg(long, value_name = "AXES")]
+    pub axes: Option<Axes>,
+
+    /// The sensor's roll, pitch and yaw in the vehicle's axes, in degrees; auto finds them from
+    /// gravity, bends and accelerations, and from the speed where there is one
+    #[arg(long, value_name = "ROLL,PITCH,YAW|auto", value_parser = Mounting::parse, allow_hyphen_values = true)]
+    #[schemars(with = "Option<Written>")]
+    pub mounting: Option<Mounting>,
+
+    /// The axes of wx wy wz [default: body]
+    #[arg(long, value_name = "AXES")]
+    pub rate_frame: Option<RateFrame>,
+
+    /// Fields that are empty [default: error]
+    #[arg(long, value_name = "EMPTY")]
+    pub empty_fields: Option<EmptyFields>,
+
+    /// Columns of ay az wx wy wz that a recording lacks [default: error]
+    #[arg(long, value_name = "MISSING")]
+    pub missing: Option<Missing>,
+
+    /// The lap of a recording whose time starts again with each, from 1
+    #[arg(long, value_name = "NUMBER")]
+    pub lap: Option<f64>,
+
+    /// Interpolate over a logger's error values and isolated spikes
+    #[arg(long)]
+    pub repair: bool,
+
+    /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
+    #[arg(long, value_name = "HERTZ")]
+    pub resample: Option<f64>,
+
+    /// Fade in a recording that does not begin at rest, over this time
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    pub fade_in: Option<f64>,
+
+    /// TOML file with these options by the same names (force-unit = "g"), the names of
+    /// columns under columns
+    #[arg(long, value_name = "FILE")]
+    #[serde(skip)]
+    pub conventions: Option<PathBuf>,
+}
+
+impl ConventionOptions {
+    /// The conventions: the options' over the file's over the defaults.
+    ///
+    /// # Errors
+    /// The file cannot be read or has an unknown word or value.
+    pub fn load(&self) -> Result<Conventions, RecordingError> {
+        self.load_or_fade_in(0.0)
+    }
+
+    /// The conventions, with a time to fade recordings in where neither the options nor
+    /// the file give one \[s\].
+    ///
+    /// # Errors
+    /// As [`ConventionOptions::load`].
+    pub fn load_or_fade_in(&self, fade_in: f64) -> Result<Conventions, RecordingError> {
+        let given = self.with_file()?;
+        let given = given.format.map_or(given.clone(), |format| given.over(format.options()));
+        ConventionOptions { fade_in: given.fade_in.or(Some(fade_in)), ..given }.checked()
+    }
+
+    /// The options over the file's, if there is one.
+    fn with_file(&self) -> Result<ConventionOptions, RecordingError> {
+        let Some(file) = &self.conventions else { return Ok(self.clone()) };
+        let text = fs::read_to_string(file).map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
+        let given: ConventionOptions = toml::from_str(&text)
+            .map_err(|error| RecordingError::Conventions { file: file.clone(), reason: error.to_string() })?;
+        Ok(self.over(given))
+    }
+
+    /// These options over others.
+    fn over(&self, under: ConventionOptions) -> ConventionOptions {
+        let columns = under.columns.into_iter().chain(self.columns.iter().cloned()).collect();
+        ConventionOptions {
+            format: self.format.or(under.format),
+            columns,
+            time_unit: self.time_unit.or(under.time_unit),
+            force_unit: self.force_unit.or(under.force_unit),
+            rate_unit: self.rate_unit.or(under.rate_unit),
+            angle_unit: self.angle_unit.or(under.angle_unit),
+            speed_unit: self.speed_unit.or(under.speed_unit),
+            gravity: self.gravity.or(under.gravity),
+            axes: self.axes.or(under.axes),
+            mounting: self.mounting.or(under.mounting),
+            rate_frame: self.rate_frame.or(under.rate_frame),
+            empty_fields: self.empty_fields.or(under.empty_fields),
+            missing: self.missing.or(under.missing),
+            lap: self.lap.or(under.lap),
+            repair: self.repair || under.repair,
+            resample: self.resample.or(under.resample),
+            fade_in: self.fade_in.or(under.fade_in),
+            conventions: self.conventions.clone(),
+        }
+    }
+
+    fn checked(&self) -> Result<Conventions, RecordingError> {
+        let allowed = [
+            ("resample", self.resample, 1.0..=1e5, "samples a second"),
+            ("lap", self.lap, 1.0..=1e6, "laps"),
+            ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
+        ];
+        for (name, given, range, unit) in allowed {
+            if let Some(value) = given.filter(|value| !range.contains(value)) {
+                return Err(RecordingError::Option { name, value, min: *range.start(), max: *range.end(), unit });
+            }
+        }
+        Ok(self.conventions())
+    }
+
+    pub(super) fn conventions(&self) -> Conventions {
+        let units = [
+            (Dimension::Time, self.time_unit.map(TimeUnit::unit)),
+            (Dimension::Force, self.force_unit.map(ForceUnit::unit)),
+            (Dimension::Rate, self.rate_unit.map(RateUnit::unit)),
+            (Dimension::Angle, self.angle_unit.map(AngleUnit::unit)),
+            (Dimension::Speed, self.speed_unit.map(SpeedUnit::unit)),
+        ];
+        Conventions {
+            format: self.format,
+            columns: self.columns.iter().cloned().collect(),
+            units: units.into_iter().filter_map(|(dimension, unit)| Some((dimension, unit?))).collect(),
+            gravity: self.gravity.unwrap_or(Gravity::Included),
+            axes: self.axes.unwrap_or(Axes::ForwardLeftUp),
+            mounting: self.mounting,
+            rate_frame: self.rate_frame.unwrap_or(RateFrame::Body),
+            empty_fields: self.empty_fields.unwrap_or(EmptyFields::Error),
+            missing: self.missing.unwrap_or(Missing::Error),
+            lap: self.lap.map(|lap| lap as usize),
+            repair: self.repair,
+            resample: self.resample,
+            fade_in: self.fade_in.unwrap_or(0.0),
+            dialect: Dialect::Command,
+        }
+    }
+}
+
+/// `key=name` of an option.
+fn column_name(text: &str) -> Result<(Quantity, String), String> {
+    let (key, name) = text.split_once('=').ok_or("write KEY=NAME, as in ax=accel_x")?;
+    Ok((Quantity::of_key(key.trim())?, name.trim().to_owned()))
+}
+
+fn columns_of_table<'de, D: serde::Deserializer<'de>>(deserializer: D) -> Result<Vec<(Quantity, String)>, D::Error> {
+    let table = BTreeMap::<String, String>::deserialize(deserializer)?;
+    let named = table.into_iter().map(|(key, name)| Ok((Quantity::of_key(&key)?, name)));
+    named.collect::<Result<_, String>>().map_err(serde::de::Error::custom)
+}

@@ -1,0 +1,64 @@
+//! Files that are no CSV, by their first bytes.
+
+/// Part of a file in which a zero byte shows that it is no text \[bytes\].
+pub const HEAD: usize = 4096;
+
+const ZIP: &[u8] = b"PK\x03\x04";
+const UTF_16: &str = "is text in UTF-16; save it as UTF-8: iconv -f UTF-16 -t UTF-8 FILE > ride.csv";
+
+/// First bytes of formats, and what to do with their files.
+const FORMATS: [(&[&[u8]], &str); 9] = [
+    (&[ZIP], "is a zip archive; unpack it and pass the CSV file in it"),
+    (&[b"\xd0\xcf\x11\xe0"], "is an old Excel workbook; save the sheet as CSV"),
+    (
+        &[b"PAR1"],
+        "is a Parquet file; convert it to CSV, in Python: pandas.read_parquet(FILE).to_csv(\"ride.csv\", index=False)",
+    ),
+    (
+        &[b"MATLAB"],
+        "is a MATLAB file; write its signals as CSV, in MATLAB: writetable(table(time, ax, ay, az, wx, wy, wz), 'ride.csv')",
+    ),
+    (&[b"\x89HDF"], "is an HDF5 file; write its signals as CSV, in Python with h5py"),
+    (
+        &[b"MDF     ", b"UnFinMF "],
+        "is an MDF measurement (MF4); export it as CSV, in Python: asammdf.MDF(FILE).export(\"csv\", \"ride\")",
+    ),
+    (&[b"SQLite format 3"], "is an SQLite database; export the table as CSV"),
+    (&[b"\xff\xfe", b"\xfe\xff"], UTF_16),
+    (
+        &[b"\x28\xb5\x2f\xfd", b"BZh", b"\xfd7zXZ", b"7z\xbc\xaf"],
+        "is compressed; unpack it first, or compress it with gzip, which is read as it is",
+    ),
+];
+
+/// The remedy for a file that its first bytes show not to be CSV.
+pub fn remedy(bytes: &[u8]) -> Option<&'static str> {
+    let head = &bytes[..bytes.len().min(HEAD)];
+    let contains = |part: &[u8]| head.windows(part.len()).any(|window| window == part);
+    let text = head.trim_ascii_start();
+    if head.starts_with(ZIP) && (contains(b"[Content_Types].xml") || contains(b"xl/")) {
+        Some("is an Excel workbook; save the sheet as CSV")
+    } else if let Some((_, remedy)) = FORMATS.iter().find(|(first, _)| first.iter().any(|f| head.starts_with(f))) {
+        Some(remedy)
+    } else if is_utf_16(head) {
+        Some(UTF_16)
+    } else if head.contains(&0) {
+        Some("is no text but a binary file; export the recording as CSV from the program that wrote it")
+    } else if text.starts_with(b"<") {
+        Some("is XML or HTML; export the recording as CSV")
+    } else if text.starts_with(b"{") || text.starts_with(b"[{") {
+        Some("is JSON; export the recording as CSV")
+    } else {
+        None
+    }
+}
+
+/// Text in UTF-16 without a byte order mark: every other byte of ASCII is zero.
+fn is_utf_16(head: &[u8]) -> bool {
+    let head = &head[..head.len() & !1];
+    let zeros = |odd: usize| head.iter().skip(odd).step_by(2).filter(|&&byte| byte == 0).count();
+    head.len() >= 8
+        && [(zeros(0), zeros(1)), (zeros(1), zeros(0))]
+            .iter()
+            .any(|&(many, none)| none == 0 && many * 10 >= head.len() / 2 * 9)
+}

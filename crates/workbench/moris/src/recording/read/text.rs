@@ -1,0 +1,73 @@
+//! The text of a file or of standard input, decompressed.
+
+use std::fs::File;
+use std::io::{self, Read, stdin};
+use std::path::Path;
+
+use flate2::read::MultiGzDecoder;
+
+use super::foreign;
+use super::source::{is_standard_input, shown};
+use crate::recording::message::RecordingError;
+
+/// Largest recording \[bytes\]. A day at 1 kHz with ten columns is 8 GB; an hour is 0.3 GB.
+const LARGEST: u64 = 2_000_000_000;
+const TOO_LARGE: &str = "is larger than 2 GB; cut it into parts";
+/// First bytes of a file that is compressed with gzip.
+const GZIP: &[u8] = &[0x1f, 0x8b];
+
+/// Bytes, or the reason why they are no text.
+type Bytes = Result<Vec<u8>, &'static str>;
+
+/// The text of a recording, unpacked if it is compressed with gzip.
+///
+/// # Errors
+/// The file cannot be read or unpacked, is too large, or is of a known format that is not
+/// CSV: what to do about it.
+pub fn text(file: &Path) -> Result<String, RecordingError> {
+    let refused = |reason| RecordingError::whole(&shown(file), reason);
+    let usable = |read: io::Result<Bytes>| {
+        read.map_err(|reason| RecordingError::Read { file: shown(file), reason })?.map_err(refused)
+    };
+    let mut bytes = usable(if is_standard_input(file) {
+        read_up_to(stdin().lock(), LARGEST)
+    } else {
+        File::open(file).and_then(|file| read_up_to(file, LARGEST))
+    })?;
+    if bytes.starts_with(GZIP) {
+        bytes = usable(read_up_to(MultiGzDecoder::new(&bytes[..]), LARGEST))?;
+        foreign::remedy(&bytes).map_or(Ok(()), |reason| Err(refused(reason)))?;
+    }
+    // Loggers that do not write UTF-8 write Latin-1, of which headers use ° and ².
+    Ok(String::from_utf8(bytes).unwrap_or_else(|error| error.as_bytes().iter().map(|&byte| byte as char).collect()))
+}
+
+/// Reads to the end, unless the first bytes or the size rule the source out. So a source without
+/// an end fails.
+fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Bytes> {
+    let mut bytes = Vec::new();
+    source.by_ref().take(foreign::HEAD as u64).read_to_end(&mut bytes)?;
+    // A packed file is judged by what is in it.
+    if let Some(reason) = foreign::remedy(&bytes).filter(|_| !bytes.starts_with(GZIP)) {
+        return Ok(Err(reason));
+    }
+    source.take((largest + 1).saturating_sub(bytes.len() as u64)).read_to_end(&mut bytes)?;
+    Ok(if bytes.len() as u64 > largest { Err(TOO_LARGE) } else { Ok(bytes) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::foreign::HEAD;
+    use super::*;
+
+    #[test]
+    fn a_source_without_an_end_fails_at_a_size() {
+        assert_eq!(read_up_to(io::repeat(b'1'), 1_000_000).unwrap(), Err(TOO_LARGE));
+        assert!(read_up_to(io::repeat(0), u64::MAX - 1).unwrap().is_err());
+        for size in [0, HEAD - 1, HEAD, HEAD + 1, 10_000] {
+            let text = vec![b'1'; size];
+            assert_eq!(read_up_to(&text[..], 10_000).unwrap(), Ok(text));
+        }
+        assert_eq!(read_up_to(&[b'1'; 10_001][..], 10_000).unwrap(), Err(TOO_LARGE));
+    }
+}

@@ -1,0 +1,34 @@
+//! Laps in one file, of which each starts with the time of the first.
+
+use super::Table;
+use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::message::{RecordingError, given, named};
+
+/// Least step back in time with which a lap begins \[s\].
+const RESTART: f64 = 1.0;
+
+/// Keeps the lap that the conventions choose.
+///
+/// # Errors
+/// There are several laps and none is chosen, or there is no such lap.
+pub fn choose(table: &mut Table, conventions: &Conventions) -> Result<(), RecordingError> {
+    let restarts = (1..table.time.len()).filter(|&k| table.time[k] < table.time[k - 1] - RESTART);
+    let starts: Vec<usize> = [0].into_iter().chain(restarts).collect();
+    let laps = starts.len();
+    let Some(lap) = conventions.lap else {
+        let Some(&second) = starts.get(1) else { return Ok(()) };
+        let reason = format!(
+            "time starts again: there are {laps} laps; use {} to {} to read one of them",
+            given("lap", 1),
+            given("lap", laps)
+        );
+        return Err(table.refused_at(second, Quantity::Time, reason));
+    };
+    let end = starts.get(lap).copied().unwrap_or(table.time.len());
+    let Some(range) = starts.get(lap - 1).map(|&start| start..end).filter(|range| range.len() > 1) else {
+        let reason = format!("has no samples of lap {lap}: time starts {laps} times; give another {}", named("lap"));
+        return Err(table.refused(reason));
+    };
+    table.keep(range);
+    Ok(())
+}

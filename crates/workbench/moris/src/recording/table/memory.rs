@@ -1,0 +1,48 @@
+//! Tables of columns that are in memory already.
+
+use std::path::PathBuf;
+
+use super::Table;
+use crate::recording::columns::{Header, value_places};
+use crate::recording::conventions::Conventions;
+use crate::recording::message::{RecordingError, quoted};
+use crate::recording::read::Samples;
+
+/// The recording in columns, by the rules for a file's: names, and units in their brackets. `name`
+/// is what messages call it.
+///
+/// # Errors
+/// As [`super::read`]; columns of different lengths.
+pub fn of_columns(
+    name: &str,
+    columns: &[(String, Vec<f64>)],
+    conventions: &Conventions,
+) -> Result<Table, RecordingError> {
+    let file = PathBuf::from(name);
+    let refused = |reason: String| RecordingError::whole(&file, reason);
+    let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
+    let layout = header.columns(conventions, false).map_err(refused)?;
+    // The time is the first of all quantities.
+    let (time, unit) = (&columns[layout[0].terms[0].place].1, layout[0].unit);
+    if time.len() < 2 {
+        return Err(refused("has fewer than two samples".to_owned()));
+    }
+    for term in layout.iter().flat_map(|column| &column.terms) {
+        let (title, values) = &columns[term.place];
+        let (title, expected) = (quoted(title), time.len());
+        if values.len() != expected {
+            return Err(refused(format!("column {title} has {} values, others have {expected}", values.len())));
+        }
+        if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
+            let reason = format!("is {}; cut this part off, or fill the gap with plausible values", values[sample]);
+            return Err(RecordingError::line(&file, sample as u64 + 1, Some(title), reason));
+        }
+    }
+    let samples = Samples {
+        time: time.iter().map(|time| time * unit.in_si).collect(),
+        columns: value_places(&layout).into_iter().map(|place| (place, columns[place].1.clone())).collect(),
+        lines: (1..=time.len() as u64).collect(),
+        warnings: Vec::new(),
+    };
+    Ok(Table::new(file, layout, samples, conventions))
+}

@@ -1,0 +1,124 @@
+//! The numbers of a recording, column by column, in SI units.
+//!
+//! - `files` reads a table from files, and `memory` from columns in memory.
+//! - `gaps` fills gaps in columns, and `join` makes one table of several files.
+//! - [`laps`] chooses one of several laps.
+//! - [`sampling`] makes the steps of time equal, by `interpolation`. `times` examines times.
+
+mod files;
+mod gaps;
+mod interpolation;
+mod join;
+pub mod laps;
+mod memory;
+pub mod sampling;
+mod times;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use crate::recording::columns::{Column, UnitSource};
+use crate::recording::conventions::{Conventions, Gravity, Quantity, Unit};
+use crate::recording::message::RecordingError;
+use crate::recording::read::Samples;
+pub use files::{read, recordings};
+pub use memory::of_columns;
+
+/// A recording's columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// Where it is from.
+    pub file: PathBuf,
+    /// The time column \[s\].
+    pub time: Vec<f64>,
+    /// All others, in SI units and the file's axes.
+    pub columns: BTreeMap<Quantity, Vec<f64>>,
+    /// The columns of the file, with their units.
+    pub layout: Vec<Column>,
+    /// The line of the file from which each sample is.
+    pub lines: Vec<u64>,
+    /// Warnings, in whole sentences.
+    pub warnings: Vec<String>,
+}
+
+impl Table {
+    /// A table of the sums that the layout describes, of samples with the time in seconds. What the
+    /// recording lacks is as at rest.
+    fn new(file: PathBuf, layout: Vec<Column>, samples: Samples, conventions: &Conventions) -> Self {
+        let Samples { time, columns, lines, warnings } = samples;
+        let values: BTreeMap<usize, Vec<f64>> = columns.into_iter().collect();
+        let sum = |column: &Column| -> Vec<f64> {
+            let at = |sample: usize| column.terms.iter().map(|t| t.sign * values[&t.place][sample]).sum::<f64>();
+            (0..time.len()).map(|sample| at(sample) * column.unit.in_si).collect()
+        };
+        let measured = layout.iter().filter(|column| column.quantity != Quantity::Time);
+        let columns = measured.map(|column| (column.quantity, sum(column))).collect();
+        let mut table = Table { file, time, columns, layout, lines, warnings };
+        table.rest(conventions);
+        table
+    }
+
+    /// Adds the quantities that the recording lacks as at rest, with a warning.
+    fn rest(&mut self, conventions: &Conventions) {
+        let is_missing = |quantity: &Quantity| {
+            quantity.is_required() && *quantity != Quantity::Time && !self.columns.contains_key(quantity)
+        };
+        let missing: Vec<Quantity> = Quantity::ALL.into_iter().filter(is_missing).collect();
+        for &quantity in &missing {
+            let is_vertical = quantity == Quantity::Force(2) && conventions.gravity == Gravity::Included;
+            let rest = if is_vertical { STANDARD_GRAVITY * conventions.axes.signs()[2] } else { 0.0 };
+            self.columns.insert(quantity, vec![rest; self.time.len()]);
+        }
+        if !missing.is_empty() {
+            let names = missing.into_iter().map(Quantity::key).collect::<Vec<_>>().join(", ");
+            self.warnings.push(format!("The recording has no {names}: they are taken as at rest."));
+        }
+    }
+
+    /// Mean time between samples \[s\].
+    pub fn step(&self) -> f64 {
+        match self.time.as_slice() {
+            [first, .., last] => (last - first) / (self.time.len() - 1) as f64,
+            _ => 0.0,
+        }
+    }
+
+    /// True where the recording holds the vehicle's orientation: its roll and pitch at least.
+    pub fn has_orientation(&self) -> bool {
+        self.columns.contains_key(&Quantity::Angle(0)) && self.columns.contains_key(&Quantity::Angle(1))
+    }
+
+    /// The unit of a quantity's column, and its source.
+    pub fn unit(&self, quantity: Quantity) -> (Unit, UnitSource) {
+        let column = self.layout.iter().find(|column| column.quantity == quantity);
+        let default = (quantity.dimension().default_unit(), UnitSource::Default);
+        column.map_or(default, |column| (column.unit, column.source))
+    }
+
+    /// The value of a quantity at a sample; zero where there is no such column.
+    pub fn value(&self, quantity: Quantity, sample: usize) -> f64 {
+        self.columns.get(&quantity).map_or(0.0, |column| column[sample])
+    }
+
+    /// Leaves out all samples but those of a range.
+    fn keep(&mut self, range: Range<usize>) {
+        self.time = self.time[range.clone()].to_vec();
+        self.lines = self.lines[range.clone()].to_vec();
+        for values in self.columns.values_mut() {
+            *values = values[range.clone()].to_vec();
+        }
+    }
+
+    /// An error of the recording as a whole.
+    pub fn refused(&self, reason: impl Into<String>) -> RecordingError {
+        RecordingError::whole(&self.file, reason)
+    }
+
+    /// An error of a quantity at a sample.
+    pub fn refused_at(&self, sample: usize, quantity: Quantity, reason: impl Into<String>) -> RecordingError {
+        RecordingError::line(&self.file, self.lines[sample], Some(quantity.key().to_owned()), reason)
+    }
+}

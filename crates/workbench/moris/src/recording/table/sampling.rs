@@ -1,0 +1,89 @@
+//! Resampling at equal steps. Measures and comparisons need them, the washout's filters do not.
+
+use super::Table;
+use super::interpolation::{places, values};
+use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
+use crate::recording::conventions::{Conventions, Quantity};
+use crate::recording::message::{RecordingError, given, named};
+
+/// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
+/// times written with few digits.
+const JITTER: f64 = 0.2;
+/// Coarsest step of a usable recording \[s\].
+const COARSEST: f64 = 0.25;
+/// Finest step: below it, time is in another unit \[s\].
+const FINEST: f64 = 1e-5;
+/// Largest number of samples: about a day at 100 Hz.
+const MOST_SAMPLES: f64 = 1e7;
+
+/// The recording at equal steps, with warnings. It is unchanged if its steps are equal, and
+/// interpolated if an option asks for it.
+///
+/// # Errors
+/// Time does not increase, the steps are unequal and interpolation is off, or the steps are too
+/// coarse or too fine for the unit of time.
+pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Table, Vec<String>), RecordingError> {
+    if conventions.resample.is_some() {
+        table.warnings.extend(spread_equal_times(&mut table.time));
+    }
+    if let Some((wrong, reason)) = disorder(&table.time) {
+        return Err(table.refused_at(wrong, Quantity::Time, reason));
+    }
+    check_unit(&table)?;
+    match conventions.resample {
+        Some(rate) => resampled(table, rate),
+        None => check_equal(&table).map(|()| (table, Vec::new())),
+    }
+}
+
+fn check_unit(table: &Table) -> Result<(), RecordingError> {
+    let usual = usual_step(&table.time);
+    let unit = table.unit(Quantity::Time).0.word;
+    let reason = if usual > COARSEST {
+        format!("too coarse for a washout; if time is in ms or another unit, give it with {}", named("time-unit"))
+    } else if usual < FINEST {
+        format!("finer than any recording; give the unit of time with {}", named("time-unit"))
+    } else {
+        return Ok(());
+    };
+    Err(table.refused(format!("samples come every {usual} s if time is in {unit}: {reason}")))
+}
+
+fn check_equal(table: &Table) -> Result<(), RecordingError> {
+    let (step, usual) = (table.step(), usual_step(&table.time));
+    let expected = |k: usize| table.time[0] + k as f64 * step;
+    let Some(off) = (0..table.time.len()).find(|&k| (table.time[k] - expected(k)).abs() > JITTER * step) else {
+        return Ok(());
+    };
+    // The sample that is farthest off rarely has the unusual step. So the first
+    // unusual step is named.
+    let step_to = |k: usize| table.time[k] - table.time[k - 1];
+    let odd = (1..table.time.len()).find(|&k| (step_to(k) - usual).abs() > JITTER * usual).unwrap_or(off);
+    let reason = format!(
+        "the samples do not come at equal steps: here {:.4} s after the one before, otherwise {usual:.4} s; {} \
+         interpolates them",
+        step_to(odd),
+        given("resample", format!("{:.0}", 1.0 / usual))
+    );
+    Err(table.refused_at(odd, Quantity::Time, reason))
+}
+
+/// Linear interpolation at `rate` samples a second, with warnings about gaps.
+fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<String>), RecordingError> {
+    let (first, last) = (table.time[0], table.time[table.time.len() - 1]);
+    let steps = (last - first) * rate + 1e-6;
+    if steps > MOST_SAMPLES {
+        let reason = format!("{:.0} s at {rate} samples a second are too many; interpolate at fewer", last - first);
+        return Err(table.refused(reason));
+    }
+    let count = (steps.floor() as usize + 1).max(2);
+    let time: Vec<f64> = (0..count).map(|k| first + k as f64 / rate).collect();
+    let places = places(&table.time, &time);
+    let columns = table.columns.iter().map(|(&quantity, column)| (quantity, values(&places, column))).collect();
+    let lines = places.iter().map(|place| table.lines[place.after]).collect();
+    let gap = |(step, line)| {
+        format!("Nothing was recorded for {step:.2} s after line {line}; the gap is interpolated linearly.")
+    };
+    let warnings = gaps(&table.time, &table.lines, LONGEST_GAP).map(gap).collect();
+    Ok((Table { time, columns, lines, ..table }, warnings))
+}

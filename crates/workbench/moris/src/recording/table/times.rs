@@ -1,0 +1,58 @@
+//! Times of samples: their order, their usual step, and gaps between them.
+
+use moris_interface::shown;
+
+use crate::recording::message::given;
+use crate::recording::signal::median;
+
+/// Longest gap that is interpolated over without a warning \[s\].
+pub const LONGEST_GAP: f64 = 0.2;
+
+/// Spreads samples of equal times, as clocks with few digits write them, evenly up to the next
+/// time. Returns a warning if there are any.
+pub fn spread_equal_times(time: &mut [f64]) -> Option<String> {
+    let mean = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    let (mut first, mut spread) = (0, 0);
+    while first < time.len() {
+        let count = time[first..].iter().take_while(|&&t| t == time[first]).count();
+        // The last times have none after them.
+        let step = time.get(first + count).map_or(mean, |next| (next - time[first]) / count as f64);
+        for k in 1..count {
+            time[first + k] += k as f64 * step;
+        }
+        spread += count - 1;
+        first += count;
+    }
+    (spread > 0)
+        .then(|| format!("{spread} samples have the time of the one before; they are spread evenly up to the next."))
+}
+
+/// The first sample whose time is not after the one before, and the reason why it is refused.
+pub fn disorder(time: &[f64]) -> Option<(usize, String)> {
+    let wrong = (1..time.len()).find(|&k| time[k] <= time[k - 1])?;
+    let (before, after) = (time[wrong - 1], time[wrong]);
+    let fault = if after < before { "goes back" } else { "stands still" };
+    let remedy = remedy_for_equal_times(time, wrong);
+    Some((wrong, format!("time {fault}: {} s comes after {} s{remedy}", shown(after), shown(before))))
+}
+
+/// The remedy where a sample has the time of the one before.
+fn remedy_for_equal_times(time: &[f64], sample: usize) -> String {
+    let duration = time[time.len() - 1] - time[0];
+    if time[sample] != time[sample - 1] || duration <= 0.0 {
+        return String::new();
+    }
+    let rate = (time.len() - 1) as f64 / duration;
+    format!("; if the times are rounded, {} spreads equal ones evenly", given("resample", format!("{rate:.0}")))
+}
+
+/// The median step \[s\], which is insensitive to missing samples and outliers.
+pub fn usual_step(time: &[f64]) -> f64 {
+    median(time.windows(2).map(|pair| pair[1] - pair[0]))
+}
+
+/// The steps longer than `longest` \[s\], each with the line before it.
+pub fn gaps(time: &[f64], lines: &[u64], longest: f64) -> impl Iterator<Item = (f64, u64)> {
+    let steps = time.windows(2).map(|pair| pair[1] - pair[0]);
+    steps.zip(lines.iter().copied()).filter(move |(step, _)| *step > longest)
+}
