@@ -25,6 +25,8 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
 VENV = TARGET / "venv"
 REQUIREMENTS = ROOT / "tests" / "python" / "requirements.txt"
 PROGRAM = ".exe" if os.name == "nt" else ""
+LONGEST = ("live", "building", "washout")
+"""Test programs that wait for clocks and for cargo, or simulate for long."""
 NO_TESTS = 5
 """pytest's exit status if an expression selects none."""
 
@@ -77,12 +79,13 @@ def fmu(options):
 
 
 def test_programs(command):
-    """Test programs that are compiled, and the directory of each one's package; those that take longest first."""
+    """Test programs that are compiled, and the directory of each one's package; those that take long come first."""
     report = subprocess.run([*command, "--no-run", "--message-format", "json"], cwd=ROOT, check=True, capture_output=True, text=True)
     artifacts = [json.loads(line) for line in report.stdout.splitlines() if '"executable":"' in line]
     programs = [(one["executable"], Path(one["manifest_path"]).parent) for one in artifacts if one["profile"]["test"]]
     assert programs, "cargo names no test program"
-    return sorted(programs, key=lambda program: -Path(program[0]).stat().st_size)
+    name = lambda program: Path(program[0]).stem.rsplit("-", 1)[0]
+    return sorted(programs, key=lambda program: (name(program) not in LONGEST, -Path(program[0]).stat().st_size))
 
 
 def failure(program, directory, *arguments, **environment):

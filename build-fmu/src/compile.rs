@@ -97,14 +97,12 @@ pub fn compile(model: &FmuModel, fmi: FmiVersion, plan: &Plan) -> Result<Vec<u8>
 /// [`compile`] finds each of them done. The last stage of a library, which optimises it as a whole,
 /// keeps one core busy: together they take a fraction of the time.
 ///
-/// Apple's platforms are left to [`compile`], because a library there is compiled with its name,
-/// and components, because only their last stage has flags of theirs.
+/// A library with flags of its own is left to [`compile`].
 ///
 /// # Errors
 /// The compiler cannot be run or fails.
 pub fn compile_together(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), Error> {
-    let alone = plan.platform.is_apple() || plan.platform.is_component();
-    if alone || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, plan) }
+    if plan.is_alone() || libraries.is_empty() { Ok(()) } else { run_cargo(libraries, plan) }
 }
 
 /// Calls cargo for these libraries.
@@ -114,8 +112,7 @@ fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), E
     for (model, fmi) in libraries {
         command.args(["--package", model.package(*fmi)]);
     }
-    let (first, fmi) = libraries[0];
-    command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags(first.library(fmi))?);
+    command.current_dir(workspace::root()).env("CARGO_ENCODED_RUSTFLAGS", plan.rust_flags()?);
     if plan.linker == Linker::Lld {
         command.env("SDKROOT", macos_stub::development_kit(plan.platform)?);
     }
@@ -124,10 +121,9 @@ fn run_cargo(libraries: &[(&FmuModel, FmiVersion)], plan: &Plan) -> Result<(), E
         command.env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", tools::mingw_linker()?);
         command.env("MORIS_TARGET_DIRECTORY", workspace::target_directory());
     }
-    if plan.linker == Linker::Component {
-        // Flags of the library alone: what it uses is compiled once for components and for sources.
-        command.args(["--features", "component", "--", "-Clinker=wasm-component-ld"]);
-        command.arg(format!("-Clink-arg=--component-type={COMPONENT_INTERFACE}"));
+    if plan.is_alone() {
+        let (model, fmi) = libraries[0];
+        command.args(plan.library_arguments(model.library(fmi)));
     }
     let status = command.status().map_err(|reason| Error::Run { program: "cargo".to_owned(), reason })?;
     if status.success() { Ok(()) } else { Err(Error::Compile { platform: plan.platform }) }
@@ -141,8 +137,8 @@ impl Plan {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         let subcommand = match self.linker {
             Linker::Zig => "zigbuild",
-            Linker::Component => "rustc",
-            Linker::Host | Linker::Lld | Linker::Mingw => "build",
+            _ if self.is_alone() => "rustc",
+            Linker::Component | Linker::Host | Linker::Lld | Linker::Mingw => "build",
         };
         command.args([subcommand, "--target", &self.target()]);
         command
@@ -161,9 +157,31 @@ impl Plan {
         }
     }
 
-    /// rustc's flags for a library of this name, in the form of `CARGO_ENCODED_RUSTFLAGS`: no
-    /// symbols but the exported ones, no directory of this machine, no time of day.
-    fn rust_flags(&self, library: &str) -> Result<OsString, Error> {
+    /// True if a library has flags of its own, which `cargo rustc` gives to it alone: what it uses
+    /// is compiled once for all libraries.
+    fn is_alone(&self) -> bool {
+        self.platform.is_apple() || self.platform.is_component()
+    }
+
+    /// Arguments of cargo with the flags of a library of this name.
+    fn library_arguments(&self, library: &str) -> Vec<String> {
+        if self.platform.is_component() {
+            let interface = format!("-Clink-arg=--component-type={COMPONENT_INTERFACE}");
+            return ["--features", "component", "--", "-Clinker=wasm-component-ld", &interface]
+                .map(str::to_owned)
+                .into();
+        }
+        // A library for macOS carries its own name, by default the path at which it was linked.
+        let name = format!("@rpath/{}", self.platform.packed_library(library));
+        let through_compiler = if self.linker == Linker::Host { "-Wl," } else { "" };
+        let flags =
+            [format!("-Clink-arg={through_compiler}-install_name"), format!("-Clink-arg={through_compiler}{name}")];
+        ["--".to_owned()].into_iter().chain(flags).collect()
+    }
+
+    /// rustc's flags, in the form of `CARGO_ENCODED_RUSTFLAGS`: no symbols but the exported ones,
+    /// no directory of this machine, no time of day.
+    fn rust_flags(&self) -> Result<OsString, Error> {
         let mut flags = path_flags()?;
         if self.linker != Linker::Component {
             flags.insert(0, "-Cstrip=symbols".into());
@@ -172,13 +190,6 @@ impl Plan {
             Linker::Mingw => flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into()),
             Linker::Lld => flags.extend(["-Clinker=rust-lld".into(), "-Clinker-flavor=ld64.lld".into()]),
             Linker::Host | Linker::Zig | Linker::Component => {}
-        }
-        if self.platform.is_apple() {
-            // A library there carries its own name, by default the path at which it was linked.
-            let name = format!("@rpath/{}", self.platform.packed_library(library));
-            let through_compiler = if self.linker == Linker::Host { "-Wl," } else { "" };
-            flags.push(format!("-Clink-arg={through_compiler}-install_name").into());
-            flags.push(format!("-Clink-arg={through_compiler}{name}").into());
         }
         Ok(encoded(&flags))
     }

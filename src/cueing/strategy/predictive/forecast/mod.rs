@@ -307,8 +307,9 @@ impl Forecaster {
     ///
     /// It follows from the ratio of the preview's error to that of the forecast without it,
     /// [`FORECAST_FLOOR`] included. The ratio in a block is the largest of the blocks up to it,
-    /// since a preview that is worse for near blocks is not better for later ones. For later blocks,
-    /// the first [`RESOLVED`] blocks are left out: they are shorter than what a preview resolves.
+    /// since a preview that is worse for near blocks is not better for later ones. For later
+    /// blocks, the first [`RESOLVED`] blocks are left out: they are shorter than what a preview
+    /// resolves.
     fn trust(&self, horizon: Horizon) -> SVector<f64, BLOCKS> {
         let [learned, previewed] = &self.preview_errors;
         let ratios = previewed.component_div(&learned.add_scalar(FORECAST_FLOOR));
