@@ -31,10 +31,13 @@ NO_TESTS = 5
 """pytest's exit status if an expression selects none."""
 
 
-def run(*command, allowed=(0,), **environment):
+def run(*command, allowed=(0,), at_once=False, **environment):
+    """Runs a command and ends if it fails. With `at_once` its output comes at its end, for commands beside each other."""
     print("$", *command, flush=True)
-    status = subprocess.run([str(part) for part in command], cwd=ROOT, env=os.environ | environment).returncode
-    if status not in allowed:
+    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT} if at_once else {}
+    done = subprocess.run([str(part) for part in command], cwd=ROOT, env=os.environ | environment, **output)
+    print((done.stdout or b"").decode(errors="replace"), end="", flush=True)
+    if done.returncode not in allowed:
         sys.exit(f"failed: {' '.join(map(str, command))}")
 
 
@@ -54,11 +57,12 @@ def features(options):
     return ["--features", "moris/serial"] if options.all else []
 
 
-def pytest(options, *arguments):
-    """Two processes, which keep two cores busy: more of them would compete for memory and for cargo's lock."""
+def pytest(options, processes, *arguments):
+    """Runs tests in so many processes, or in two where no other part runs beside."""
     chosen = ["-k", options.k] if options.k else []
     allowed = (0, NO_TESTS) if options.k else (0,)
-    command = [python(), "-m", "pytest", "--quiet", "--numprocesses", "2", *chosen, *arguments]
+    processes = processes if options.beside else 2
+    command = [python(), "-m", "pytest", "--quiet", "--numprocesses", str(processes), *chosen, *arguments]
     # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile. Without a
     # package, cargo takes the features of all, so that each library is compiled once.
     compiled = {
@@ -66,7 +70,7 @@ def pytest(options, *arguments):
         "CARGO_ALIAS_MORIS": " ".join(["run", "--bin", "moris", *features(options), "--"]),
         "CARGO_ALIAS_HUNTER": "run --bin moris-hunter --",
     }
-    run(*command, allowed=allowed, **compiled)
+    run(*command, allowed=allowed, at_once=options.beside, **compiled)
 
 
 def fmu(options):
@@ -126,13 +130,13 @@ def examples():
 def python_tests(options):
     """tests of the FMUs by FMPy, of their libraries and of the prose"""
     examples()
-    pytest(options, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
+    pytest(options, 1, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
 
 
 def docs(options):
     """commands of the pages, run as they are printed"""
     install_package(options.all)
-    pytest(options, "--dist", "load", "--maxschedchunk", "1", "tests/python/test_docs.py")
+    pytest(options, 2, "--dist", "load", "--maxschedchunk", "1", "tests/python/test_docs.py")
 
 
 @cache
@@ -145,7 +149,7 @@ def install_package(optimised):
 def package(options):
     """the Python package: built, installed and tested"""
     install_package(options.all)
-    pytest(options, "--dist", "loadfile", "tests/python_package")
+    pytest(options, 1, "--dist", "loadfile", "tests/python_package")
 
 
 def passed_on(options, *names):
@@ -182,6 +186,20 @@ def reproducible(options):
     run(sys.executable, "tests/reproducible.py")
 
 
+def in_python(options, names):
+    """Runs these parts side by side: each waits for clocks, or for the longest of its tests alone."""
+    if "python" in names:
+        examples()
+    if {"package", "docs"} & set(names):
+        install_package(options.all)
+    options.beside = len(names) > 1
+    with ThreadPoolExecutor() as pool:
+        # The longest first.
+        for done in [pool.submit(PARTS[name], options) for name in reversed(names)]:
+            done.result()
+
+
+IN_PYTHON = ("python", "package", "docs")
 DEFAULT = {"fmu": fmu, "rust": rust, "python": python_tests, "package": package, "docs": docs}
 PARTS = DEFAULT | {"importers": importers, "platforms": platforms, "sources": sources, "pages": pages, "reproducible": reproducible}
 
@@ -206,12 +224,17 @@ def main():
     parser.add_argument("--install", action="store_true", help="install it first, with apt, rustup and pip")
     options = parser.parse_args()
     chosen = options.only or (PARTS if options.all else DEFAULT)
+    together = [name for name in IN_PYTHON if name in chosen]
     took = []
-    for name in [name for name in PARTS if name in chosen]:
+    for name in [name for name in PARTS if name in chosen and name not in together[1:]]:
         start, used = time.monotonic(), processor_time()
-        PARTS[name](options)
-        took.append(f"{name:10}{time.monotonic() - start:8.0f}{processor_time() - used:16.0f}")
-    print("part      seconds  processor time", *took, sep="\n")
+        if name in together:
+            in_python(options, together)
+            name = ", ".join(together)
+        else:
+            PARTS[name](options)
+        took.append(f"{name:22}{time.monotonic() - start:8.0f}{processor_time() - used:16.0f}")
+    print("part                   seconds  processor time", *took, sep="\n")
     print("No test has failed. What is missing above has not been run.")
 
 
