@@ -104,8 +104,7 @@ def failure(program, directory, *arguments, **environment):
 def rust(options):
     """all tests in Rust"""
     chosen = [options.k] if options.k else []
-    # PROPTEST_CASES holds where a test takes proptest's own number of cases, 256, or a part of it.
-    cases = {"MORIS_ALL_CASES": "1"} if options.all else {"PROPTEST_CASES": "48"}
+    cases = {"MORIS_ALL_CASES": "1"} if options.all else {}
     command = ["cargo", "test", "--workspace", *features(options)]
     run(*command, "--no-run")
     # Side by side: some wait for sockets and clocks, and the last tests of one leave a core idle.

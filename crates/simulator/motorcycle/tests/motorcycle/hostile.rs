@@ -4,6 +4,7 @@ use moris_interface::{Group, Writer, slot_count};
 use moris_motorcycle::{Input, Model, Output, Parameters};
 use nalgebra::Vector3;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 use crate::common::{at_speed, motorcycle};
 
@@ -48,8 +49,13 @@ fn assert_sane(output: &Output) {
     assert!(output.front_load >= 0.0 && output.rear_load >= 0.0);
 }
 
+/// A quarter of the cases unless all are wanted.
+fn cases() -> u32 {
+    if std::env::var_os("MORIS_ALL_CASES").is_some() { 128 } else { 32 }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: ProptestConfig::default().cases / 2, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn no_input_makes_it_fall_or_fly(
