@@ -69,7 +69,7 @@ def version():
 
 
 def fmus(options):
-    """FMUs of all models and versions of FMI; FMPy rides the washout's"""
+    """FMUs of all models and versions of FMI; FMPy simulates each"""
     where = ["--output", options.output, *(["--platform", options.platform] if options.platform else [])]
     run("cargo", "build-fmu", "--fmi", "2,3", *where)
     run("cargo", "build-fmu", "--fmi", "3", "--arrays", *where)
@@ -88,23 +88,33 @@ def systems(options):
             run("cargo", "build-ssp", "--system", system, *form, *where)
 
 
-def program(options):
-    """the command moris for this machine; it simulates a ride and makes an own FMU"""
-    run("cargo", "build", "--locked", "--package", "moris", "--profile", options.profile, env=without_paths())
-    built = ROOT / "target" / ("debug" if options.profile == "dev" else options.profile) / f"moris{PROGRAM}"
-    system = {"Darwin": "macos"}.get(platform.system(), platform.system().lower())
-    packed = options.output / f"moris-{version()}-{system}-{platform.machine().lower()}.zip"
+def packed_program(options, target):
+    """The command for this machine, or for a target of Rust, in an archive."""
+    targeted = ["--target", target] if target else []
+    run("cargo", "build", "--locked", "--package", "moris", "--profile", options.profile, *targeted, env=without_paths())
+    directory = ROOT / "target" / (target or "") / ("debug" if options.profile == "dev" else options.profile)
+    built = directory / f"moris{'.exe' if target and 'windows' in target else PROGRAM}"
     shown = [str(path) for path in private_paths() if str(path).encode() in built.read_bytes()]
     assert not shown, f"{built} shows the paths {shown}"
+    system = {"Darwin": "macos"}.get(platform.system(), platform.system().lower())
+    packed = options.output / f"moris-{version()}-{target or f'{system}-{platform.machine().lower()}'}.zip"
     with zipfile.ZipFile(packed, "w") as archive:
         for file in (built, *(ROOT / name for name in ("LICENSE-MIT", "LICENSE-APACHE", "README.md"))):
             # Neither the time nor the permissions of this machine.
             entry = zipfile.ZipInfo(file.name)
             entry.create_system, entry.external_attr = 3, (0o755 if file == built else 0o644) << 16
             archive.writestr(entry, file.read_bytes(), zipfile.ZIP_DEFLATED)
+    return packed
+
+
+def program(options):
+    """the command moris for this machine and for --target; this machine's simulates a ride and makes an own FMU"""
+    for target in options.target:
+        packed_program(options, target)
+    packed = packed_program(options, None)
     with tempfile.TemporaryDirectory() as folder:
         shutil.unpack_archive(packed, folder)
-        moris = Path(folder) / built.name
+        moris = Path(folder) / f"moris{PROGRAM}"
         # Unpacking by Python drops the permission to execute.
         moris.chmod(0o755)
         run(sys.executable, ROOT / "examples" / "recording.py", "ride.csv", cwd=folder)
@@ -178,6 +188,7 @@ def main():
     )
     parser.add_argument("--only", action="append", choices=PARTS, metavar="PART", help="this part [default: all]")
     parser.add_argument("--platform", help="platforms of FMUs and systems, as of cargo build-fmu [default: this machine's]")
+    parser.add_argument("--target", action="append", default=[], help="a target of Rust for which the program is made, too; not tried")
     parser.add_argument("--output", type=Path, default=ROOT / "target" / "dist", help="[default: target/dist]")
     parser.add_argument("--profile", default="release", help="of the program and the wheel; dev for a rehearsal [default: release]")
     options = parser.parse_args()
