@@ -7,7 +7,7 @@
 The platforms are those given, else this machine's and, where its tools are installed, Windows.
 The other directory has another length and a blank in its name, and a target directory of its own for the libraries. The exit
 status is 1 if a file differs. Only files that git tracks are built. With --program the other directory compiles all
-dependencies again, which takes some ten minutes of two cores, so that tests/run.py leaves it out.
+dependencies again, which takes some six minutes of two cores, so that tests/run.py leaves it out.
 """
 
 import argparse
