@@ -83,9 +83,13 @@ def fmu(options):
 
 
 def test_programs(command):
-    """Test programs that are compiled, and the directory of each one's package; those that take long come first."""
-    report = subprocess.run([*command, "--no-run", "--message-format", "json"], cwd=ROOT, check=True, capture_output=True, text=True)
-    artifacts = [json.loads(line) for line in report.stdout.splitlines() if '"executable":"' in line]
+    """Compiles the test programs. Returns them, each with its package's directory; those that take long come first."""
+    command = [*command, "--no-run", "--message-format", "json-render-diagnostics"]
+    print("$", *command, flush=True)
+    report = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE)
+    if report.returncode:
+        sys.exit(f"failed: {' '.join(command)}")
+    artifacts = [json.loads(line) for line in report.stdout.splitlines() if b'"executable":"' in line]
     programs = [(one["executable"], Path(one["manifest_path"]).parent) for one in artifacts if one["profile"]["test"]]
     assert programs, "cargo names no test program"
     name = lambda program: Path(program[0]).stem.rsplit("-", 1)[0]
@@ -93,12 +97,11 @@ def test_programs(command):
 
 
 def failure(program, directory, *arguments, **environment):
-    """The output of a test program that fails, else nothing."""
-    # A test loads its own library.
+    """The exit status and the output of a test program that fails, else nothing."""
     done = subprocess.run([program, *arguments], cwd=directory, env=os.environ | environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     output = done.stdout.decode(errors="replace")
-    print("$", Path(program).name, output.strip().splitlines()[-1], flush=True)
-    return output if done.returncode else ""
+    print("$", Path(program).name, *output.strip().splitlines()[-1:], flush=True)
+    return f"{program}: exit status {done.returncode}\n{output}" if done.returncode else ""
 
 
 def rust(options):
@@ -106,10 +109,10 @@ def rust(options):
     chosen = [options.k] if options.k else []
     cases = {"MORIS_ALL_CASES": "1"} if options.all else {}
     command = ["cargo", "test", "--workspace", *features(options)]
-    run(*command, "--no-run")
+    programs = test_programs(command)
     # Side by side: some wait for sockets and clocks, and the last tests of one leave a core idle.
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        failed = [output for output in pool.map(lambda test: failure(*test, *chosen, "--quiet", **cases), test_programs(command)) if output]
+        failed = [output for output in pool.map(lambda test: failure(*test, *chosen, "--quiet", **cases), programs) if output]
     if failed:
         sys.exit("\n".join(failed))
     run(*command, "--doc", *chosen, "--", "--quiet")
@@ -128,17 +131,14 @@ def examples():
 
 def python_tests(options):
     """tests of the FMUs by FMPy, of their libraries and of the prose"""
-    examples()
     pytest(options, 1, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
 
 
 def docs(options):
     """commands of the pages, run as they are printed"""
-    install_package(options.all)
     pytest(options, 2, "--dist", "load", "--maxschedchunk", "1", "tests/python/test_docs.py")
 
 
-@cache
 def install_package(optimised):
     """Optimised as users get it, or compiled as the tests are."""
     profile = {} if optimised else {"MATURIN_PEP517_ARGS": "--profile dev --features as-tested"}
@@ -147,7 +147,6 @@ def install_package(optimised):
 
 def package(options):
     """the Python package: built, installed and tested"""
-    install_package(options.all)
     pytest(options, 1, "--dist", "loadfile", "tests/python_package")
 
 
@@ -186,7 +185,7 @@ def reproducible(options):
 
 
 def in_python(options, names):
-    """Runs these parts side by side: each waits for clocks, or for the longest of its tests alone."""
+    """Makes what these parts need, and runs them side by side: each waits for clocks, or for the longest of its tests alone."""
     if "python" in names:
         examples()
     if {"package", "docs"} & set(names):
