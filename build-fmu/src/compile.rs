@@ -135,10 +135,12 @@ impl Plan {
     /// else.
     fn cargo(&self) -> Command {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-        let subcommand = match self.linker {
-            Linker::Zig => "zigbuild",
-            _ if self.is_alone() => "rustc",
-            Linker::Component | Linker::Host | Linker::Lld | Linker::Mingw => "build",
+        let subcommand = if self.is_alone() {
+            "rustc"
+        } else if self.linker == Linker::Zig {
+            "zigbuild"
+        } else {
+            "build"
         };
         command.args([subcommand, "--target", &self.target()]);
         command

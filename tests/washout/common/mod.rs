@@ -93,7 +93,7 @@ pub fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// A search over this many cases, the same ones every time; a tenth of them, at least ten, unless
-/// all are wanted.
+/// `MORIS_ALL_CASES` is set.
 pub fn cases(all: u32) -> ProptestConfig {
     let count = if std::env::var_os("MORIS_ALL_CASES").is_some() { all } else { (all / 10).max(10) };
     ProptestConfig {

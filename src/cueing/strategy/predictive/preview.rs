@@ -371,7 +371,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_course_that_has_not_begun_is_put_off() {
+    fn only_a_course_that_has_not_begun_is_delayed() {
         let mut course = Course { age: 0.0, begun: false, ..course() };
         course.delay(0.05);
         assert_eq!((course.age, course.length()), (-0.05, 0.2 * 8.0 + 0.05));

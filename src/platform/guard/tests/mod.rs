@@ -20,7 +20,7 @@ use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
 use crate::platform::inverse::leg_motion;
 
-/// Number of cases: a tenth of these unless all are wanted.
+/// Number of cases: a tenth of these unless `MORIS_ALL_CASES` is set.
 fn case_count(all: u32) -> u32 {
     if std::env::var_os("MORIS_ALL_CASES").is_some() { all } else { all / 10 }
 }

@@ -49,7 +49,7 @@ fn assert_sane(output: &Output) {
     assert!(output.front_load >= 0.0 && output.rear_load >= 0.0);
 }
 
-/// A quarter of the cases unless all are wanted.
+/// A quarter of the cases unless `MORIS_ALL_CASES` is set.
 fn cases() -> u32 {
     if std::env::var_os("MORIS_ALL_CASES").is_some() { 128 } else { 32 }
 }

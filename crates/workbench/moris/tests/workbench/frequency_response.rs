@@ -129,7 +129,7 @@ fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
     assert!((removed - alone).norm() < 1e-3 * felt.norm(), "{removed} is not {alone}");
 }
 
-/// All tests, coarsely stepped, and how often they told of their progress.
+/// All tests, coarsely stepped, and the number of reports of progress.
 static MEASURED: LazyLock<(Measured, u64)> = LazyLock::new(|| {
     let mut parameters = presets::parameters(presets::PAPER);
     parameters.structure.max_step = 0.02;
