@@ -21,7 +21,7 @@ COMMANDS = {
 }
 
 
-def simulate(ssp="target/fmu/MotorcycleSimulator.ssp", step=1e-3):
+def simulate(ssp="target/fmu/MotorcycleSimulator.ssp", step=5e-3):
     """The values of all connectors at each communication step of `step` seconds, by name."""
     # FMPy applies the package's parameters only if it is given them.
     parameters = read_ssv(ssp, "resources/MotorcycleSimulator.ssv")

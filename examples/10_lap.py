@@ -14,7 +14,7 @@ DURATION = 100.0  # s
 ANGLES = ("roll", "pitch", "yaw")
 
 
-def simulate(ssp="target/fmu/MotorcycleLap.ssp", step=1e-3, duration=DURATION):
+def simulate(ssp="target/fmu/MotorcycleLap.ssp", step=1e-2, duration=DURATION):
     """The values of all connectors at each communication step of `step` seconds, by name."""
     return simulate_ssp(ssp, stop_time=duration, step_size=step)
 
@@ -44,7 +44,7 @@ def write_recording(path, result):
     names += ["motorcycle.vehicle.speed", "motorcycle.rider.lean"]
     header = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed,lean"
     # FMPy sets all connected inputs to zero in its first step; the motorcycle has none, and begins at rest.
-    rows = np.column_stack([result[name] for name in ["time", *names]])[::10]
+    rows = np.column_stack([result[name] for name in ["time", *names]])
     np.savetxt(path, rows, delimiter=",", header=header, comments="", fmt="%.9g")
     print(f"wrote {path}")
 
