@@ -1,8 +1,9 @@
 //! The frequency response.
 
-use moris::frequency_response::channel::{CHANNELS, Channel, name};
-use moris::frequency_response::excitation::{Amplitudes, frequencies};
-use moris::frequency_response::{Measured, Response};
+use moris::frequency_response::Measured;
+use moris_simulation::frequency_response::Response;
+use moris_simulation::frequency_response::channel::{CHANNELS, Channel, name};
+use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use numpy::{Complex64, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;

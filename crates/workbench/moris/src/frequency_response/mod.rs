@@ -1,14 +1,10 @@
 //! `moris frequency-response`: the frequency response of the whole washout, from the head in the
 //! vehicle to the head on the platform.
 //!
-//! The test follows the objective motion cueing test of ICAO Doc 9625. Sines of twelve frequencies
-//! are applied to one channel at a time, and the felt motion is measured on all channels. The
-//! module [`excitation`] makes the inputs, and [`measure`] simulates the washout. The results are
+//! Sines of twelve frequencies are applied to one channel at a time, as in the objective motion
+//! cueing test of ICAO Doc 9625, by [`moris_simulation::frequency_response`]. The results are
 //! shown by [`table`] and [`picture`].
 
-pub mod channel;
-pub mod excitation;
-pub mod measure;
 pub mod picture;
 pub mod table;
 
@@ -19,13 +15,13 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
+use moris_simulation::frequency_response::channel::Channel;
+use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
+use moris_simulation::frequency_response::{Response, response};
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use crate::setup_options::SetupOptions;
-use channel::Channel;
-use excitation::{Amplitudes, frequencies};
-pub use measure::{Response, response};
 
 /// Amplitude of the small signals as a fraction of the test's: far from every limit.
 const SMALL: f64 = 1e-3;

@@ -7,10 +7,10 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use moris_simulation::capitalised;
+use moris_simulation::frequency_response::Response;
+use moris_simulation::frequency_response::channel::{CROSS, Channel, name, ratio_unit};
 
 use super::Measured;
-use super::channel::{CROSS, Channel, name, ratio_unit};
-use super::measure::Response;
 use super::table::{modulus, phase};
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;

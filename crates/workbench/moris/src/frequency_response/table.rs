@@ -4,9 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 
-use super::channel::{CROSS, Channel, name, ratio_unit, unit, unit_in_si};
-use super::measure::Response;
-use super::{Measured, frequencies};
+use moris_simulation::frequency_response::Response;
+use moris_simulation::frequency_response::channel::{CROSS, Channel, name, ratio_unit, unit, unit_in_si};
+use moris_simulation::frequency_response::excitation::frequencies;
+
+use super::Measured;
 use crate::text_table::TextTable;
 
 /// A smaller modulus is rounding.
