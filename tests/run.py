@@ -57,6 +57,11 @@ def features(options):
     return ["--features", "moris/serial"] if options.all else []
 
 
+def cases(options):
+    """The variable by which tests that search try all cases."""
+    return {"MORIS_ALL_CASES": "1"} if options.all else {}
+
+
 def pytest(options, processes, *arguments):
     """Runs tests in so many processes, or in two where no other part runs beside."""
     chosen = ["-k", options.k] if options.k else []
@@ -65,21 +70,25 @@ def pytest(options, processes, *arguments):
     command = [python(), "-m", "pytest", "--quiet", "--numprocesses", str(processes), *chosen, *arguments]
     # The pages' commands run with the tools as the tests compile them: optimised ones take minutes more to compile. Without a
     # package, cargo takes the features of all, so that each library is compiled once.
-    compiled = {
+    environment = cases(options) | {
+        # Threads for matrices of ten rows cost more than they save.
+        "OPENBLAS_NUM_THREADS": "1",
         "CARGO_ALIAS_FIRST_RIDE": "run --bin first-ride",
         "CARGO_ALIAS_MORIS": " ".join(["run", "--bin", "moris", *features(options), "--"]),
         "CARGO_ALIAS_HUNTER": "run --bin moris-hunter --",
     }
-    run(*command, allowed=allowed, at_once=options.beside, **compiled)
+    run(*command, allowed=allowed, at_once=options.beside, **environment)
 
 
 def fmu(options):
     """builds the FMUs of both versions and the packages of the simulator"""
     run("cargo", "build-fmu", "--fmi", "2,3")
     run("cargo", "build-fmu", "--fmi", "3", "--arrays")
-    for system in ("MotorcycleSimulator", "MotorcycleLap"):
-        run("cargo", "build-ssp", "--system", system)
-        run("cargo", "build-ssp", "--system", system, "--flat")
+    packages = [(system, form) for system in ("MotorcycleSimulator", "MotorcycleLap") for form in ([], ["--flat"])]
+    # All libraries are compiled by now.
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for _ in pool.map(lambda one: run("cargo", "build-ssp", "--system", one[0], *one[1], at_once=True), packages):
+            pass
 
 
 def test_programs(command):
@@ -97,7 +106,7 @@ def test_programs(command):
 
 
 def failure(program, directory, *arguments, **environment):
-    """The exit status and the output of a test program that fails, else nothing."""
+    """The exit status and the output of a command that fails, else nothing."""
     done = subprocess.run([program, *arguments], cwd=directory, env=os.environ | environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     output = done.stdout.decode(errors="replace")
     print("$", Path(program).name, *output.strip().splitlines()[-1:], flush=True)
@@ -107,15 +116,15 @@ def failure(program, directory, *arguments, **environment):
 def rust(options):
     """all tests in Rust"""
     chosen = [options.k] if options.k else []
-    cases = {"MORIS_ALL_CASES": "1"} if options.all else {}
     command = ["cargo", "test", "--workspace", *features(options)]
-    programs = test_programs(command)
-    # Side by side: some wait for sockets and clocks, and the last tests of one leave a core idle.
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        failed = [output for output in pool.map(lambda test: failure(*test, *chosen, "--quiet", **cases), programs) if output]
+    tests = [(program, directory, *chosen, "--quiet") for program, directory in test_programs(command)]
+    # The examples in the documentation are compiled once more, by one core.
+    tests.insert(1, (command[0], ROOT, *command[1:], "--doc", *chosen, "--", "--quiet"))
+    # Side by side, and one more than cores: the longest waits for sockets and clocks.
+    with ThreadPoolExecutor(os.cpu_count() + 1) as pool:
+        failed = [output for output in pool.map(lambda test: failure(*test, **cases(options)), tests) if output]
     if failed:
         sys.exit("\n".join(failed))
-    run(*command, "--doc", *chosen, "--", "--quiet")
     if options.all:
         # The only tests of this library that the command above leaves out: a search of minutes.
         run("cargo", "test", "--package", "moris-washout", "--lib", *chosen, "--", "--quiet", "--ignored")
