@@ -114,7 +114,7 @@ fn limits_hold_at_1_khz() {
     for (seed, set) in SETS.iter().enumerate() {
         for kind in KINDS {
             for held in [true, false] {
-                survive(set, kind, Steps::Even(0.001), held, seed as u64, 10_000);
+                survive(set, kind, Steps::Even(0.001), held, seed as u64, moris_cases::cases(10_000, 2_000));
             }
         }
     }

@@ -92,10 +92,10 @@ pub fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
     (a.iter().zip(b).map(|(x, y)| (x - y) * (x - y)).sum::<f64>() / a.len() as f64).sqrt()
 }
 
-/// A search over this many cases, the same ones every time; a tenth of them, at least ten, unless
-/// `MORIS_ALL_CASES` is set.
+/// A search over this many cases, the same ones every time; by default a tenth of them, at least
+/// ten.
 pub fn cases(all: u32) -> ProptestConfig {
-    let count = if std::env::var_os("MORIS_ALL_CASES").is_some() { all } else { (all / 10).max(10) };
+    let count = moris_cases::cases(all, (all / 10).max(10));
     ProptestConfig {
         rng_seed: RngSeed::Fixed(1),
         failure_persistence: None,

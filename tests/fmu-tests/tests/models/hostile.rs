@@ -1,6 +1,7 @@
 //! The washout's library in the hands of a host that does everything wrong, by
 //! both versions of FMI.
 
+use moris_cases::cases;
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::{Api, Fmu, fmi3};
 use moris_fmu_tests::hostile::{CallCounts, Choices, Functions, run};
@@ -14,10 +15,9 @@ fn calls(counts: &CallCounts) -> u64 {
     counts.values().sum()
 }
 
-/// Makes a quarter of a million calls for each seed, always the same, and a fifth of them unless
-/// all are wanted; returns how they ended.
+/// Makes so many calls for each seed, always the same; returns how they ended.
 fn many_calls(functions: &Functions, seeds: std::ops::Range<u64>) -> CallCounts {
-    let each = if std::env::var_os("MORIS_ALL_CASES").is_some() { 250_000 } else { 50_000 };
+    let each = cases(250_000, 10_000);
     let mut total = CallCounts::new();
     for seed in seeds {
         let counts = run(functions, Choices::Seed(seed), each);
@@ -92,7 +92,7 @@ fn bytes_lead_the_host_too() {
     ];
     let mut seed = Choices::Seed(1);
     for functions in &versions {
-        for _ in 0..40 {
+        for _ in 0..cases(40, 10) {
             let bytes: Vec<u8> = (0..4000).map(|_| seed.bits() as u8).collect();
             assert!(calls(&run(functions, Choices::Bytes(&bytes), u64::MAX)) > 100);
         }

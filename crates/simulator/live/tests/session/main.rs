@@ -284,7 +284,7 @@ fn any_ride() -> impl Strategy<Value = Ride> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: moris_cases::cases(24, 12), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_sequence_of_events_is_felt_as_a_jolt(
@@ -327,7 +327,7 @@ proptest! {
 fn no_sequence_of_a_million_events_is_felt_as_a_jolt() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
-    let count: usize = if std::env::var_os("MORIS_ALL_CASES").is_some() { 10_000 } else { 100 };
+    let count: usize = moris_cases::cases(10_000, 100);
     let runner = Mutex::new((0..count, TestRunner::deterministic()));
     let sequences = prop::collection::vec(any_event(), 100);
     let next = || {

@@ -49,13 +49,8 @@ fn assert_sane(output: &Output) {
     assert!(output.front_load >= 0.0 && output.rear_load >= 0.0);
 }
 
-/// A quarter of the cases unless `MORIS_ALL_CASES` is set.
-fn cases() -> u32 {
-    if std::env::var_os("MORIS_ALL_CASES").is_some() { 128 } else { 32 }
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: moris_cases::cases(128, 16), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn no_input_makes_it_fall_or_fly(

@@ -1,6 +1,7 @@
 //! The rider on a path: deviation, speed, stability, preview, and the end of a ride that is too
 //! fast.
 
+use moris_cases::cases;
 use moris_interface::{Group, Writer, slot_count};
 use moris_motorcycle::interface::{PATH_POINTS, Path, PathColumn};
 use moris_motorcycle::path::preview_rider::{
@@ -162,7 +163,8 @@ fn from_3_to_50_m_s_motorcycle_rider_and_path_are_stable() {
 
 #[test]
 fn from_3_to_50_m_s_it_changes_lanes() {
-    for speed in [3.2_f64, 5.0, 8.0, 12.0, 20.0, 30.0, 40.0, 50.0] {
+    let speeds = [3.2_f64, 5.0, 8.0, 12.0, 20.0, 30.0, 40.0, 50.0];
+    for speed in speeds.into_iter().step_by(cases(1, 3)) {
         // To the left by 3.5 m and back, in a length that costs 2 m/s2, or a curvature of 0.05 1/m.
         let quarter = (f64::sqrt(0.875 * speed * speed / 2.0)).max(f64::sqrt(0.875 / 0.05)).max(0.6 * speed);
         let curvature = 3.5 / (4.0 * quarter * quarter) * 2.0;
@@ -238,7 +240,8 @@ fn within_a_second_the_preview_is_what_the_head_feels() {
         input.wind = Vector3::new(100.0 * (0.4 * time).sin(), 80.0 * (0.7 * time).sin(), 0.0);
         input
     };
-    for (step, input, least) in [(0.01, &calm as &dyn Fn(f64) -> Input, 0.01), (0.01, &gusts, 0.4)] {
+    let rides = [(0.01, &calm as &dyn Fn(f64) -> Input, 0.01), (0.01, &gusts, 0.4)];
+    for &(step, input, least) in &rides[..cases(2, 1)] {
         let outputs = ride(&mut motorcycle(&on(Course::Lap, 0.0)), 100.0, step, input);
         let per_element = (0.2 / step).round() as usize;
         for k in 0..5 {
@@ -477,7 +480,7 @@ fn assert_sane(output: &Output) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: cases(24, 8), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn no_path_makes_nonsense(

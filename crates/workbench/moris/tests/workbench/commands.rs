@@ -538,7 +538,9 @@ fn the_page_of_a_long_recording_has_its_largest_size() {
         assert!(curves(&page).len() < 3_000_000 && page.len() <= 4_200_000, "{} bytes", page.len());
         page
     };
-    assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
+    if moris_cases::cases(true, false) {
+        assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
+    }
     let thinned = page(&["car", "motorcycle", "small-motions", "paper"]);
     let resolution = thinned.split("\"Curves\",\"").nth(1).unwrap().split(";").next().unwrap();
     let interval = resolution.strip_prefix("least and greatest value of every ").unwrap().strip_suffix(" ms").unwrap();
