@@ -425,7 +425,7 @@ pub unsafe fn set_fmu_state<M: Model>(
     }
 }
 
-/// A get function of a type that no variable has.
+/// A get function of a type that no variable has, or that the calling sequence allows in no state.
 pub unsafe fn get_none<M: Model>(
     instance: fmi3Instance,
     function: &Function,
@@ -440,11 +440,11 @@ pub unsafe fn get_none<M: Model>(
     Answer::new(status, || List::new(Vec::new()))
 }
 
-/// A set function of a type that no variable has.
-pub unsafe fn set_none<M: Model, T>(
+/// A set function of a type that no variable has, or that the calling sequence allows in no state.
+pub unsafe fn set_none<M: Model, R, T>(
     instance: fmi3Instance,
     function: &Function,
-    first: *mut fmi3ValueReference,
+    first: *mut R,
     length: usize,
     first_value: *mut T,
     value_count: usize,
@@ -468,38 +468,7 @@ pub unsafe fn set_no_texts<M: Model>(
     // SAFETY: the host's lists and instance.
     unsafe {
         drop(texts(first_value, value_count));
-        set_none::<M, u8>(instance, function, first, length, null::<u8>().cast_mut(), 0)
-    }
-}
-
-/// A get function that is allowed in no state.
-pub unsafe fn get_never<M: Model>(
-    instance: fmi3Instance,
-    function: &Function,
-    first: *mut fmi3ValueReference,
-    length: usize,
-) -> *mut Answer<List<u8>> {
-    // SAFETY: the host's list and instance.
-    let status = unsafe {
-        drop(List::take(first, length));
-        unsupported::never_allowed::<M, Logger>(instance, function)
-    };
-    Answer::new(status, || List::new(Vec::new()))
-}
-
-/// A set function that is allowed in no state.
-pub unsafe fn set_never<M: Model, R, T>(
-    instance: fmi3Instance,
-    function: &Function,
-    first: *mut R,
-    length: usize,
-    first_value: *mut T,
-    value_count: usize,
-) -> fmi3Status {
-    // SAFETY: the host's lists and instance.
-    unsafe {
-        drop((List::take(first, length), List::take(first_value, value_count)));
-        unsupported::never_allowed::<M, Logger>(instance, function)
+        set_none::<M, _, u8>(instance, function, first, length, null::<u8>().cast_mut(), 0)
     }
 }
 
@@ -652,21 +621,21 @@ macro_rules! export_fmi3_component {
                 "set-int32" SET_INT32 (u32, fmi3Int32) => component::set::<$model, fmi3Int32>;
                 "set-int64" SET_INT64 (u32, fmi3Int64) => component::set::<$model, fmi3Int64>;
                 "set-boolean" SET_BOOLEAN (u32, fmi3Boolean) => component::set::<$model, fmi3Boolean>;
-                "set-float32" SET_FLOAT32 (u32, f32) => component::set_none::<$model, f32>;
-                "set-int8" SET_INT8 (u32, i8) => component::set_none::<$model, i8>;
-                "set-uint8" SET_UINT8 (u32, u8) => component::set_none::<$model, u8>;
-                "set-int16" SET_INT16 (u32, i16) => component::set_none::<$model, i16>;
-                "set-uint16" SET_UINT16 (u32, u16) => component::set_none::<$model, u16>;
-                "set-uint32" SET_UINT32 (u32, u32) => component::set_none::<$model, u32>;
-                "set-uint64" SET_UINT64 (u32, u64) => component::set_none::<$model, u64>;
+                "set-float32" SET_FLOAT32 (u32, f32) => component::set_none::<$model, _, _>;
+                "set-int8" SET_INT8 (u32, i8) => component::set_none::<$model, _, _>;
+                "set-uint8" SET_UINT8 (u32, u8) => component::set_none::<$model, _, _>;
+                "set-int16" SET_INT16 (u32, i16) => component::set_none::<$model, _, _>;
+                "set-uint16" SET_UINT16 (u32, u16) => component::set_none::<$model, _, _>;
+                "set-uint32" SET_UINT32 (u32, u32) => component::set_none::<$model, _, _>;
+                "set-uint64" SET_UINT64 (u32, u64) => component::set_none::<$model, _, _>;
                 "set-string" SET_STRING (u32, List<u8>) => component::set_no_texts::<$model>;
                 "set-binary" SET_BINARY (u32, List<u8>) => component::set_no_texts::<$model>;
-                "set-clock" SET_CLOCK (u32, u8) => component::set_never::<$model, _, _>;
-                "set-interval-decimal" SET_INTERVAL_DECIMAL (u32, f64) => component::set_never::<$model, _, _>;
-                "set-interval-fraction" SET_INTERVAL_FRACTION (u32, Fraction) => component::set_never::<$model, _, _>;
-                "set-shift-decimal" SET_SHIFT_DECIMAL (u32, f64) => component::set_never::<$model, _, _>;
-                "set-shift-fraction" SET_SHIFT_FRACTION (u32, Fraction) => component::set_never::<$model, _, _>;
-                "set-input-derivatives" SET_INPUT_DERIVATIVES (Request, f64) => component::set_never::<$model, _, _>;
+                "set-clock" SET_CLOCK (u32, u8) => component::set_none::<$model, _, _>;
+                "set-interval-decimal" SET_INTERVAL_DECIMAL (u32, f64) => component::set_none::<$model, _, _>;
+                "set-interval-fraction" SET_INTERVAL_FRACTION (u32, Fraction) => component::set_none::<$model, _, _>;
+                "set-shift-decimal" SET_SHIFT_DECIMAL (u32, f64) => component::set_none::<$model, _, _>;
+                "set-shift-fraction" SET_SHIFT_FRACTION (u32, Fraction) => component::set_none::<$model, _, _>;
+                "set-input-derivatives" SET_INPUT_DERIVATIVES (Request, f64) => component::set_none::<$model, _, _>;
             }
 
             $crate::component_getters! {
@@ -683,11 +652,11 @@ macro_rules! export_fmi3_component {
                 "get-uint64" GET_UINT64 (List<u8>) => component::get_none::<$model>;
                 "get-string" GET_STRING (List<u8>) => component::get_none::<$model>;
                 "get-binary" GET_BINARY (List<u8>) => component::get_none::<$model>;
-                "get-clock" GET_CLOCK (List<u8>) => component::get_never::<$model>;
-                "get-interval-decimal" GET_INTERVAL_DECIMAL (List<u8>) => component::get_never::<$model>;
-                "get-interval-fraction" GET_INTERVAL_FRACTION (List<u8>) => component::get_never::<$model>;
-                "get-shift-decimal" GET_SHIFT_DECIMAL (List<u8>) => component::get_never::<$model>;
-                "get-shift-fraction" GET_SHIFT_FRACTION (List<u8>) => component::get_never::<$model>;
+                "get-clock" GET_CLOCK (List<u8>) => component::get_none::<$model>;
+                "get-interval-decimal" GET_INTERVAL_DECIMAL (List<u8>) => component::get_none::<$model>;
+                "get-interval-fraction" GET_INTERVAL_FRACTION (List<u8>) => component::get_none::<$model>;
+                "get-shift-decimal" GET_SHIFT_DECIMAL (List<u8>) => component::get_none::<$model>;
+                "get-shift-fraction" GET_SHIFT_FRACTION (List<u8>) => component::get_none::<$model>;
             }
 
             $crate::component_answers! {
