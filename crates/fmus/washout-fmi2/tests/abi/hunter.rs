@@ -27,7 +27,7 @@ fn a_search_through_the_functions_breaks_no_limit() {
         summary.found[0].failure,
         summary.found[0].episode.to_toml().unwrap()
     );
-    assert!(summary.steps >= plan.steps && summary.machines > 3, "{summary:?}");
+    assert!(summary.steps >= plan.steps && summary.machines > moris_cases::cases(5, 3), "{summary:?}");
 }
 
 /// The last sample of an episode on a target. The episode has this preview and this attacker.
