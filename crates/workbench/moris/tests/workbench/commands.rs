@@ -176,7 +176,7 @@ fn runs_with_other_parameters_stand_beside_the_first() {
             && printed.contains("parameters small-motions:"),
         "{printed}"
     );
-    assert!(text(&output.stderr).starts_with("ride: reading\nride: simulating\n"), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("ride: reading\nride: simulating\n"), "{}", text(&output.stderr));
     for file in ["ride.outputs.csv", "ride.small-motions.outputs.csv", "ride.html"] {
         assert!(directory.path().join("moris-report").join(file).exists(), "{file}");
     }
