@@ -83,11 +83,11 @@ def pytest(options, processes, *arguments):
 def fmu(options):
     """builds the FMUs of both versions and the packages of the simulator"""
     run("cargo", "build-fmu", "--fmi", "2,3")
-    run("cargo", "build-fmu", "--fmi", "3", "--arrays")
-    packages = [(system, form) for system in ("MotorcycleSimulator", "MotorcycleLap") for form in ([], ["--flat"])]
     # All libraries are compiled by now.
+    packed = [("build-fmu", "--fmi", "3", "--arrays")]
+    packed += [("build-ssp", "--system", system, *form) for system in ("MotorcycleSimulator", "MotorcycleLap") for form in ([], ["--flat"])]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for _ in pool.map(lambda one: run("cargo", "build-ssp", "--system", one[0], *one[1], at_once=True), packages):
+        for _ in pool.map(lambda command: run("cargo", *command, at_once=True), packed):
             pass
 
 
@@ -140,6 +140,7 @@ def examples():
 
 def python_tests(options):
     """tests of the FMUs by FMPy, of their libraries and of the prose"""
+    examples()
     pytest(options, 1, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
 
 
@@ -195,14 +196,16 @@ def reproducible(options):
 
 def in_python(options, names):
     """Makes what these parts need, and runs them side by side: each waits for clocks, or for the longest of its tests alone."""
-    if "python" in names:
-        examples()
-    if {"package", "docs"} & set(names):
-        install_package(options.all)
     options.beside = len(names) > 1
+    python()
     with ThreadPoolExecutor() as pool:
-        # The longest first.
-        for done in [pool.submit(PARTS[name], options) for name in reversed(names)]:
+        # The longest first, of those that need the package.
+        installed = pool.submit(install_package, options.all) if {"package", "docs"} & set(names) else None
+        running = [pool.submit(PARTS[name], options) for name in names if name == "python"]
+        if installed:
+            installed.result()
+        running += [pool.submit(PARTS[name], options) for name in reversed(names) if name != "python"]
+        for done in running:
             done.result()
 
 
