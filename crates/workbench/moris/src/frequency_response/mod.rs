@@ -18,7 +18,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use moris_simulation::frequency_response::channel::Channel;
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use moris_simulation::frequency_response::{Response, response};
-use moris_washout::Parameters;
+use moris_washout::{Parameters, Washout};
 use rayon::prelude::*;
 
 use crate::setup_options::SetupOptions;
@@ -81,18 +81,17 @@ impl Measured {
     ) -> Result<Self> {
         let tests: Vec<(Channel, f64)> =
             Channel::ALL.iter().flat_map(|&channel| frequencies().map(|frequency| (channel, frequency))).collect();
+        let at_rest = Washout::new(parameters)?;
         let all = |amplitudes: Amplitudes| {
-            tests
-                .par_iter()
-                .map(|&(channel, frequency)| {
-                    let amplitude = amplitudes.of(channel, frequency);
-                    let measured = response(parameters, channel, frequency, amplitude, gravity_turns);
-                    progress();
-                    Ok(measured?)
-                })
-                .collect::<Result<Vec<Response>>>()
+            let measure = |&(channel, frequency): &(Channel, f64)| {
+                let amplitude = amplitudes.of(channel, frequency);
+                let measured = response(&at_rest, channel, frequency, amplitude, gravity_turns);
+                progress();
+                measured
+            };
+            tests.par_iter().map(measure).collect()
         };
-        Ok(Measured { test: all(amplitudes)?, small: all(amplitudes.scaled(SMALL))? })
+        Ok(Measured { test: all(amplitudes), small: all(amplitudes.scaled(SMALL)) })
     }
 
     /// Number of tests.

@@ -18,7 +18,7 @@ use moris_simulation::frequency_response::channel::Channel::{self, Heave, Pitch,
 use moris_simulation::frequency_response::excitation::{Amplitudes, frequencies};
 use moris_simulation::frequency_response::{Response, response};
 use moris_washout::nalgebra::Complex;
-use moris_washout::{Parameters, presets};
+use moris_washout::{Parameters, Washout, presets};
 
 const GRAVITY: f64 = 9.80665;
 const HEAD: f64 = 1.2;
@@ -102,12 +102,12 @@ fn a_rate_is_felt_as_a_force_through_gravity() {
 
 #[test]
 fn another_set_has_its_own_response() {
-    let parameters = presets::parameters(presets::SMALL_MOTIONS);
+    let washout = Washout::new(&presets::parameters(presets::SMALL_MOTIONS)).unwrap();
     for frequency in [0.1, 0.398_107_170_553_497_3, 1.0, 10.0] {
         let s = Complex::new(0.0, frequency);
         let [found, roll] = [Heave, Roll].map(|channel| {
             let amplitude = Amplitudes::default().scaled(SMALL).of(channel, frequency);
-            response(&parameters, channel, frequency, amplitude, false).unwrap()
+            response(&washout, channel, frequency, amplitude, false)
         });
         assert!(found.settled);
         assert_near(&found, Heave, high_pass(s, 0.35, 0.5));
@@ -117,11 +117,11 @@ fn another_set_has_its_own_response() {
 
 #[test]
 fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
-    let parameters = presets::parameters(presets::PAPER);
-    let heave = response(&parameters, Heave, 3.0, 1.0, false).unwrap();
+    let washout = Washout::new(&presets::parameters(presets::PAPER)).unwrap();
+    let heave = response(&washout, Heave, 3.0, 1.0, false);
     assert!(heave.distortion[Heave as usize] < 1e-3, "{}", heave.distortion[Heave as usize]);
     // 1 m/s2 at 3 rad/s would ask for more than 17 degrees a second of a tilt that may turn by 3.
-    let surge = response(&parameters, Surge, 3.0, 1.0, false).unwrap();
+    let surge = response(&washout, Surge, 3.0, 1.0, false);
     assert!(surge.limited[0] > 0.5);
     assert!(surge.distortion[Pitch as usize] > 0.02, "{}", surge.distortion[Pitch as usize]);
 }
@@ -131,7 +131,9 @@ fn a_linear_channel_is_not_distorted_and_a_limited_one_is() {
 #[test]
 fn gravity_turns_with_the_vehicle_where_that_is_asked_for() {
     let mut parameters = presets::parameters(presets::PAPER);
-    let at = |parameters: &Parameters, gravity_turns| response(parameters, Pitch, 0.251, 0.004, gravity_turns).unwrap();
+    let at = |parameters: &Parameters, gravity_turns| {
+        response(&Washout::new(parameters).unwrap(), Pitch, 0.251, 0.004, gravity_turns)
+    };
     let alone = at(&parameters, false).ratios[Surge as usize];
     let turning = at(&parameters, true).ratios[Surge as usize];
     // What the head in the vehicle feels: -g sin(pitch), pitch = w/s, of which nearly all is cued at so low a frequency.

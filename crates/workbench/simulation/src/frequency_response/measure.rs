@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use moris_washout::Washout;
 use moris_washout::nalgebra::Complex;
-use moris_washout::{ParameterError, Parameters, Washout};
 
 use super::channel::{CHANNELS, Channel, felt, unit_in_si};
 use super::excitation::Sine;
@@ -41,22 +41,14 @@ const AGREEMENT: f64 = 1e-4;
 /// input that is no matter.
 const SETTLED: f64 = 1e-2;
 
-/// Measures the response to a channel at a frequency, from rest at neutral.
-///
-/// # Errors
-/// The parameters cannot be used: which, and why.
-pub fn response(
-    parameters: &Parameters,
-    channel: Channel,
-    frequency: f64,
-    amplitude: f64,
-    gravity_turns: bool,
-) -> Result<Response, ParameterError> {
+/// Measures the response of a washout to a channel at a frequency, from where the washout is: at
+/// rest at neutral. One washout serves all tests, so that its rig is surveyed once.
+pub fn response(at_rest: &Washout, channel: Channel, frequency: f64, amplitude: f64, gravity_turns: bool) -> Response {
     let period = TAU / frequency;
     let periods = (SHORTEST_BLOCK / period).ceil();
     let fade = periods * period;
-    let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters };
-    let mut walk = SteadyStateRun::new(sine, periods)?;
+    let sine = Sine { channel, amplitude, frequency, fade, gravity_turns, parameters: at_rest.parameters() };
+    let mut walk = SteadyStateRun::new(at_rest, sine, periods);
     walk.block(); // It fades in.
     let mut last = walk.block();
     let blocks = ((LONGEST_WAIT / fade) as usize).max(FEWEST_BLOCKS);
@@ -69,7 +61,7 @@ pub fn response(
             break;
         }
     }
-    Ok(last.response(&sine, change <= SETTLED))
+    last.response(&sine, change <= SETTLED)
 }
 
 /// The washout on its way through the sine.
@@ -84,11 +76,11 @@ struct SteadyStateRun<'a> {
 }
 
 impl<'a> SteadyStateRun<'a> {
-    fn new(sine: Sine<'a>, periods: f64) -> Result<Self, ParameterError> {
+    fn new(at_rest: &Washout, sine: Sine<'a>, periods: f64) -> Self {
         let block = periods * TAU / sine.frequency;
         let samples = (block / LONGEST_STEP).ceil();
-        let washout = Washout::new(sine.parameters)?.starting_with(&sine.input(0.0));
-        Ok(SteadyStateRun { sine, washout, samples: samples as usize, step: block / samples, made: 0 })
+        let washout = at_rest.clone().starting_with(&sine.input(0.0));
+        SteadyStateRun { sine, washout, samples: samples as usize, step: block / samples, made: 0 }
     }
 
     /// Goes on for a block of whole periods.
