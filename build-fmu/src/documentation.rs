@@ -10,7 +10,7 @@ const STYLE: &str = include_str!("../documentation/style.css");
 /// `documentation/index.html`: the model's sections, then its tables of variables.
 pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
     let variables = model.variables(fmi, start);
-    let description = (model.functions.description)(start.slots());
+    let identity = &model.functions.identity;
     let sections = || {
         let written = model.sections.iter().map(|section| (section.anchor, section.heading, section.html));
         written.chain([("variables", "Variables", variables.as_str())])
@@ -25,8 +25,8 @@ pub fn page(model: &FmuModel, start: &Start, fmi: FmiVersion) -> String {
         .replace("{{title}}", model.title)
         .replace("{{contents}}", &contents)
         .replace("{{sections}}", &body)
-        .replace("{{name}}", &description.model_name)
-        .replace("{{version}}", &description.version)
+        .replace("{{name}}", identity.name)
+        .replace("{{version}}", identity.version)
         .replace("{{token_name}}", fmi.choose("GUID", "instantiation token"))
         .replace("{{token}}", &model.token(fmi, start))
         .replace("{{icon}}", fmi.icon_file())

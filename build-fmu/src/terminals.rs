@@ -4,8 +4,7 @@
 //! The file is FMI 3.0's, which allows it in an FMU of FMI 2.0 as well.
 
 use moris_interface::{Identity, Row};
-use moris_model_description::to_xml;
-use serde::Serialize;
+use moris_model_description::{Element, to_xml};
 
 use crate::{FmiVersion, FmuModel};
 
@@ -22,73 +21,36 @@ pub struct Terminal {
     pub members: &'static [(&'static str, &'static str)],
 }
 
-/// `fmiTerminalsAndIcons`: the root of the file.
-#[derive(Serialize)]
-#[serde(rename = "fmiTerminalsAndIcons")]
-struct TerminalsAndIcons {
-    /// The version of FMI that defines the file, whatever version the FMU has.
-    #[serde(rename = "@fmiVersion")]
-    fmi_version: &'static str,
-    #[serde(rename = "Terminals")]
-    terminals: TerminalList,
-}
-
-/// `Terminals`
-#[derive(Serialize)]
-struct TerminalList {
-    #[serde(rename = "Terminal")]
-    terminals: Vec<TerminalElement>,
-}
-
-/// `Terminal`
-#[derive(Serialize)]
-struct TerminalElement {
-    #[serde(rename = "@name")]
-    name: &'static str,
-    /// `plug`: both terminals have the same members.
-    #[serde(rename = "@matchingRule")]
-    matching_rule: &'static str,
-    #[serde(rename = "@terminalKind")]
-    kind: &'static str,
-    #[serde(rename = "@description")]
-    description: &'static str,
-    #[serde(rename = "TerminalMemberVariable")]
-    members: Vec<Member>,
-}
-
-/// `TerminalMemberVariable`
-#[derive(Serialize)]
-struct Member {
-    #[serde(rename = "@variableName")]
-    variable_name: String,
-    #[serde(rename = "@memberName")]
-    member_name: String,
-    #[serde(rename = "@variableKind")]
-    variable_kind: &'static str,
-}
-
 /// The text of the file for a model's FMU.
 ///
 /// # Panics
 /// A terminal names a row that the model does not have. Terminals belong to the sources.
 pub fn xml(model: &FmuModel, fmi: FmiVersion) -> String {
     let identity = &model.functions.identity;
-    let element = |terminal: &Terminal| TerminalElement {
-        name: terminal.name,
-        matching_rule: "plug",
-        kind: terminal.kind,
-        description: terminal.text,
-        members: terminal.members.iter().flat_map(|&(row, member)| members(identity, fmi, row, member)).collect(),
+    let element = |terminal: &Terminal| {
+        Element::new("Terminal")
+            .with("name", terminal.name)
+            // `plug`: both terminals have the same members.
+            .with("matchingRule", "plug")
+            .with("terminalKind", terminal.kind)
+            .with("description", terminal.text)
+            .containing(terminal.members.iter().flat_map(|&(row, member)| members(identity, fmi, row, member)))
     };
-    let terminals = TerminalList { terminals: model.terminals.iter().map(element).collect() };
-    to_xml(&TerminalsAndIcons { fmi_version: "3.0", terminals })
+    let terminals = Element::new("Terminals").containing(model.terminals.iter().map(element));
+    // The version of FMI that defines the file, whatever version the FMU has.
+    to_xml(&Element::new("fmiTerminalsAndIcons").with("fmiVersion", "3.0").containing([terminals]))
 }
 
 /// The variables of a row, each as a member: `length[1]` to `length[6]`, say, or an array `length`.
-fn members(identity: &Identity, fmi: FmiVersion, row_name: &str, member: &str) -> Vec<Member> {
+fn members(identity: &Identity, fmi: FmiVersion, row_name: &str, member: &str) -> Vec<Element> {
     let row = identity.rows.iter().find(|row| row.array_name() == row_name);
     let row = row.unwrap_or_else(|| panic!("{} has no {row_name}", identity.name));
-    let signal = |variable_name, member_name| Member { variable_name, member_name, variable_kind: "signal" };
+    let signal = |variable: String, member: String| {
+        Element::new("TerminalMemberVariable")
+            .with("variableName", variable)
+            .with("memberName", member)
+            .with("variableKind", "signal")
+    };
     let scalars = || {
         let scalar = |element| signal(row.variable_name(element), format!("{member}{}", suffix(row, element)));
         (0..row.slots()).map(scalar).collect()

@@ -3,12 +3,11 @@
 //!
 //! | item | contents |
 //! |---|---|
-//! | [`fmi2`], [`fmi3`] | the schema of that version, one module a part of the file |
-//! | `describe` in each | fills the schema in from a model's table of variables |
+//! | `describe` in [`fmi2`], [`fmi3`] | makes the root [`Element`] of that version's file from a model's table of variables |
 //! | [`to_xml`] | writes either |
 //! | [`common`] | the parts that are the same in both |
 //!
-//! The schemas have the parts that these co-simulation FMUs use.
+//! The descriptions have the parts of the standards' schemas that these co-simulation FMUs use.
 //!
 //! Beside this crate's sources, each model has a directory of its name. It holds
 //! `modelDescription.xml` and `modelDescription.fmi3.xml`, written by `cargo describe-models`. They
@@ -18,4 +17,4 @@ pub mod common;
 pub mod fmi2;
 pub mod fmi3;
 
-pub use common::xml::to_xml;
+pub use common::xml::{Element, to_xml};

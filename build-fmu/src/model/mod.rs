@@ -7,8 +7,7 @@ mod washout;
 use std::path::PathBuf;
 
 use moris_interface::{Identity, Model, ParameterError, SlotModel, guid_of, start_values};
-use moris_model_description::fmi2::model_description::{SourceFile, SourceFiles};
-use moris_model_description::{fmi2, fmi3, to_xml};
+use moris_model_description::{Element, fmi2, fmi3, to_xml};
 
 use moris_setup::NamedValues;
 
@@ -123,9 +122,9 @@ pub struct ModelFns {
     /// The GUID of the model with these start values.
     pub guid: fn(start: &[f64]) -> String,
     /// The model description of FMI 2.0.
-    pub description: fn(start: &[f64]) -> fmi2::ModelDescription,
+    pub description: fn(start: &[f64]) -> Element,
     /// That of FMI 3.0.
-    pub fmi3_description: fn(start: &[f64], fmi3::Layout) -> fmi3::ModelDescription,
+    pub fmi3_description: fn(start: &[f64], fmi3::Layout) -> Element,
     /// The documentation's tables of variables for FMI 2.0.
     pub variables: fn(start: &[f64]) -> String,
     /// Those for FMI 3.0.
@@ -207,11 +206,6 @@ impl FmuModel {
         self.functions.identity.slot("rig.neutralHeight").is_some()
     }
 
-    /// The model description of FMI 2.0 with the model's own start values.
-    pub fn description(&self) -> fmi2::ModelDescription {
-        (self.functions.description)(Start::own(self).slots())
-    }
-
     /// The text of `modelDescription.xml`.
     pub fn model_description(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
@@ -225,10 +219,8 @@ impl FmuModel {
     pub fn model_description_with_sources(&self, fmi: FmiVersion, start: &Start) -> String {
         match fmi {
             FmiVersion::Fmi2 => {
-                let mut description = (self.functions.description)(start.slots());
-                let files = vec![SourceFile { name: Sources::file(self) }];
-                description.co_simulation.source_files = Some(SourceFiles { files });
-                to_xml(&description)
+                let description = (self.functions.description)(start.slots());
+                to_xml(&fmi2::with_source_file(description, &Sources::file(self)))
             }
             FmiVersion::Fmi3(_) => self.model_description(fmi, start),
         }

@@ -7,7 +7,7 @@ use moris_build_fmu::archive::{Contents, pack};
 use moris_build_fmu::contents::contents;
 use moris_build_fmu::model::WASHOUT;
 use moris_build_fmu::{FmiVersion, FmuModel, MODELS, Platform, Start, workspace};
-use moris_model_description::fmi2::scalar_variable::{ScalarVariable, Values};
+use moris_model_description::Element;
 use moris_model_description::fmi3::Layout;
 use zip::ZipArchive;
 
@@ -108,15 +108,26 @@ fn every_model_description_is_the_checked_in_one() {
 #[test]
 fn names_agree() {
     for model in MODELS {
-        let description = model.description();
-        assert_eq!(description.model_name, model.name);
-        assert_eq!(description.co_simulation.model_identifier, model.name);
-        for layout in [Layout::Scalars, Layout::Arrays] {
-            let description = (model.functions.fmi3_description)(Start::own(model).slots(), layout);
-            assert_eq!(description.model_name, model.name);
-            assert_eq!(description.co_simulation.model_identifier, model.name);
+        let own = Start::own(model);
+        let of_fmi3 = [Layout::Scalars, Layout::Arrays].map(|it| (model.functions.fmi3_description)(own.slots(), it));
+        for description in [description(model)].iter().chain(&of_fmi3) {
+            assert_eq!(attribute(description, "modelName"), Some(model.name));
+            assert_eq!(attribute(part(description, "CoSimulation"), "modelIdentifier"), Some(model.name));
         }
     }
+}
+
+/// The model description of FMI 2.0 with the model's own start values.
+fn description(model: &FmuModel) -> Element {
+    (model.functions.description)(Start::own(model).slots())
+}
+
+fn part<'a>(element: &'a Element, name: &str) -> &'a Element {
+    element.children.iter().find(|child| child.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn attribute<'a>(element: &'a Element, name: &str) -> Option<&'a str> {
+    element.attributes.iter().find(|attribute| attribute.0 == name).map(|attribute| attribute.1.as_str())
 }
 
 #[test]
@@ -161,10 +172,11 @@ fn check_page(model: &FmuModel, page: &str) {
     for anchor in page.split("href=\"#").skip(1).map(|rest| rest.split('"').next().unwrap()) {
         assert!(page.contains(&format!("id=\"{anchor}\"")), "there is no #{anchor}");
     }
-    let described = model.description().model_variables.variables;
-    for variable in described.iter().filter(|variable| variable.name != "time") {
-        let text = variable.description.replace('<', "&lt;").replace('>', "&gt;");
-        assert!(page.contains(&text), "{}", variable.name);
+    let described = description(model);
+    for variable in &part(&described, "ModelVariables").children {
+        let [name, text] = ["name", "description"].map(|name| attribute(variable, name).unwrap());
+        let text = text.replace('<', "&lt;").replace('>', "&gt;");
+        assert!(name == "time" || page.contains(&text), "{name}");
     }
 }
 
@@ -264,10 +276,12 @@ fn a_reference_ride_is_there_and_has_every_real_output() {
         assert!(rows.iter().all(|row| row.len() == names.len() && row.iter().all(|value| value.is_finite())));
         assert_eq!(rows.first().unwrap()[0], 0.0);
         assert_eq!(rows.last().unwrap()[0], inputs.last().unwrap()[0]);
-        let described = model.description().model_variables.variables;
-        let is_recorded =
-            |variable: &&ScalarVariable| variable.initial.is_some() && matches!(variable.values, Values::Real { .. });
-        let expected: Vec<&str> = described.iter().filter(is_recorded).map(|variable| &*variable.name).collect();
+        let described = description(model);
+        let is_recorded = |variable: &&Element| {
+            attribute(variable, "initial").is_some() && variable.children.iter().all(|values| values.name == "Real")
+        };
+        let variables = part(&described, "ModelVariables").children.iter();
+        let expected: Vec<&str> = variables.filter(is_recorded).filter_map(|it| attribute(it, "name")).collect();
         assert_eq!(names[1..], expected, "{}", model.name);
     }
 }

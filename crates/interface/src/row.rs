@@ -1,13 +1,10 @@
 //! A row of the interface: one field of a struct, one or several scalar variables.
 
-use serde::{Deserialize, Serialize};
-
 use crate::shown::shown;
 use crate::{Field, ParameterError, Unit};
 
 /// Who sets a variable (FMI 2.0, 2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Causality {
     Independent,
     Input,
@@ -15,14 +12,37 @@ pub enum Causality {
     Parameter,
 }
 
+impl Causality {
+    /// Its name in a model description.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Causality::Independent => "independent",
+            Causality::Input => "input",
+            Causality::Output => "output",
+            Causality::Parameter => "parameter",
+        }
+    }
+}
+
 /// When a variable may change (FMI 2.0, 2.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Variability {
     Continuous,
     Discrete,
     Tunable,
     Fixed,
+}
+
+impl Variability {
+    /// Its name in a model description.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Variability::Continuous => "continuous",
+            Variability::Discrete => "discrete",
+            Variability::Tunable => "tunable",
+            Variability::Fixed => "fixed",
+        }
+    }
 }
 
 /// Type of a variable.

@@ -1,81 +1,79 @@
-//! Small parts of the file that are the same in FMI 2.0 and 3.0.
+//! Parts of the file that are the same in FMI 2.0 and 3.0.
 
-use moris_interface::Identity;
-use serde::{Deserialize, Serialize};
+use moris_interface::{Causality, Identity, Row};
 
-use super::units::{self, Unit};
-
-/// `UnitDefinitions`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct UnitDefinitions {
-    #[serde(rename = "Unit")]
-    pub units: Vec<Unit>,
-}
-
-/// `LogCategories`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LogCategories {
-    #[serde(rename = "Category")]
-    pub categories: Vec<Category>,
-}
-
-/// A kind of message that a host can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Category {
-    #[serde(rename = "@name")]
-    pub name: String,
-    #[serde(rename = "@description")]
-    pub description: String,
-}
-
-/// `DefaultExperiment`: what a host runs when its user says nothing; times in seconds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DefaultExperiment {
-    #[serde(rename = "@startTime")]
-    pub start_time: f64,
-    #[serde(rename = "@stopTime")]
-    pub stop_time: f64,
-    #[serde(rename = "@tolerance")]
-    pub tolerance: f64,
-    #[serde(rename = "@stepSize")]
-    pub step_size: f64,
-}
+use super::xml::Element;
+use super::{origin, units};
 
 /// Relative tolerance for tools that ask for one. The models step without error control: runs with
 /// different communication steps agree to this.
 const TOLERANCE: f64 = 1e-3;
 
-impl UnitDefinitions {
-    /// Every unit that a row has, once, in the order in which they appear; with the unit for
-    /// display that any of these rows has. None without units.
-    pub fn of(identity: &Identity) -> Option<Self> {
-        let mut units: Vec<Unit> = Vec::new();
-        for unit in units::units(identity).into_iter().map(Unit::from) {
-            match units.iter_mut().find(|known| known.name == unit.name) {
-                Some(known) => known.display_unit = known.display_unit.take().or(unit.display_unit),
-                None => units.push(unit),
-            }
-        }
-        (!units.is_empty()).then_some(UnitDefinitions { units })
-    }
+/// The root with its attributes. `token` is the attribute that identifies the description as the
+/// binary's own, with its value.
+pub(crate) fn root(identity: &Identity, fmi_version: &str, token: (&'static str, String)) -> Element {
+    Element::new("fmiModelDescription")
+        .with("fmiVersion", fmi_version)
+        .with("modelName", identity.name)
+        .with(token.0, token.1)
+        .with("description", identity.text)
+        .with("author", origin::AUTHOR)
+        .with("version", identity.version)
+        .with("copyright", origin::COPYRIGHT)
+        .with("license", origin::LICENSE)
+        .with("generationTool", origin::GENERATION_TOOL)
+        .with("generationDateAndTime", origin::GENERATION_DATE_AND_TIME)
+        .with("variableNamingConvention", origin::VARIABLE_NAMING_CONVENTION)
 }
 
-impl LogCategories {
-    /// From pairs of a name and a description.
-    pub fn of<'a>(categories: impl IntoIterator<Item = (&'a str, &'a str)>) -> Self {
-        let category =
-            |(name, description): (&str, &str)| Category { name: name.to_owned(), description: description.to_owned() };
-        LogCategories { categories: categories.into_iter().map(category).collect() }
+/// Every unit that a row has, once, in the order in which they appear; with the unit for
+/// display that any of the rows of that unit has.
+pub(crate) fn unit_definitions(identity: &Identity) -> Option<Element> {
+    let all = units::units(identity);
+    let mut names: Vec<&str> = Vec::new();
+    let mut elements = Vec::new();
+    for unit in &all {
+        if names.contains(&unit.name) {
+            continue;
+        }
+        names.push(unit.name);
+        let display = all.iter().filter(|other| other.name == unit.name).find_map(|other| other.display);
+        let display = display.map(|it| Element::new("DisplayUnit").with("name", it.name).with("factor", it.factor));
+        let base = units::exponents(unit).fold(Element::new("BaseUnit"), |base, (name, power)| base.with(name, power));
+        elements.push(Element::new("Unit").with("name", unit.name).containing([base]).containing(display));
     }
+    Element::list("UnitDefinitions", elements)
 }
 
-impl From<&Identity> for DefaultExperiment {
-    fn from(identity: &Identity) -> Self {
-        DefaultExperiment {
-            start_time: 0.0,
-            stop_time: identity.stop_time,
-            tolerance: TOLERANCE,
-            step_size: identity.step_size,
-        }
-    }
+/// `LogCategories` from pairs of a name and a description: kinds of message that a host can ask for.
+pub(crate) fn log_categories<'a>(categories: impl IntoIterator<Item = (&'a str, &'a str)>) -> Element {
+    let category = |(name, text)| Element::new("Category").with("name", name).with("description", text);
+    Element::new("LogCategories").containing(categories.into_iter().map(category))
+}
+
+/// What a host runs when its user says nothing; times in seconds.
+pub(crate) fn default_experiment(identity: &Identity) -> Element {
+    Element::new("DefaultExperiment")
+        .with("startTime", 0.0)
+        .with("stopTime", identity.stop_time)
+        .with("tolerance", TOLERANCE)
+        .with("stepSize", identity.step_size)
+}
+
+/// A variable with the attributes that stand first whatever its type. `initial` is left out where
+/// the standard's default is meant: `exact` for inputs and parameters, nothing for the time.
+pub(crate) fn variable(element: &'static str, name: &str, slot: usize, text: &str, row: &Row) -> Element {
+    Element::new(element)
+        .with("name", name)
+        .with("valueReference", slot)
+        .with("description", text)
+        .with("causality", row.causality.name())
+        .with("variability", row.variability.name())
+        .with_some("initial", (row.causality == Causality::Output).then_some("calculated"))
+}
+
+/// True for variables with a start value. Outputs are calculated and the time is the host's:
+/// neither may have one.
+pub(crate) fn has_start(row: &Row) -> bool {
+    matches!(row.causality, Causality::Input | Causality::Parameter)
 }

@@ -1,77 +1,28 @@
-//! Units, what they are made of, and how a user may like them shown.
+//! Units that a model's variables have.
 
-use moris_interface::{Identity, Kind};
-use serde::{Deserialize, Serialize};
+use moris_interface::{Identity, Kind, Unit};
 
-/// `Unit`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Unit {
-    #[serde(rename = "@name")]
-    pub name: String,
-    #[serde(rename = "BaseUnit")]
-    pub base_unit: BaseUnit,
-    #[serde(rename = "DisplayUnit", default, skip_serializing_if = "Option::is_none")]
-    pub display_unit: Option<DisplayUnit>,
+use super::xml::Element;
+
+/// Exponents of the SI base units that are not zero.
+pub fn exponents(unit: &Unit) -> impl Iterator<Item = (&'static str, i8)> {
+    let base = unit.base;
+    [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)].into_iter().filter(|&(_, power)| power != 0)
 }
 
-/// `BaseUnit`: exponents of the SI base units; those that are zero are left out.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct BaseUnit {
-    #[serde(rename = "@kg", skip_serializing_if = "is_zero")]
-    pub kg: i8,
-    #[serde(rename = "@m", skip_serializing_if = "is_zero")]
-    pub m: i8,
-    #[serde(rename = "@s", skip_serializing_if = "is_zero")]
-    pub s: i8,
-    #[serde(rename = "@rad", skip_serializing_if = "is_zero")]
-    pub rad: i8,
+/// Adds the name of the unit for display.
+pub(crate) fn with_display(element: Element, unit: &Unit) -> Element {
+    element.with_some("displayUnit", unit.display.map(|display| display.name))
 }
 
-/// `DisplayUnit`: a value in it is `factor` times the value in the unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct DisplayUnit {
-    #[serde(rename = "@name")]
-    pub name: String,
-    #[serde(rename = "@factor")]
-    pub factor: f64,
-}
-
-impl From<&moris_interface::Unit> for Unit {
-    fn from(unit: &moris_interface::Unit) -> Self {
-        let moris_interface::BaseUnit { kg, m, s, rad } = unit.base;
-        let display_unit =
-            unit.display.map(|display| DisplayUnit { name: display.name.to_owned(), factor: display.factor });
-        Unit { name: unit.name.to_owned(), base_unit: BaseUnit { kg, m, s, rad }, display_unit }
-    }
-}
-
-/// Unit and quantity of a real variable.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct RealAttributes {
-    pub quantity: Option<String>,
-    /// None: dimensionless.
-    pub unit: Option<String>,
-    pub display_unit: Option<String>,
-    /// None: 1, which is the standard's default.
-    pub nominal: Option<f64>,
-}
-
-impl From<&moris_interface::Unit> for RealAttributes {
-    fn from(unit: &moris_interface::Unit) -> Self {
-        let text = |text: &str| (!text.is_empty()).then(|| text.to_owned());
-        RealAttributes {
-            quantity: text(unit.quantity),
-            unit: text(unit.name),
-            display_unit: unit.display.map(|display| display.name.to_owned()),
-            nominal: (unit.nominal != 1.0).then_some(unit.nominal),
-        }
-    }
+/// Adds the nominal value; none where it is 1, which is the standard's default.
+pub(crate) fn with_nominal(element: Element, unit: &Unit) -> Element {
+    element.with_some("nominal", (unit.nominal != 1.0).then_some(unit.nominal))
 }
 
 /// Every unit that a row has, once for each quantity, in the order in which they appear.
-pub fn units(identity: &Identity) -> Vec<&'static moris_interface::Unit> {
-    let mut found: Vec<&moris_interface::Unit> = Vec::new();
+pub fn units(identity: &Identity) -> Vec<&'static Unit> {
+    let mut found: Vec<&Unit> = Vec::new();
     for row in identity.rows {
         if let Kind::Real(unit) = row.kind
             && !unit.name.is_empty()
@@ -81,10 +32,4 @@ pub fn units(identity: &Identity) -> Vec<&'static moris_interface::Unit> {
         }
     }
     found
-}
-
-// serde hands a reference over.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(exponent: &i8) -> bool {
-    *exponent == 0
 }

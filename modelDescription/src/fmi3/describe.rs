@@ -2,18 +2,12 @@
 
 use moris_interface::{Causality, Identity, Kind, LOG_CATEGORIES_OF_FMI3, Layout, Model, Row, guid_of, start_values};
 
-use super::model_description::{CoSimulation, ModelDescription, ModelVariables};
-use super::model_structure::{ModelStructure, Unknown};
-use super::type_definitions::{TypeDefinition, TypeDefinitions};
-use super::variable::{Dimension, TypedVariable, Variable};
-use crate::common::attributes::Initial;
-use crate::common::enumerations::enumerations;
-use crate::common::origin;
-use crate::common::parts::{LogCategories, UnitDefinitions};
-use crate::common::units::units;
+use crate::common::enumerations::{enumerations, items};
+use crate::common::xml::Element;
+use crate::common::{parts, units};
 
 /// The model description of a model that is exported for co-simulation, with its own start values.
-pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
+pub fn describe<M: Model>(layout: Layout) -> Element {
     describe_with::<M>(&start_values::<M>(&[]), layout)
 }
 
@@ -21,57 +15,56 @@ pub fn describe<M: Model>(layout: Layout) -> ModelDescription {
 /// `start` has one for each slot.
 ///
 /// Variables are listed in the order of the slots, and a value reference is the number of a
-/// variable's first slot.
-pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> ModelDescription {
+/// variable's first slot. The parts are in the order that the schema prescribes.
+pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> Element {
     let identity = M::IDENTITY;
-    ModelDescription {
-        fmi_version: "3.0".to_owned(),
-        model_name: identity.name.to_owned(),
-        instantiation_token: layout.token(&guid_of::<M>(start)),
-        description: identity.text.to_owned(),
-        author: origin::AUTHOR.to_owned(),
-        version: identity.version.to_owned(),
-        copyright: origin::COPYRIGHT.to_owned(),
-        license: origin::LICENSE.to_owned(),
-        generation_tool: origin::GENERATION_TOOL.to_owned(),
-        generation_date_and_time: origin::GENERATION_DATE_AND_TIME.to_owned(),
-        variable_naming_convention: origin::VARIABLE_NAMING_CONVENTION.to_owned(),
-        co_simulation: co_simulation(&identity),
-        unit_definitions: UnitDefinitions::of(&identity),
-        type_definitions: type_definitions(&identity),
-        log_categories: LogCategories::of(
-            LOG_CATEGORIES_OF_FMI3.iter().map(|(category, text)| (category.name(), *text)),
-        ),
-        default_experiment: (&identity).into(),
-        model_variables: ModelVariables { variables: variables(&identity, start, layout) },
-        model_structure: model_structure(&identity, layout),
-    }
+    let variables = places(&identity, layout).into_iter().map(|place| variable(&place, start));
+    parts::root(&identity, "3.0", ("instantiationToken", layout.token(&guid_of::<M>(start))))
+        .containing([co_simulation(&identity)])
+        .containing(parts::unit_definitions(&identity))
+        .containing(type_definitions(&identity))
+        .containing([
+            parts::log_categories(LOG_CATEGORIES_OF_FMI3.iter().map(|(category, text)| (category.name(), *text))),
+            parts::default_experiment(&identity),
+            Element::new("ModelVariables").containing(variables),
+            model_structure(&identity, layout),
+        ])
 }
 
-/// Capabilities of the C functions of moris-fmi, for any model.
-fn co_simulation(identity: &Identity) -> CoSimulation {
-    CoSimulation {
-        model_identifier: identity.name.to_owned(),
-        can_be_instantiated_only_once_per_process: false,
-        can_get_and_set_fmu_state: true,
-        can_serialize_fmu_state: true,
-        provides_directional_derivatives: false,
-        provides_adjoint_derivatives: false,
-        provides_per_element_dependencies: false,
-        can_handle_variable_communication_step_size: true,
-        max_output_derivative_order: 1,
-        provides_intermediate_update: false,
-        might_return_early_from_do_step: false,
-        has_event_mode: false,
-    }
+/// What the binary is called, without its ending, and the capabilities of the C functions of
+/// moris-fmi, for any model.
+fn co_simulation(identity: &Identity) -> Element {
+    Element::new("CoSimulation")
+        .with("modelIdentifier", identity.name)
+        .with("canBeInstantiatedOnlyOncePerProcess", false)
+        .with("canGetAndSetFMUState", true)
+        .with("canSerializeFMUState", true)
+        .with("providesDirectionalDerivatives", false)
+        .with("providesAdjointDerivatives", false)
+        .with("providesPerElementDependencies", false)
+        .with("canHandleVariableCommunicationStepSize", true)
+        .with("maxOutputDerivativeOrder", 1)
+        .with("providesIntermediateUpdate", false)
+        .with("mightReturnEarlyFromDoStep", false)
+        .with("hasEventMode", false)
 }
 
-/// The quantities and the enumerations; none without any.
-fn type_definitions(identity: &Identity) -> Option<TypeDefinitions> {
-    let quantities = units(identity).into_iter().map(|unit| TypeDefinition::Float64Type(unit.into()));
-    let enumerations = enumerations(identity).into_iter().map(|it| TypeDefinition::EnumerationType(it.into()));
-    let types: Vec<TypeDefinition> = quantities.chain(enumerations).collect();
-    (!types.is_empty()).then_some(TypeDefinitions { types })
+/// The quantities of reals with their units, and the enumerations; none without any.
+///
+/// A variable's unit stands in its type. The standard allows it in the variable, too, as in the
+/// description of FMI 2.0, but the importer fmi-sim rejects it there.
+fn type_definitions(identity: &Identity) -> Option<Element> {
+    let quantities = units::units(identity).into_iter().map(|unit| {
+        let quantity = Element::new("Float64Type").with("name", unit.quantity).with("quantity", unit.quantity);
+        units::with_nominal(units::with_display(quantity.with("unit", unit.name), unit), unit)
+    });
+    let enumerations = enumerations(identity).into_iter().map(|enumeration| {
+        Element::new("EnumerationType")
+            .with("name", enumeration.name)
+            .with("description", enumeration.text.trim())
+            .containing(items(enumeration))
+    });
+    Element::list("TypeDefinitions", quantities.chain(enumerations).collect())
 }
 
 /// A variable of the description: one or all of a row's slots.
@@ -79,7 +72,8 @@ struct Place {
     row: &'static Row,
     name: String,
     first_slot: usize,
-    dimensions: Vec<Dimension>,
+    /// Its sizes, outermost first; none for a scalar.
+    dimensions: Vec<usize>,
 }
 
 fn places(identity: &Identity, layout: Layout) -> Vec<Place> {
@@ -103,47 +97,32 @@ fn places(identity: &Identity, layout: Layout) -> Vec<Place> {
     }
 }
 
-fn variables(identity: &Identity, start: &[f64], layout: Layout) -> Vec<TypedVariable> {
-    places(identity, layout).into_iter().map(|place| typed_variable(place, start)).collect()
-}
-
-fn typed_variable(place: Place, start: &[f64]) -> TypedVariable {
-    match place.row.kind {
-        Kind::Real(unit) => TypedVariable::Float64(Variable {
-            declared_type: (!unit.name.is_empty()).then(|| unit.quantity.to_owned()),
-            ..variable(place, start, |value| value)
-        }),
-        Kind::Integer => TypedVariable::Int32(variable(place, start, |value| value as i32)),
-        Kind::Boolean => TypedVariable::Boolean(variable(place, start, |value| value != 0.0)),
-        Kind::Enumeration(enumeration) => TypedVariable::Enumeration(Variable {
-            declared_type: Some(enumeration.name.to_owned()),
-            min: Some(1),
-            max: Some(enumeration.items.len() as i64),
-            ..variable(place, start, |value| value as i64)
-        }),
-    }
-}
-
-/// Attributes that variables of all types have; `convert` makes values from those of slots.
-fn variable<T>(place: Place, start: &[f64], convert: fn(f64) -> T) -> Variable<T> {
+/// A variable; the element's name is its type. It has a start value for each element, row by row.
+fn variable(place: &Place, start: &[f64]) -> Element {
     let Place { row, name, first_slot, dimensions } = place;
-    let size = dimensions.iter().map(|dimension| dimension.start as usize).product::<usize>();
-    let start = &start[first_slot..first_slot + size];
-    // Outputs are calculated and the time is the host's: neither may have a start value.
-    let has_start = matches!(row.causality, Causality::Input | Causality::Parameter);
-    Variable {
-        name,
-        value_reference: first_slot as u32,
-        description: description(row, !dimensions.is_empty()),
-        causality: row.causality,
-        variability: row.variability,
-        initial: (row.causality == Causality::Output).then_some(Initial::Calculated),
-        declared_type: None,
-        min: row.range.map(|(min, _)| convert(min)),
-        max: row.range.map(|(_, max)| convert(max)),
-        start: has_start.then(|| start.iter().map(|&value| convert(value)).collect()),
-        dimensions,
-    }
+    let convert = |value: f64| match row.kind {
+        Kind::Real(_) => value.to_string(),
+        Kind::Integer | Kind::Enumeration(_) => (value as i32).to_string(),
+        Kind::Boolean => (value != 0.0).to_string(),
+    };
+    // A real's type has its unit; none: dimensionless.
+    let (declared_type, range) = match row.kind {
+        Kind::Real(unit) => ((!unit.name.is_empty()).then_some(unit.quantity), row.range),
+        Kind::Integer | Kind::Boolean => (None, row.range),
+        Kind::Enumeration(enumeration) => (Some(enumeration.name), Some((1.0, enumeration.items.len() as f64))),
+    };
+    let (min, max) = range.unzip();
+    let starts = || {
+        let start = &start[*first_slot..first_slot + dimensions.iter().product::<usize>()];
+        start.iter().map(|&value| convert(value)).collect::<Vec<_>>().join(" ")
+    };
+    let text = description(row, !dimensions.is_empty());
+    parts::variable(element_type_name(row.kind), name, *first_slot, &text, row)
+        .with_some("declaredType", declared_type)
+        .with_some("min", min.map(convert))
+        .with_some("max", max.map(convert))
+        .with_some("start", parts::has_start(row).then(starts))
+        .containing(dimensions.iter().map(|size| Element::new("Dimension").with("start", size)))
 }
 
 /// The row's sentence and, for an array whose elements have components, their names: the array's
@@ -158,20 +137,29 @@ fn description(row: &Row, is_array: bool) -> String {
 }
 
 /// Elements, then components; a row that has but one of either has no dimension for it.
-pub(super) fn dimensions(row: &Row) -> Vec<Dimension> {
-    let sizes = [row.count, row.components.len()];
-    sizes.into_iter().filter(|&size| size > 1).map(|size| Dimension { start: size as u64 }).collect()
+pub(super) fn dimensions(row: &Row) -> Vec<usize> {
+    [row.count, row.components.len()].into_iter().filter(|&size| size > 1).collect()
+}
+
+/// The name of the type of a row's elements.
+pub(super) fn element_type_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Real(_) => "Float64",
+        Kind::Integer => "Int32",
+        Kind::Boolean => "Boolean",
+        Kind::Enumeration(_) => "Enumeration",
+    }
 }
 
 /// As in FMI 2.0: at communication points the outputs depend on nothing, during initialisation
 /// possibly on everything.
-fn model_structure(identity: &Identity, layout: Layout) -> ModelStructure {
-    let outputs = |dependencies: Option<Vec<u32>>| {
-        places(identity, layout)
-            .iter()
-            .filter(|place| place.row.causality == Causality::Output)
-            .map(|place| Unknown { value_reference: place.first_slot as u32, dependencies: dependencies.clone() })
-            .collect()
+fn model_structure(identity: &Identity, layout: Layout) -> Element {
+    let outputs: Vec<Place> =
+        places(identity, layout).into_iter().filter(|place| place.row.causality == Causality::Output).collect();
+    let unknowns = |element: &'static str, dependencies: Option<&'static str>| {
+        outputs.iter().map(move |place| {
+            Element::new(element).with("valueReference", place.first_slot).with_some("dependencies", dependencies)
+        })
     };
-    ModelStructure { outputs: outputs(Some(vec![])), initial_unknowns: outputs(None) }
+    Element::new("ModelStructure").containing(unknowns("Output", Some(""))).containing(unknowns("InitialUnknown", None))
 }

@@ -1,16 +1,11 @@
-//! The description of a model by FMI 3.0, and its schema. The schema has the parts that a
-//! co-simulation FMU of ours uses.
+//! The description of a model by FMI 3.0, with the parts that a co-simulation FMU of
+//! ours uses.
 //!
 //! A row of the interface with several values is as many scalars or one array: see [`Layout`].
 
 mod describe;
-pub mod model_description;
-pub mod model_structure;
-pub mod type_definitions;
-pub mod variable;
 mod variables_html;
 
 pub use describe::{describe, describe_with};
-pub use model_description::ModelDescription;
 pub use moris_interface::Layout;
 pub use variables_html::variables_html;

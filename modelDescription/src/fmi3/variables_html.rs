@@ -1,9 +1,9 @@
 //! The documentation's tables of variables.
 
-use moris_interface::{Kind, Model, Row};
+use moris_interface::{Model, Row};
 
 use super::Layout;
-use super::describe::dimensions;
+use super::describe::{dimensions, element_type_name};
 use crate::common::variables_html::{Notation, breakable, html, name_html as scalar_name_html};
 
 /// The tables of a model's variables as HTML: one table for the inputs, the outputs, the
@@ -29,15 +29,6 @@ fn name_html(row: &Row) -> String {
 /// The type, and the dimensions of an array: `Float64 [6, 3]`.
 fn type_name(row: &Row) -> String {
     let name = element_type_name(row.kind);
-    let sizes: Vec<String> = dimensions(row).iter().map(|dimension| dimension.start.to_string()).collect();
+    let sizes: Vec<String> = dimensions(row).iter().map(ToString::to_string).collect();
     if sizes.is_empty() { name.to_owned() } else { format!("{name} [{}]", sizes.join(",\u{a0}")) }
-}
-
-fn element_type_name(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Real(_) => "Float64",
-        Kind::Integer => "Int32",
-        Kind::Boolean => "Boolean",
-        Kind::Enumeration(_) => "Enumeration",
-    }
 }

@@ -36,7 +36,6 @@ on_every_model! {
     causality_variability_and_initial_go_together
     outputs_and_initial_unknowns_are_the_outputs_in_order
     log_categories_have_names_of_the_standard
-    it_reads_back_as_what_was_written
 }
 
 fn both(check: fn(Layout)) {
@@ -299,12 +298,6 @@ fn log_categories_have_names_of_the_standard<M: Model>(layout: Layout) {
         assert!(standard.contains(&category.attribute("name").unwrap()));
         assert!(!category.attribute("description").unwrap().is_empty());
     }
-}
-
-fn it_reads_back_as_what_was_written<M: Model>(layout: Layout) {
-    let description = fmi3::describe::<M>(layout);
-    let read: fmi3::ModelDescription = quick_xml::de::from_str(&to_xml(&description)).unwrap();
-    assert_eq!(read, description);
 }
 
 /// Names and shapes that users of the washout rely on.

@@ -2,12 +2,10 @@
 //! they start with.
 //!
 //! `cargo build-ssp` is the command; [`build`] is the same for a program. The systems are in
-//! [`system`]. Their files are made by [`describe`](mod@describe) and [`parameter_set`], in
-//! the terms of [`schema`].
+//! [`system`]. Their files are made by [`describe`](mod@describe) and [`parameter_set`].
 
 pub mod describe;
 pub mod parameter_set;
-pub mod schema;
 pub mod start_values;
 pub mod system;
 
@@ -16,6 +14,7 @@ use std::path::Path;
 use moris_build_fmu::archive::{self, Contents};
 use moris_build_fmu::contents::LICENCES;
 use moris_build_fmu::{Built, Error, FmiVersion, Platform, compile_together, fmu, write_whole};
+use moris_model_description::to_xml;
 pub use start_values::read as start_values;
 use system::Place;
 pub use system::{MOTORCYCLE_LAP, MOTORCYCLE_SIMULATOR, SYSTEMS, System};
@@ -74,17 +73,17 @@ pub fn description(system: &System, form: Form) -> Result<Contents, Error> {
         Place::StartValues => Vec::new(),
     };
     let mut contents = Contents::from([
-        ("SystemStructure.ssd".to_owned(), describe::to_xml(&describe::describe(system, form, &parameters))),
+        ("SystemStructure.ssd".to_owned(), to_xml(&describe::describe(system, form, &parameters)).into_bytes()),
         ("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec()),
     ]);
     match form {
         Form::Whole if parameters.is_empty() => {}
         Form::Whole => {
             let set = describe::parameter_set(system, parameter_set::of_all(&parameters));
-            contents.insert(parameters_path(system.name), describe::to_xml(&set));
+            contents.insert(parameters_path(system.name), to_xml(&set).into_bytes());
         }
         Form::Flat => contents.extend(parameters.into_iter().map(|(component, parameters)| {
-            (parameters_path(&component), describe::to_xml(&describe::parameter_set(system, parameters)))
+            (parameters_path(&component), to_xml(&describe::parameter_set(system, parameters)).into_bytes())
         })),
     }
     Ok(contents)

@@ -1,14 +1,16 @@
 //! From a system's parameters in TOML to a parameter set.
 
 use moris_interface::{Causality, Identity, Kind};
+use moris_model_description::Element;
 use toml::{Table, Value};
 
-use crate::schema;
 use crate::system::{Component, System};
 use moris_build_fmu::Error;
 
+/// A parameter's name and the element of its value.
+pub type Parameter = (String, Element);
 /// Parameters by the name of their component.
-pub type ByComponent = Vec<(String, Vec<schema::Parameter>)>;
+pub type ByComponent = Vec<(String, Vec<Parameter>)>;
 
 /// The parameters of a system's components.
 ///
@@ -20,7 +22,7 @@ pub fn read(system: &System) -> Result<ByComponent, Error> {
         let parameter = |(variable, value): (String, Value)| {
             let value = typed(identity, &variable, &value)
                 .map_err(|reason| Error::Parameters { reason: format!("{name}.{variable} {reason}") })?;
-            Ok(schema::Parameter { name: variable, value })
+            Ok((variable, value))
         };
         Ok((name.to_owned(), values.into_iter().map(parameter).collect::<Result<_, Error>>()?))
     };
@@ -28,16 +30,13 @@ pub fn read(system: &System) -> Result<ByComponent, Error> {
 }
 
 /// All parameters, each with its component's name before its own.
-pub fn of_all(parameters: &ByComponent) -> Vec<schema::Parameter> {
-    let named = |component: &str, parameter: &schema::Parameter| schema::Parameter {
-        name: format!("{component}.{}", parameter.name),
-        value: parameter.value.clone(),
-    };
+pub fn of_all(parameters: &ByComponent) -> Vec<Parameter> {
+    let named = |component: &str, (name, value): &Parameter| (format!("{component}.{name}"), value.clone());
     parameters.iter().flat_map(|(name, own)| own.iter().map(move |parameter| named(name, parameter))).collect()
 }
 
 /// A value as the model's variable has it, or why it cannot be one.
-fn typed(identity: &Identity, variable: &str, value: &Value) -> Result<schema::Value, String> {
+fn typed(identity: &Identity, variable: &str, value: &Value) -> Result<Element, String> {
     let slot = identity.slot(variable).ok_or_else(|| format!("is no variable of {}", identity.name))?;
     let row = identity.row(slot);
     if !matches!(row.causality, Causality::Parameter | Causality::Input) {
@@ -45,12 +44,12 @@ fn typed(identity: &Identity, variable: &str, value: &Value) -> Result<schema::V
     }
     match (row.kind, value) {
         (Kind::Real(unit), Value::Float(value)) => {
-            Ok(schema::Value::Real { value: *value, unit: schema::unit_name(unit) })
+            Ok(Element::new("ssv:Real").with("value", value).with_text("unit", unit.name))
         }
-        (Kind::Integer, Value::Integer(value)) => Ok(schema::Value::Integer { value: *value }),
-        (Kind::Boolean, Value::Boolean(value)) => Ok(schema::Value::Boolean { value: *value }),
+        (Kind::Integer, Value::Integer(value)) => Ok(Element::new("ssv:Integer").with("value", value)),
+        (Kind::Boolean, Value::Boolean(value)) => Ok(Element::new("ssv:Boolean").with("value", value)),
         (Kind::Enumeration(kind), Value::String(item)) if kind.items.iter().any(|known| known.name == item) => {
-            Ok(schema::Value::Enumeration { value: item.clone() })
+            Ok(Element::new("ssv:Enumeration").with("value", item))
         }
         (Kind::Enumeration(kind), _) => {
             let items: Vec<&str> = kind.items.iter().map(|item| item.name).collect();
