@@ -5,7 +5,6 @@ use std::mem::MaybeUninit;
 
 use moris_interface::{Model, SlotModel, shown};
 
-use crate::instance::OutOfRange;
 use crate::{CallError, Instance, Mode, Role, Scalar, VariableInfo, Variables};
 
 /// The slots of output derivatives, each with the derivative's order.
@@ -196,24 +195,23 @@ impl<M: Model> Instance<M> {
         })
     }
 
-    /// Notes the first value beyond its input's range, unless the host has been told of one. Zero
+    /// Warns of the first value beyond its input's range, unless the host has been told of one. Zero
     /// does not count: hosts set inputs to zero for which they have no value yet.
     fn note_range<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
-        if self.out_of_range != OutOfRange::Never {
+        if self.warned_of_range {
             return;
         }
         let beyond = one_by_one(variables, values)
             .map(|(slot, value)| (slot, value.to_slot()))
             .find(|&(slot, value)| value != 0.0 && self.tables.infos[slot as usize].replacement(value).is_some());
         if let Some((slot, value)) = beyond {
-            self.out_of_range = OutOfRange::Now(slot, value);
+            self.warnings.push(self.about_range(slot, value));
+            self.warned_of_range = true;
         }
     }
 
     /// The model's value for an input beyond its range.
-    #[cold]
-    #[inline(never)]
-    pub(crate) fn about_range(&self, slot: u32, value: f64) -> String {
+    fn about_range(&self, slot: u32, value: f64) -> String {
         let (name, reason) = (self.name(slot), M::IDENTITY.row(slot as usize).reason(value));
         let end = self.tables.infos[slot as usize].replacement(value).unwrap_or(value);
         format!(

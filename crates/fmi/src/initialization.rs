@@ -62,13 +62,9 @@ impl<M: Model> Instance<M> {
             model.write_outputs(&mut self.state.values);
             self.state.model = Some(model);
         }
+        self.warnings.extend(M::warnings(&M::parameters_in(&self.state.values)));
         self.state.mode = Mode::StepComplete;
         Ok(())
-    }
-
-    /// Doubts about the parameters that the model has been built with, in sentences.
-    pub(crate) fn warnings(&self) -> Vec<String> {
-        M::warnings(&M::parameters_in(&self.state.values))
     }
 
     /// Makes the outputs those of the values set so far. If the model refuses these, the outputs

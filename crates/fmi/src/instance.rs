@@ -17,16 +17,10 @@ pub struct Instance<M> {
     pub(crate) output_derivatives: Box<[f64]>,
     /// Room for all values as they were before parameters are set.
     pub(crate) old_values: Box<[f64]>,
-    pub(crate) out_of_range: OutOfRange,
-}
-
-/// The one message about inputs beyond their ranges.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum OutOfRange {
-    Never,
-    /// The first slot and its value, of which the host does not know yet.
-    Now(u32, f64),
-    Told,
+    /// Sentences about values that can be used and may be wrong, of which the host does not know yet.
+    pub(crate) warnings: Vec<String>,
+    /// An input beyond its range has had its warning, the only one until the instance is reset.
+    pub(crate) warned_of_range: bool,
 }
 
 impl<M: Model> Instance<M> {
@@ -38,7 +32,8 @@ impl<M: Model> Instance<M> {
             state: InstanceState::fresh(tables.start),
             output_derivatives: buffer(),
             old_values: buffer(),
-            out_of_range: OutOfRange::Never,
+            warnings: Vec::new(),
+            warned_of_range: false,
         }
     }
 
@@ -61,15 +56,7 @@ impl<M: Model> Instance<M> {
     /// Makes the instance as it was when it was new.
     pub fn reset(&mut self) {
         self.state = InstanceState::fresh(self.tables.start);
-        self.out_of_range = OutOfRange::Never;
-    }
-
-    /// A sentence about the first input beyond its range, once until the instance is reset.
-    #[inline]
-    pub fn take_warning(&mut self) -> Option<String> {
-        let OutOfRange::Now(slot, value) = self.out_of_range else { return None };
-        self.out_of_range = OutOfRange::Told;
-        Some(self.about_range(slot, value))
+        self.warned_of_range = false;
     }
 
     /// Marks the instance as unusable until it is reset or a state restored: the model

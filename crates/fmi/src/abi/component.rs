@@ -96,7 +96,14 @@ pub unsafe fn call<M: Model, H: Host>(
     if !function.allowed.contains(component.instance.mode()) {
         return component.not_allowed(function);
     }
-    match with_default_arithmetic(|| panics::contain(|| body(component))) {
+    let told = || {
+        body(component)?;
+        if !component.instance.warnings.is_empty() {
+            component.warn(function);
+        }
+        Ok(())
+    };
+    match with_default_arithmetic(|| panics::contain(told)) {
         Ok(Ok(())) => H::OK,
         Ok(Err(error)) => component.report(function, error),
         Err(error) => component.fail(function, error),
@@ -104,12 +111,14 @@ pub unsafe fn call<M: Model, H: Host>(
 }
 
 impl<M: Model, H: Host> Component<M, H> {
-    /// Sends a warning of this function.
+    /// Sends the warnings that have come up in this function.
     #[cold]
     #[inline(never)]
-    pub fn warn(&self, function: &Function, text: String) {
-        let text = self.logger.rename(&M::IDENTITY, text);
-        self.logger.warning(&format!("{}: {text}", function.name));
+    fn warn(&mut self, function: &Function) {
+        for text in std::mem::take(&mut self.instance.warnings) {
+            let text = self.logger.rename(&M::IDENTITY, text);
+            self.logger.warning(&format!("{}: {text}", function.name));
+        }
     }
 
     #[cold]

@@ -14,7 +14,7 @@ macro_rules! export_functions {
                 $($argument: $type),*
             ) -> <Logger as $crate::abi::Host>::Status {
                 // SAFETY: the function hands on what the host passes, for which the standard vouches.
-                unsafe { $body(instance, &function::$constant $(, $argument)*) }
+                unsafe { $crate::abi::call(instance, &function::$constant, |component| $body(component $(, $argument)*)) }
             }
         )+
     };
@@ -33,7 +33,7 @@ macro_rules! export_unsupported {
                 $(_: $argument),*
             ) -> <Logger as $crate::abi::Host>::Status {
                 // SAFETY: the function hands on the host's instance, for which the standard vouches.
-                unsafe { $body(instance, &function::$constant $(, $capability)?) }
+                unsafe { $crate::abi::call(instance, &function::$constant, |component| $body(component $(, $capability)?)) }
             }
         )+
     };
@@ -53,9 +53,9 @@ macro_rules! export_none_of_this_type {
                 count: usize,
                 $(_: $argument),+
             ) -> <Logger as $crate::abi::Host>::Status {
-                let function = &function::$constant;
+                let body = |component: &mut _| unsupported::none_of_this_type::<$model, Logger>(component, count);
                 // SAFETY: the function hands on the host's instance, for which the standard vouches.
-                unsafe { $crate::abi::unsupported::none_of_this_type::<$model, Logger>(instance, function, count) }
+                unsafe { $crate::abi::call(instance, &function::$constant, body) }
             }
         )+
     };

@@ -7,7 +7,7 @@ use std::ptr::null_mut;
 use moris_interface::Model;
 
 use super::pointers::{answer, buffer, out_param, slice};
-use super::{Component, Function, Host, call};
+use super::{Component, Host};
 use crate::{CallError, Guid, InstanceState};
 
 /// A saved state, as the host holds it.
@@ -57,128 +57,100 @@ fn into_pointer<M: Model>(owner: Owner, instance: InstanceState<M>) -> FmuState 
 }
 
 /// `fmi3GetFMUState`: overwrites the state at `pointer`, or creates one if it is null.
-pub unsafe fn get<M: Model, H: Host>(component: *mut c_void, function: &Function, pointer: *mut FmuState) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        // SAFETY: the host's place for the state.
-        let pointer = unsafe { out_param(pointer) }?;
-        let owner = Owner::of(component);
-        if pointer.is_null() {
-            *pointer = into_pointer(owner, component.instance.state.clone());
-        } else {
-            // SAFETY: the host's state, which is nobody else's during the call.
-            unsafe { &mut *state::<M>(*pointer, owner)? }.instance.clone_from(&component.instance.state);
-        }
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+pub unsafe fn get<M: Model, H: Host>(component: &mut Component<M, H>, pointer: *mut FmuState) -> Result<(), CallError> {
+    // SAFETY: the host's place for the state.
+    let pointer = unsafe { out_param(pointer) }?;
+    let owner = Owner::of(component);
+    if pointer.is_null() {
+        *pointer = into_pointer(owner, component.instance.state.clone());
+    } else {
+        // SAFETY: the host's state, which is nobody else's during the call.
+        unsafe { &mut *state::<M>(*pointer, owner)? }.instance.clone_from(&component.instance.state);
+    }
+    Ok(())
 }
 
 /// `fmi3SetFMUState`
-pub unsafe fn set<M: Model, H: Host>(component: *mut c_void, function: &Function, pointer: FmuState) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        // SAFETY: the host's state, which nobody changes during the call.
-        let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
-        component.instance.state.clone_from(&state.instance);
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+pub unsafe fn set<M: Model, H: Host>(component: &mut Component<M, H>, pointer: FmuState) -> Result<(), CallError> {
+    // SAFETY: the host's state, which nobody changes during the call.
+    let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
+    component.instance.state.clone_from(&state.instance);
+    Ok(())
 }
 
 /// `fmi3FreeFMUState`; null is ignored.
 pub unsafe fn free<M: Model, H: Host>(
-    component: *mut c_void,
-    function: &Function,
+    component: &mut Component<M, H>,
     pointer: *mut FmuState,
-) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        if pointer.is_null() {
-            return Ok(());
-        }
-        // SAFETY: the host's place for the state.
-        let pointer = unsafe { out_param(pointer) }?;
-        if pointer.is_null() {
-            return Ok(());
-        }
-        // SAFETY: the host's state.
-        let state = unsafe { state::<M>(*pointer, Owner::of(component))? };
-        // SAFETY: the state has this library's mark, so `into_pointer` made it. The mark is
-        // cleared, so that its memory is no longer taken for a state. The write is volatile,
-        // because the compiler sees no later read and would omit it.
-        unsafe { (&raw mut (*state).owner.mark).write_volatile(0) };
-        // SAFETY: as above.
-        drop(unsafe { Box::from_raw(state) });
-        *pointer = null_mut();
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    if pointer.is_null() {
+        return Ok(());
+    }
+    // SAFETY: the host's place for the state.
+    let pointer = unsafe { out_param(pointer) }?;
+    if pointer.is_null() {
+        return Ok(());
+    }
+    // SAFETY: the host's state.
+    let state = unsafe { state::<M>(*pointer, Owner::of(component))? };
+    // SAFETY: the state has this library's mark, so `into_pointer` made it. The mark is
+    // cleared, so that its memory is no longer taken for a state. The write is volatile,
+    // because the compiler sees no later read and would omit it.
+    unsafe { (&raw mut (*state).owner.mark).write_volatile(0) };
+    // SAFETY: as above.
+    drop(unsafe { Box::from_raw(state) });
+    *pointer = null_mut();
+    Ok(())
 }
 
 /// `fmi3SerializedFMUStateSize`
 pub unsafe fn serialized_size<M: Model, H: Host>(
-    component: *mut c_void,
-    function: &Function,
+    component: &mut Component<M, H>,
     pointer: FmuState,
     size: *mut usize,
-) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        // SAFETY: the host's state, which nobody changes during the call.
-        let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
-        let length = state.instance.to_bytes(component.instance.tables().guid)?.len();
-        // SAFETY: the host's memory for the answer.
-        unsafe { answer(size, length) }?;
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    // SAFETY: the host's state, which nobody changes during the call.
+    let state = unsafe { &*state::<M>(pointer, Owner::of(component))? };
+    let length = state.instance.to_bytes(component.instance.tables().guid)?.len();
+    // SAFETY: the host's memory for the answer.
+    unsafe { answer(size, length) }?;
+    Ok(())
 }
 
 /// `fmi3SerializeFMUState`
 pub unsafe fn serialize<M: Model, H: Host>(
-    component: *mut c_void,
-    function: &Function,
+    component: &mut Component<M, H>,
     pointer: FmuState,
     bytes: *mut u8,
     size: usize,
-) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        // SAFETY: the host's state, which nobody changes during the call, and its memory for `size` bytes.
-        let (state, buffer) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, buffer(bytes, size)?) };
-        let bytes = state.instance.to_bytes(component.instance.tables().guid)?;
-        let (length, available) = (bytes.len(), buffer.len());
-        let buffer = buffer.get_mut(..length).ok_or_else(|| {
-            CallError::error(format!("the state takes {length} bytes, and there is room for {available}"))
-        })?;
-        buffer.write_copy_of_slice(&bytes);
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    // SAFETY: the host's state, which nobody changes during the call, and its memory for `size` bytes.
+    let (state, buffer) = unsafe { (&*state::<M>(pointer, Owner::of(component))?, buffer(bytes, size)?) };
+    let bytes = state.instance.to_bytes(component.instance.tables().guid)?;
+    let (length, available) = (bytes.len(), buffer.len());
+    let buffer = buffer.get_mut(..length).ok_or_else(|| {
+        CallError::error(format!("the state takes {length} bytes, and there is room for {available}"))
+    })?;
+    buffer.write_copy_of_slice(&bytes);
+    Ok(())
 }
 
 /// `fmi3DeserializeFMUState`: overwrites the state at `pointer`, or creates one if it is null.
 pub unsafe fn deserialize<M: Model, H: Host>(
-    component: *mut c_void,
-    function: &Function,
+    component: &mut Component<M, H>,
     bytes: *const u8,
     size: usize,
     pointer: *mut FmuState,
-) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        // SAFETY: the host's bytes, and its place for the state.
-        let (bytes, pointer) = unsafe { (slice(bytes, size)?, out_param(pointer)?) };
-        let instance = InstanceState::from_bytes(bytes, component.instance.tables())?;
-        let owner = Owner::of(component);
-        if pointer.is_null() {
-            *pointer = into_pointer(owner, instance);
-        } else {
-            // SAFETY: the host's state, which is nobody else's during the call.
-            unsafe { &mut *state::<M>(*pointer, owner)? }.instance = instance;
-        }
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    // SAFETY: the host's bytes, and its place for the state.
+    let (bytes, pointer) = unsafe { (slice(bytes, size)?, out_param(pointer)?) };
+    let instance = InstanceState::from_bytes(bytes, component.instance.tables())?;
+    let owner = Owner::of(component);
+    if pointer.is_null() {
+        *pointer = into_pointer(owner, instance);
+    } else {
+        // SAFETY: the host's state, which is nobody else's during the call.
+        unsafe { &mut *state::<M>(*pointer, owner)? }.instance = instance;
+    }
+    Ok(())
 }

@@ -4,8 +4,8 @@ use std::ffi::c_void;
 
 use moris_interface::Model;
 
-use super::{Component, Function, Host, call};
-use crate::{Mode, panics};
+use super::{Component, Host};
+use crate::{CallError, Mode, panics};
 
 /// `fmi2FreeInstance`, `fmi3FreeInstance`; what is no instance is ignored.
 pub unsafe fn free_instance<M: Model, H: Host>(component: *mut c_void) {
@@ -17,37 +17,22 @@ pub unsafe fn free_instance<M: Model, H: Host>(component: *mut c_void) {
 }
 
 /// `fmi2ExitInitializationMode`, `fmi3ExitInitializationMode`
-pub unsafe fn exit_initialization_mode<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        component.instance.exit_initialization()?;
-        for warning in component.instance.warnings() {
-            component.warn(function, warning);
-        }
-        component.logger.event("initialized");
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+pub fn exit_initialization_mode<M: Model, H: Host>(component: &mut Component<M, H>) -> Result<(), CallError> {
+    component.instance.exit_initialization()?;
+    component.logger.event("initialized");
+    Ok(())
 }
 
 /// `fmi2Terminate`, `fmi3Terminate`
-pub unsafe fn terminate<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        component.instance.state.mode = Mode::Terminated;
-        component.logger.event("terminated");
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+pub fn terminate<M: Model, H: Host>(component: &mut Component<M, H>) -> Result<(), CallError> {
+    component.instance.state.mode = Mode::Terminated;
+    component.logger.event("terminated");
+    Ok(())
 }
 
 /// `fmi2Reset`, `fmi3Reset`
-pub unsafe fn reset<M: Model, H: Host>(component: *mut c_void, function: &Function) -> H::Status {
-    let body = |component: &mut Component<M, H>| {
-        component.instance.reset();
-        component.logger.event("reset");
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+pub fn reset<M: Model, H: Host>(component: &mut Component<M, H>) -> Result<(), CallError> {
+    component.instance.reset();
+    component.logger.event("reset");
+    Ok(())
 }

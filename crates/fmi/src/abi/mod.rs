@@ -5,8 +5,12 @@
 //! Other pointers must be what the standard requires: an instance or a state made by this library
 //! and not yet freed, arrays of the given length, zero-terminated strings. An instance is not
 //! used by two threads at once.
+//!
+//! # Errors
+//! A function fails where an argument is not as the standard and the model description say. The text
+//! says which, and the host receives it from [`call`].
 
-#![allow(clippy::missing_safety_doc)] // stated above, once for all
+#![allow(clippy::missing_safety_doc, clippy::missing_errors_doc)] // stated above, once for all
 
 mod arithmetic;
 mod component;

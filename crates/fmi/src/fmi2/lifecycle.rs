@@ -9,7 +9,7 @@ use moris_interface::Model;
 use super::types::*;
 use super::{Component, Logger};
 use crate::abi::pointers::{slice, string};
-use crate::abi::{Function, Host, call, with_default_arithmetic};
+use crate::abi::{Host, with_default_arithmetic};
 use crate::{CallError, Instance, LogCategory, Severity, SharedTables, panics};
 
 /// `fmi2Instantiate`; the resources' location and visibility make no difference.
@@ -62,55 +62,43 @@ fn check_request(name: Option<&CStr>, fmu_type: c_int, guid: Option<&CStr>, expe
 
 /// `fmi2SetDebugLogging`: events are logged if it is on for all categories or for theirs.
 pub unsafe fn set_debug_logging<M: Model>(
-    component: fmi2Component,
-    function: &Function,
+    component: &mut Component<M>,
     logging_on: fmi2Boolean,
     count: usize,
     categories: *const fmi2String,
-) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
-        let mut events = count == 0;
-        // SAFETY: the host's array and its strings live during the call.
-        for &category in unsafe { slice(categories, count) }? {
-            // SAFETY: as above.
-            let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
-            let category = LogCategory::named(&name).ok_or_else(|| {
-                CallError::error(format!("unknown log category '{name}'; modelDescription.xml lists the categories"))
-            })?;
-            events |= matches!(category, LogCategory::Events | LogCategory::All);
-        }
-        component.logger.log_events(events && logging_on.0 != 0);
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    let mut events = count == 0;
+    // SAFETY: the host's array and its strings live during the call.
+    for &category in unsafe { slice(categories, count) }? {
+        // SAFETY: as above.
+        let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
+        let category = LogCategory::named(&name).ok_or_else(|| {
+            CallError::error(format!("unknown log category '{name}'; modelDescription.xml lists the categories"))
+        })?;
+        events |= matches!(category, LogCategory::Events | LogCategory::All);
+    }
+    component.logger.log_events(events && logging_on.0 != 0);
+    Ok(())
 }
 
 /// `fmi2SetupExperiment`
-pub unsafe fn setup_experiment<M: Model>(
-    component: fmi2Component,
-    function: &Function,
+pub fn setup_experiment<M: Model>(
+    component: &mut Component<M>,
     tolerance_defined: fmi2Boolean,
     tolerance: fmi2Real,
     start_time: fmi2Real,
     stop_time_defined: fmi2Boolean,
     stop_time: fmi2Real,
-) -> fmi2Status {
+) -> Result<(), CallError> {
     let stop = (stop_time_defined.0 != 0).then_some(stop_time);
     let tolerance = (tolerance_defined.0 != 0).then_some(tolerance);
-    let body = |component: &mut Component<M>| component.instance.define_experiment(start_time, stop, tolerance);
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+    component.instance.define_experiment(start_time, stop, tolerance)
 }
 
 /// `fmi2EnterInitializationMode`
-pub unsafe fn enter_initialization_mode<M: Model>(component: fmi2Component, function: &Function) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
-        component
-            .instance
-            .enter_initialization()
-            .map_err(|error| CallError::error(format!("{}: call fmi2SetupExperiment before", error.text)))
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+pub fn enter_initialization_mode<M: Model>(component: &mut Component<M>) -> Result<(), CallError> {
+    component
+        .instance
+        .enter_initialization()
+        .map_err(|error| CallError::error(format!("{}: call fmi2SetupExperiment before", error.text)))
 }

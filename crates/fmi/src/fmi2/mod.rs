@@ -1,10 +1,10 @@
 //! The C functions of FMI 2.0. [`export_fmi2!`](crate::export_fmi2) makes them, each a line
 //! that calls into here.
 //!
-//! # Safety
+//! # Safety, errors
 //! As said in [`abi`](crate::abi).
 
-#![allow(clippy::missing_safety_doc)] // stated above, once for all
+#![allow(clippy::missing_safety_doc, clippy::missing_errors_doc)] // stated above, once for all
 
 pub mod calling_sequence;
 mod export;

@@ -9,69 +9,49 @@ use super::Component;
 use super::types::*;
 use crate::CallError;
 use crate::abi::pointers::answer;
-use crate::abi::{Function, call};
 
 /// `fmi2DoStep`
 #[inline]
-pub unsafe fn do_step<M: Model>(
-    component: fmi2Component,
-    function: &Function,
+pub fn do_step<M: Model>(
+    component: &mut Component<M>,
     time: fmi2Real,
     step: fmi2Real,
     _no_going_back: fmi2Boolean,
-) -> fmi2Status {
-    let body = |component: &mut Component<M>| component.instance.step(time, step);
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    component.instance.step(time, step)
 }
 
 /// `fmi2GetRealStatus`: only the time of the last successful step is known.
 pub unsafe fn get_real_status<M: Model>(
-    component: fmi2Component,
-    function: &Function,
+    component: &mut Component<M>,
     kind: c_int,
     value: *mut fmi2Real,
-) -> fmi2Status {
-    let body = |component: &mut Component<M>| {
-        if kind != LAST_SUCCESSFUL_TIME {
-            return Err(not_known(kind));
-        }
-        // SAFETY: the host's memory for the answer.
-        unsafe { answer(value, component.instance.time()) }?;
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    if kind != LAST_SUCCESSFUL_TIME {
+        return Err(not_known(kind));
+    }
+    // SAFETY: the host's memory for the answer.
+    unsafe { answer(value, component.instance.time()) }?;
+    Ok(())
 }
 
 /// `fmi2GetBooleanStatus`: no simulation terminates by itself.
 pub unsafe fn get_boolean_status<M: Model>(
-    component: fmi2Component,
-    function: &Function,
+    _: &mut Component<M>,
     kind: c_int,
     value: *mut fmi2Boolean,
-) -> fmi2Status {
-    let body = |_: &mut Component<M>| {
-        if kind != TERMINATED {
-            return Err(not_known(kind));
-        }
-        // SAFETY: the host's memory for the answer.
-        unsafe { answer(value, fmi2Boolean(0)) }?;
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(component, function, body) }
+) -> Result<(), CallError> {
+    if kind != TERMINATED {
+        return Err(not_known(kind));
+    }
+    // SAFETY: the host's memory for the answer.
+    unsafe { answer(value, fmi2Boolean(0)) }?;
+    Ok(())
 }
 
 /// `fmi2GetStatus`, `fmi2GetIntegerStatus`, `fmi2GetStringStatus`: no step is pending.
-pub unsafe fn nothing_pending<M: Model, V>(
-    component: fmi2Component,
-    function: &Function,
-    kind: c_int,
-    _value: *mut V,
-) -> fmi2Status {
-    // SAFETY: the host's component.
-    unsafe { call(component, function, |_: &mut Component<M>| Err(not_known(kind))) }
+pub fn nothing_pending<M: Model, V>(_: &mut Component<M>, kind: c_int, _value: *mut V) -> Result<(), CallError> {
+    Err(not_known(kind))
 }
 
 fn not_known(kind: c_int) -> CallError {

@@ -112,7 +112,8 @@ macro_rules! export_fmi3 {
                     early_return,
                     last_successful_time,
                 };
-                unsafe { steps::do_step::<$model>(instance, time, step, &outcome) }
+                let body = |component: &mut _| unsafe { steps::do_step::<$model>(component, time, step, &outcome) };
+                unsafe { $crate::abi::call(instance, &function::DO_STEP, body) }
             }
 
             $crate::export_functions! {

@@ -9,7 +9,7 @@ use moris_interface::Model;
 use super::types::*;
 use super::{Component, LOG_CATEGORIES, Layout, Logger};
 use crate::abi::pointers::{slice, string};
-use crate::abi::{Function, Host, call, with_default_arithmetic};
+use crate::abi::{Host, with_default_arithmetic};
 use crate::{CallError, Guid, Instance, Severity, SharedTables, panics};
 
 /// Options of instantiation.
@@ -92,51 +92,40 @@ pub fn refuse_to_instantiate(function: &str, logger: &Logger) -> fmi3Instance {
 /// `fmi3SetDebugLogging`: switches the categories named, or all. Errors are
 /// switched off by name only.
 pub unsafe fn set_debug_logging<M: Model>(
-    instance: fmi3Instance,
-    function: &Function,
+    component: &mut Component<M>,
     logging_on: fmi3Boolean,
     count: usize,
     categories: *const fmi3String,
-) -> fmi3Status {
-    let body = |component: &mut Component<M>| {
-        let on = logging_on.is_true();
-        let mut chosen = Vec::new();
-        // SAFETY: the host's array and its strings live during the call.
-        for &category in unsafe { slice(categories, count) }? {
-            // SAFETY: as above.
-            let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
-            let known = LOG_CATEGORIES.iter().map(|&(category, _)| category).find(|category| category.name() == name);
-            let unknown = || {
-                CallError::error(format!("unknown log category '{name}'; modelDescription.xml lists the categories"))
-            };
-            chosen.push(known.ok_or_else(unknown)?);
-        }
-        if count == 0 {
-            component.logger.switch_all(on);
-        }
-        chosen.into_iter().for_each(|category| component.logger.switch(category, on));
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, function, body) }
+) -> Result<(), CallError> {
+    let on = logging_on.is_true();
+    let mut chosen = Vec::new();
+    // SAFETY: the host's array and its strings live during the call.
+    for &category in unsafe { slice(categories, count) }? {
+        // SAFETY: as above.
+        let name = unsafe { string(category) }.map_or("NULL".into(), CStr::to_string_lossy);
+        let known = LOG_CATEGORIES.iter().map(|&(category, _)| category).find(|category| category.name() == name);
+        let unknown =
+            || CallError::error(format!("unknown log category '{name}'; modelDescription.xml lists the categories"));
+        chosen.push(known.ok_or_else(unknown)?);
+    }
+    if count == 0 {
+        component.logger.switch_all(on);
+    }
+    chosen.into_iter().for_each(|category| component.logger.switch(category, on));
+    Ok(())
 }
 
 /// `fmi3EnterInitializationMode`
-pub unsafe fn enter_initialization_mode<M: Model>(
-    instance: fmi3Instance,
-    function: &Function,
+pub fn enter_initialization_mode<M: Model>(
+    component: &mut Component<M>,
     tolerance_defined: fmi3Boolean,
     tolerance: f64,
     start_time: f64,
     stop_time_defined: fmi3Boolean,
     stop_time: f64,
-) -> fmi3Status {
+) -> Result<(), CallError> {
     let tolerance = tolerance_defined.is_true().then_some(tolerance);
     let stop_time = stop_time_defined.is_true().then_some(stop_time);
-    let body = |component: &mut Component<M>| {
-        component.instance.define_experiment(start_time, stop_time, tolerance)?;
-        component.instance.enter_initialization()
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, function, body) }
+    component.instance.define_experiment(start_time, stop_time, tolerance)?;
+    component.instance.enter_initialization()
 }

@@ -4,10 +4,10 @@
 //! A row of the interface with several values is as many scalar variables, or one array variable,
 //! row-major, with the row's first slot as its value reference: see [`Layout`].
 //!
-//! # Safety
+//! # Safety, errors
 //! As said in [`abi`](crate::abi).
 
-#![allow(clippy::missing_safety_doc)] // stated above, once for all
+#![allow(clippy::missing_safety_doc, clippy::missing_errors_doc)] // stated above, once for all
 
 mod arrays;
 pub mod calling_sequence;

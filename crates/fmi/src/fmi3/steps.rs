@@ -2,9 +2,9 @@
 
 use moris_interface::Model;
 
+use super::Component;
 use super::types::*;
-use super::{Component, calling_sequence as function};
-use crate::abi::call;
+use crate::CallError;
 use crate::abi::pointers::answer;
 
 /// Addresses for the results of a step.
@@ -18,20 +18,21 @@ pub struct StepOutcome {
 /// `fmi3DoStep`: a step is done as a whole, and neither needs event handling nor ends the
 /// simulation.
 #[inline]
-pub unsafe fn do_step<M: Model>(instance: fmi3Instance, time: f64, step: f64, outcome: &StepOutcome) -> fmi3Status {
-    let body = |component: &mut Component<M>| {
-        // SAFETY: the host's memory for the outcome, checked before anything is done.
-        unsafe {
-            answer(outcome.event_handling_needed, fmi3Boolean(0))?;
-            answer(outcome.terminate_simulation, fmi3Boolean(0))?;
-            answer(outcome.early_return, fmi3Boolean(0))?;
-            answer(outcome.last_successful_time, component.instance.time())?;
-        }
-        component.instance.step(time, step)?;
-        // SAFETY: as above.
-        unsafe { answer(outcome.last_successful_time, component.instance.time()) }?;
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, &function::DO_STEP, body) }
+pub unsafe fn do_step<M: Model>(
+    component: &mut Component<M>,
+    time: f64,
+    step: f64,
+    outcome: &StepOutcome,
+) -> Result<(), CallError> {
+    // SAFETY: the host's memory for the outcome, checked before anything is done.
+    unsafe {
+        answer(outcome.event_handling_needed, fmi3Boolean(0))?;
+        answer(outcome.terminate_simulation, fmi3Boolean(0))?;
+        answer(outcome.early_return, fmi3Boolean(0))?;
+        answer(outcome.last_successful_time, component.instance.time())?;
+    }
+    component.instance.step(time, step)?;
+    // SAFETY: as above.
+    unsafe { answer(outcome.last_successful_time, component.instance.time()) }?;
+    Ok(())
 }

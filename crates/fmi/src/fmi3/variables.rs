@@ -8,88 +8,67 @@ use super::arrays::Arrays;
 use super::types::*;
 use super::{Component, Layout};
 use crate::abi::pointers::{buffer, slice};
-use crate::abi::{Function, call};
 use crate::{CallError, Scalar, Scalars, VariableInfo};
 
 /// `fmi3GetFloat64`, `fmi3GetInt32`, `fmi3GetInt64`, `fmi3GetBoolean`
 #[inline]
 pub unsafe fn get<M: Model, S: Scalar>(
-    instance: fmi3Instance,
-    function: &Function,
+    component: &mut Component<M>,
     references: *const fmi3ValueReference,
     count: usize,
     values: *mut S,
     value_count: usize,
-) -> fmi3Status {
-    let body = |component: &mut Component<M>| {
-        // SAFETY: the host's arrays have `count` and `value_count` elements.
-        let (references, values) = unsafe { (slice(references, count)?, buffer(values, value_count)?) };
-        let infos = component.instance.tables().infos;
-        check_length::<M>(component.logger.layout, infos, references, value_count)?;
-        // A value each: there is no array among them.
-        if references.len() == value_count {
-            return component.instance.get(Scalars(references), values);
-        }
-        component.instance.get(Arrays { infos, references }, values)
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, function, body) }
+) -> Result<(), CallError> {
+    // SAFETY: the host's arrays have `count` and `value_count` elements.
+    let (references, values) = unsafe { (slice(references, count)?, buffer(values, value_count)?) };
+    let infos = component.instance.tables().infos;
+    check_length::<M>(component.logger.layout, infos, references, value_count)?;
+    // A value each: there is no array among them.
+    if references.len() == value_count {
+        return component.instance.get(Scalars(references), values);
+    }
+    component.instance.get(Arrays { infos, references }, values)
 }
 
 /// `fmi3SetFloat64`, `fmi3SetInt32`, `fmi3SetInt64`, `fmi3SetBoolean`
 #[inline]
 pub unsafe fn set<M: Model, S: Scalar>(
-    instance: fmi3Instance,
-    function: &Function,
+    component: &mut Component<M>,
     references: *const fmi3ValueReference,
     count: usize,
     values: *const S,
     value_count: usize,
-) -> fmi3Status {
-    let body = |component: &mut Component<M>| {
-        // SAFETY: the host's arrays have `count` and `value_count` elements.
-        let (references, values) = unsafe { (slice(references, count)?, slice(values, value_count)?) };
-        let infos = component.instance.tables().infos;
-        check_length::<M>(component.logger.layout, infos, references, value_count)?;
-        // A value each: there is no array among them.
-        if references.len() == value_count {
-            component.instance.set(Scalars(references), values)?;
-        } else {
-            component.instance.set(Arrays { infos, references }, values)?;
-        }
-        if let Some(warning) = component.instance.take_warning() {
-            component.warn(function, warning);
-        }
-        Ok(())
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, function, body) }
+) -> Result<(), CallError> {
+    // SAFETY: the host's arrays have `count` and `value_count` elements.
+    let (references, values) = unsafe { (slice(references, count)?, slice(values, value_count)?) };
+    let infos = component.instance.tables().infos;
+    check_length::<M>(component.logger.layout, infos, references, value_count)?;
+    // A value each: there is no array among them.
+    if references.len() == value_count {
+        return component.instance.set(Scalars(references), values);
+    }
+    component.instance.set(Arrays { infos, references }, values)
 }
 
 /// `fmi3GetOutputDerivatives`
 pub unsafe fn get_output_derivatives<M: Model>(
-    instance: fmi3Instance,
-    function: &Function,
+    component: &mut Component<M>,
     references: *const fmi3ValueReference,
     count: usize,
     orders: *const i32,
     values: *mut f64,
     value_count: usize,
-) -> fmi3Status {
-    let body = |component: &mut Component<M>| {
-        // SAFETY: the host's arrays have `count` and `value_count` elements.
-        let (references, orders, values) =
-            unsafe { (slice(references, count)?, slice(orders, count)?, buffer(values, value_count)?) };
-        let infos = component.instance.tables().infos;
-        let layout = component.logger.layout;
-        check_length::<M>(layout, infos, references, value_count)?;
-        let pairs = references.iter().zip(orders);
-        let requests =
-            pairs.flat_map(move |(&reference, &order)| slots(layout, infos, reference).map(move |slot| (slot, order)));
-        component.instance.get_output_derivatives(requests, values)
-    };
-    // SAFETY: the host's component.
-    unsafe { call(instance, function, body) }
+) -> Result<(), CallError> {
+    // SAFETY: the host's arrays have `count` and `value_count` elements.
+    let (references, orders, values) =
+        unsafe { (slice(references, count)?, slice(orders, count)?, buffer(values, value_count)?) };
+    let infos = component.instance.tables().infos;
+    let layout = component.logger.layout;
+    check_length::<M>(layout, infos, references, value_count)?;
+    let pairs = references.iter().zip(orders);
+    let requests =
+        pairs.flat_map(move |(&reference, &order)| slots(layout, infos, reference).map(move |slot| (slot, order)));
+    component.instance.get_output_derivatives(requests, values)
 }
 
 /// Number of values of these variables together, for a host that does not give it. For wrong

@@ -19,7 +19,7 @@ use moris_interface::Model;
 
 use super::types::*;
 use super::{Logger, calling_sequence, lifecycle, steps, variables};
-use crate::abi::{Function, fmu_state, lifecycle as common, unsupported};
+use crate::abi::{Function, call, fmu_state, lifecycle as common, unsupported};
 use crate::{Modes, Scalar, SharedTables};
 
 /// The draft has this function, which FMI 3.0 has not.
@@ -281,7 +281,11 @@ pub unsafe fn set_debug_logging<M: Model>(
     let categories: Vec<CString> = categories.into_iter().map(|text| CString::new(text).unwrap_or_default()).collect();
     let pointers: Vec<fmi3String> = categories.iter().map(|category| category.as_ptr()).collect();
     // SAFETY: the strings live during the call.
-    unsafe { lifecycle::set_debug_logging::<M>(instance, function, logging_on, pointers.len(), pointers.as_ptr()) }
+    unsafe {
+        call(instance, function, |component| {
+            lifecycle::set_debug_logging::<M>(component, logging_on, pointers.len(), pointers.as_ptr())
+        })
+    }
 }
 
 /// The host's list of strings or of bytes.
@@ -304,8 +308,9 @@ pub unsafe fn get<M: Model, S: Scalar>(
     let mut values = Vec::with_capacity(count);
     // SAFETY: memory for as many values, and all of them are written if the call succeeds.
     let status = unsafe {
-        let status =
-            variables::get::<M, S>(instance, function, references.as_ptr(), length, values.as_mut_ptr(), count);
+        let status = call(instance, function, |component| {
+            variables::get::<M, S>(component, references.as_ptr(), length, values.as_mut_ptr(), count)
+        });
         values.set_len(if status == fmi3Status::fmi3OK { count } else { 0 });
         status
     };
@@ -324,7 +329,9 @@ pub unsafe fn set<M: Model, S: Scalar>(
     // SAFETY: the host's lists.
     unsafe {
         let (references, values) = (List::take(first, length), List::take(first_value, value_count));
-        variables::set::<M, S>(instance, function, references.as_ptr(), length, values.as_ptr(), value_count)
+        call(instance, function, |component| {
+            variables::set::<M, S>(component, references.as_ptr(), length, values.as_ptr(), value_count)
+        })
     }
 }
 
@@ -345,7 +352,9 @@ pub unsafe fn get_output_derivatives<M: Model>(
     let status = unsafe {
         let (references, orders) = (references.as_ptr(), orders.as_ptr());
         let (first, count) = (values.as_mut_ptr(), values.len());
-        variables::get_output_derivatives::<M>(instance, function, references, length, orders, first, count)
+        call(instance, function, |component| {
+            variables::get_output_derivatives::<M>(component, references, length, orders, first, count)
+        })
     };
     Answer::new(status, || List::new(values))
 }
@@ -353,7 +362,7 @@ pub unsafe fn get_output_derivatives<M: Model>(
 /// `do-step`
 pub unsafe fn do_step<M: Model>(
     instance: fmi3Instance,
-    _function: &Function,
+    function: &Function,
     time: f64,
     step: f64,
     _no_going_back: fmi3Boolean,
@@ -372,7 +381,7 @@ pub unsafe fn do_step<M: Model>(
         last_successful_time: &raw mut result.last_successful_time,
     };
     // SAFETY: the host's instance.
-    let status = unsafe { steps::do_step::<M>(instance, time, step, &outcome) };
+    let status = unsafe { call(instance, function, |component| steps::do_step::<M>(component, time, step, &outcome)) };
     Answer::new(status, || result)
 }
 
@@ -382,21 +391,22 @@ pub unsafe fn get_fmu_state<M: Model>(instance: fmi3Instance, function: &Functio
     let mut bytes = Vec::new();
     // SAFETY: the host's instance, and a state of it.
     let status = unsafe {
-        let mut status = fmu_state::get::<M, Logger>(instance, function, &raw mut state);
+        let mut status = call(instance, function, |component| fmu_state::get::<M, Logger>(component, &raw mut state));
         if status == fmi3Status::fmi3OK {
             let mut size = 0;
-            status = fmu_state::serialized_size::<M, Logger>(
-                instance,
-                &calling_sequence::SERIALIZED_FMU_STATE_SIZE,
-                state,
-                &raw mut size,
-            );
+            status = call(instance, &calling_sequence::SERIALIZED_FMU_STATE_SIZE, |component| {
+                fmu_state::serialized_size::<M, Logger>(component, state, &raw mut size)
+            });
             bytes.resize(size, 0);
             if status == fmi3Status::fmi3OK {
                 let function = &calling_sequence::SERIALIZE_FMU_STATE;
-                status = fmu_state::serialize::<M, Logger>(instance, function, state, bytes.as_mut_ptr(), size);
+                status = call(instance, function, |component| {
+                    fmu_state::serialize::<M, Logger>(component, state, bytes.as_mut_ptr(), size)
+                });
             }
-            fmu_state::free::<M, Logger>(instance, &calling_sequence::FREE_FMU_STATE, &raw mut state);
+            call(instance, &calling_sequence::FREE_FMU_STATE, |component| {
+                fmu_state::free::<M, Logger>(component, &raw mut state)
+            });
         }
         status
     };
@@ -415,12 +425,16 @@ pub unsafe fn set_fmu_state<M: Model>(
     unsafe {
         let bytes = List::take(first, length);
         let deserialize = &calling_sequence::DESERIALIZE_FMU_STATE;
-        let status = fmu_state::deserialize::<M, Logger>(instance, deserialize, bytes.as_ptr(), length, &raw mut state);
+        let status = call(instance, deserialize, |component| {
+            fmu_state::deserialize::<M, Logger>(component, bytes.as_ptr(), length, &raw mut state)
+        });
         if status != fmi3Status::fmi3OK {
             return status;
         }
-        let status = fmu_state::set::<M, Logger>(instance, function, state);
-        fmu_state::free::<M, Logger>(instance, &calling_sequence::FREE_FMU_STATE, &raw mut state);
+        let status = call(instance, function, |component| fmu_state::set::<M, Logger>(component, state));
+        call(instance, &calling_sequence::FREE_FMU_STATE, |component| {
+            fmu_state::free::<M, Logger>(component, &raw mut state)
+        });
         status
     }
 }
@@ -435,7 +449,7 @@ pub unsafe fn get_none<M: Model>(
     // SAFETY: the host's list and instance.
     let status = unsafe {
         drop(List::take(first, length));
-        unsupported::none_of_this_type::<M, Logger>(instance, function, length)
+        call(instance, function, |component| unsupported::none_of_this_type::<M, Logger>(component, length))
     };
     Answer::new(status, || List::new(Vec::new()))
 }
@@ -452,7 +466,7 @@ pub unsafe fn set_none<M: Model, R, T>(
     // SAFETY: the host's lists and instance.
     unsafe {
         drop((List::take(first, length), List::take(first_value, value_count)));
-        unsupported::none_of_this_type::<M, Logger>(instance, function, length)
+        call(instance, function, |component| unsupported::none_of_this_type::<M, Logger>(component, length))
     }
 }
 
@@ -475,7 +489,7 @@ pub unsafe fn set_no_texts<M: Model>(
 /// `update-discrete-states`, which is allowed in no state; its record is aligned as a `u64`.
 pub unsafe fn never<M: Model>(instance: fmi3Instance, function: &Function) -> *mut Answer<u64> {
     // SAFETY: the host's instance.
-    Answer::new(unsafe { unsupported::never_allowed::<M, Logger>(instance, function) }, || 0)
+    Answer::new(unsafe { call(instance, function, unsupported::never_allowed::<M, Logger>) }, || 0)
 }
 
 /// Functions for dependencies, of which there are none.
@@ -484,9 +498,10 @@ pub unsafe fn no_dependencies<M: Model, T: Copy>(
     function: &Function,
     _reference: fmi3ValueReference,
 ) -> *mut Answer<T> {
+    let capability = "providesPerElementDependencies";
+    let body = |component: &mut _| unsupported::not_provided::<M, Logger>(component, capability);
     // SAFETY: the host's instance.
-    let status =
-        unsafe { unsupported::not_provided::<M, Logger>(instance, function, "providesPerElementDependencies") };
+    let status = unsafe { call(instance, function, body) };
     Answer::failed(status)
 }
 
@@ -506,7 +521,7 @@ pub unsafe fn no_derivatives<M: Model>(
     // SAFETY: the host's lists and instance.
     let status = unsafe {
         drop((List::take(unknowns, unknown_count), List::take(knowns, known_count), List::take(seed, count)));
-        unsupported::not_provided::<M, Logger>(instance, function, capability)
+        call(instance, function, |component| unsupported::not_provided::<M, Logger>(component, capability))
     };
     Answer::failed(status)
 }
@@ -588,10 +603,7 @@ macro_rules! export_fmi3_component {
                 unsafe { component::free::<$model>(representation) }
             }
 
-            $crate::component_methods! {
-                "set-debug-logging" SET_DEBUG_LOGGING
-                    (on: fmi3Boolean, first: *mut List<u8>, length: usize) -> fmi3Status
-                    => component::set_debug_logging::<$model>;
+            $crate::component_calls! {
                 "enter-initialization-mode" ENTER_INITIALIZATION_MODE
                     (has_tolerance: fmi3Boolean, tolerance: f64, start: f64, has_stop: fmi3Boolean, stop: f64) -> fmi3Status
                     => lifecycle::enter_initialization_mode::<$model>;
@@ -611,6 +623,12 @@ macro_rules! export_fmi3_component {
                     () -> fmi3Status
                     => unsupported::never_allowed::<$model, Logger>;
                 "enter-step-mode" ENTER_STEP_MODE () -> fmi3Status => unsupported::never_allowed::<$model, Logger>;
+            }
+
+            $crate::component_methods! {
+                "set-debug-logging" SET_DEBUG_LOGGING
+                    (on: fmi3Boolean, first: *mut List<u8>, length: usize) -> fmi3Status
+                    => component::set_debug_logging::<$model>;
                 "set-fmu-state" SET_FMU_STATE
                     (bytes: *mut u8, length: usize) -> fmi3Status
                     => component::set_fmu_state::<$model>;
@@ -696,6 +714,23 @@ macro_rules! component_methods {
                 #[unsafe(export_name = concat!("fmi:fmi3/co-simulation@3.0.0#[method]co-simulation-instance.", $name))]
                 unsafe extern "C" fn method(representation: *mut Representation $(, $argument: $type)*) -> fmi3Status {
                     unsafe { $body(component::instance(representation), &function::$constant $(, $argument)*) }
+                }
+            };
+        )+
+    };
+}
+
+/// The same for the functions that C calls.
+#[doc(hidden)] // for `export_fmi3_component!`
+#[macro_export]
+macro_rules! component_calls {
+    ($($name:literal $constant:ident ($($argument:ident: $type:ty),*) -> fmi3Status => $body:path;)+) => {
+        $(
+            const _: () = {
+                #[unsafe(export_name = concat!("fmi:fmi3/co-simulation@3.0.0#[method]co-simulation-instance.", $name))]
+                unsafe extern "C" fn method(representation: *mut Representation $(, $argument: $type)*) -> fmi3Status {
+                    let body = |component: &mut _| $body(component $(, $argument)*);
+                    unsafe { $crate::abi::call(component::instance(representation), &function::$constant, body) }
                 }
             };
         )+
