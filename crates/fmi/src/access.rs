@@ -195,8 +195,8 @@ impl<M: Model> Instance<M> {
         })
     }
 
-    /// Warns of the first value beyond its input's range, unless the host has been told of one. Zero
-    /// does not count: hosts set inputs to zero for which they have no value yet.
+    /// Warns of the first value beyond its input's range, unless the host has been told of one.
+    /// Zero does not count: hosts set inputs to zero for which they have no value yet.
     fn note_range<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
         if self.warned_of_range {
             return;

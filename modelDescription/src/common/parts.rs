@@ -45,7 +45,8 @@ pub(crate) fn unit_definitions(identity: &Identity) -> Option<Element> {
     Element::list("UnitDefinitions", elements)
 }
 
-/// `LogCategories` from pairs of a name and a description: kinds of message that a host can ask for.
+/// `LogCategories` from pairs of a name and a description: kinds of message that a host can ask
+/// for.
 pub(crate) fn log_categories<'a>(categories: impl IntoIterator<Item = (&'a str, &'a str)>) -> Element {
     let category = |(name, text)| Element::new("Category").with("name", name).with("description", text);
     Element::new("LogCategories").containing(categories.into_iter().map(category))

@@ -69,8 +69,8 @@ const VARIABLE_DEPTH: usize = 4;
 
 const DECLARATION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
 
-/// The text of a file, such as a description of either version as `modelDescription.xml` has it: UTF-8,
-/// indented, a variable a line.
+/// The text of a file, such as a description of either version as `modelDescription.xml` has it:
+/// UTF-8, indented, a variable a line.
 ///
 /// Numbers are written in the shortest form that reads back as the very same number.
 pub fn to_xml(description: &Element) -> String {

@@ -1,5 +1,4 @@
-//! The description of a model by FMI 2.0, with the parts that a co-simulation FMU of
-//! ours uses.
+//! The description of a model by FMI 2.0.
 
 mod describe;
 mod variables_html;

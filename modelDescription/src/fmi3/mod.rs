@@ -1,5 +1,4 @@
-//! The description of a model by FMI 3.0, with the parts that a co-simulation FMU of
-//! ours uses.
+//! The description of a model by FMI 3.0.
 //!
 //! A row of the interface with several values is as many scalars or one array: see [`Layout`].
 

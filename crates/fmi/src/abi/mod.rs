@@ -7,8 +7,8 @@
 //! used by two threads at once.
 //!
 //! # Errors
-//! A function fails where an argument is not as the standard and the model description say. The text
-//! says which, and the host receives it from [`call`].
+//! A function fails where an argument is not as the standard and the model description say. The
+//! text says which, and the host receives it from [`call`].
 
 #![allow(clippy::missing_safety_doc, clippy::missing_errors_doc)] // stated above, once for all
 
