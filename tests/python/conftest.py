@@ -14,6 +14,8 @@ from fmpy.fmi2 import FMU2Slave
 ROOT = Path(__file__).resolve().parents[2]
 AXES = ("x", "y", "z")
 ANGLES = ("roll", "pitch", "yaw")
+only_all_cases = pytest.mark.skipif("MORIS_ALL_CASES" not in os.environ, reason="one of all cases: with --all")
+"""For simulations of which the pages' commands print the result: here every step of it is looked at."""
 
 
 def example(name):

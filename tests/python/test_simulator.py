@@ -8,7 +8,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from conftest import ANGLES, AXES, ROOT, example
+from conftest import ANGLES, AXES, ROOT, example, only_all_cases
 from fmpy import read_model_description
 from lxml import etree
 
@@ -126,6 +126,7 @@ def test_the_laps_fmus_start_with_its_parameters_and_have_its_connectors(laps):
         assert float(starts["washout"]["scale.angularVelocity.x"].start) == 0.1
 
 
+@only_all_cases
 def test_the_example_rides_the_lap_near_its_preview(laps):
     lap = example("10_lap")
     result = lap.simulate(laps[0], 2e-3, 15.0)
@@ -241,6 +242,7 @@ def test_every_parameter_is_one_of_its_fmu_with_its_unit(parameters, models):
             assert value.get("unit") == variable.unit and (variable.unit is None or variable.unit in defined)
 
 
+@only_all_cases
 def test_the_example_accelerates_slaloms_and_stops_with_the_legs_well_in_stroke(ssp):
     whole = example("06_whole_simulator")
     result = whole.simulate(ssp, 2e-3)

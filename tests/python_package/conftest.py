@@ -10,6 +10,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 STANDARD_GRAVITY = 9.80665
+only_all_cases = pytest.mark.skipif("MORIS_ALL_CASES" not in os.environ, reason="one of all cases: with --all")
+"""For what few changes can break, and what takes long: memory, and other people's schedulers."""
 
 # A shell starts what runs in its background with Ctrl-C ignored; tests that raise it need Python's own handler.
 signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -8,7 +8,7 @@ import sys
 import textwrap
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, only_all_cases
 
 PAGE = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 SNIPPETS = re.findall(r"^```python\n(.*?)^```", PAGE, flags=re.MULTILINE | re.DOTALL)
@@ -81,6 +81,7 @@ exit 0
 """
 
 
+@only_all_cases
 def test_the_slurm_snippet_runs_on_a_machine_that_takes_its_jobs(tmp_path):
     pytest.importorskip("dask_jobqueue")
     for name, text in (("sbatch", SBATCH), ("scancel", SCANCEL)):
@@ -93,6 +94,7 @@ def test_the_slurm_snippet_runs_on_a_machine_that_takes_its_jobs(tmp_path):
     assert run(tmp_path, guarded(code), PATH=path, **loopback).split()[-2:] == ["36", "True"]
 
 
+@only_all_cases
 def test_the_kubernetes_snippet_finds_a_scheduler_at_its_port(tmp_path):
     from distributed import LocalCluster
 

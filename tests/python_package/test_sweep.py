@@ -7,11 +7,10 @@ import threading
 import moris
 import numpy as np
 import pytest
+from conftest import only_all_cases
 
 pytest.importorskip("distributed")
 from distributed import Client, LocalCluster  # noqa: E402
-
-ALL_CASES = "MORIS_ALL_CASES" in os.environ
 
 
 def parameter_sets(count=24):
@@ -77,7 +76,7 @@ def test_the_size_of_chunks_and_the_number_of_threads_change_nothing(here, recor
     assert_same(moris.sweep(recordings, parameter_sets(), chunk=chunk), here)
 
 
-@pytest.mark.parametrize("workers", [1, 2, 3] if ALL_CASES else [2])
+@pytest.mark.parametrize("workers", [pytest.param(1, marks=only_all_cases), 2, pytest.param(3, marks=only_all_cases)])
 def test_workers_give_the_same_to_the_bit(here, recordings, workers):
     with cluster(workers) as made, Client(made) as client:
         assert_same(moris.sweep(recordings, parameter_sets(), client=client, chunk=2), here)
@@ -212,7 +211,7 @@ def test_no_client_is_a_type_error(recordings):
         moris.sweep(recordings, parameter_sets(), chunk=-1)
 
 
-SETS = 12_000 if ALL_CASES else 4_000
+SETS = 12_000
 """Sets whose results would take much more memory than a process's own comes and goes."""
 
 
@@ -230,6 +229,7 @@ def resident_memory():
     return psutil.Process().memory_info().rss
 
 
+@only_all_cases
 def test_memory_on_threads_is_that_of_the_results_kept():
     recordings = short_recordings()
     seen = {}
@@ -249,6 +249,7 @@ def test_memory_on_threads_is_that_of_the_results_kept():
     assert growth(None) > 0.8 * results
 
 
+@only_all_cases
 def test_a_cluster_holds_no_more_than_the_tasks_on_their_way():
     recordings = short_recordings()
     tasks, data, memory = [], [], {}

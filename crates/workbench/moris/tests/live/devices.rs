@@ -5,6 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use moris_cases::cases;
+
 use crate::rig::{Live, free_port, vehicle};
 
 /// A device: its name, and its reading of a frame as positions from 0 to 1 of the actuators'
@@ -64,8 +66,9 @@ fn receive(socket: &UdpSocket, read: fn(&[u8]) -> Option<Vec<f64>>, ended: &Atom
 #[test]
 fn each_device_reads_every_frame_and_its_last_ones_are_at_rest() {
     thread::scope(|scope| {
-        for (name, read) in DEVICES {
-            scope.spawn(move || ride(name, read));
+        // Two of few cases: one of numbers in bytes, one of text.
+        for (name, read) in DEVICES.iter().filter(|(name, _)| cases(true, ["bff", "simtools"].contains(name))) {
+            scope.spawn(move || ride(name, *read));
         }
     });
 }
