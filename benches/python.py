@@ -92,7 +92,7 @@ def fmpy():
 
 def table():
     kinds = {
-        "Rust, `moris_batch::simulate`, profile of the FMU": rust("fmu-library"),
+        "Rust, `moris_batch::Replay`, profile of the FMU": rust("fmu-library"),
         "Rust, the same, profile of the package": rust("release"),
         "Python, `Washout.run` on arrays": arrays(),
         "Python, `Washout.step` one by one": single_steps(),

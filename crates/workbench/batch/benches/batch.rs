@@ -3,8 +3,8 @@
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use moris_batch::{Fit, Manoeuvre, simulations};
-use moris_washout::{Input, Parameters};
+use moris_batch::{Manoeuvre, Replay};
+use moris_washout::{Input, Parameters, Washout};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 
@@ -26,9 +26,15 @@ fn set(k: u32) -> Parameters {
 
 /// The smallest error among `count` sets: results are reduced as they come.
 fn smallest_error(manoeuvre: &Manoeuvre, count: u32) -> f64 {
-    simulations(manoeuvre, (0..count).into_par_iter().map(set), Fit::default)
-        .map(|simulation| simulation.result.map_or(f64::INFINITY, |fit| fit.rms_error().x))
-        .reduce(|| f64::INFINITY, f64::min)
+    let error = |k: u32| {
+        let mut washout = Washout::new(&set(k)).expect("these parameters can be used");
+        let mut sum = 0.0;
+        Replay::new(manoeuvre).run(&mut washout, |input, output| {
+            sum += (output.felt_specific_force.x - input.specific_force.x).powi(2);
+        });
+        sum
+    };
+    (0..count).into_par_iter().map(error).reduce(|| f64::INFINITY, f64::min)
 }
 
 fn cores(c: &mut Criterion) {

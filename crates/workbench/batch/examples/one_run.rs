@@ -7,17 +7,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use moris_batch::{Manoeuvre, Observer, simulate};
-use moris_washout::{Input, Output, Parameters};
-
-/// Keeps every output.
-struct Outputs(Vec<Output>);
-
-impl Observer for Outputs {
-    fn observe(&mut self, _: &Input, output: &Output) {
-        self.0.push(*output);
-    }
-}
+use moris_batch::{Manoeuvre, Replay};
+use moris_washout::{Input, Parameters, Washout};
 
 /// Runs; the least time of them is that without interruptions by other programs.
 const RUNS: usize = 200;
@@ -37,10 +28,11 @@ fn main() {
     let manoeuvre = Manoeuvre::new(0.001, (0..=steps).map(sample).collect());
     let run = |_| {
         let begin = Instant::now();
-        let outputs = simulate(&manoeuvre, &Parameters::default(), Outputs(Vec::with_capacity(steps)));
+        let mut washout = Washout::new(&Parameters::default()).expect("the default parameters can be used");
+        let mut outputs = Vec::with_capacity(steps);
+        Replay::new(&manoeuvre).run(&mut washout, |_, output| outputs.push(*output));
         let time = begin.elapsed();
-        let outputs = outputs.expect("the default parameters can be used");
-        1e9 * time.as_secs_f64() / black_box(&outputs.0).len() as f64
+        1e9 * time.as_secs_f64() / black_box(&outputs).len() as f64
     };
     println!("{}", (0..RUNS).map(run).fold(f64::INFINITY, f64::min));
 }
