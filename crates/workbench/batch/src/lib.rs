@@ -1,8 +1,8 @@
 //! One manoeuvre, many parameter sets.
 //!
-//! A [`Replay`] takes a washout through a [`Manoeuvre`] and shows each output. Replays share nothing
-//! that changes, so that rayon spreads parameter sets over all cores. Each here keeps a sum, and the
-//! batch the least, so that the memory does not grow with the number of sets.
+//! A [`Replay`] takes a washout through a [`Manoeuvre`] and shows each output. Replays share
+//! nothing that changes, so that rayon spreads parameter sets over all cores. Each here keeps a
+//! sum, and the batch the least, so that the memory does not grow with the number of sets.
 //!
 //! ```
 //! use moris_washout::{Input, ParameterError, Parameters, Washout};
