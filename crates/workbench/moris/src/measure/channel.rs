@@ -2,47 +2,14 @@
 
 use moris_measures::comfort::Comfort;
 use moris_measures::cues::Cues;
-use moris_measures::fidelity::rms_error;
-use moris_measures::{Axes, Measures};
-use moris_washout::interface::STANDARD_GRAVITY;
-use moris_washout::nalgebra::Vector3;
-
-use crate::simulate::{AxisBound, Simulation};
-
-/// Quantity of a channel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Specific force along x, y or z \[m/s2\].
-    Force(usize),
-    /// Angular velocity about x, y or z \[rad/s\].
-    Rate(usize),
-}
-
-impl Quantity {
-    /// The three forces, then the three rates.
-    pub const ALL: [Quantity; 6] = [
-        Quantity::Force(0),
-        Quantity::Force(1),
-        Quantity::Force(2),
-        Quantity::Rate(0),
-        Quantity::Rate(1),
-        Quantity::Rate(2),
-    ];
-
-    /// The name in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Quantity::Force(axis) => ["surge", "sway", "heave"][axis],
-            Quantity::Rate(axis) => ["roll rate", "pitch rate", "yaw rate"][axis],
-        }
-    }
-}
+use moris_simulation::Evaluated;
+use moris_washout::platform::reach::Axis;
 
 /// A channel's figures, in m/s2 or rad/s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
-    /// Quantity.
-    pub quantity: Quantity,
+    /// The specific force along this axis, or the angular velocity about it.
+    pub axis: Axis,
     /// RMS of the desired signal, as a deviation from rest: the error of a platform at rest.
     pub at_rest: f64,
     /// The least RMS error that any controller could reach; none where it was not computed.
@@ -66,28 +33,25 @@ impl Channel {
 }
 
 /// The channels of a recording on which something is desired or felt.
-pub fn channels(simulation: &Simulation, measures: &Measures, bounds: &Axes<Option<AxisBound>>) -> Vec<Channel> {
-    let rest = Vector3::new(0.0, 0.0, STANDARD_GRAVITY);
-    let forces: Vec<Vector3<f64>> = simulation.inputs.iter().map(|input| input.specific_force - rest).collect();
-    let rates = simulation.desired_rates();
-    let rms = |desired: &[Vector3<f64>], axis: usize| {
-        rms_error(&vec![0.0; desired.len()], &desired.iter().map(|sample| sample[axis]).collect::<Vec<_>>())
-    };
-    let channel = |quantity| {
-        let (desired, raw, sensed, cues, axis) = match quantity {
-            Quantity::Force(k) => (&forces, measures.force, measures.sensed_force, measures.force_cues, k),
-            Quantity::Rate(k) => (&rates, measures.rate, measures.sensed_rate, measures.rate_cues, k),
+pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
+    let Evaluated { measures, bounds, .. } = evaluated;
+    let channel = |&axis: &Axis| {
+        let k = axis as usize % 3;
+        let is_force = !axis.is_rotation();
+        let (at_rest, raw, sensed, cues) = if is_force {
+            (evaluated.desired_rms(k), measures.force[k], measures.sensed_force[k], measures.force_cues[k])
+        } else {
+            (evaluated.desired_rate_rms(k), measures.rate[k], measures.sensed_rate[k], measures.rate_cues[k])
         };
-        let is_force = matches!(quantity, Quantity::Force(_));
         Some(Channel {
-            quantity,
-            at_rest: rms(desired, axis),
-            bound: bounds[axis].as_ref().filter(|_| is_force).map(|bound| bound.bound.rms_error),
-            error: raw[axis]?.rms_error,
-            sensed_error: sensed[axis].map_or(0.0, |sensed| sensed.rms_error),
-            comfort: measures.comfort[axis].filter(|_| is_force),
-            cues: cues[axis],
+            axis,
+            at_rest,
+            bound: bounds[k].filter(|_| is_force),
+            error: raw?.rms_error,
+            sensed_error: sensed.map_or(0.0, |sensed| sensed.rms_error),
+            comfort: measures.comfort[k].filter(|_| is_force),
+            cues,
         })
     };
-    Quantity::ALL.into_iter().filter_map(channel).collect()
+    Axis::ALL.iter().filter_map(channel).collect()
 }

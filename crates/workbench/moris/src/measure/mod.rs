@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
+use moris_simulation::Evaluated;
 use moris_simulation::preview::parse_seconds;
 use moris_washout::Parameters;
 use rayon::prelude::*;
@@ -98,14 +99,18 @@ impl MeasuredRecording {
     pub fn of(recording: &Recording, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
         let simulation = host.replay(recording, &recording.parameters(parameters))?;
         let measures = measures(&simulation)?;
-        let bounds = if with_bound { bounds::bounds(&simulation)? } else { [const { None }; 3] };
+        let bounds = if with_bound {
+            bounds::bounds(&simulation)?.map(|bound| bound.map(|bound| bound.bound.rms_error))
+        } else {
+            [None; 3]
+        };
         let effort = &measures.effort;
         let steps = simulation.outputs.len().max(2) - 1;
         let limited = simulation.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
         Ok(MeasuredRecording {
             name: recording.name.clone(),
             duration: recording.manoeuvre.duration(),
-            channels: channels(&simulation, &measures, &bounds),
+            channels: channels(&Evaluated { simulation: &simulation, measures: &measures, bounds }),
             limits: [effort.tilt_limited, effort.soft_limited, effort.safety_active, effort.actuator_limited],
             limited: limited.count() as f64 / steps as f64,
             stroke_used: effort.stroke_used,

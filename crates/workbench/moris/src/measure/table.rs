@@ -2,9 +2,12 @@
 
 use moris_measures::comfort::{Comfort, Excess};
 use moris_setup::Setup;
+use moris_simulation::capitalised;
+use moris_simulation::frequency_response::channel::name;
+use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
-use super::channel::{Channel, Quantity};
+use super::channel::Channel;
 use super::host::{Host, Inputs};
 use super::targets::{geometric_mean, wrong_cues};
 use crate::text_table::TextTable;
@@ -58,16 +61,13 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
 }
 
 fn row(channel: &Channel) -> [String; 11] {
-    let (unit, factor) = match channel.quantity {
-        Quantity::Force(_) => ("m/s²", 1.0),
-        Quantity::Rate(_) => ("°/s", 1f64.to_degrees()),
-    };
+    let (unit, factor) = if channel.axis.is_rotation() { ("°/s", 1f64.to_degrees()) } else { ("m/s²", 1.0) };
     let number = |value: f64| format!("{:.3}", factor * value);
     let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
     // Where hardly anything is desired a ratio means nothing.
     let ratio = if factor * channel.at_rest >= 0.03 { format!("{:.2}", channel.ratio()) } else { NONE.to_owned() };
     [
-        channel.quantity.name().to_owned(),
+        name(channel.axis).to_owned(),
         unit.to_owned(),
         number(channel.at_rest),
         channel.bound.map_or_else(|| NONE.to_owned(), number),
@@ -118,11 +118,11 @@ fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
 fn summary(recordings: &[MeasuredRecording]) -> String {
     let (mean, count) = geometric_mean(recordings);
     let mut text = format!("Geometric mean of the RMS errors of surge and sway, {count} channels: {mean:.3} m/s²\n");
-    for axis in 0..3 {
+    for axis in [Axis::Roll, Axis::Pitch, Axis::Yaw] {
         let [wrong, at_rest] = wrong_cues(recordings, axis).map(|fraction| 100.0 * fraction);
         text += &format!(
             "{}: false or missing cues for {wrong:.1} % of the time, {at_rest:.1} % on a platform at rest\n",
-            ["Roll rate", "Pitch rate", "Yaw rate"][axis]
+            capitalised(name(axis))
         );
     }
     text

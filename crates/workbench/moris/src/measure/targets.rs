@@ -1,9 +1,11 @@
 //! Figures that a set of parameters is to reach, and those that it misses.
 
 use moris_simulation::capitalised;
+use moris_simulation::frequency_response::channel::name;
+use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
-use super::channel::{Channel, Quantity};
+use super::channel::Channel;
 
 /// A force on which less than this is desired does not count; an error below it
 /// counts as this \[m/s2\].
@@ -43,7 +45,7 @@ pub struct Targets {
 
 /// Surge and sway, where something is desired.
 pub fn counts(channel: &Channel) -> bool {
-    matches!(channel.quantity, Quantity::Force(0 | 1)) && channel.at_rest >= LEAST_FORCE
+    matches!(channel.axis, Axis::Surge | Axis::Sway) && channel.at_rest >= LEAST_FORCE
 }
 
 /// Geometric mean of the RMS errors of surge and sway, and how many they are.
@@ -60,11 +62,11 @@ pub fn geometric_mean_of(errors: impl Iterator<Item = f64>) -> (f64, usize) {
 
 /// Fractions of the time, weighted by the recordings' durations: a false or a missing cue of a
 /// rate, and the same on a platform at rest.
-pub fn wrong_cues(recordings: &[MeasuredRecording], axis: usize) -> [f64; 2] {
+pub fn wrong_cues(recordings: &[MeasuredRecording], axis: Axis) -> [f64; 2] {
     let duration: f64 = recordings.iter().map(|recording| recording.duration).sum();
     let mut wrong = [0.0; 2];
     for recording in recordings {
-        for channel in recording.channels.iter().filter(|channel| channel.quantity == Quantity::Rate(axis)) {
+        for channel in recording.channels.iter().filter(|channel| channel.axis == axis) {
             let weight = recording.duration / duration;
             wrong[0] += weight * (channel.cues.false_cues + channel.cues.missing_cues);
             wrong[1] += weight * channel.cues.desired;
@@ -87,12 +89,12 @@ impl Targets {
         for recording in recordings {
             missed.extend(self.missed_on(recording));
         }
-        for axis in 0..3 {
+        for axis in [Axis::Roll, Axis::Pitch, Axis::Yaw] {
             let [wrong, at_rest] = wrong_cues(recordings, axis);
             if wrong > at_rest + self.cues {
                 missed.push(format!(
                     "{}: false or missing cues for {:.1} % of the time exceed the {:.1} % of a platform at rest (--cues).",
-                    capitalised(Quantity::Rate(axis).name()),
+                    capitalised(name(axis)),
                     100.0 * wrong,
                     100.0 * at_rest
                 ));
@@ -109,14 +111,14 @@ impl Targets {
                 missed.push(format!(
                     "{}, {}: {:.3} m/s² is {:.2} times the {:.3} m/s² of a platform at rest and exceeds {:.2} times (--ratio).",
                     recording.name,
-                    channel.quantity.name(),
+                    name(channel.axis),
                     channel.error,
                     channel.ratio(),
                     channel.at_rest,
                     self.ratio
                 ));
             }
-            if channel.quantity == Quantity::Force(2) && channel.error > channel.at_rest + self.heave {
+            if channel.axis == Axis::Heave && channel.error > channel.at_rest + self.heave {
                 missed.push(format!(
                     "{}, heave: {:.3} m/s² exceeds by more than {:.2} m/s² (--heave) the {:.3} m/s² of a platform at rest.",
                     recording.name, channel.error, self.heave, channel.at_rest

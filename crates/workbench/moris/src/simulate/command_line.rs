@@ -2,10 +2,12 @@
 
 use std::path::Path;
 
+use clap::{Args, Command};
+
+use super::Options;
+
 /// Options about parameters, which the file takes the place of.
 const OF_PARAMETERS: [&str; 5] = ["--parameters", "--strategy", "--compare", "--against", "--preview"];
-/// The options without a value.
-const WITHOUT_VALUE: [&str; 2] = ["--no-bound", "--json"];
 
 /// This program's command line for one recording, with `--parameters` at its end for another file.
 pub fn with_other_parameters(recording: &Path) -> String {
@@ -14,12 +16,17 @@ pub fn with_other_parameters(recording: &Path) -> String {
 }
 
 fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {
+    let command = Options::augment_args(Command::new("simulate"));
+    let is_flag = |name: &str| {
+        let option = command.get_arguments().find(|option| option.get_long() == name.strip_prefix("--"));
+        option.is_some_and(|option| !option.get_action().takes_values())
+    };
     let mut words = vec!["cargo moris simulate".to_owned(), quoted(recording)];
     while let Some(argument) = arguments.next() {
         let (name, value) = match argument.split_once('=') {
             _ if !argument.starts_with("--") => continue,
             Some((name, value)) => (name.to_owned(), Some(value.to_owned())),
-            None if WITHOUT_VALUE.contains(&argument.as_str()) => (argument, None),
+            None if is_flag(&argument) => (argument, None),
             None => (argument, arguments.next()),
         };
         if !OF_PARAMETERS.contains(&name.as_str()) {
@@ -52,5 +59,7 @@ mod tests {
         let expected =
             "cargo moris simulate 'my ride'\\''s.csv' --rig r.toml --no-bound --mounting -3,0,1 --parameters";
         assert_eq!(command, expected);
+        let command = of("--repair a.csv --json --rig r.toml".split(' ').map(str::to_owned), "a.csv");
+        assert_eq!(command, "cargo moris simulate a.csv --repair --json --rig r.toml --parameters");
     }
 }

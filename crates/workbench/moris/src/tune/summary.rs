@@ -2,7 +2,9 @@
 
 use moris_interface::{Group as _, Kind, Row};
 use moris_setup::{Setup, all};
+use moris_simulation::frequency_response::channel::name;
 use moris_washout::Parameters;
+use moris_washout::platform::reach::Axis;
 
 use super::cost::{Channels, Cost, Objective};
 use super::tuner::WORST_RATIO;
@@ -32,8 +34,6 @@ impl RecordingResult {
     }
 }
 
-/// The channels' names.
-const CHANNELS: [&str; 6] = ["surge", "sway", "heave", "roll rate", "pitch rate", "yaw rate"];
 /// The measures of comfort.
 const COMFORT: [&str; 3] = ["shake", "jolt", "peak"];
 /// Fraction of the time by which limits may be active longer than before.
@@ -306,7 +306,7 @@ fn channels(results: &[RecordingResult]) -> String {
         let [x, y, z, p, q, r] = std::array::from_fn(cell);
         [result.name.clone(), x, y, z, p, q, r]
     };
-    let [x, y, z, p, q, r] = CHANNELS;
+    let [x, y, z, p, q, r] = Axis::ALL.map(name);
     table(["RMS in thresholds, desired: error before → after", x, y, z, p, q, r], results.iter().map(row))
 }
 
