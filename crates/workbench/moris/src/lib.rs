@@ -25,6 +25,7 @@ pub mod frequency_response;
 pub mod help;
 pub mod live;
 pub mod measure;
+mod option_values;
 pub mod parameters;
 mod progress;
 mod random;

@@ -91,7 +91,7 @@ impl PySimulation {
 
     #[getter]
     fn findings(&self) -> Vec<String> {
-        self.outcome.findings().into_iter().map(|finding| finding.text).collect()
+        self.outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect()
     }
 
     /// The samples' times, the inputs and outputs row by row, and the names of the columns.
@@ -123,7 +123,7 @@ impl PySimulation {
     /// The measures, and the bound's where it was computed.
     #[getter]
     fn measures(&self) -> Vec<Measure> {
-        self.outcome.rows().into_iter().map(measure).collect()
+        self.outcome.evaluated().rows().into_iter().map(measure).collect()
     }
 
     #[allow(clippy::type_complexity)]

@@ -105,7 +105,10 @@ impl Measured {
 /// file cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
-    let amplitudes = options.amplitudes()?;
+    for (name, value) in [("--force", options.force), ("--rate", options.rate)] {
+        ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");
+    }
+    let amplitudes = Amplitudes { force: options.force, ..Amplitudes::default().scaled(options.rate) };
     let bar = ProgressBar::new(Measured::TESTS);
     bar.set_style(ProgressStyle::with_template("frequency response {wide_bar} {pos} of {len} tests")?);
     let measured = Measured::of(&setup.parameters, amplitudes, options.gravity_turns, || bar.inc(1))?;
@@ -122,14 +125,4 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         writeln!(out, "wrote {}", file(name).display())?;
     }
     Ok(ExitCode::SUCCESS)
-}
-
-impl Options {
-    fn amplitudes(&self) -> Result<Amplitudes> {
-        for (name, value) in [("--force", self.force), ("--rate", self.rate)] {
-            ensure!(value.is_finite() && value > 0.0, "{name} must be a positive number, not {value}");
-        }
-        let default = Amplitudes::default();
-        Ok(Amplitudes { force: self.force, ..default.scaled(self.rate) })
-    }
 }

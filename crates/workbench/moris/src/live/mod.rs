@@ -40,6 +40,7 @@ use moris_live::frame::{Encoder, Values};
 use moris_live::{Event, STEP, Session, Settings, log, moog};
 use rtrb::{Producer, RingBuffer};
 
+use crate::option_values::number_in;
 use crate::setup_options::SetupOptions;
 use controls::{Controls, Handling};
 use frames::{Device, Sent, Sink};
@@ -141,8 +142,7 @@ pub struct Options {
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
-    let value = text.parse::<f64>().ok().filter(|value| (0.0..=1e6).contains(value));
-    value.ok_or_else(|| "a number of seconds from 0 to 1e6".to_owned())
+    number_in(text, 0.0..=1e6, "a number of seconds from 0 to 1e6")
 }
 
 /// Values that all threads read.

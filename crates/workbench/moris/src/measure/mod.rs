@@ -19,6 +19,7 @@ use moris_simulation::preview::parse_seconds;
 use moris_washout::Parameters;
 use rayon::prelude::*;
 
+use crate::option_values::number_in;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 use crate::setup_options::SetupOptions;
 use crate::simulate::{bounds, measures};
@@ -164,8 +165,5 @@ fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
 }
 
 fn step(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|step: &f64| (1e-6..=1.0).contains(step))
-        .ok_or_else(|| "a time from 1e-6 to 1 s is needed, such as 0.001".to_owned())
+    number_in(text, 1e-6..=1.0, "a time from 1e-6 to 1 s is needed, such as 0.001")
 }

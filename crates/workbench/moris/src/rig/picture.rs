@@ -33,12 +33,12 @@ pub fn svg(survey: &Survey) -> String {
     );
     text += &format!(r#"<text x="24" y="56">{}</text>"#, escaped(&verdict(survey)));
     let drawn = PLANES.iter().map(|plane| {
-        (plane.title, section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit))
+        let body = section(&parameters.rig, plane, survey.workspace.extent, parameters.safety.position_limit);
+        (plane.title.to_owned(), body)
     });
     let closest = &survey.capabilities.clearance.approaches[0];
     let [first, second] = closest.legs.map(|leg| leg + 1);
     let close_title = format!("Legs {first} and {second} where they are closest: {:.0} mm", 1000.0 * closest.distance);
-    let drawn = drawn.map(|(title, body)| (title.to_owned(), body));
     let panels = [("The rig at neutral".to_owned(), view(parameters, &Pose::neutral(&parameters.rig), None))]
         .into_iter()
         .chain(drawn)

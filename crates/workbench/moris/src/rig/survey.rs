@@ -36,24 +36,19 @@ impl Survey {
             workspace: Workspace::of(&parameters.rig, samples),
         })
     }
-
-    fn write_workspace(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Workspace { level, tilted, samples, .. } = &self.workspace;
-        let volume = |volume: &Volume| format!("{:.4} m³ ± {:.4}", volume.size, volume.standard_error);
-        writeln!(f, "workspace of the platform's origin ({samples} points tried; ± is the standard error):")?;
-        writeln!(f, "  level                           {}", volume(level))?;
-        writeln!(f, "  tilted by {:.0}° in any direction  {}\n", TILT.to_degrees(), volume(tilted))
-    }
 }
 
 impl fmt::Display for Survey {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let Survey { name, capabilities, .. } = self;
+        let Survey { name, capabilities, workspace: Workspace { level, tilted, samples, .. } } = self;
         writeln!(f, "{name}\n\n{}\n", capabilities.legs())?;
         let mut table = TextTable::new(AxisAlone::HEADS);
         capabilities.axes.iter().for_each(|axis| table.push(axis.row()));
         writeln!(f, "{table}")?;
-        self.write_workspace(f)?;
+        let volume = |volume: &Volume| format!("{:.4} m³ ± {:.4}", volume.size, volume.standard_error);
+        writeln!(f, "workspace of the platform's origin ({samples} points tried; ± is the standard error):")?;
+        writeln!(f, "  level                           {}", volume(level))?;
+        writeln!(f, "  tilted by {:.0}° in any direction  {}\n", TILT.to_degrees(), volume(tilted))?;
         writeln!(f, "{}\n", capabilities.safety().join("\n"))?;
         writeln!(f, "{}", capabilities.clearance)?;
         write!(f, "{}", capabilities.singularities)

@@ -94,8 +94,8 @@ fn result(outcome: &Outcome) -> SetResult {
         parameters: outcome.setup.parameters_name.clone(),
         fits: fits_the_rig(&outcome.measures),
         better_than_rest: is_better_than_rest(&outcome.evaluated()),
-        findings: outcome.findings().into_iter().map(|finding| finding.text).collect(),
-        force_bounds: outcome.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error)),
+        findings: outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect(),
+        force_bounds: outcome.evaluated().bounds,
         measures: measures.map(measure).collect(),
     }
 }

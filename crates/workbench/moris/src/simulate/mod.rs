@@ -26,8 +26,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_measures::{Axes, Measures, Row};
-use moris_report::Finding;
+use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
 use moris_simulation::Evaluated;
 use moris_simulation::preview::{Previewer, parse_seconds};
@@ -129,23 +128,8 @@ impl Outcome {
     /// The simulation has too few samples.
     pub fn measured(simulation: Simulation, setup: &Setup) -> Result<Self> {
         let measures = measures(&simulation)?;
-        let bounds = [const { None }; 3];
-        Ok(Outcome {
-            setup: Setup { parameters: simulation.parameters, ..setup.clone() },
-            simulation,
-            measures,
-            bounds,
-        })
-    }
-
-    /// The rows of its measures, and of its bounds with the felt error.
-    pub fn rows(&self) -> Vec<Row> {
-        self.evaluated().rows()
-    }
-
-    /// The findings, the most important first.
-    pub fn findings(&self) -> Vec<Finding> {
-        self.evaluated().findings()
+        let setup = Setup { parameters: simulation.parameters, ..setup.clone() };
+        Ok(Outcome { setup, simulation, measures, bounds: Axes::default() })
     }
 
     /// The simulation with its measures and the bounds' errors.

@@ -21,7 +21,7 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
     for outcome in outcomes {
         let setup = &outcome.setup;
         text += &format!("\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name);
-        for finding in outcome.findings() {
+        for finding in outcome.evaluated().findings() {
             text += &format!("  {}\n", finding.text);
         }
         text += &format!("\n{}", table(outcome));

@@ -180,15 +180,12 @@ impl Objective {
     /// # Errors
     /// The parameters cannot be used.
     pub fn coarse_cost(&self, parameters: &Parameters) -> Result<Cost, ParameterError> {
-        let (mut accumulator, felt) = self.coarse_run(parameters)?;
-        accumulator.comfort = self.comfort(&felt, Steps::Coarse);
-        let start = || self.coarse_run(&self.start).map(|(_, felt)| self.comfort(&felt, Steps::Coarse));
-        accumulator.excess = self.excess(&accumulator.comfort, Steps::Coarse, start)?;
-        Ok(accumulator.cost())
+        let (errors, felt) = self.coarse_run(parameters)?;
+        self.judged(&errors, &felt, Steps::Coarse, || Ok(self.coarse_run(&self.start)?.1))
     }
 
-    /// Costs without comfort, and the felt specific force after each of the search's long steps.
-    fn coarse_run(&self, parameters: &Parameters) -> Result<(CostAccumulator<'_>, Vec<Vector3<f64>>), ParameterError> {
+    /// The errors, and the felt specific force after each of the search's long steps.
+    fn coarse_run(&self, parameters: &Parameters) -> Result<(Errors<'_>, Vec<Vector3<f64>>), ParameterError> {
         let mut washout = self.coarse(parameters)?.clone();
         let mut parameters = self.recording.parameters(parameters);
         let Parameters { structure, rig, .. } = washout.parameters();
@@ -196,12 +193,12 @@ impl Objective {
         parameters.safety.acceleration_limit *= RESERVE_OF_ACCELERATION;
         washout.retune(&parameters)?;
         let mut washout = washout.starting_with(&self.recording.inputs()[0]);
-        let mut accumulator = CostAccumulator::new(self);
-        accumulator.add(&washout.output());
+        let mut errors = Errors::new(self);
+        errors.add(&washout.output());
         let mut felt = vec![washout.output().felt_specific_force];
         let feel = |force: &Vector3<f64>| felt.push(*force);
-        self.recording.replay().run_prepared(&mut washout, |_, _| (), feel, |_, output| accumulator.add(output));
-        Ok((accumulator, felt))
+        self.recording.replay().run_prepared(&mut washout, |_, _| (), feel, |_, output| errors.add(output));
+        Ok((errors, felt))
     }
 
     /// A washout at rest with the fixed parameters and the orders of these.
@@ -221,16 +218,35 @@ impl Objective {
     /// # Errors
     /// The parameters that the search starts from cannot be used.
     pub fn cost(&self, simulation: &Simulation) -> Result<Cost, ParameterError> {
-        let mut accumulator = CostAccumulator::new(self);
-        simulation.outputs.iter().for_each(|output| accumulator.add(output));
-        accumulator.comfort = self.comfort(&simulation.felt_within_steps, Steps::Full);
+        let mut errors = Errors::new(self);
+        simulation.outputs.iter().for_each(|output| errors.add(output));
         let start = || {
             let parameters = self.recording.parameters(&self.start);
-            let simulation = Simulation::of(&self.recording.replay(), &parameters, || ())?;
-            Ok(self.comfort(&simulation.felt_within_steps, Steps::Full))
+            Ok(Simulation::of(&self.recording.replay(), &parameters, || ())?.felt_within_steps)
         };
-        accumulator.excess = self.excess(&accumulator.comfort, Steps::Full, start)?;
-        Ok(accumulator.cost())
+        self.judged(&errors, &simulation.felt_within_steps, Steps::Full, start)
+    }
+
+    /// The cost of these errors and of a felt specific force. `start` simulates that with the
+    /// start's parameters.
+    fn judged(
+        &self,
+        errors: &Errors,
+        felt: &[Vector3<f64>],
+        steps: Steps,
+        start: impl FnOnce() -> Result<Vec<Vector3<f64>>, ParameterError>,
+    ) -> Result<Cost, ParameterError> {
+        let comfort = self.comfort(felt, steps);
+        let channels = std::array::from_fn(|k| sensed_rms(k, &errors.channels[k], self.recording.step()));
+        // If the desired motion is below a threshold, its error is not magnified.
+        let whole = self.weighted(&self.desired_rms).max(1.0);
+        Ok(Cost {
+            channels,
+            error: self.weighted(&channels) / whole,
+            violated: errors.violated as f64 / errors.channels[0].len() as f64,
+            comfort,
+            excess: self.excess(&comfort, steps, start)?,
+        })
     }
 
     /// Shake, jolt and peak of a felt specific force, the largest of the axes.
@@ -255,12 +271,12 @@ impl Objective {
     }
 
     /// Relative amounts, added, by which shake, jolt and peak exceed both their bounds and those of
-    /// the start in the same steps. `start` computes the latter, once.
+    /// the start in the same steps. `start` simulates the latter's felt force, once.
     fn excess(
         &self,
         values: &[f64; 3],
         steps: Steps,
-        start: impl FnOnce() -> Result<[f64; 3], ParameterError>,
+        start: impl FnOnce() -> Result<Vec<Vector3<f64>>, ParameterError>,
     ) -> Result<f64, ParameterError> {
         let beyond = |bounds: &[f64; 3]| values.iter().zip(bounds).any(|(value, bound)| value > bound);
         if !beyond(&self.comfort_bounds) {
@@ -270,7 +286,7 @@ impl Objective {
         let start = match place.get() {
             Some(start) => start,
             None => {
-                let start = start()?;
+                let start = self.comfort(&start()?, steps);
                 place.get_or_init(|| start)
             }
         };
@@ -279,44 +295,28 @@ impl Objective {
     }
 }
 
-/// Accumulated cost.
-struct CostAccumulator<'a> {
+/// Errors of a simulation, added output by output.
+struct Errors<'a> {
     objective: &'a Objective,
-    errors: Channels<Vec<f64>>,
+    channels: Channels<Vec<f64>>,
+    /// Number of outputs with limits active or the reserve of stroke touched.
     violated: usize,
-    comfort: [f64; 3],
-    excess: f64,
 }
 
-impl<'a> CostAccumulator<'a> {
+impl<'a> Errors<'a> {
     fn new(objective: &'a Objective) -> Self {
         let samples = objective.desired[0].len();
-        let errors = std::array::from_fn(|_| Vec::with_capacity(samples));
-        CostAccumulator { objective, errors, violated: 0, comfort: [0.0; 3], excess: 0.0 }
+        Errors { objective, channels: std::array::from_fn(|_| Vec::with_capacity(samples)), violated: 0 }
     }
 
     fn add(&mut self, output: &Output) {
-        let sample = self.errors[0].len();
+        let sample = self.channels[0].len();
         let force = output.felt_specific_force - rest();
         for (k, felt) in channels(force, output.felt_angular_velocity).into_iter().enumerate() {
-            self.errors[k].push(felt - self.objective.desired[k][sample]);
+            self.channels[k].push(felt - self.objective.desired[k][sample]);
         }
         let touched = output.stroke_margin < self.objective.stroke_reserve;
         self.violated += usize::from(output.safety_active || output.actuator_limited || touched);
-    }
-
-    fn cost(self) -> Cost {
-        let Objective { recording, desired_rms, .. } = self.objective;
-        let channels = std::array::from_fn(|k| sensed_rms(k, &self.errors[k], recording.step()));
-        // If the desired motion is below a threshold, its error is not magnified.
-        let whole = self.objective.weighted(desired_rms).max(1.0);
-        Cost {
-            channels,
-            error: self.objective.weighted(&channels) / whole,
-            violated: self.violated as f64 / self.errors[0].len() as f64,
-            comfort: self.comfort,
-            excess: self.excess,
-        }
     }
 }
 

@@ -35,6 +35,7 @@ use crate::status::WORSE;
 use crate::votes;
 use cost::Objective;
 pub use options::Options;
+use search::Budget;
 use space::Space;
 use summary::Verdict;
 use tested::{Tested, tune_tested};
@@ -56,7 +57,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let tuner = Tuner {
         setup: &before,
         space: Space::new(&before.parameters, &options.tune),
-        budget: options.budget(),
+        budget: Budget { evaluations: options.evaluations, seed: options.seed },
         evaluate: &search::evaluate_here,
         observe: &|_, _, _| true,
         interrupted: listen()?,
@@ -94,7 +95,7 @@ fn objectives(options: &Options, files: &[PathBuf], setup: &Setup) -> Result<Vec
     let objective = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
         let objective = Objective::new(recording, &setup.parameters, &options.weights, options.stroke_reserve)?;
-        Ok(objective.with_comfort_bounds(options.comfort.0))
+        Ok(objective.with_comfort_bounds(options.comfort))
     };
     table::recordings(files, &conventions).par_iter().map(objective).collect()
 }

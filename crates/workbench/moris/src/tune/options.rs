@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::cost::{COMFORT_BOUNDS, Channels};
-use super::search::Budget;
+use super::cost::Channels;
 use super::space::Group;
+use crate::option_values::{number_in, numbers};
 use crate::recording::ConventionOptions;
 use crate::setup_options::SetupOptions;
 
@@ -56,8 +56,8 @@ pub struct Options {
 
     /// Bounds of shake, jolt and peak of the felt force on every axis, in m/s²; inf for none. Where
     /// they are exceeded before, the value before is the bound
-    #[arg(long, value_name = "BOUNDS", value_parser = comfort, default_value_t = Comfort(COMFORT_BOUNDS))]
-    pub comfort: Comfort,
+    #[arg(long, value_name = "BOUNDS", value_parser = comfort, default_value = "0.2,4,4")]
+    pub comfort: [f64; 3],
 
     /// Parameter sets evaluated by each search after its coarse scan
     #[arg(long, value_name = "NUMBER", default_value_t = 3000)]
@@ -79,52 +79,31 @@ pub struct Options {
     pub conventions: ConventionOptions,
 }
 
-impl Options {
-    /// Length of the search.
-    pub fn budget(&self) -> Budget {
-        Budget { evaluations: self.evaluations, seed: self.seed }
-    }
-}
-
 fn weights(text: &str) -> Result<Channels<f64>, String> {
-    let weights: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
-    let weights: Option<Channels<f64>> = weights.ok().and_then(|weights| weights.try_into().ok());
-    weights
-        .filter(|weights| {
-            weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0
-        })
+    let are_usable = |weights: &Channels<f64>| {
+        weights.iter().all(|weight| (0.0..=1e6).contains(weight)) && weights.iter().sum::<f64>() > 0.0
+    };
+    numbers(text)
+        .filter(are_usable)
         .ok_or_else(|| "six numbers are needed, none below 0 and not all 0, such as 1,1,1,0.5,0.5,0.5".to_owned())
 }
 
 /// Bounds of shake, jolt and peak \[m/s2\].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Comfort(pub [f64; 3]);
-
-impl std::fmt::Display for Comfort {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let [shake, jolt, peak] = self.0;
-        write!(formatter, "{shake},{jolt},{peak}")
-    }
-}
-
-fn comfort(text: &str) -> Result<Comfort, String> {
-    let bounds: Result<Vec<f64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
-    let bounds: Option<[f64; 3]> = bounds.ok().and_then(|bounds| bounds.try_into().ok());
-    bounds
+fn comfort(text: &str) -> Result<[f64; 3], String> {
+    numbers(text)
         .filter(|bounds| bounds.iter().all(|bound| *bound > 0.0))
-        .map(Comfort)
         .ok_or_else(|| "three numbers above 0 are needed, such as 0.2,4,4 or inf,4,4".to_owned())
 }
 
 fn reserve(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|metres: &f64| metres.is_finite() && *metres >= 0.0)
-        .ok_or_else(|| "a length in m is needed, not below 0".to_owned())
+    number_in(text, 0.0..=f64::MAX, "a length in m is needed, not below 0")
 }
 
 #[cfg(test)]
 mod tests {
+    use clap::{Args, Command};
+
+    use super::super::cost::COMFORT_BOUNDS;
     use super::*;
 
     #[test]
@@ -137,8 +116,11 @@ mod tests {
 
     #[test]
     fn bounds_of_comfort_are_three_positive_numbers() {
-        assert_eq!(comfort("0.1, 3,inf"), Ok(Comfort([0.1, 3.0, f64::INFINITY])));
-        assert_eq!(comfort(&Comfort(COMFORT_BOUNDS).to_string()), Ok(Comfort(COMFORT_BOUNDS)));
+        assert_eq!(comfort("0.1, 3,inf"), Ok([0.1, 3.0, f64::INFINITY]));
+        let command = Options::augment_args(Command::new("tune"));
+        let option = command.get_arguments().find(|option| option.get_id() == "comfort").unwrap();
+        let default = option.get_default_values()[0].to_str().unwrap();
+        assert_eq!(comfort(default), Ok(COMFORT_BOUNDS));
         for wrong in ["", "0.2,4", "0.2,4,4,4", "0,4,4", "0.2,-4,4", "NaN,4,4", "a,b,c"] {
             assert!(comfort(wrong).is_err(), "{wrong}");
         }

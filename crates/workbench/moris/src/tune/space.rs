@@ -91,13 +91,13 @@ impl Space {
     pub fn new(start: &Parameters, groups: &[Group]) -> Self {
         let mut start = *start;
         let (mut lower, mut upper) = (Vec::new(), Vec::new());
-        visit(&mut start, groups, &mut |value, range, _| {
+        for Tuned { value, range, .. } in tuned(&mut start, groups) {
             if *value <= 0.0 {
                 *value = instead_of_none(range);
             }
             lower.push((range.min.min(*value) / *value).ln());
             upper.push((range.max.max(*value) / *value).ln());
-        });
+        }
         Space { start, groups: groups.to_vec(), lower: lower.into(), upper: upper.into() }
     }
 
@@ -120,26 +120,23 @@ impl Space {
 
     /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
     pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
-        let mut logarithms = Vec::new();
-        visit(&mut self.start.clone(), &self.groups, &mut |_, range, _| {
-            logarithms.push(if range == SCALES { factor.ln() } else { 0.0 });
-        });
-        self.clamped(&logarithms.into()).0
+        let logarithm = |range| if range == SCALES { factor.ln() } else { 0.0 };
+        let logarithms =
+            tuned(&mut self.start.clone(), &self.groups).iter().map(|tuned| logarithm(tuned.range)).collect();
+        self.clamped(&DVector::from_vec(logarithms)).0
     }
 
     /// A point with other frequencies and another scale on one channel, 0 to 5: those of the start
     /// times these factors, as far as the box goes.
     pub fn with_channel(&self, point: &DVector<f64>, channel: usize, frequency: f64, scale: f64) -> DVector<f64> {
         let mut moved = point.clone();
-        let mut coordinates = moved.iter_mut();
-        visit(&mut self.start.clone(), &self.groups, &mut |_, range, of| {
-            let Some(coordinate) = coordinates.next() else { return };
-            if of == Some(channel) && range == FREQUENCIES {
+        for (coordinate, tuned) in moved.iter_mut().zip(tuned(&mut self.start.clone(), &self.groups)) {
+            if tuned.channel == Some(channel) && tuned.range == FREQUENCIES {
                 *coordinate = frequency.ln();
-            } else if of == Some(channel) && range == SCALES {
+            } else if tuned.channel == Some(channel) && tuned.range == SCALES {
                 *coordinate = scale.ln();
             }
-        });
+        }
         self.clamped(&moved).0
     }
 
@@ -161,24 +158,22 @@ impl Space {
     /// The parameters at this fraction of the distance from the start to parameters found in this
     /// space, in logarithms. A parameter found to be 0 is 0, and the orders are those found.
     pub fn towards(&self, found: &Parameters, fraction: f64) -> Parameters {
-        let mut values = Vec::new();
-        visit(&mut found.clone(), &self.groups, &mut |value, _, _| values.push(*value));
-        let mut values = values.into_iter();
-        let mut parameters = with_orders(&self.start, orders(found));
-        visit(&mut parameters, &self.groups, &mut |value, _, _| {
-            let end = values.next().unwrap_or(*value);
+        let mut found = *found;
+        let mut parameters = with_orders(&self.start, orders(&found));
+        let ends = tuned(&mut found, &self.groups);
+        for (Tuned { value, .. }, end) in tuned(&mut parameters, &self.groups).into_iter().zip(ends) {
+            let end = *end.value;
             *value = if end > 0.0 { *value * (end / *value).powf(fraction) } else { end };
-        });
+        }
         parameters
     }
 
     /// The parameters at a point.
     pub fn parameters(&self, point: &DVector<f64>) -> Parameters {
         let mut parameters = self.start;
-        let mut factors = point.iter();
-        visit(&mut parameters, &self.groups, &mut |value, _, _| {
-            *value *= factors.next().map_or(1.0, |logarithm| logarithm.exp());
-        });
+        for (tuned, logarithm) in tuned(&mut parameters, &self.groups).into_iter().zip(point) {
+            *tuned.value *= logarithm.exp();
+        }
         parameters
     }
 }
@@ -186,30 +181,32 @@ impl Space {
 /// Slots of the parameters in these groups that may be tuned, each with the range that makes sense
 /// for a washout. Of the strategies, it is the one in use.
 pub fn ranges(parameters: &Parameters, groups: &[Group]) -> Vec<(usize, [f64; 2])> {
-    let mut ranges = Vec::new();
-    visit(&mut parameters.clone(), groups, &mut |_, range, _| ranges.push([range.min, range.max]));
-    let slot_of = |index: usize| {
+    let range_of_slot = |index: usize| {
         let mut marked = *parameters;
-        let mut left = index;
-        visit(&mut marked, groups, &mut |value, _, _| {
-            if left == 0 {
-                *value = f64::NAN;
-            }
-            left = left.wrapping_sub(1);
-        });
-        slots_of(&marked).iter().position(|value| value.is_nan())
+        let Tuned { value, range, .. } = tuned(&mut marked, groups).swap_remove(index);
+        *value = f64::NAN;
+        Some((slots_of(&marked).iter().position(|value| value.is_nan())?, [range.min, range.max]))
     };
-    ranges.into_iter().enumerate().filter_map(|(index, range)| Some((slot_of(index)?, range))).collect()
+    (0..tuned(&mut parameters.clone(), groups).len()).filter_map(range_of_slot).collect()
 }
 
-/// Visits every tuned parameter, always in the same order, with its range and its channel.
-///
-/// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch and
-/// yaw. `None` stands for a parameter that acts on all.
-fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mut f64, Range, Option<usize>)) {
-    let Parameters { splitter, angular, conditioning, tilt, .. } = parameters;
-    let mut vector = |values: &mut Vector3<f64>, range, first: usize| {
-        values.iter_mut().enumerate().for_each(|(axis, value)| act(value, range, Some(first + axis)));
+/// A tuned parameter.
+struct Tuned<'a> {
+    value: &'a mut f64,
+    range: Range,
+    /// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch
+    /// and yaw; none for a parameter that acts on all.
+    channel: Option<usize>,
+}
+
+/// Every tuned parameter, always in the same order.
+fn tuned<'a>(parameters: &'a mut Parameters, groups: &[Group]) -> Vec<Tuned<'a>> {
+    let Parameters { structure, splitter, angular, conditioning, tilt, adaptive, optimal, robust, predictive, .. } =
+        parameters;
+    let mut tuned = Vec::new();
+    let mut vector = |values: &'a mut Vector3<f64>, range, first: usize| {
+        let tuned_part = |(axis, value)| Tuned { value, range, channel: Some(first + axis) };
+        tuned.extend(values.iter_mut().enumerate().map(tuned_part));
     };
     if groups.contains(&Group::Splitter) {
         vector(&mut splitter.omega1, FREQUENCIES, 0);
@@ -221,10 +218,9 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
         vector(&mut conditioning.force_scale, SCALES, 0);
         vector(&mut conditioning.rate_scale, SCALES, 3);
     }
-    let mut angles = |values: &mut RollPitchYaw, range| {
-        for (axis, value) in [&mut values.roll, &mut values.pitch, &mut values.yaw].into_iter().enumerate() {
-            act(value, range, Some(3 + axis));
-        }
+    let mut angles = |RollPitchYaw { roll, pitch, yaw }: &'a mut RollPitchYaw, range| {
+        let tuned_part = |(axis, value)| Tuned { value, range, channel: Some(3 + axis) };
+        tuned.extend([roll, pitch, yaw].into_iter().enumerate().map(tuned_part));
     };
     if groups.contains(&Group::Angular) {
         angles(&mut angular.omega1, FREQUENCIES);
@@ -232,67 +228,63 @@ fn visit(parameters: &mut Parameters, groups: &[Group], act: &mut impl FnMut(&mu
         angles(&mut angular.omega2, FREQUENCIES);
         angles(&mut angular.zeta2, DAMPINGS);
     }
+    let mut of_all = |value, range| tuned.push(Tuned { value, range, channel: None });
     if groups.contains(&Group::Cutoff) {
-        act(&mut conditioning.cutoff, CUTOFFS, None);
-        act(&mut conditioning.rate_cutoff, CUTOFFS, None);
+        of_all(&mut conditioning.cutoff, CUTOFFS);
+        of_all(&mut conditioning.rate_cutoff, CUTOFFS);
     }
     if groups.contains(&Group::Tilt) {
-        act(&mut tilt.rate_limit, TILT_RATES, None);
-        act(&mut tilt.acceleration_limit, TILT_ACCELERATIONS, None);
-        act(&mut tilt.angle_limit, TILT_ANGLES, None);
+        of_all(&mut tilt.rate_limit, TILT_RATES);
+        of_all(&mut tilt.acceleration_limit, TILT_ACCELERATIONS);
+        of_all(&mut tilt.angle_limit, TILT_ANGLES);
     }
     if groups.contains(&Group::Strategy) {
-        visit_strategy(parameters, &mut |value, range| act(value, range, None));
-    }
-}
-
-/// Visits the parameters of the strategy in use that are tuned.
-fn visit_strategy(parameters: &mut Parameters, act: &mut impl FnMut(&mut f64, Range)) {
-    let Parameters { structure, adaptive, optimal, robust, predictive, .. } = parameters;
-    match structure.strategy {
-        StrategyKind::Classical => {}
-        StrategyKind::Adaptive => {
-            act(&mut adaptive.omega, FREQUENCIES);
-            act(&mut adaptive.zeta, DAMPINGS);
-            act(&mut adaptive.gain1, WEIGHTS);
-            act(&mut adaptive.gain2, WEIGHTS);
-            act(&mut adaptive.nominal1, GAINS);
-            act(&mut adaptive.nominal2, GAINS);
-            act(&mut adaptive.weight_position, WEIGHTS);
-            act(&mut adaptive.weight_velocity, WEIGHTS);
-            act(&mut adaptive.weight_tilt_rate, WEIGHTS);
-            act(&mut adaptive.pull1, WEIGHTS);
-            act(&mut adaptive.pull2, WEIGHTS);
-        }
-        StrategyKind::Optimal => {
-            act(&mut optimal.weight_position, WEIGHTS);
-            act(&mut optimal.weight_velocity, WEIGHTS);
-            act(&mut optimal.weight_tilt_rate, WEIGHTS);
-            act(&mut optimal.weight_tilt_acceleration, WEIGHTS);
-            act(&mut optimal.slow_pole, FREQUENCIES);
-            act(&mut optimal.fast_pole, FREQUENCIES);
-            act(&mut optimal.split_time, SPLIT_TIMES);
-        }
-        StrategyKind::Robust => {
-            act(&mut robust.attenuation, ATTENUATIONS);
-            act(&mut robust.fast_disturbance, DISTURBANCES);
-            act(&mut robust.weight_position, WEIGHTS);
-            act(&mut robust.weight_velocity, WEIGHTS);
-            act(&mut robust.weight_tilt_rate, WEIGHTS);
-            act(&mut robust.weight_tilt_acceleration, WEIGHTS);
-            act(&mut robust.slow_pole, FREQUENCIES);
-            act(&mut robust.fast_pole, FAST_POLES);
-            act(&mut robust.split_time, SPLIT_TIMES);
-        }
-        StrategyKind::Predictive => {
-            act(&mut predictive.weight_position, WEIGHTS);
-            act(&mut predictive.weight_velocity, WEIGHTS);
-            act(&mut predictive.weight_tilt_rate, WEIGHTS);
-            act(&mut predictive.weight_tilt_acceleration, WEIGHTS);
-            act(&mut predictive.slow_pole, FREQUENCIES);
-            act(&mut predictive.fast_pole, FREQUENCIES);
+        match structure.strategy {
+            StrategyKind::Classical => {}
+            StrategyKind::Adaptive => {
+                of_all(&mut adaptive.omega, FREQUENCIES);
+                of_all(&mut adaptive.zeta, DAMPINGS);
+                of_all(&mut adaptive.gain1, WEIGHTS);
+                of_all(&mut adaptive.gain2, WEIGHTS);
+                of_all(&mut adaptive.nominal1, GAINS);
+                of_all(&mut adaptive.nominal2, GAINS);
+                of_all(&mut adaptive.weight_position, WEIGHTS);
+                of_all(&mut adaptive.weight_velocity, WEIGHTS);
+                of_all(&mut adaptive.weight_tilt_rate, WEIGHTS);
+                of_all(&mut adaptive.pull1, WEIGHTS);
+                of_all(&mut adaptive.pull2, WEIGHTS);
+            }
+            StrategyKind::Optimal => {
+                of_all(&mut optimal.weight_position, WEIGHTS);
+                of_all(&mut optimal.weight_velocity, WEIGHTS);
+                of_all(&mut optimal.weight_tilt_rate, WEIGHTS);
+                of_all(&mut optimal.weight_tilt_acceleration, WEIGHTS);
+                of_all(&mut optimal.slow_pole, FREQUENCIES);
+                of_all(&mut optimal.fast_pole, FREQUENCIES);
+                of_all(&mut optimal.split_time, SPLIT_TIMES);
+            }
+            StrategyKind::Robust => {
+                of_all(&mut robust.attenuation, ATTENUATIONS);
+                of_all(&mut robust.fast_disturbance, DISTURBANCES);
+                of_all(&mut robust.weight_position, WEIGHTS);
+                of_all(&mut robust.weight_velocity, WEIGHTS);
+                of_all(&mut robust.weight_tilt_rate, WEIGHTS);
+                of_all(&mut robust.weight_tilt_acceleration, WEIGHTS);
+                of_all(&mut robust.slow_pole, FREQUENCIES);
+                of_all(&mut robust.fast_pole, FAST_POLES);
+                of_all(&mut robust.split_time, SPLIT_TIMES);
+            }
+            StrategyKind::Predictive => {
+                of_all(&mut predictive.weight_position, WEIGHTS);
+                of_all(&mut predictive.weight_velocity, WEIGHTS);
+                of_all(&mut predictive.weight_tilt_rate, WEIGHTS);
+                of_all(&mut predictive.weight_tilt_acceleration, WEIGHTS);
+                of_all(&mut predictive.slow_pole, FREQUENCIES);
+                of_all(&mut predictive.fast_pole, FREQUENCIES);
+            }
         }
     }
+    tuned
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ fn figure_table(studies: &[Study]) -> TextTable {
             let number = |figures: &[f64; 3]| number(measure, figures[measure as usize]);
             table.push(vec![
                 name.to_owned(),
-                measure_name(measure).to_owned(),
+                ["RMS error", "shake", "jolt"][measure as usize].to_owned(),
                 number(&study.commanded),
                 number(&study.machines[0].figures),
                 number(&worst.figures),
@@ -49,20 +49,8 @@ fn figure_table(studies: &[Study]) -> TextTable {
     table
 }
 
-fn measure_name(measure: Measure) -> &'static str {
-    match measure {
-        Measure::Error => "RMS error",
-        Measure::Shake => "shake",
-        Measure::Jolt => "jolt",
-    }
-}
-
 fn number(measure: Measure, value: f64) -> String {
-    let decimals = match measure {
-        Measure::Error => 3,
-        Measure::Shake => 2,
-        Measure::Jolt => 1,
-    };
+    let decimals = [3, 2, 1][measure as usize];
     format!("{value:.decimals$}")
 }
 

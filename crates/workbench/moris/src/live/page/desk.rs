@@ -156,7 +156,7 @@ impl Desk {
             inner.go_on(pace::now());
             if let Some(text) = shown::message(&taken, &inner.lines, &inner.told) {
                 inner.message = (inner.message.0 + 1, text);
-                inner.state = taken.last().map_or(inner.state, Shown::state);
+                inner.state = taken.last().map_or(inner.state, |shown| shown.state);
             }
             if inner.state == State::Engaged {
                 let slots = slots_of(inner.trial.parameters());

@@ -1,7 +1,6 @@
 //! What the loop shows to the page, and the messages made of it.
 
 use std::collections::VecDeque;
-use std::fmt::Write;
 
 use moris_live::frame::Values;
 use moris_live::source::Health;
@@ -55,7 +54,7 @@ pub const NAMES: [&str; 32] = [
 #[derive(Clone, Copy, Debug)]
 pub struct Shown {
     numbers: [f64; NAMES.len()],
-    state: State,
+    pub state: State,
     health: Health,
     delay: f64,
     late: Classes,
@@ -76,35 +75,23 @@ impl Shown {
             late: lateness.classes(),
         }
     }
-
-    /// The state.
-    pub fn state(&self) -> State {
-        self.state
-    }
 }
 
 /// The message of some moments, as JSON in one line. `told` has further members of the object.
 pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Option<String> {
     let last = moments.last()?;
-    let mut text = String::from("{\"rows\":[");
-    for (place, moment) in moments.iter().enumerate() {
-        text.push_str(if place == 0 { "[" } else { ",[" });
-        for (place, number) in moment.numbers.iter().enumerate() {
-            let comma = if place == 0 { "" } else { "," };
-            // Writing to a string cannot fail. A number that is none is not JSON's.
-            let _ = if number.is_finite() { write!(text, "{comma}{number:.5}") } else { write!(text, "{comma}0") };
-        }
-        text.push(']');
-    }
+    // A number that is none is not JSON's.
+    let number = |number: &f64| if number.is_finite() { format!("{number:.5}") } else { "0".to_owned() };
+    let row = |moment: &Shown| format!("[{}]", moment.numbers.each_ref().map(number).join(","));
+    let rows = moments.iter().map(row).collect::<Vec<_>>().join(",");
     let lines: Vec<&String> = lines.iter().rev().take(LINES).collect();
     let lines = serde_json::to_string(&lines).unwrap_or_default();
     let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
     let late = serde_json::to_string(&last.late).unwrap_or_default();
-    let _ = write!(
-        text,
-        "],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"lines\":{lines},{told}}}"
-    );
-    Some(text)
+    Some(format!(
+        "{{\"rows\":[{rows}],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\
+         \"lines\":{lines},{told}}}"
+    ))
 }
 
 #[cfg(test)]

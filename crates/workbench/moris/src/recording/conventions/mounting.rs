@@ -5,6 +5,7 @@ use moris_washout::nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::option_values::numbers;
 use crate::recording::message::given;
 
 /// The sensor's orientation in the vehicle.
@@ -47,9 +48,7 @@ impl Mounting {
         if text.trim() == "auto" {
             return Ok(Mounting::Auto);
         }
-        let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-        let angles = numbers.and_then(|numbers| <[f64; 3]>::try_from(numbers).ok());
-        Self::of_degrees(angles.ok_or("write auto, or ROLL,PITCH,YAW in degrees, as in 0,90,0")?)
+        Self::of_degrees(numbers(text).ok_or("write auto, or ROLL,PITCH,YAW in degrees, as in 0,90,0")?)
     }
 
     /// The options that find it and that give it, for messages.
