@@ -1,6 +1,15 @@
 //! Tables for the terminal.
 
+use std::borrow::Borrow;
 use std::fmt;
+
+/// A column: its head, and the text of its cell in a row.
+pub type Column<T> = (&'static str, fn(&T) -> String);
+
+/// A cell, or what stands where a number is not defined.
+pub fn or_undefined(cell: Option<String>) -> String {
+    cell.unwrap_or_else(|| "–".to_owned())
+}
 
 /// Rows of cells under a header, in aligned columns: the first to the left, the others to the
 /// right.
@@ -13,6 +22,13 @@ impl TextTable {
     /// A table of nothing but its header.
     pub fn new<'a>(header: impl IntoIterator<Item = &'a str>) -> Self {
         TextTable { rows: vec![header.into_iter().map(str::to_owned).collect()] }
+    }
+
+    /// A table with these columns and a row for each of these.
+    pub fn of<T>(columns: &[Column<T>], rows: impl IntoIterator<Item: Borrow<T>>) -> Self {
+        let mut table = TextTable::new(columns.iter().map(|(head, _)| *head));
+        rows.into_iter().for_each(|row| table.push(columns.iter().map(|(_, cell)| cell(row.borrow())).collect()));
+        table
     }
 
     /// Adds a row, which has as many cells as the header.

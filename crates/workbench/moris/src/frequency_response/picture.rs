@@ -164,19 +164,16 @@ where
             chart.draw_series(LineSeries::new(part.iter().copied(), style))?;
         }
     }
-    chart.draw_series(test.iter().filter(felt).map(|response| dot(point(response), response)))?;
-    chart.draw_series(test.iter().filter(felt).map(|response| ring(point(response))))?;
+    let dots = |style: fn(&Response) -> ShapeStyle| {
+        test.iter().filter(felt).map(move |response| Circle::new(point(response), 5, style(response)))
+    };
+    // A measurement is hollow where something limited.
+    chart.draw_series(dots(|response| {
+        let is_limited = response.limited.iter().any(|&fraction| fraction > 0.0);
+        if is_limited { LIMITED } else { TEST }.filled()
+    }))?;
+    chart.draw_series(dots(|_| TEST.stroke_width(2)))?;
     Ok(())
-}
-
-/// A measurement: hollow where something limited.
-fn dot(point: (f64, f64), response: &Response) -> Circle<(f64, f64), i32> {
-    let limited = response.limited.iter().any(|&fraction| fraction > 0.0);
-    Circle::new(point, 5, if limited { LIMITED } else { TEST }.filled())
-}
-
-fn ring(point: (f64, f64)) -> Circle<(f64, f64), i32> {
-    Circle::new(point, 5, TEST.stroke_width(2))
 }
 
 fn number(value: f64) -> String {

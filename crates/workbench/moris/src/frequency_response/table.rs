@@ -14,25 +14,6 @@ use crate::text_table::TextTable;
 /// A smaller modulus is rounding.
 const NOTHING: f64 = 1e-9;
 
-const HEADER: [&str; 16] = [
-    "signal",
-    "input",
-    "output",
-    "kind",
-    "frequency_rad_per_s",
-    "frequency_hz",
-    "amplitude",
-    "amplitude_unit",
-    "modulus",
-    "modulus_unit",
-    "phase_deg",
-    "distortion",
-    "tilt_limited_share",
-    "safety_active_share",
-    "actuator_limited_share",
-    "settled",
-];
-
 /// Writes every response from every channel to every channel.
 ///
 /// # Errors
@@ -40,11 +21,11 @@ const HEADER: [&str; 16] = [
 pub fn write(file: &Path, measured: &Measured) -> Result<()> {
     let save = || -> csv::Result<()> {
         let mut table = csv::Writer::from_path(file)?;
-        table.write_record(HEADER)?;
+        table.write_record(record("", &measured.test[0], Channel::Surge).map(|(name, _)| name))?;
         for (signal, responses) in [("test", &measured.test), ("small", &measured.small)] {
             for response in responses {
                 for output in Channel::ALL {
-                    table.write_record(record(signal, response, output))?;
+                    table.write_record(record(signal, response, output).map(|(_, field)| field))?;
                 }
             }
         }
@@ -53,28 +34,30 @@ pub fn write(file: &Path, measured: &Measured) -> Result<()> {
     save().with_context(|| format!("cannot write {}", file.display()))
 }
 
-fn record(signal: &str, response: &Response, output: Channel) -> [String; 16] {
+/// The fields with their names.
+fn record(signal: &str, response: &Response, output: Channel) -> [(&'static str, String); 16] {
     let input = response.input;
     // What is not felt has neither phase nor distortion.
     let felt = modulus(response, output) > NOTHING;
+    let if_felt = |text: String| if felt { text } else { String::new() };
     let [tilt, safety, actuator] = response.limited.map(|fraction| format!("{fraction:.4}"));
     [
-        signal.into(),
-        name(input).into(),
-        name(output).into(),
-        kind(input, output).into(),
-        format!("{:.4}", response.frequency),
-        format!("{:.5}", response.frequency / std::f64::consts::TAU),
-        format!("{:.6}", response.amplitude / unit_in_si(input)),
-        unit(input).into(),
-        format!("{:.6}", modulus(response, output)),
-        ratio_unit(input, output).into(),
-        if felt { format!("{:.3}", phase(response, output)) } else { String::new() },
-        if felt { format!("{:.5}", response.distortion[output as usize]) } else { String::new() },
-        tilt,
-        safety,
-        actuator,
-        response.settled.to_string(),
+        ("signal", signal.into()),
+        ("input", name(input).into()),
+        ("output", name(output).into()),
+        ("kind", kind(input, output).into()),
+        ("frequency_rad_per_s", format!("{:.4}", response.frequency)),
+        ("frequency_hz", format!("{:.5}", response.frequency / std::f64::consts::TAU)),
+        ("amplitude", format!("{:.6}", response.amplitude / unit_in_si(input))),
+        ("amplitude_unit", unit(input).into()),
+        ("modulus", format!("{:.6}", modulus(response, output))),
+        ("modulus_unit", ratio_unit(input, output).into()),
+        ("phase_deg", if_felt(format!("{:.3}", phase(response, output)))),
+        ("distortion", if_felt(format!("{:.5}", response.distortion[output as usize]))),
+        ("tilt_limited_share", tilt),
+        ("safety_active_share", safety),
+        ("actuator_limited_share", actuator),
+        ("settled", response.settled.to_string()),
     ]
 }
 

@@ -2,6 +2,7 @@
 
 use moris_measures::comfort::Comfort;
 use moris_measures::cues::Cues;
+use moris_measures::fidelity::Fidelity;
 use moris_simulation::Evaluated;
 use moris_washout::platform::reach::Axis;
 
@@ -14,10 +15,10 @@ pub struct Channel {
     pub at_rest: f64,
     /// The least RMS error that any controller could reach; none where it was not computed.
     pub bound: Option<f64>,
-    /// RMS error of the felt signal.
-    pub error: f64,
-    /// RMS error of the vestibular model's response.
-    pub sensed_error: f64,
+    /// Fidelity of the felt signal.
+    pub felt: Fidelity,
+    /// Fidelity of the vestibular model's response; none where nothing is sensed.
+    pub sensed: Option<Fidelity>,
     /// Shake, jolt and peak of a force; none of a rate.
     pub comfort: Option<Comfort>,
     /// Fractions of the time with a cue in the vehicle, a false one and a
@@ -26,9 +27,19 @@ pub struct Channel {
 }
 
 impl Channel {
+    /// The unit that people read.
+    pub fn unit(&self) -> &'static str {
+        if self.axis.is_rotation() { "°/s" } else { "m/s²" }
+    }
+
+    /// A value in this unit.
+    pub fn in_unit(&self, value: f64) -> f64 {
+        if self.axis.is_rotation() { value.to_degrees() } else { value }
+    }
+
     /// The error as a multiple of that of a platform at rest.
     pub fn ratio(&self) -> f64 {
-        self.error / self.at_rest
+        self.felt.rms_error / self.at_rest
     }
 }
 
@@ -38,7 +49,7 @@ pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
     let channel = |&axis: &Axis| {
         let k = axis as usize % 3;
         let is_force = !axis.is_rotation();
-        let (at_rest, raw, sensed, cues) = if is_force {
+        let (at_rest, felt, sensed, cues) = if is_force {
             (evaluated.desired_rms(k), measures.force[k], measures.sensed_force[k], measures.force_cues[k])
         } else {
             (evaluated.desired_rate_rms(k), measures.rate[k], measures.sensed_rate[k], measures.rate_cues[k])
@@ -47,8 +58,8 @@ pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
             axis,
             at_rest,
             bound: bounds[k].filter(|_| is_force),
-            error: raw?.rms_error,
-            sensed_error: sensed.map_or(0.0, |sensed| sensed.rms_error),
+            felt: felt?,
+            sensed,
             comfort: measures.comfort[k].filter(|_| is_force),
             cues,
         })

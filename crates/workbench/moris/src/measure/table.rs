@@ -10,10 +10,7 @@ use super::MeasuredRecording;
 use super::channel::Channel;
 use super::host::{Host, Inputs};
 use super::targets::{geometric_mean, wrong_cues};
-use crate::text_table::TextTable;
-
-/// Stands where a number was not computed.
-const NONE: &str = "–";
+use crate::text_table::{Column, TextTable, or_undefined};
 
 /// Everything: the channels, the limits, the summary and the targets missed.
 pub fn text(setup: &Setup, host: &Host, recordings: &[MeasuredRecording], missed: &[String]) -> String {
@@ -37,82 +34,60 @@ fn host_text(host: &Host) -> String {
 }
 
 fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
-    let mut table = TextTable::new([
-        "recording",
-        "channel",
-        "unit",
-        "at rest",
-        "bound",
-        "RMS",
-        "ratio",
-        "sensed",
-        "cues %",
-        "false %",
-        "missing %",
-        "shake/jolt/peak",
-    ]);
-    for recording in recordings {
-        for (index, channel) in recording.channels.iter().enumerate() {
-            let name = if index == 0 { recording.name.clone() } else { String::new() };
-            table.push([name].into_iter().chain(row(channel)).collect());
-        }
-    }
-    table
+    let columns: [Column<(&str, &Channel)>; 12] = [
+        ("recording", |(recording, _)| (*recording).to_owned()),
+        ("channel", |(_, channel)| name(channel.axis).to_owned()),
+        ("unit", |(_, channel)| channel.unit().to_owned()),
+        ("at rest", |(_, channel)| number(channel, channel.at_rest)),
+        ("bound", |(_, channel)| or_undefined(channel.bound.map(|bound| number(channel, bound)))),
+        ("RMS", |(_, channel)| number(channel, channel.felt.rms_error)),
+        ("ratio", |(_, channel)| ratio(channel)),
+        ("sensed", |(_, channel)| number(channel, channel.sensed.map_or(0.0, |sensed| sensed.rms_error))),
+        ("cues %", |(_, channel)| percent(channel.cues.desired)),
+        ("false %", |(_, channel)| percent(channel.cues.false_cues)),
+        ("missing %", |(_, channel)| percent(channel.cues.missing_cues)),
+        ("shake/jolt/peak", |(_, channel)| or_undefined(channel.comfort.as_ref().map(comfort_cell))),
+    ];
+    let rows = recordings.iter().flat_map(|recording| {
+        let names = [recording.name.as_str()].into_iter().chain(std::iter::repeat(""));
+        names.zip(&recording.channels)
+    });
+    TextTable::of(&columns, rows)
 }
 
-fn row(channel: &Channel) -> [String; 11] {
-    let (unit, factor) = if channel.axis.is_rotation() { ("°/s", 1f64.to_degrees()) } else { ("m/s²", 1.0) };
-    let number = |value: f64| format!("{:.3}", factor * value);
-    let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
-    // Where hardly anything is desired a ratio means nothing.
-    let ratio = if factor * channel.at_rest >= 0.03 { format!("{:.2}", channel.ratio()) } else { NONE.to_owned() };
-    [
-        name(channel.axis).to_owned(),
-        unit.to_owned(),
-        number(channel.at_rest),
-        channel.bound.map_or_else(|| NONE.to_owned(), number),
-        number(channel.error),
-        ratio,
-        number(channel.sensed_error),
-        percent(channel.cues.desired),
-        percent(channel.cues.false_cues),
-        percent(channel.cues.missing_cues),
-        channel.comfort.as_ref().map_or_else(|| NONE.to_owned(), comfort_cell),
-    ]
+fn number(channel: &Channel, value: f64) -> String {
+    format!("{:.3}", channel.in_unit(value))
+}
+
+/// The ratio to a platform at rest; where hardly anything is desired it means nothing.
+fn ratio(channel: &Channel) -> String {
+    let is_desired = channel.in_unit(channel.at_rest) >= 0.03;
+    or_undefined(is_desired.then(|| format!("{:.2}", channel.ratio())))
+}
+
+fn percent(fraction: f64) -> String {
+    format!("{:.1}", 100.0 * fraction)
 }
 
 /// Shake, jolt and peak \[m/s2\] in a cell.
 fn comfort_cell(comfort: &Comfort) -> String {
     let number = |excess: Option<Excess>, decimals: usize| {
-        excess.map_or_else(|| NONE.to_owned(), |excess| format!("{:.decimals$}", excess.value))
+        or_undefined(excess.map(|excess| format!("{:.decimals$}", excess.value)))
     };
     [number(comfort.shake, 2), number(comfort.jolt, 1), number(Some(comfort.peak), 1)].join("/")
 }
 
 fn limit_table(recordings: &[MeasuredRecording]) -> TextTable {
-    let mut table = TextTable::new([
-        "limited, % of the steps",
-        "tilt",
-        "soft limits",
-        "safety units",
-        "actuator guard",
-        "units or guard",
-        "stroke used %",
-    ]);
-    for recording in recordings {
-        let percent = |fraction: f64| format!("{:.1}", 100.0 * fraction);
-        let [tilt, soft, safety, guard] = recording.limits.map(percent);
-        table.push(vec![
-            recording.name.clone(),
-            tilt,
-            soft,
-            safety,
-            guard,
-            percent(recording.limited),
-            percent(recording.stroke_used),
-        ]);
-    }
-    table
+    let columns: [Column<MeasuredRecording>; 7] = [
+        ("limited, % of the steps", |recording| recording.name.clone()),
+        ("tilt", |recording| percent(recording.limits[0])),
+        ("soft limits", |recording| percent(recording.limits[1])),
+        ("safety units", |recording| percent(recording.limits[2])),
+        ("actuator guard", |recording| percent(recording.limits[3])),
+        ("units or guard", |recording| percent(recording.limited)),
+        ("stroke used %", |recording| percent(recording.stroke_used)),
+    ];
+    TextTable::of(&columns, recordings)
 }
 
 fn summary(recordings: &[MeasuredRecording]) -> String {

@@ -51,7 +51,7 @@ pub fn counts(channel: &Channel) -> bool {
 /// Geometric mean of the RMS errors of surge and sway, and how many they are.
 pub fn geometric_mean(recordings: &[MeasuredRecording]) -> (f64, usize) {
     let channels = recordings.iter().flat_map(|recording| &recording.channels);
-    geometric_mean_of(channels.filter(|channel| counts(channel)).map(|channel| channel.error))
+    geometric_mean_of(channels.filter(|channel| counts(channel)).map(|channel| channel.felt.rms_error))
 }
 
 /// Geometric mean of errors, each at least [`LEAST_FORCE`], and how many they are.
@@ -112,16 +112,16 @@ impl Targets {
                     "{}, {}: {:.3} m/s² is {:.2} times the {:.3} m/s² of a platform at rest and exceeds {:.2} times (--ratio).",
                     recording.name,
                     name(channel.axis),
-                    channel.error,
+                    channel.felt.rms_error,
                     channel.ratio(),
                     channel.at_rest,
                     self.ratio
                 ));
             }
-            if channel.axis == Axis::Heave && channel.error > channel.at_rest + self.heave {
+            if channel.axis == Axis::Heave && channel.felt.rms_error > channel.at_rest + self.heave {
                 missed.push(format!(
                     "{}, heave: {:.3} m/s² exceeds by more than {:.2} m/s² (--heave) the {:.3} m/s² of a platform at rest.",
-                    recording.name, channel.error, self.heave, channel.at_rest
+                    recording.name, channel.felt.rms_error, self.heave, channel.at_rest
                 ));
             }
         }

@@ -8,6 +8,7 @@ use moris_report::{IndexRow, index_html};
 
 use super::{Outcome, listed};
 use crate::recording::Recording;
+use crate::text_table::or_undefined;
 
 /// A recording with one of the parameter sets, or one that failed, in the list.
 pub struct Entry {
@@ -55,7 +56,7 @@ impl Entry {
         let limited = effort.safety_active.max(effort.actuator_limited);
         let errors = measures.sensed_force.each_ref().map(|axis| axis.as_ref().map(|fidelity| fidelity.rms_error));
         let error = errors.iter().flatten().map(|error| error * error).sum::<f64>().sqrt();
-        let figure = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.2}"));
+        let figure = |value: Option<f64>| or_undefined(value.map(|value| format!("{value:.2}")));
         let first = [
             format!("{:.1}", recording.manoeuvre.duration()),
             format!("{:.1}", 100.0 * limited),

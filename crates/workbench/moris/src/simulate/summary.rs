@@ -1,15 +1,11 @@
 //! Summary of a simulation on the terminal.
 
 use moris_measures::comfort::{Comfort, Excess};
-use moris_measures::cues::Cues;
-use moris_measures::fidelity::Fidelity;
 
 use super::Outcome;
+use crate::measure::channel::{Channel, channels};
 use crate::recording::Recording;
-use crate::text_table::TextTable;
-
-/// Stands where a number is not defined.
-const UNDEFINED: &str = "–";
+use crate::text_table::{Column, TextTable, or_undefined};
 
 /// The recording, what was found, and for each set of parameters a table of measures.
 pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
@@ -31,63 +27,35 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
 
 /// The measures of the cues, axis by axis; axes on which nothing happens are left out.
 fn table(outcome: &Outcome) -> TextTable {
-    let measures = &outcome.measures;
-    let header = [
-        "felt against desired",
-        "RMS error",
-        "bound",
-        "peak error",
-        "shake",
-        "jolt",
-        "peak",
-        "correlation",
-        "delay",
-        "sensed: RMS error",
-        "false cues",
-        "missing cues",
+    let columns: [Column<Channel>; 12] = [
+        ("felt against desired", |channel| {
+            let kind = if channel.axis.is_rotation() { "rate" } else { "force" };
+            format!("{kind} {}", ["x", "y", "z"][channel.axis as usize % 3])
+        }),
+        ("RMS error", |channel| number(channel, channel.felt.rms_error)),
+        ("bound", |channel| or_undefined(channel.bound.map(|bound| number(channel, bound)))),
+        ("peak error", |channel| number(channel, channel.felt.peak_error)),
+        ("shake", |channel| excess(channel, |comfort| comfort.shake)),
+        ("jolt", |channel| excess(channel, |comfort| comfort.jolt)),
+        ("peak", |channel| excess(channel, |comfort| Some(comfort.peak))),
+        ("correlation", |channel| or_undefined(channel.felt.correlation.map(|value| format!("{value:.3}")))),
+        ("delay", |channel| or_undefined(channel.felt.delay.map(milliseconds))),
+        ("sensed: RMS error", |channel| or_undefined(channel.sensed.map(|sensed| number(channel, sensed.rms_error)))),
+        ("false cues", |channel| format!("{:.1} %", 100.0 * channel.cues.false_cues)),
+        ("missing cues", |channel| format!("{:.1} %", 100.0 * channel.cues.missing_cues)),
     ];
-    let mut table = TextTable::new(header);
-    let kinds = [
-        ("force", "m/s²", 1.0, &measures.force, &measures.sensed_force, &measures.force_cues),
-        ("rate", "°/s", 1f64.to_degrees(), &measures.rate, &measures.sensed_rate, &measures.rate_cues),
-    ];
-    for (kind, unit, factor, raw, sensed, cues) in kinds {
-        for (axis, name) in ["x", "y", "z"].iter().enumerate() {
-            if let Some(fidelity) = &raw[axis] {
-                let is_force = kind == "force";
-                let bound = outcome.bounds[axis].as_ref().filter(|_| is_force).map(|bound| bound.bound.rms_error);
-                let comfort = measures.comfort[axis].as_ref().filter(|_| is_force);
-                let row = row(fidelity, bound, comfort, sensed[axis].as_ref(), &cues[axis], unit, factor);
-                table.push([format!("{kind} {name}")].into_iter().chain(row).collect());
-            }
-        }
-    }
-    table
+    TextTable::of(&columns, channels(&outcome.evaluated()))
 }
 
-fn row(
-    raw: &Fidelity,
-    bound: Option<f64>,
-    comfort: Option<&Comfort>,
-    sensed: Option<&Fidelity>,
-    cues: &Cues,
-    unit: &str,
-    factor: f64,
-) -> [String; 11] {
-    let number = |value: f64| format!("{:.2} {unit}", factor * value);
-    let excess = |excess: Option<Excess>| excess.map(|excess| number(excess.value));
-    let or_undefined = |text: Option<String>| text.unwrap_or_else(|| UNDEFINED.to_owned());
-    [
-        number(raw.rms_error),
-        or_undefined(bound.map(number)),
-        number(raw.peak_error),
-        or_undefined(comfort.and_then(|comfort| excess(comfort.shake))),
-        or_undefined(comfort.and_then(|comfort| excess(comfort.jolt))),
-        or_undefined(comfort.and_then(|comfort| excess(Some(comfort.peak)))),
-        or_undefined(raw.correlation.map(|correlation| format!("{correlation:.3}"))),
-        or_undefined(raw.delay.map(|delay| format!("{:.0} ms", (1000.0 * delay).round() + 0.0))),
-        or_undefined(sensed.map(|sensed| number(sensed.rms_error))),
-        format!("{:.1} %", 100.0 * cues.false_cues),
-        format!("{:.1} %", 100.0 * cues.missing_cues),
-    ]
+fn number(channel: &Channel, value: f64) -> String {
+    format!("{:.2} {}", channel.in_unit(value), channel.unit())
+}
+
+fn excess(channel: &Channel, of: fn(Comfort) -> Option<Excess>) -> String {
+    or_undefined(channel.comfort.and_then(of).map(|excess| number(channel, excess.value)))
+}
+
+fn milliseconds(delay: f64) -> String {
+    // A delay of -0.0 would be written as such.
+    format!("{:.0} ms", (1000.0 * delay).round() + 0.0)
 }

@@ -8,6 +8,7 @@ use moris_washout::platform::reach::Axis;
 
 use super::cost::{Channels, Cost, Objective};
 use super::tuner::WORST_RATIO;
+use crate::text_table::or_undefined;
 
 /// A recording before and after.
 #[derive(Clone, Debug)]
@@ -269,7 +270,7 @@ impl Comparison {
 }
 
 fn errors(results: &[RecordingResult]) -> String {
-    let cell = |cost: &Option<Cost>| cost.map_or_else(|| "–".to_owned(), |cost| with_limits(&cost));
+    let cell = |cost: &Option<Cost>| or_undefined(cost.as_ref().map(with_limits));
     let unseen = |result: &RecordingResult| match result.infeasible_without {
         true => "none found".to_owned(),
         false => cell(&result.unseen),

@@ -5,7 +5,7 @@ use moris_setup::Setup;
 use super::figures::Measure;
 use super::points::Point;
 use super::study::{MachineFigures, Study};
-use crate::text_table::TextTable;
+use crate::text_table::{Column, TextTable};
 
 /// The whole text.
 pub fn text(setup: &Setup, rides: usize, studies: &[Study]) -> String {
@@ -19,34 +19,17 @@ pub fn text(setup: &Setup, rides: usize, studies: &[Study]) -> String {
 }
 
 fn figure_table(studies: &[Study]) -> TextTable {
-    let mut table = TextTable::new([
-        "strategy",
-        "measure, m/s²",
-        "commanded",
-        "nominal",
-        "worst",
-        "at load",
-        "at bandwidth",
-        "at dead time",
-    ]);
-    for study in studies {
-        for measure in Measure::ALL {
-            let name = if measure == Measure::Error { study.strategy.name() } else { "" };
-            let worst = study.worst(measure);
-            let number = |figures: &[f64; 3]| number(measure, figures[measure as usize]);
-            table.push(vec![
-                name.to_owned(),
-                ["RMS error", "shake", "jolt"][measure as usize].to_owned(),
-                number(&study.commanded),
-                number(&study.machines[0].figures),
-                number(&worst.figures),
-                format!("{:.0} %", 100.0 * worst.point.load),
-                format!("{:.0} %", 100.0 * worst.point.bandwidth),
-                format!("{:.1} ms", 1e3 * worst.point.dead_time),
-            ]);
-        }
-    }
-    table
+    let columns: [Column<(&Study, Measure)>; 8] = [
+        ("strategy", |(study, measure)| if *measure == Measure::Error { study.strategy.name() } else { "" }.to_owned()),
+        ("measure, m/s²", |(_, measure)| ["RMS error", "shake", "jolt"][*measure as usize].to_owned()),
+        ("commanded", |(study, measure)| number(*measure, study.commanded[*measure as usize])),
+        ("nominal", |(study, measure)| number(*measure, study.machines[0].figures[*measure as usize])),
+        ("worst", |(study, measure)| number(*measure, study.worst(*measure).figures[*measure as usize])),
+        ("at load", |(study, measure)| format!("{:.0} %", 100.0 * study.worst(*measure).point.load)),
+        ("at bandwidth", |(study, measure)| format!("{:.0} %", 100.0 * study.worst(*measure).point.bandwidth)),
+        ("at dead time", |(study, measure)| format!("{:.1} ms", 1e3 * study.worst(*measure).point.dead_time)),
+    ];
+    TextTable::of(&columns, studies.iter().flat_map(|study| Measure::ALL.map(|measure| (study, measure))))
 }
 
 fn number(measure: Measure, value: f64) -> String {
@@ -55,34 +38,26 @@ fn number(measure: Measure, value: f64) -> String {
 }
 
 fn effect_table(studies: &[Study]) -> TextTable {
-    let mut table = TextTable::new([
-        "largest RMS error, m/s²",
-        "load alone",
-        "bandwidth alone",
-        "dead time alone",
-        "all",
-        "machines with limited speed or stroke",
-        "with limited force",
-    ]);
-    for study in studies {
-        let nominal = study.machines[0].point;
-        let largest = |of: &dyn Fn(&Point) -> bool| {
-            let machines = study.machines.iter().filter(|machine| of(&machine.point));
-            let error = |machine: &MachineFigures| machine.figures[Measure::Error as usize];
-            number(Measure::Error, machines.map(error).fold(0.0, f64::max))
-        };
-        let count = |limited: fn(&MachineFigures) -> bool| {
-            study.machines.iter().filter(|machine| limited(machine)).count().to_string()
-        };
-        table.push(vec![
-            study.strategy.name().to_owned(),
-            largest(&|point| *point == Point { load: point.load, ..nominal }),
-            largest(&|point| *point == Point { bandwidth: point.bandwidth, ..nominal }),
-            largest(&|point| *point == Point { dead_time: point.dead_time, ..nominal }),
-            largest(&|_| true),
-            count(|machine| machine.drive_limited),
-            count(|machine| machine.force_limited),
-        ]);
-    }
-    table
+    let columns: [Column<Study>; 7] = [
+        ("largest RMS error, m/s²", |study| study.strategy.name().to_owned()),
+        ("load alone", |study| largest(study, |point, nominal| Point { load: point.load, ..nominal })),
+        ("bandwidth alone", |study| largest(study, |point, nominal| Point { bandwidth: point.bandwidth, ..nominal })),
+        ("dead time alone", |study| largest(study, |point, nominal| Point { dead_time: point.dead_time, ..nominal })),
+        ("all", |study| largest(study, |point, _| point)),
+        ("machines with limited speed or stroke", |study| count(study, |machine| machine.drive_limited)),
+        ("with limited force", |study| count(study, |machine| machine.force_limited)),
+    ];
+    TextTable::of(&columns, studies)
+}
+
+/// The largest error on machines that are what `like` makes of them and the nominal one.
+fn largest(study: &Study, like: fn(Point, Point) -> Point) -> String {
+    let nominal = study.machines[0].point;
+    let machines = study.machines.iter().filter(|machine| machine.point == like(machine.point, nominal));
+    let errors = machines.map(|machine| machine.figures[Measure::Error as usize]);
+    number(Measure::Error, errors.fold(0.0, f64::max))
+}
+
+fn count(study: &Study, is_limited: fn(&MachineFigures) -> bool) -> String {
+    study.machines.iter().filter(|machine| is_limited(machine)).count().to_string()
 }
