@@ -28,22 +28,24 @@ type Line = serialport::TTYPort;
 type Line = serialport::COMPort;
 
 /// A message of the loop to the device.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Message {
     /// The start string.
-    Start(Values),
+    Start,
     /// A frame.
-    Frame(Values),
+    Frame,
     /// The park string.
-    Park(Values),
+    Park,
     /// The stop string.
-    Stop(Values),
+    Stop,
 }
 
-/// A message on its way, with the arrival of the sample that it is the first to follow.
+/// A message on its way with its values, and the arrival of the sample that it is the first to
+/// follow.
 #[derive(Clone, Copy, Debug)]
 pub struct Sending {
     pub message: Message,
+    pub values: Values,
     pub arrival: Option<Duration>,
 }
 
@@ -75,22 +77,22 @@ impl Frames {
         self.step += 1;
         match (before, commands.state) {
             (State::Off, State::Off) => return,
-            (_, State::Off) => self.push(Message::Stop(values)),
-            (State::Off, _) => self.push(Message::Start(values)),
+            (_, State::Off) => self.push(Message::Stop, values),
+            (State::Off, _) => self.push(Message::Start, values),
             // A fault that is cleared at neutral leaves no time for homing.
-            (State::Settled | State::Fault, State::Homing | State::Neutral) => self.push(Message::Start(values)),
+            (State::Settled | State::Fault, State::Homing | State::Neutral) => self.push(Message::Start, values),
             (State::Parking, State::Settled) => {
-                self.push(Message::Frame(values));
-                self.push(Message::Park(values));
+                self.push(Message::Frame, values);
+                self.push(Message::Park, values);
             }
-            _ if self.step.is_multiple_of(self.every) => self.push(Message::Frame(values)),
+            _ if self.step.is_multiple_of(self.every) => self.push(Message::Frame, values),
             _ => return,
         }
         self.sender.unpark();
     }
 
-    fn push(&mut self, message: Message) {
-        let sending = Sending { message, arrival: self.newest.take() };
+    fn push(&mut self, message: Message, values: Values) {
+        let sending = Sending { message, values, arrival: self.newest.take() };
         self.lost += u64::from(self.ring.push(sending).is_err());
     }
 }
@@ -204,37 +206,32 @@ impl Device {
 
     /// Number of times that a message is sent: an answering base has no time-out that is known,
     /// and a packet may be lost.
-    fn copies(&self, message: &Message) -> usize {
-        match (self, message) {
-            (Device::Moog { .. }, Message::Stop(_)) => 3,
-            _ => 1,
-        }
+    fn copies(&self, message: Message) -> usize {
+        if self.answers() && message == Message::Stop { 3 } else { 1 }
     }
 
     /// Replaces `out` by the bytes for a message. A fault, if the device is silent.
-    fn bytes(&mut self, message: &Message, out: &mut Vec<u8>) -> Option<Event> {
+    fn bytes(&mut self, message: Message, values: &Values, out: &mut Vec<u8>) -> Option<Event> {
         match self {
             Device::Template(encoder) => {
                 match message {
-                    Message::Start(values) => encoder.start(values, out),
-                    Message::Frame(values) => encoder.frame(values, out),
-                    Message::Park(values) => encoder.park(values, out),
-                    Message::Stop(values) => encoder.stop(values, out),
+                    Message::Start => encoder.start(values, out),
+                    Message::Frame => encoder.frame(values, out),
+                    Message::Park => encoder.park(values, out),
+                    Message::Stop => encoder.stop(values, out),
                 }
                 None
             }
             Device::Moog { moog, is_up } => {
                 out.clear();
-                let (packet, fault) = match message {
-                    Message::Stop(_) => (Moog::last(), None),
-                    Message::Start(values) | Message::Frame(values) | Message::Park(values) => {
-                        if matches!(message, Message::Start(_)) {
-                            moog.start();
-                        }
-                        *is_up =
-                            (*is_up || matches!(message, Message::Start(_))) && !matches!(message, Message::Park(_));
-                        moog.send(*is_up, values)
+                let (packet, fault) = if message == Message::Stop {
+                    (Moog::last(), None)
+                } else {
+                    if message == Message::Start {
+                        moog.start();
                     }
+                    *is_up = (*is_up || message == Message::Start) && message != Message::Park;
+                    moog.send(*is_up, values)
                 };
                 out.extend(packet);
                 fault
@@ -265,23 +262,26 @@ pub fn send(mut ring: Consumer<Sending>, mut device: Device, sink: &Sink, mut or
     let mut sent = Sent::default();
     let mut running = false;
     let mut last = Values::default();
+    let mut deliver = |device: &mut Device, sent: &mut Sent, message: Message, values: &Values| {
+        let fault = device.bytes(message, values, &mut bytes);
+        let taken = (0..device.copies(message)).all(|_| sink.send(&bytes));
+        sent.sent += u64::from(taken && !bytes.is_empty());
+        sent.failed += u64::from(!taken);
+        fault
+    };
     loop {
         // Seen before the ring is empty: what comes after it has been looked at.
         let ended = ring.is_abandoned();
-        while let Ok(Sending { message, arrival }) = ring.pop() {
-            let is_frame = |message: &Message| matches!(message, Message::Frame(_));
-            if is_frame(&message) && ring.peek().is_ok_and(|next| is_frame(&next.message)) {
+        while let Ok(Sending { message, values, arrival }) = ring.pop() {
+            if message == Message::Frame && ring.peek().is_ok_and(|next| next.message == Message::Frame) {
                 sent.skipped += 1;
                 continue;
             }
-            running = !matches!(message, Message::Stop(_));
-            if let Message::Start(values) | Message::Frame(values) = message {
+            running = message != Message::Stop;
+            if matches!(message, Message::Start | Message::Frame) {
                 last = values;
             }
-            let mut fault = device.bytes(&message, &mut bytes);
-            let taken = (0..device.copies(&message)).all(|_| sink.send(&bytes));
-            sent.sent += u64::from(taken && !bytes.is_empty());
-            sent.failed += u64::from(!taken);
+            let mut fault = deliver(&mut device, &mut sent, message, &values);
             if let Some(arrival) = arrival {
                 sent.passage.take(pace::now().saturating_sub(arrival));
             }
@@ -299,13 +299,9 @@ pub fn send(mut ring: Consumer<Sending>, mut device: Device, sink: &Sink, mut or
         if ended {
             if running {
                 rest(&mut last, |values| {
-                    device.bytes(&Message::Frame(*values), &mut bytes);
-                    sent.sent += u64::from(sink.send(&bytes));
+                    deliver(&mut device, &mut sent, Message::Frame, values);
                 });
-                let stop = Message::Stop(last);
-                device.bytes(&stop, &mut bytes);
-                let taken = (0..device.copies(&stop)).all(|_| sink.send(&bytes));
-                sent.sent += u64::from(taken && !bytes.is_empty());
+                deliver(&mut device, &mut sent, Message::Stop, &last);
             }
             return sent;
         }
@@ -351,8 +347,8 @@ mod tests {
         let sender = std::thread::spawn(move || send(messages, Device::Template(Box::new(encoder)), &sink, orders));
         let panicking = std::thread::spawn(move || {
             let moving = Values { length: [1.3; 6], velocity: [0.4; 6], ..Values::default() };
-            for message in [Message::Start(moving), Message::Frame(moving)] {
-                ring.push(Sending { message, arrival: None }).unwrap();
+            for message in [Message::Start, Message::Frame] {
+                ring.push(Sending { message, values: moving, arrival: None }).unwrap();
             }
             panic!("deliberate");
         });

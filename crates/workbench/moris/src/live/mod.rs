@@ -212,12 +212,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (to_loop, asked) = RingBuffer::new(1024);
     let controls = input.handling().map(|handling| Arc::new(Controls::new(handling)));
     let desk = Arc::new(Desk::new(&setup, votes, to_loop, controls.clone(), options.allow_control)?);
-    let server = match options.page {
-        Some(port) => {
-            Some(Server::open(port, options.listen, &Start::of(&setup, input.handling()), Arc::clone(&desk))?)
-        }
-        None => None,
-    };
+    let page = Start::of(&setup, input.handling());
+    let server = options.page.map(|port| Server::open(port, options.listen, &page, Arc::clone(&desk))).transpose()?;
     let (shown, showing) = RingBuffer::new(256);
     let (from_device, reported) = RingBuffer::new(16);
     let (to_device, to_send) = RingBuffer::new(256);
@@ -335,12 +331,9 @@ fn replay(options: &Options, text: &str, out: &mut dyn Write) -> Result<ExitCode
     match replayed.recorded {
         Some(recorded) if recorded == replayed.digest => {
             writeln!(out, "{} steps, the same commands to the bit", replayed.steps)?;
-            Ok(ExitCode::SUCCESS)
         }
         Some(_) => bail!("the commands differ from the recorded ones"),
-        None => {
-            writeln!(out, "{} steps; the recording has no end to compare with", replayed.steps)?;
-            Ok(ExitCode::SUCCESS)
-        }
+        None => writeln!(out, "{} steps; the recording has no end to compare with", replayed.steps)?,
     }
+    Ok(ExitCode::SUCCESS)
 }

@@ -41,9 +41,8 @@ pub fn section(rig: &Rig, plane: &Plane, extent: [Vector3<f64>; 2], safety: Vect
     let mut text = String::new();
     for (index, (margin, colour)) in MARGINS.into_iter().enumerate() {
         let name = format!("s{}{}m{index}", plane.axes[0], plane.axes[1]);
-        match rings(rig, plane, neutral, margin) {
-            Some(rings) => text += &shape(&name, &rings, &window, colour),
-            None => continue,
+        if let Some(rings) = rings(rig, plane, neutral, margin) {
+            text += &shape(&name, &rings, &window, colour);
         }
     }
     let [x0, y1] = window.pixel(flat(-safety));

@@ -214,30 +214,29 @@ impl Desk {
         if (drives || !self.shared_control) && inner.controller.as_ref() != Some(&asked.client) {
             return Err((403, "another page controls".to_owned()));
         }
-        let order = match asked.ask {
-            Ask::Drive(command) => return self.drive(|controls| controls.hold(&command, pace::now())),
-            Ask::BeginAgain => return self.drive(Controls::begin_again),
+        match asked.ask {
+            Ask::Drive(command) => self.drive(|controls| controls.hold(&command, pace::now())),
+            Ask::BeginAgain => self.drive(Controls::begin_again),
             Ask::Event(name) => {
                 let event = Event::of_person(&name).ok_or_else(|| (422, format!("there is no command {name}")))?;
-                Order::Event(event)
+                inner.send(&[Order::Event(event)])
             }
             Ask::Set(values) => {
                 let values: Option<Vec<_>> =
                     values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
                 let values = values.ok_or_else(|| (422, "there is no such parameter".to_owned()))?;
                 inner.pair.stay();
-                return inner.choose(&values);
+                inner.choose(&values)
             }
             Ask::Keep(which) => {
                 let slots = slots_of(inner.trial.parameters());
                 let kept = inner.pair.keep(which, slots);
                 inner.tell();
-                return kept.map_err(|why| (422, why));
+                kept.map_err(|why| (422, why))
             }
-            Ask::GoTo(which) => return inner.go_to(which),
-            Ask::Vote(which) => return inner.pair.vote(which).map_err(|why| (422, why)),
-        };
-        inner.send(&[order])
+            Ask::GoTo(which) => inner.go_to(which),
+            Ask::Vote(which) => inner.pair.vote(which).map_err(|why| (422, why)),
+        }
     }
 
     fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), (u16, String)> {

@@ -1,7 +1,7 @@
 //! The columns of a recording: their names, quantities and units.
 //!
-//! - [`Header`] has the titles of a file, a `title` each. `lookup` finds a name in it, and `sum`
-//!   the terms of a sum of columns.
+//! - [`Header`] has the titles of a file, a `title` each. `lookup` finds a name in it, or the
+//!   terms of a sum of columns.
 //! - `choice` chooses the columns of the quantities and `unit_choice` their units, of those that
 //!   [`units`] lists.
 //! - `missing` says which columns there are where one is missing.
@@ -11,12 +11,11 @@ mod header;
 mod lookup;
 mod missing;
 mod quantity;
-mod sum;
 mod title;
 mod unit_choice;
 pub mod units;
 
 pub use choice::{Column, UnitSource, value_places};
 pub use header::Header;
+use lookup::Term;
 pub use quantity::Quantity;
-use sum::Term;

@@ -2,8 +2,19 @@
 
 mod error;
 mod option;
-mod quote;
 
 pub use error::RecordingError;
 pub use option::{Dialect, given, named};
-pub use quote::quoted;
+
+/// Longest text of a file that a message quotes \[characters\].
+const LONGEST_QUOTE: usize = 40;
+
+/// Text of a file for a message: shortened, and without control characters.
+pub fn quoted(text: &str) -> String {
+    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let mut quoted: String = text.chars().take(LONGEST_QUOTE).map(visible).collect();
+    if text.chars().nth(LONGEST_QUOTE).is_some() {
+        quoted.push('…');
+    }
+    quoted
+}
