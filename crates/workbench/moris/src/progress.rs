@@ -15,12 +15,9 @@ const TICK: Duration = Duration::from_millis(200);
 pub struct Progress {
     name: String,
     bar: ProgressBar,
-    /// Lines for a standard error that is not a terminal; none for a terminal.
-    log: Option<Log>,
-}
-
-/// Counts samples, for lines in a log.
-struct Log {
+    /// True for a standard error that is not a terminal: lines in place of the bar, for which the
+    /// steps are counted.
+    is_logged: bool,
     phase: &'static str,
     done: u64,
     total: u64,
@@ -35,11 +32,12 @@ impl Progress {
     pub fn new(name: &str, phase: &'static str) -> Result<Self> {
         let bar = ProgressBar::new_spinner();
         bar.set_style(ProgressStyle::with_template("{spinner} {msg} {wide_bar} {percent:>3} %")?);
-        let log = (!stderr().is_terminal()).then(|| Log { phase, done: 0, total: 0, last: Instant::now() });
-        if log.is_none() {
+        let is_logged = !stderr().is_terminal();
+        if !is_logged {
             bar.enable_steady_tick(TICK);
         }
-        let mut progress = Progress { name: name.to_owned(), bar, log };
+        let mut progress =
+            Progress { name: name.to_owned(), bar, is_logged, phase, done: 0, total: 0, last: Instant::now() };
         progress.phase(phase, 0);
         Ok(progress)
     }
@@ -49,20 +47,22 @@ impl Progress {
         self.bar.set_message(format!("{}: {phase}", self.name));
         self.bar.set_length(steps.max(1));
         self.bar.set_position(0);
-        if let Some(log) = &mut self.log {
-            *log = Log { phase, done: 0, total: steps, last: Instant::now() };
+        (self.phase, self.done, self.total, self.last) = (phase, 0, steps, Instant::now());
+        if self.is_logged {
             eprintln!("{}: {phase}", self.name);
         }
     }
 
     /// Counts a step.
     pub fn step(&mut self) {
-        let Some(log) = &mut self.log else { return self.bar.inc(1) };
-        log.done += 1;
+        if !self.is_logged {
+            return self.bar.inc(1);
+        }
+        self.done += 1;
         // Reading the clock takes longer than reading a counter.
-        if log.done.is_multiple_of(256) && log.total > 0 && log.last.elapsed() > LOG_EVERY {
-            log.last = Instant::now();
-            eprintln!("{}: {}, {} %", self.name, log.phase, 100 * log.done / log.total);
+        if self.done.is_multiple_of(256) && self.total > 0 && self.last.elapsed() > LOG_EVERY {
+            self.last = Instant::now();
+            eprintln!("{}: {}, {} %", self.name, self.phase, 100 * self.done / self.total);
         }
     }
 

@@ -45,12 +45,11 @@ impl SetupOptions {
         let sets: Vec<String> = own.into_iter().chain(self.parameters.iter().cloned()).collect();
         let mut setup = Setup::load(self.rig.as_deref(), &sets)?;
         setup.parameters.structure.strategy = strategy;
-        if !self.parameters.is_empty() {
-            let given = Setup::load(self.rig.as_deref(), &self.parameters)?.parameters_name;
-            setup.parameters_name = format!("{given} + {name}");
+        setup.parameters_name = if self.parameters.is_empty() {
+            name
         } else {
-            setup.parameters_name = name;
-        }
+            format!("{} + {name}", Setup::load(self.rig.as_deref(), &self.parameters)?.parameters_name)
+        };
         Ok(setup)
     }
 }

@@ -79,10 +79,10 @@ impl Controls {
     /// # Errors
     /// The vehicle has none.
     pub fn begin_again(&self) -> Result<(), String> {
-        match self.handling {
-            Handling::Rider => self.lock().begins_again = true,
-            Handling::Inputs => return Err("this vehicle cannot begin again".to_owned()),
+        if self.handling == Handling::Inputs {
+            return Err("this vehicle cannot begin again".to_owned());
         }
+        self.lock().begins_again = true;
         Ok(())
     }
 

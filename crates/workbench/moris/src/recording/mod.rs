@@ -46,6 +46,7 @@ use moris_washout::{Input, Parameters};
 
 use axes::convert;
 use checks::{consistency, outliers, unusual};
+use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};
 pub(crate) use read::source;
@@ -114,7 +115,10 @@ impl Recording {
             name,
             start: table.time[0],
             manoeuvre: Manoeuvre::new(table.step(), inputs),
-            angular_velocity_frame: conventions.rate_frame.into(),
+            angular_velocity_frame: match conventions.rate_frame {
+                RateFrame::Body => AngularVelocityFrame::Body,
+                RateFrame::World => AngularVelocityFrame::World,
+            },
             has_orientation: table.has_orientation(),
             warnings: warnings.iter().map(|warning| conventions.dialect.written(warning)).collect(),
         })

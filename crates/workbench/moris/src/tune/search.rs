@@ -6,7 +6,6 @@ use std::sync::Mutex;
 use anyhow::{Result, anyhow, ensure};
 use cmaes::{CMAESOptions, DVector};
 use moris_washout::Parameters;
-use moris_washout::nalgebra;
 use rayon::prelude::*;
 
 use super::cost::{Cost, Objective};
@@ -95,7 +94,7 @@ pub fn search(
     );
     let recordings = &Recordings::new(objectives, evaluate, space)?;
     let Beginning { space, best, point: start, .. } = &beginning(recordings, space, || progress(0, None));
-    let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point.as_slice(), best);
+    let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point, best);
     let mut search = CMAESOptions::new(start.clone(), FIRST_STEP)
         .seed(budget.seed)
         .max_function_evals(budget.evaluations)
@@ -113,13 +112,13 @@ pub fn search(
             break;
         }
     }
-    let nearest = search.overall_best_individual().map(|best| at(space, best.point.as_slice()));
+    let nearest = search.overall_best_individual().map(|best| at(space, &best.point));
     let mut best = best.lock().expect("no evaluation panics").0.clone();
     if let Some(first) = best.first() {
         let tidied = tidied(recordings, space, first);
         best.insert(0, tidied);
     }
-    Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &vec![0.0; space.dimension()])) })
+    Ok(Searched { best, nearest: nearest.unwrap_or_else(|| at(space, &DVector::zeros(space.dimension()))) })
 }
 
 /// Factors tried on each channel before the search, relative to the start. The cost has
@@ -132,7 +131,7 @@ const SCALES: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
 struct Beginning {
     /// The space with the orders of this start.
     space: Space,
-    point: Vec<f64>,
+    point: DVector<f64>,
     cost: f64,
     /// The best sets of the scan with these orders.
     best: Mutex<Best>,
@@ -159,8 +158,8 @@ fn beginning(recordings: &Recordings, space: &Space, mut go_on: impl FnMut() -> 
 /// The best point of a coarse scan from the start, channel by channel.
 fn scan(recordings: &Recordings, space: &Space) -> Beginning {
     let found = Mutex::new(Best::default());
-    let cost = |point: &nalgebra::DVector<f64>| penalized_cost(recordings, space, point.as_slice(), &found);
-    let mut best = nalgebra::DVector::from(start_within_limits(recordings, space));
+    let cost = |point: &DVector<f64>| penalized_cost(recordings, space, point, &found);
+    let mut best = start_within_limits(recordings, space);
     let mut least = cost(&best);
     for channel in 0..6 {
         let factors = FREQUENCIES.iter().flat_map(|&frequency| SCALES.map(|scale| (frequency, scale)));
@@ -172,7 +171,7 @@ fn scan(recordings: &Recordings, space: &Space) -> Beginning {
             }
         }
     }
-    Beginning { space: space.clone(), point: best.as_slice().to_vec(), cost: least, best: found }
+    Beginning { space: space.clone(), point: best, cost: least, best: found }
 }
 
 /// Factor between successive trials, and their number: down to about a hundredth.
@@ -180,19 +179,17 @@ const SCALE_STEP: f64 = 0.8;
 const TRIES: i32 = 21;
 
 /// The start. If constraints are violated there, all scales are reduced until none is.
-fn start_within_limits(recordings: &Recordings, space: &Space) -> Vec<f64> {
-    let tries = (0..TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
-    let keeps = |point: &nalgebra::DVector<f64>| {
+fn start_within_limits(recordings: &Recordings, space: &Space) -> DVector<f64> {
+    let mut tries = (0..TRIES).map(|k| space.scaled_start(SCALE_STEP.powi(k)));
+    let keeps = |point: &DVector<f64>| {
         recordings.objective(&space.parameters(point)).is_some_and(|judged| judged.is_feasible())
     };
-    let start = tries.into_iter().find(keeps).unwrap_or_else(|| space.scaled_start(1.0));
-    start.as_slice().to_vec()
+    tries.find(keeps).unwrap_or_else(|| space.scaled_start(1.0))
 }
 
 /// The parameters at the point of the space that is nearest to this one.
-fn at(space: &Space, point: &[f64]) -> Parameters {
-    let (inside, _) = space.clamped(&nalgebra::DVector::from_column_slice(point));
-    space.parameters(&inside)
+fn at(space: &Space, point: &DVector<f64>) -> Parameters {
+    space.parameters(&space.clamped(point).0)
 }
 
 /// Largest increase of the error for which one parameter is reset to its initial value.
@@ -204,7 +201,7 @@ fn tidied(recordings: &Recordings, space: &Space, found: &Candidate) -> Candidat
     for k in 0..found.point.len() {
         let mut point = tidied.point.clone();
         point[k] = 0.0;
-        let parameters = space.parameters(&nalgebra::DVector::from_column_slice(&point));
+        let parameters = space.parameters(&DVector::from_column_slice(&point));
         let Some(judged) = recordings.objective(&parameters) else { continue };
         if judged.is_feasible() && judged.error < tidied.error + WORTH_TIDYING {
             tidied = Candidate { parameters, error: judged.error, point, ..tidied };
@@ -250,7 +247,7 @@ struct Recordings<'a> {
 
 impl<'a> Recordings<'a> {
     fn new(objectives: &'a [&'a Objective], evaluate: &'a Evaluate<'a>, space: &Space) -> Result<Self> {
-        let start = at(space, &vec![0.0; space.dimension()]);
+        let start = at(space, &DVector::zeros(space.dimension()));
         let starts = evaluate(objectives, &start)?.iter().map(|cost| cost.error).collect();
         Ok(Recordings { objectives, evaluate, starts })
     }
@@ -276,8 +273,8 @@ impl<'a> Recordings<'a> {
 }
 
 /// Cost of a point; feasible points are kept if among the best.
-fn penalized_cost(recordings: &Recordings, space: &Space, point: &[f64], best: &Mutex<Best>) -> f64 {
-    let (inside, outside) = space.clamped(&nalgebra::DVector::from_column_slice(point));
+fn penalized_cost(recordings: &Recordings, space: &Space, point: &DVector<f64>, best: &Mutex<Best>) -> f64 {
+    let (inside, outside) = space.clamped(point);
     let parameters = space.parameters(&inside);
     // All parameters in the box can be used. If some cannot, their cost is the largest.
     let Some(judged) = recordings.objective(&parameters) else { return f64::MAX };

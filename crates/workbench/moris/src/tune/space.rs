@@ -1,10 +1,11 @@
 //! Search variables: logarithms of break frequencies, dampings and scales, and orders.
 
+use cmaes::DVector;
 use moris_interface::slots_of;
 use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
 use moris_washout::motion::orientation::RollPitchYaw;
-use moris_washout::nalgebra::{DVector, Vector3};
+use moris_washout::nalgebra::Vector3;
 
 /// A group of parameters that may be tuned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

@@ -69,7 +69,7 @@ impl Header {
                 "column {title} has the unit {}, which is not known; known are {}; convert the column, or give its unit \
                  with {option}",
                 quoted(text),
-                dimension.words().join(", ")
+                dimension.units().map(|unit| unit.word).collect::<Vec<_>>().join(", ")
             )),
         }
     }

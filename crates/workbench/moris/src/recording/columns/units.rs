@@ -106,51 +106,39 @@ units! {
     }
 }
 
-/// Texts and units of a dimension.
-struct Entry {
-    option: &'static str,
-    name: &'static str,
-    /// The units, the SI unit first, each with its other spellings.
-    units: &'static [(Unit, &'static [&'static str])],
-}
-
 impl Dimension {
     pub const ALL: [Dimension; 5] =
         [Dimension::Time, Dimension::Force, Dimension::Rate, Dimension::Angle, Dimension::Speed];
 
-    fn entry(self) -> Entry {
-        match self {
-            Dimension::Time => Entry { option: "time-unit", name: "time", units: TimeUnit::SPELLED },
-            Dimension::Force => Entry { option: "force-unit", name: "specific force", units: ForceUnit::SPELLED },
-            Dimension::Rate => Entry { option: "rate-unit", name: "angular velocity", units: RateUnit::SPELLED },
-            Dimension::Angle => Entry { option: "angle-unit", name: "angle", units: AngleUnit::SPELLED },
-            Dimension::Speed => Entry { option: "speed-unit", name: "speed", units: SpeedUnit::SPELLED },
-        }
-    }
-
     /// Name of the option that gives its unit.
     pub fn option(self) -> &'static str {
-        self.entry().option
+        ["time-unit", "force-unit", "rate-unit", "angle-unit", "speed-unit"][self as usize]
     }
 
     /// Its name in messages.
     pub fn name(self) -> &'static str {
-        self.entry().name
+        ["time", "specific force", "angular velocity", "angle", "speed"][self as usize]
     }
 
-    /// Words of its units, for messages.
-    pub fn words(self) -> Vec<&'static str> {
-        self.units().map(|unit| unit.word).collect()
+    /// Its units, the SI unit first, each with its other spellings.
+    fn spelled_units(self) -> &'static [(Unit, &'static [&'static str])] {
+        match self {
+            Dimension::Time => TimeUnit::SPELLED,
+            Dimension::Force => ForceUnit::SPELLED,
+            Dimension::Rate => RateUnit::SPELLED,
+            Dimension::Angle => AngleUnit::SPELLED,
+            Dimension::Speed => SpeedUnit::SPELLED,
+        }
     }
 
     /// Its units.
     pub fn units(self) -> impl Iterator<Item = Unit> {
-        self.entry().units.iter().map(|(unit, _)| *unit)
+        self.spelled_units().iter().map(|(unit, _)| *unit)
     }
 
     /// The unit of a recording that gives none: the SI unit, which is the first.
     pub fn default_unit(self) -> Unit {
-        self.entry().units[0].0
+        self.spelled_units()[0].0
     }
 
     /// The unit with this spelling in a header, whatever its case and signs; none if it is no
@@ -158,7 +146,7 @@ impl Dimension {
     pub fn spelled(self, text: &str) -> Option<Unit> {
         let plain = plain(text);
         let is_spelled = |(unit, others): &&(Unit, &[&str])| unit.word == plain || others.contains(&plain.as_str());
-        self.entry().units.iter().find(is_spelled).map(|(unit, _)| *unit)
+        self.spelled_units().iter().find(is_spelled).map(|(unit, _)| *unit)
     }
 }
 

@@ -1,7 +1,5 @@
 //! Words of which options choose one.
 
-use moris_washout::interface::AngularVelocityFrame;
-
 /// Declares an enumeration whose items users write, on the command line and in TOML alike.
 macro_rules! choices {
     ($(#[$attribute:meta])* $name:ident { $( $(#[doc = $text:literal])+ $word:literal $item:ident, )+ }) => {
@@ -78,15 +76,6 @@ impl Axes {
         match self {
             Axes::ForwardLeftUp => [1.0, 1.0, 1.0],
             Axes::ForwardRightDown => [1.0, -1.0, -1.0],
-        }
-    }
-}
-
-impl From<RateFrame> for AngularVelocityFrame {
-    fn from(frame: RateFrame) -> Self {
-        match frame {
-            RateFrame::Body => AngularVelocityFrame::Body,
-            RateFrame::World => AngularVelocityFrame::World,
         }
     }
 }

@@ -126,8 +126,7 @@ impl ConventionOptions {
     fn with_file(&self) -> Result<ConventionOptions, RecordingError> {
         let Some(file) = &self.conventions else { return Ok(self.clone()) };
         let text = fs::read_to_string(file).map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
-        let given: ConventionOptions = toml::from_str(&text)
-            .map_err(|error| RecordingError::Conventions { file: file.clone(), reason: error.to_string() })?;
+        let given = toml::from_str(&text).map_err(|error| RecordingError::whole(file, error.to_string()))?;
         Ok(self.over(given))
     }
 

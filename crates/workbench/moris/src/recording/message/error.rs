@@ -13,16 +13,13 @@ pub enum RecordingError {
     /// A file cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },
-    /// The file with the conventions is not one.
-    #[error("{}: {reason}", file.display())]
-    Conventions { file: PathBuf, reason: String },
     /// An option has a value out of its range.
     #[error("{name} is {}, but must be from {min} to {max} {unit}", shown(*value))]
     Option { name: &'static str, value: f64, min: f64, max: f64, unit: &'static str },
     /// A line or a value in it cannot be used.
     #[error("{}, line {line}{}: {reason}", file.display(), column.as_ref().map(|name| format!(", column {name}")).unwrap_or_default())]
     Line { file: PathBuf, line: u64, column: Option<String>, reason: String },
-    /// The file as a whole cannot be used.
+    /// The file, of a recording or of conventions, as a whole cannot be used.
     #[error("{}: {reason}", file.display())]
     Whole { file: PathBuf, reason: String },
 }

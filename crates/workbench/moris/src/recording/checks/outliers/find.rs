@@ -23,30 +23,23 @@ const FLAT_RUNS: usize = 3;
 /// Least distance of a flat top from the values at rest \[fractions of the signal's range\].
 const AWAY: f64 = 0.1;
 
-/// Plausible values of a quantity, in SI units.
-struct Range {
-    /// Beyond it an isolated sample is a spike, whatever the spread.
-    largest: f64,
-    /// Least deviation of a spike.
-    least_spike: f64,
-}
-
-fn range(dimension: Dimension) -> Range {
-    let (largest, least_spike) = match dimension {
+/// The largest plausible size of a quantity, beyond which an isolated sample is a spike whatever
+/// the spread, and the least deviation of a spike, in SI units.
+fn largest_and_least_spike(dimension: Dimension) -> (f64, f64) {
+    match dimension {
         // 10 g; a kerb; and 2000 degrees a second.
         Dimension::Force => (98.0665, 5.0),
         Dimension::Rate => (35.0, 1.0),
         Dimension::Angle => (7.0, 0.3),
         Dimension::Speed => (150.0, 5.0),
         Dimension::Time => (f64::INFINITY, f64::INFINITY),
-    };
-    Range { largest, least_spike }
+    }
 }
 
 /// Samples with the error values of loggers.
 pub fn error_values(table: &Table, quantity: Quantity, values: &[f64]) -> Vec<usize> {
     let unit = table.unit(quantity).0.in_si;
-    let largest = range(quantity.dimension()).largest;
+    let (largest, _) = largest_and_least_spike(quantity.dimension());
     let is_error = |value: f64| {
         let written = (value / unit).abs();
         value.abs() > largest && ERROR_VALUES.iter().any(|error| (written / error - 1.0).abs() < 1e-9)
@@ -60,7 +53,7 @@ pub fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
     if quantity == Quantity::Angle(2) {
         return Vec::new();
     }
-    let Range { largest, least_spike } = range(quantity.dimension());
+    let (largest, least_spike) = largest_and_least_spike(quantity.dimension());
     let window = |k: usize, reach: usize| k.saturating_sub(reach)..(k + reach + 1).min(values.len());
     let deviation = |k: usize| (values[k] - median(values[window(k, NEIGHBOURS)].iter().copied())).abs();
     let is_spike = |&k: &usize| {
