@@ -57,23 +57,13 @@ impl<'a> Replay<'a> {
     /// or of each sample where steps are shorter. An output's flags are then those of all steps
     /// since the output before.
     pub fn run(&self, washout: &mut Washout, observe: impl FnMut(&Input, &Output)) {
-        self.run_prepared(washout, |_, _| (), |_| (), observe);
+        self.run_part(0..usize::MAX, washout, |_, _| (), |_| (), observe);
     }
 
-    /// As [`Replay::run`]; `prepare` is called before each step with the time at its start \[s\],
-    /// and `feel` with the felt specific force after each internal step \[m/s2\].
-    pub fn run_prepared(
-        &self,
-        washout: &mut Washout,
-        prepare: impl FnMut(&mut Washout, f64),
-        feel: impl FnMut(&Vector3<f64>),
-        observe: impl FnMut(&Input, &Output),
-    ) {
-        self.run_part(0..usize::MAX, washout, prepare, feel, observe);
-    }
-
-    /// As [`Replay::run_prepared`], with the steps between these observations only. The washout is
-    /// as at the first of them; the last may be beyond the end.
+    /// As [`Replay::run`], with the steps between these observations only. The washout is as at the
+    /// first of them; the last may be beyond the end. `prepare` is called before each step with the
+    /// time at its start \[s\], and `feel` with the felt specific force after each internal step
+    /// \[m/s2\].
     pub fn run_part(
         &self,
         part: Range<usize>,

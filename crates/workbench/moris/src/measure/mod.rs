@@ -14,15 +14,15 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use moris_simulation::Evaluated;
+use moris_measures::Measures;
+use moris_setup::Setup;
 use moris_simulation::preview::parse_seconds;
-use moris_washout::Parameters;
 use rayon::prelude::*;
 
 use crate::option_values::number_in;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 use crate::setup_options::SetupOptions;
-use crate::simulate::{bounds, measures};
+use crate::simulate::{Outcome, bounds};
 use crate::status::WORSE;
 use channel::{Channel, channels};
 use host::{Host, Inputs};
@@ -97,21 +97,19 @@ impl MeasuredRecording {
     ///
     /// # Errors
     /// The parameters cannot be used, the steps do not fit, or there is no bound.
-    pub fn of(recording: &Recording, parameters: &Parameters, host: &Host, with_bound: bool) -> Result<Self> {
-        let simulation = host.replay(recording, &recording.parameters(parameters))?;
-        let measures = measures(&simulation)?;
-        let bounds = if with_bound {
-            bounds::bounds(&simulation)?.map(|bound| bound.map(|bound| bound.bound.rms_error))
-        } else {
-            [None; 3]
-        };
-        let effort = &measures.effort;
+    pub fn of(recording: &Recording, setup: &Setup, host: &Host, with_bound: bool) -> Result<Self> {
+        let simulation = host.replay(recording, &recording.parameters(&setup.parameters))?;
+        let mut outcome = Outcome::measured(simulation, setup)?;
+        if with_bound {
+            outcome.bounds = bounds::bounds(&outcome.simulation)?;
+        }
+        let Outcome { simulation, measures: Measures { effort, .. }, .. } = &outcome;
         let steps = simulation.outputs.len().max(2) - 1;
         let limited = simulation.outputs[1..].iter().filter(|output| output.safety_active || output.actuator_limited);
         Ok(MeasuredRecording {
             name: recording.name.clone(),
             duration: recording.manoeuvre.duration(),
-            channels: channels(&Evaluated { simulation: &simulation, measures: &measures, bounds }),
+            channels: channels(&outcome.evaluated()),
             limits: [effort.tilt_limited, effort.soft_limited, effort.safety_active, effort.actuator_limited],
             limited: limited.count() as f64 / steps as f64,
             stroke_used: effort.stroke_used,
@@ -129,8 +127,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let host = Host { step: options.step, inputs: options.inputs, preview: options.preview };
     let measure = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
-        MeasuredRecording::of(&recording, &setup.parameters, &host, options.bound)
-            .with_context(|| recording.name.clone())
+        MeasuredRecording::of(&recording, &setup, &host, options.bound).with_context(|| recording.name.clone())
     };
     let recordings: Vec<MeasuredRecording> =
         recordings(&options.recordings)?.par_iter().map(measure).collect::<Result<_>>()?;

@@ -54,7 +54,6 @@ impl Cost {
 /// A recording that parameters are judged on.
 #[derive(Clone, Debug)]
 pub struct Objective {
-    name: String,
     recording: Recording,
     desired: Channels<Vec<f64>>,
     /// RMS of each channel as it is desired, in thresholds.
@@ -127,7 +126,6 @@ impl Objective {
         parameters.rig.acceleration_limit *= RESERVE_OF_ACCELERATION;
         let desired_rms = std::array::from_fn(|k| sensed_rms(k, &desired[k], recording.step()));
         let objective = Objective {
-            name: recording.name.clone(),
             recording,
             desired,
             desired_rms,
@@ -157,7 +155,7 @@ impl Objective {
 
     /// The recording's name.
     pub fn name(&self) -> &str {
-        &self.name
+        &self.recording.name
     }
 
     /// The recording.
@@ -197,7 +195,8 @@ impl Objective {
         errors.add(&washout.output());
         let mut felt = vec![washout.output().felt_specific_force];
         let feel = |force: &Vector3<f64>| felt.push(*force);
-        self.recording.replay().run_prepared(&mut washout, |_, _| (), feel, |_, output| errors.add(output));
+        let replay = self.recording.replay();
+        replay.run_part(0..usize::MAX, &mut washout, |_, _| (), feel, |_, output| errors.add(output));
         Ok((errors, felt))
     }
 

@@ -260,15 +260,12 @@ impl<'a> Recordings<'a> {
     /// expense is unlikely to improve an unknown recording.
     fn objective(&self, parameters: &Parameters) -> Option<Judged> {
         let costs = (self.evaluate)(self.objectives, parameters).ok()?;
-        let count = costs.len() as f64;
-        let mean = costs.iter().map(|cost| cost.error).sum::<f64>() / count;
+        let mean = |of: fn(&Cost) -> f64| costs.iter().map(of).sum::<f64>() / costs.len() as f64;
         let worst = costs.iter().map(|cost| cost.error).fold(0.0, f64::max);
-        let worse =
-            costs.iter().zip(&self.starts).map(|(cost, start)| (cost.error - start).max(0.0)).sum::<f64>() / count;
-        let violated = costs.iter().map(|cost| cost.violated).sum::<f64>() / count;
-        let excess = costs.iter().map(|cost| cost.excess).sum::<f64>() / count;
-        let error = mean + WEIGHT_OF_THE_WORST * worst + PENALTY_OF_WORSENING * worse;
-        Some(Judged { error, violated, excess })
+        let worse = costs.iter().zip(&self.starts).map(|(cost, start)| (cost.error - start).max(0.0)).sum::<f64>();
+        let worse = worse / costs.len() as f64;
+        let error = mean(|cost| cost.error) + WEIGHT_OF_THE_WORST * worst + PENALTY_OF_WORSENING * worse;
+        Some(Judged { error, violated: mean(|cost| cost.violated), excess: mean(|cost| cost.excess) })
     }
 }
 

@@ -33,6 +33,11 @@ impl RecordingResult {
         let (name, desired) = (objective.name().to_owned(), *objective.desired_rms());
         RecordingResult { name, desired, before, tuned: None, unseen: None, infeasible_without: false }
     }
+
+    /// True if the tuned parameters are worse on this recording, tuned on or not.
+    fn is_worse(&self) -> bool {
+        [self.tuned, self.unseen].into_iter().flatten().any(|after| !losses(&self.before, &after).is_empty())
+    }
 }
 
 /// The measures of comfort.
@@ -58,25 +63,14 @@ pub enum Verdict {
 impl Verdict {
     /// Of these results. `fraction` is that of [`super::tested::Tested`].
     pub fn of(results: &[RecordingResult], fraction: f64) -> Self {
-        let unseen = Comparison::unseen(results);
-        if fraction == 0.0 {
-            Verdict::Unchanged
-        } else if unseen.as_ref().is_some_and(Comparison::is_worse) || results.iter().any(RecordingResult::is_worse) {
-            Verdict::Worse
-        } else {
-            match unseen {
-                None => Verdict::Unknown,
-                Some(unseen) if unseen.is_clearly_better() => Verdict::Better,
-                Some(_) => Verdict::NotClear,
-            }
+        match Comparison::unseen(results) {
+            _ if fraction == 0.0 => Verdict::Unchanged,
+            Some(unseen) if unseen.is_worse() => Verdict::Worse,
+            _ if results.iter().any(RecordingResult::is_worse) => Verdict::Worse,
+            None => Verdict::Unknown,
+            Some(unseen) if unseen.is_clearly_better() => Verdict::Better,
+            Some(_) => Verdict::NotClear,
         }
-    }
-}
-
-impl RecordingResult {
-    /// True if the tuned parameters are worse on this recording, tuned on or not.
-    fn is_worse(&self) -> bool {
-        [self.tuned, self.unseen].into_iter().flatten().any(|after| !losses(&self.before, &after).is_empty())
     }
 }
 
@@ -271,9 +265,8 @@ impl Comparison {
 
 fn errors(results: &[RecordingResult]) -> String {
     let cell = |cost: &Option<Cost>| or_undefined(cost.as_ref().map(with_limits));
-    let unseen = |result: &RecordingResult| match result.infeasible_without {
-        true => "none found".to_owned(),
-        false => cell(&result.unseen),
+    let unseen = |result: &RecordingResult| {
+        if result.infeasible_without { "none found".to_owned() } else { cell(&result.unseen) }
     };
     let rows = results
         .iter()

@@ -52,7 +52,7 @@ impl Commands {
             lengths.push(output.length);
             felt.push(output.felt_specific_force);
         };
-        replay.run_prepared(&mut washout, |washout, _| keep(washout), |_| (), |_, _| ());
+        replay.run_part(0..usize::MAX, &mut washout, |washout, _| keep(washout), |_| (), |_, _| ());
         keep(&washout);
         let lean = |k: usize| {
             let (index, part) = (k / divisions, (k % divisions) as f64 / divisions as f64);

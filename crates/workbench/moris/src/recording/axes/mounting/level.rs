@@ -136,36 +136,9 @@ impl Level {
             None => before().map_or((0, 1.0), |block| (block, -sign(along[block]))),
         }
     }
-}
 
-/// Lengths of the parts between changes of the yaw rate's sign, within the limits of [`CLUSTER`].
-fn bends(yaw_rates: &[f64]) -> Vec<usize> {
-    let mut lengths = Vec::new();
-    let mut start = 0;
-    for k in 1..yaw_rates.len() {
-        let length = k - start;
-        let ends = yaw_rates[k - 1].signum() != yaw_rates[k].signum();
-        if length >= CLUSTER[1] || ends && length >= CLUSTER[0] {
-            lengths.push(length);
-            start = k;
-        }
-    }
-    lengths.push(yaw_rates.len() - start);
-    lengths
-}
-
-/// Linear regression of horizontal vectors on a signal.
-struct Regression {
-    /// Unit vector along which the vectors go with the signal.
-    direction: Vector3<f64>,
-    /// Change of the vectors along it with the signal.
-    slope: f64,
-    /// Standard error of the direction \[rad\].
-    error: f64,
-}
-
-impl Level {
-    /// None where the signal's root mean square is below `least`, or nothing goes with it.
+    /// The vectors' regression on a signal; none where the signal's root mean square is below
+    /// `least`, or nothing goes with it.
     ///
     /// `disturbance` is the error of a bend, of its products of signal and vector
     /// across the direction.
@@ -193,6 +166,32 @@ impl Level {
         let error = (off.sqrt() / total.norm()).atan().max(LEAST_ERROR);
         is_moving.then_some(Regression { direction, slope: total.norm() / square, error })
     }
+}
+
+/// Lengths of the parts between changes of the yaw rate's sign, within the limits of [`CLUSTER`].
+fn bends(yaw_rates: &[f64]) -> Vec<usize> {
+    let mut lengths = Vec::new();
+    let mut start = 0;
+    for k in 1..yaw_rates.len() {
+        let length = k - start;
+        let ends = yaw_rates[k - 1].signum() != yaw_rates[k].signum();
+        if length >= CLUSTER[1] || ends && length >= CLUSTER[0] {
+            lengths.push(length);
+            start = k;
+        }
+    }
+    lengths.push(yaw_rates.len() - start);
+    lengths
+}
+
+/// Linear regression of horizontal vectors on a signal.
+struct Regression {
+    /// Unit vector along which the vectors go with the signal.
+    direction: Vector3<f64>,
+    /// Change of the vectors along it with the signal.
+    slope: f64,
+    /// Standard error of the direction \[rad\].
+    error: f64,
 }
 
 /// A disturbance that lasts for a bend: brakings and accelerations.
