@@ -196,7 +196,7 @@ struct Tuned<'a> {
     value: &'a mut f64,
     range: Range,
     /// Channels 0 to 2 act on the specific force along x, y and z, channels 3 to 5 on roll, pitch
-    /// and yaw; none for a parameter that acts on all.
+    /// and yaw. None for a parameter that acts on all.
     channel: Option<usize>,
 }
 
