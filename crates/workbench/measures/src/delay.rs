@@ -53,15 +53,17 @@ fn correlations(desired: &[f64], felt: &[f64], longest: usize) -> Option<Vec<f64
     };
     let (desired_centred, felt_centred) = (centred(desired), centred(felt));
     let products = products(&desired_centred, &felt_centred, longest);
-    let (desired_sums, felt_sums) = (Sums::new(&desired_centred, longest), Sums::new(&felt_centred, longest));
-    let energy = desired_sums.first[0].variation() * felt_sums.first[0].variation();
+    // Each is added up from the end that stays, so that no large sums cancel.
+    let sums = |values: &[f64]| (sums(values.iter(), longest), sums(values.iter().rev(), longest));
+    let ((desired_first, desired_last), (felt_first, felt_last)) = (sums(&desired_centred), sums(&felt_centred));
+    let energy = desired_first[0].variation() * felt_first[0].variation();
     (0..=2 * longest)
         .map(|index| {
             let cut = index.abs_diff(longest);
             let (d, f) = if index < longest {
-                (&desired_sums.last[cut], &felt_sums.first[cut])
+                (&desired_last[cut], &felt_first[cut])
             } else {
-                (&desired_sums.first[cut], &felt_sums.last[cut])
+                (&desired_first[cut], &felt_last[cut])
             };
             if d.is_constant() || f.is_constant() {
                 return None;
@@ -130,33 +132,21 @@ impl Sum {
     }
 }
 
-/// Sums over the parts of a signal that overlap at each shift: the signal without its last, or
-/// first, samples. Each is added up from the end that stays, so that no large sums cancel.
-struct Sums {
-    first: Vec<Sum>,
-    last: Vec<Sum>,
-}
-
-impl Sums {
-    fn new(values: &[f64], longest: usize) -> Self {
-        Sums { first: Self::cut(values.iter(), longest), last: Self::cut(values.iter().rev(), longest) }
-    }
-
-    /// Sums without the last 0, 1, ... `longest` values.
-    fn cut<'a>(values: impl ExactSizeIterator<Item = &'a f64>, longest: usize) -> Vec<Sum> {
-        let count = values.len();
-        let mut sum = Sum::EMPTY;
-        let mut sums = Vec::with_capacity(longest + 1);
-        for (k, &value) in values.enumerate() {
-            sum.add(value);
-            if k + 1 + longest >= count {
-                sums.push(sum);
-            }
+/// Sums over the parts of a signal that overlap at each shift: without the last 0, 1, ...
+/// `longest` values.
+fn sums<'a>(values: impl ExactSizeIterator<Item = &'a f64>, longest: usize) -> Vec<Sum> {
+    let count = values.len();
+    let mut sum = Sum::EMPTY;
+    let mut sums = Vec::with_capacity(longest + 1);
+    for (k, &value) in values.enumerate() {
+        sum.add(value);
+        if k + 1 + longest >= count {
+            sums.push(sum);
         }
-        sums.reverse();
-        sums.resize(longest + 1, Sum::EMPTY);
-        sums
     }
+    sums.reverse();
+    sums.resize(longest + 1, Sum::EMPTY);
+    sums
 }
 
 /// The correlation of `desired` with what is felt `shift` samples later.

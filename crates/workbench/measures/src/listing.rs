@@ -1,6 +1,6 @@
 //! The measures as a list for people.
 
-use crate::comfort::{Comfort, Excess};
+use crate::comfort::Comfort;
 use crate::cues::Cues;
 use crate::effort::Effort;
 use crate::fidelity::Fidelity;
@@ -89,6 +89,25 @@ pub fn all_rows() -> Vec<Row> {
     Measures::of(&run).expect("the run has equal series of numbers").rows()
 }
 
+/// What the rows of a subject have in common.
+struct Subject {
+    name: String,
+    source: &'static str,
+}
+
+impl Subject {
+    /// A row that still needs its definition.
+    fn row(&self, name: &'static str, value: impl Into<Option<f64>>, unit: &'static str) -> Row {
+        Row { subject: self.name.clone(), name, value: value.into(), unit, definition: "", source: self.source }
+    }
+}
+
+impl Row {
+    fn defined(self, definition: &'static str) -> Self {
+        Row { definition, ..self }
+    }
+}
+
 /// A signal that is compared: how its errors are written.
 struct Signal {
     subject: &'static str,
@@ -101,45 +120,22 @@ struct Signal {
 const DEGREE: f64 = 180.0 / std::f64::consts::PI;
 const FORCE: Signal = Signal { subject: "specific force", unit: "m/s²", factor: 1.0, source: COMMON };
 const RATE: Signal = Signal { subject: "angular velocity", unit: "°/s", factor: DEGREE, source: COMMON };
-const SENSED_FORCE: Signal =
-    Signal { subject: "sensed specific force", unit: "m/s²", factor: 1.0, source: VESTIBULAR };
-const SENSED_RATE: Signal =
-    Signal { subject: "sensed angular velocity", unit: "°/s", factor: DEGREE, source: VESTIBULAR };
+const SENSED_FORCE: Signal = Signal { subject: "sensed specific force", source: VESTIBULAR, ..FORCE };
+const SENSED_RATE: Signal = Signal { subject: "sensed angular velocity", source: VESTIBULAR, ..RATE };
 
 impl Signal {
     fn rows(&self, axis: &str, fidelity: &Option<Fidelity>) -> Vec<Row> {
         let Some(fidelity) = fidelity else { return Vec::new() };
-        let row = |name, value, unit, definition| Row {
-            subject: format!("{} {axis}", self.subject),
-            name,
-            value,
-            unit,
-            definition,
-            source: self.source,
-        };
+        let on = Subject { name: format!("{} {axis}", self.subject), source: self.source };
         vec![
-            row(
-                "RMS error",
-                Some(self.factor * fidelity.rms_error),
-                self.unit,
-                "Root mean square over the run of felt minus desired.",
-            ),
-            row(
-                "peak error",
-                Some(self.factor * fidelity.peak_error),
-                self.unit,
-                "Largest absolute value of felt minus desired.",
-            ),
-            row(
-                "correlation",
-                fidelity.correlation,
-                "",
+            on.row("RMS error", self.factor * fidelity.rms_error, self.unit)
+                .defined("Root mean square over the run of felt minus desired."),
+            on.row("peak error", self.factor * fidelity.peak_error, self.unit)
+                .defined("Largest absolute value of felt minus desired."),
+            on.row("correlation", fidelity.correlation, "").defined(
                 "Pearson's correlation of felt and desired, which no scale changes; undefined where one of them is constant.",
             ),
-            row(
-                "delay",
-                fidelity.delay.map(|delay| 1000.0 * delay),
-                "ms",
+            on.row("delay", fidelity.delay.map(|delay| 1000.0 * delay), "ms").defined(
                 "How much later felt comes: the shift, within 2 s, at which the two correlate best; undefined where they \
                  correlate by less than 0.9 there.",
             ),
@@ -148,59 +144,32 @@ impl Signal {
 }
 
 fn comfort_rows(axis: &str, comfort: &Comfort) -> [Row; 3] {
-    let row = |name, excess: Option<Excess>, definition| Row {
-        subject: format!("specific force {axis}"),
-        name,
-        value: excess.map(|excess| excess.value),
-        unit: "m/s²",
-        definition,
-        source: COMFORT,
-    };
+    let on = Subject { name: format!("specific force {axis}"), source: COMFORT };
     [
-        row(
-            "shake",
-            comfort.shake,
+        on.row("shake", comfort.shake.map(|excess| excess.value), "m/s²").defined(
             "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
              undefined up to 16 samples a second and for runs of 15 samples or less.",
         ),
-        row(
-            "jolt",
-            comfort.jolt,
+        on.row("jolt", comfort.jolt.map(|excess| excess.value), "m/s²").defined(
             "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
              desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.",
         ),
-        row(
-            "peak",
-            Some(comfort.peak),
+        on.row("peak", comfort.peak.value, "m/s²").defined(
             "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.",
         ),
     ]
 }
 
 fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
-    let row = |name, fraction: f64, definition| Row {
-        subject: subject.clone(),
-        name,
-        value: Some(100.0 * fraction),
-        unit: "%",
-        definition,
-        source: THRESHOLDS,
-    };
+    let on = Subject { name: subject, source: THRESHOLDS };
     [
-        row(
-            "sensed in the vehicle",
-            cues.desired,
-            "Fraction of the run in which the vehicle's motion is above the threshold.",
-        ),
-        row(
-            "false cues",
-            cues.false_cues,
+        on.row("sensed in the vehicle", 100.0 * cues.desired, "%")
+            .defined("Fraction of the run in which the vehicle's motion is above the threshold."),
+        on.row("false cues", 100.0 * cues.false_cues, "%").defined(
             "Fraction of the run in which the platform's motion is above the threshold and the vehicle's is not, or has the \
              opposite sign.",
         ),
-        row(
-            "missing cues",
-            cues.missing_cues,
+        on.row("missing cues", 100.0 * cues.missing_cues, "%").defined(
             "Fraction of the run in which the vehicle's motion is above the threshold and the platform's is not.",
         ),
     ]
@@ -211,143 +180,70 @@ fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
 /// `desired` is the RMS of the desired specific force as a deviation from rest \[m/s2\], `felt` the
 /// RMS error that was felt.
 pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: f64) -> [Row; 4] {
-    let row = |name, value, unit, definition| Row {
-        subject: format!("specific force {axis}"),
-        name,
-        value,
-        unit,
-        definition,
-        source: BOUND,
-    };
+    let on = Subject { name: format!("specific force {axis}"), source: BOUND };
     let percentage = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
     [
-        row(
-            "bound",
-            Some(bound),
-            "m/s²",
+        on.row("bound", bound, "m/s²").defined(
             "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
              same limits of tilt, tilt rate, travel, speed and acceleration.",
         ),
-        row(
-            "gap to the bound",
-            Some((felt - bound).max(0.0)),
-            "m/s²",
-            "RMS error beyond the bound: the most that a better controller could gain.",
-        ),
-        row(
-            "relative error",
-            percentage(felt),
-            "%",
+        on.row("gap to the bound", (felt - bound).max(0.0), "m/s²")
+            .defined("RMS error beyond the bound: the most that a better controller could gain."),
+        on.row("relative error", percentage(felt), "%").defined(
             "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.",
         ),
-        row("relative bound", percentage(bound), "%", "The bound as the same fraction."),
+        on.row("relative bound", percentage(bound), "%").defined("The bound as the same fraction."),
     ]
 }
 
 fn rider_rows(rider: &Rider) -> [Row; 5] {
-    let row = |name, value, unit, definition, source| Row {
-        subject: "rider".to_string(),
-        name,
-        value,
-        unit,
-        definition,
-        source,
-    };
+    let from = |source| Subject { name: "rider".to_owned(), source };
     let [vehicle, platform] = rider.sick;
     let [vehicle_dose, platform_dose] = rider.dose;
     [
-        row(
-            "sick in the vehicle",
-            Some(vehicle),
-            "%",
+        from(SICKNESS).row("sick in the vehicle", vehicle, "%").defined(
             "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
              vertical; without vision, from data of passengers.",
-            SICKNESS,
         ),
-        row("sick on the platform", Some(platform), "%", "The same of the platform's motion.", SICKNESS),
-        row(
-            "sickness dose in the vehicle",
-            Some(vehicle_dose),
-            "m/s^1.5",
+        from(SICKNESS).row("sick on the platform", platform, "%").defined("The same of the platform's motion."),
+        from(DOSE).row("sickness dose in the vehicle", vehicle_dose, "m/s^1.5").defined(
             "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.",
-            DOSE,
         ),
-        row(
-            "sickness dose on the platform",
-            Some(platform_dose),
-            "m/s^1.5",
-            "The same of the platform's motion.",
-            DOSE,
-        ),
-        row(
-            "incongruence",
-            rider.incongruence.map(|incongruence| 100.0 * incongruence.value),
-            "%",
-            "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
-             that of a platform at rest.",
-            RATING,
-        ),
+        from(DOSE)
+            .row("sickness dose on the platform", platform_dose, "m/s^1.5")
+            .defined("The same of the platform's motion."),
+        from(RATING)
+            .row("incongruence", rider.incongruence.map(|incongruence| 100.0 * incongruence.value), "%")
+            .defined(
+                "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
+                 that of a platform at rest.",
+            ),
     ]
 }
 
 fn effort_rows(effort: &Effort) -> [Row; 8] {
-    let row = |name, value, unit, definition| Row {
-        subject: "platform".to_string(),
-        name,
-        value: Some(value),
-        unit,
-        definition,
-        source: COMMON,
-    };
+    let on = Subject { name: "platform".to_owned(), source: COMMON };
     [
-        row(
-            "stroke used",
-            100.0 * effort.stroke_used,
-            "%",
+        on.row("stroke used", 100.0 * effort.stroke_used, "%").defined(
             "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.",
         ),
-        row(
-            "smallest stroke margin",
-            effort.smallest_margin,
-            "m",
-            "Smallest distance of any actuator from either end of its stroke.",
+        on.row("smallest stroke margin", effort.smallest_margin, "m")
+            .defined("Smallest distance of any actuator from either end of its stroke."),
+        on.row("largest tilt rate", effort.largest_tilt_rate.to_degrees(), "°/s")
+            .defined("Largest rate of tilt coordination in roll or pitch."),
+        on.row("tilt limited", 100.0 * effort.tilt_limited, "%").defined(
+            "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
+             least 0.1 s at its acceleration limit.",
         ),
-        row(
-            "largest tilt rate",
-            effort.largest_tilt_rate.to_degrees(),
-            "°/s",
-            "Largest rate of tilt coordination in roll or pitch.",
-        ),
-        row(
-            "tilt limited",
-            100.0 * effort.tilt_limited,
-            "%",
-            "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at least 0.1 s at its acceleration limit.",
-        ),
-        row(
-            "soft limits active",
-            100.0 * effort.soft_limited,
-            "%",
+        on.row("soft limits active", 100.0 * effort.soft_limited, "%").defined(
             "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.",
         ),
-        row(
-            "safety units active",
-            100.0 * effort.safety_active,
-            "%",
-            "Fraction of the steps in which a safety unit limited the platform.",
-        ),
-        row(
-            "actuators limited",
-            100.0 * effort.actuator_limited,
-            "%",
-            "Fraction of the steps in which the actuator guard limited an actuator.",
-        ),
-        row(
-            "final distance from neutral",
-            effort.final_distance,
-            "m",
-            "Distance of the platform from neutral at the end.",
-        ),
+        on.row("safety units active", 100.0 * effort.safety_active, "%")
+            .defined("Fraction of the steps in which a safety unit limited the platform."),
+        on.row("actuators limited", 100.0 * effort.actuator_limited, "%")
+            .defined("Fraction of the steps in which the actuator guard limited an actuator."),
+        on.row("final distance from neutral", effort.final_distance, "m")
+            .defined("Distance of the platform from neutral at the end."),
     ]
 }
 

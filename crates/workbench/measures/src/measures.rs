@@ -1,5 +1,7 @@
 //! All measures of a run.
 
+use std::array::from_fn;
+
 use crate::comfort::{Comfort, Reference, divisions};
 use crate::cues::{Cues, FORCE_THRESHOLDS, RATE_THRESHOLDS, cues};
 use crate::effort::{Effort, effort};
@@ -84,23 +86,22 @@ impl Measures {
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
         let force = Channel { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
         let rate = Channel { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
-        let [force_x, force_y, force_z] = force.compare(run.desired_force, run.felt_force);
-        let [rate_x, rate_y, rate_z] = rate.compare(run.desired_rate, run.felt_rate);
+        let force = force.compare(run.desired_force, run.felt_force);
+        let rate = rate.compare(run.desired_rate, run.felt_rate);
         let divisions = divisions(run.desired_force.len(), run.felt_force_within_steps.len());
         let mut comfort_of = |k: usize| {
             let new = || Reference::new(&axis(run.desired_force, k), divisions, upright[k], run.step);
             let kept = references[k].take().filter(|kept| kept.is_for(divisions, run.step));
             references[k].insert(kept.unwrap_or_else(new)).comfort(&axis(run.felt_force_within_steps, k))
         };
-        let is_felt = [&force_x, &force_y, &force_z].map(|axis| axis.raw.is_some());
         Ok(Measures {
-            comfort: std::array::from_fn(|k| is_felt[k].then(|| comfort_of(k))),
-            force: [force_x.raw, force_y.raw, force_z.raw],
-            rate: [rate_x.raw, rate_y.raw, rate_z.raw],
-            sensed_force: [force_x.sensed, force_y.sensed, force_z.sensed],
-            sensed_rate: [rate_x.sensed, rate_y.sensed, rate_z.sensed],
-            force_cues: [force_x.cues, force_y.cues, force_z.cues],
-            rate_cues: [rate_x.cues, rate_y.cues, rate_z.cues],
+            comfort: from_fn(|k| force.raw[k].is_some().then(|| comfort_of(k))),
+            force: force.raw,
+            rate: rate.raw,
+            sensed_force: force.sensed,
+            sensed_rate: rate.sensed,
+            force_cues: force.cues,
+            rate_cues: rate.cues,
             effort: effort(&run.platform),
             rider: Rider::of(run),
         })
@@ -115,25 +116,24 @@ struct Channel<'a> {
     step: f64,
 }
 
-/// One axis, felt against desired.
+/// Felt against desired.
 struct Comparison {
-    raw: Option<Fidelity>,
-    sensed: Option<Fidelity>,
-    cues: Cues,
+    raw: Axes<Option<Fidelity>>,
+    sensed: Axes<Option<Fidelity>>,
+    cues: Axes<Cues>,
 }
 
 impl Channel<'_> {
-    fn compare(&self, desired: &[[f64; 3]], felt: &[[f64; 3]]) -> [Comparison; 3] {
-        std::array::from_fn(|k| self.compare_axis(k, &axis(desired, k), &axis(felt, k)))
-    }
-
-    fn compare_axis(&self, k: usize, desired: &[f64], felt: &[f64]) -> Comparison {
-        let sense = |signal| sensed(self.sensor, signal, self.rest[k], self.step);
-        let (sensed_desired, sensed_felt) = (sense(desired), sense(felt));
+    fn compare(&self, desired: &[[f64; 3]], felt: &[[f64; 3]]) -> Comparison {
+        let raw = [desired, felt].map(|signal| from_fn(|k| axis(signal, k)));
+        let sense = |signal: &Axes<Vec<f64>>| from_fn(|k| sensed(self.sensor, &signal[k], self.rest[k], self.step));
+        let sensed = raw.each_ref().map(sense);
+        let fidelities =
+            |[desired, felt]: &[Axes<Vec<f64>>; 2]| from_fn(|k| fidelity(&desired[k], &felt[k], self.step));
         Comparison {
-            raw: fidelity(desired, felt, self.step),
-            sensed: fidelity(&sensed_desired, &sensed_felt, self.step),
-            cues: cues(&sensed_desired, &sensed_felt, self.thresholds[k]),
+            raw: fidelities(&raw),
+            sensed: fidelities(&sensed),
+            cues: from_fn(|k| cues(&sensed[0][k], &sensed[1][k], self.thresholds[k])),
         }
     }
 }

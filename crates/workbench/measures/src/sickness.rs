@@ -20,7 +20,7 @@
 //!
 //! The model has no vision, and its data are of passengers.
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::{SMatrix, SVector, Vector3};
 
 const KA: f64 = 0.1;
 const KW: f64 = 0.1;
@@ -64,74 +64,50 @@ fn share_after(time: f64, conflict: f64) -> f64 {
 fn mean_conflict(force: &[[f64; 3]], rate: &[[f64; 3]], step: f64) -> f64 {
     let (force, block) = means(force, step);
     let (rate, _) = means(rate, step);
-    let mut state = State::at_rest();
+    let mut state = at_rest();
     let mut sum = 0.0;
     for (force, rate) in force.windows(2).zip(rate.windows(2)) {
-        let at = |fraction: f64| Motion {
-            force: force[0].lerp(&force[1], fraction),
-            rate: rate[0].lerp(&rate[1], fraction),
-        };
-        let before = state.conflict();
-        state = runge_kutta(state.0, block, |state, fraction| State(*state).derivative(&at(fraction)).0).into();
-        sum += 0.5 * (before + state.conflict());
+        let before = conflict(&state);
+        state = runge_kutta(state, block, |state, fraction| {
+            derivative(state, force[0].lerp(&force[1], fraction), rate[0].lerp(&rate[1], fraction))
+        });
+        sum += 0.5 * (before + conflict(&state));
     }
     sum / (force.len() - 1).max(1) as f64
 }
 
-/// Motion of the head at a time.
-struct Motion {
-    force: Vector3<f64>,
-    rate: Vector3<f64>,
+/// x, x', v_s, v^, xc, xvc and g, a column each.
+type State = SMatrix<f64, 3, 7>;
+
+fn at_rest() -> State {
+    let (up, none) = (Vector3::z() * GRAVITY, Vector3::zeros());
+    State::from_columns(&[none, none, up, up, none, up / KVC, up])
 }
 
-/// x, x', v_s, v^, xc, xvc and g.
-struct State(SVector<f64, 21>);
-
-impl From<SVector<f64, 21>> for State {
-    fn from(state: SVector<f64, 21>) -> Self {
-        State(state)
-    }
+/// The state's derivative in a motion of the head.
+fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
+    let [x, x_rate, sensed, expected, correction, vertical_correction, gravity] =
+        std::array::from_fn(|k| state.column(k).into_owned());
+    let canals = x_rate * (1.0 / CANALS[0] + 1.0 / CANALS[1]) + x / (CANALS[0] * CANALS[1]);
+    let sensed_rate = canals + rate;
+    let expected_force =
+        ((force - gravity) * KA + vertical_correction * KVC + (force - sensed + expected) * KAC) / (1.0 + KAC);
+    let expected_rate = (correction + rate * KW + sensed_rate * KWC) / (1.0 + KWC);
+    State::from_columns(&[
+        x_rate,
+        -canals - rate,
+        (force - sensed) / VERTICAL - sensed_rate.cross(&sensed),
+        (expected_force - expected) / VERTICAL - expected_rate.cross(&expected),
+        -(correction + rate * KW + (sensed_rate - expected_rate) * KWC) / CANALS[0],
+        sensed - expected,
+        -rate.cross(&gravity),
+    ])
 }
 
-impl State {
-    fn of(parts: [Vector3<f64>; 7]) -> Self {
-        State(SVector::from_fn(|k, _| parts[k / 3][k % 3]))
-    }
-
-    fn part(&self, k: usize) -> Vector3<f64> {
-        self.0.fixed_rows::<3>(3 * k).into_owned()
-    }
-
-    fn at_rest() -> Self {
-        let (up, none) = (Vector3::z() * GRAVITY, Vector3::zeros());
-        State::of([none, none, up, up, none, up / KVC, up])
-    }
-
-    fn derivative(&self, motion: &Motion) -> Self {
-        let [x, x_rate, sensed, expected, correction, vertical_correction, gravity] =
-            std::array::from_fn(|k| self.part(k));
-        let Motion { force, rate } = *motion;
-        let canals = x_rate * (1.0 / CANALS[0] + 1.0 / CANALS[1]) + x / (CANALS[0] * CANALS[1]);
-        let sensed_rate = canals + rate;
-        let expected_force =
-            ((force - gravity) * KA + vertical_correction * KVC + (force - sensed + expected) * KAC) / (1.0 + KAC);
-        let expected_rate = (correction + rate * KW + sensed_rate * KWC) / (1.0 + KWC);
-        State::of([
-            x_rate,
-            -canals - rate,
-            (force - sensed) / VERTICAL - sensed_rate.cross(&sensed),
-            (expected_force - expected) / VERTICAL - expected_rate.cross(&expected),
-            -(correction + rate * KW + (sensed_rate - expected_rate) * KWC) / CANALS[0],
-            sensed - expected,
-            -rate.cross(&gravity),
-        ])
-    }
-
-    /// H.
-    fn conflict(&self) -> f64 {
-        let square = (self.part(2) - self.part(3)).norm_squared() / (HALF * HALF);
-        square / (1.0 + square)
-    }
+/// H.
+fn conflict(state: &State) -> f64 {
+    let square = (state.column(2) - state.column(3)).norm_squared() / (HALF * HALF);
+    square / (1.0 + square)
 }
 
 /// Numerator and denominator of the filter Wf of ISO 2631-1 in falling powers of s, a fit of the
@@ -172,11 +148,11 @@ fn means(series: &[[f64; 3]], step: f64) -> (Vec<Vector3<f64>>, f64) {
 }
 
 /// A step of the classical Runge-Kutta method; `slope` gets the state and the fraction of the step.
-fn runge_kutta<const N: usize>(
-    state: SVector<f64, N>,
+fn runge_kutta<const R: usize, const C: usize>(
+    state: SMatrix<f64, R, C>,
     step: f64,
-    slope: impl Fn(&SVector<f64, N>, f64) -> SVector<f64, N>,
-) -> SVector<f64, N> {
+    slope: impl Fn(&SMatrix<f64, R, C>, f64) -> SMatrix<f64, R, C>,
+) -> SMatrix<f64, R, C> {
     let first = slope(&state, 0.0);
     let second = slope(&(state + first * (0.5 * step)), 0.5);
     let third = slope(&(state + second * (0.5 * step)), 0.5);

@@ -34,3 +34,13 @@ pub enum Error {
     #[error(transparent)]
     Refused(#[from] ParameterError),
 }
+
+impl Error {
+    pub(crate) fn toml(source_name: &str, error: &toml::de::Error, remedy: &'static str) -> Self {
+        Error::Toml { source_name: source_name.to_owned(), text: error.to_string(), remedy }
+    }
+
+    pub(crate) fn wrong_value(source_name: &str, name: &str, reason: String) -> Self {
+        Error::WrongValue { source_name: source_name.to_owned(), name: name.to_owned(), reason }
+    }
+}

@@ -24,4 +24,4 @@ pub use error::Error;
 pub use named_values::{NamedValues, all, changed, overlaid, values_of};
 pub use names::nearest;
 pub use parameter_sets::SETS;
-pub use setup::{Setup, load_rig, load_set};
+pub use setup::{Setup, load_rig, load_set, set_name};

@@ -9,7 +9,7 @@ const MOST: usize = 3;
 
 /// The candidates that look most like `name`, the best first; none that does not look like it at
 /// all.
-pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let name = name.to_lowercase();
     let mut scored: Vec<(f64, &str)> = candidates
         .into_iter()
@@ -19,7 +19,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     scored.sort_by(|a, b| b.0.total_cmp(&a.0));
     let best = scored.first().map_or(0.0, |(likeness, _)| *likeness);
     let close = scored.into_iter().take_while(|(likeness, _)| best - likeness <= ALMOST_AS_ALIKE);
-    close.take(MOST).map(|(_, candidate)| candidate).collect()
+    close.take(MOST).map(|(_, candidate)| candidate.to_owned()).collect()
 }
 
 /// The end of a message about a wrong name: ": did you mean a, b or c?", or what to do when nothing

@@ -10,7 +10,7 @@
 //! All values are in the units of the FMU's variables, which are SI. Every parameter of the model
 //! may be given, including the rig's. Other parameters keep their values.
 
-use moris_interface::{Causality, Kind, Row};
+use moris_interface::{Causality, Enumeration, Kind, Row};
 use toml::{Table, Value};
 
 use crate::named_values::variable_names;
@@ -24,62 +24,39 @@ use crate::{Error, NamedValues};
 /// The text is not TOML, a name is not that of a parameter of the model, or a
 /// value is out of range.
 pub fn read(text: &str, source_name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
-    let table: Table = text.parse().map_err(|error: toml::de::Error| Error::Toml {
-        source_name: source_name.to_owned(),
-        text: error.to_string(),
-        remedy: "a parameter file is TOML; moris parameters prints one",
-    })?;
-    let mut values = NamedValues::new();
-    let reader = Reader { source_name, rows };
-    reader.read_table("", &table, &mut values)?;
-    Ok(values)
+    let remedy = "a parameter file is TOML; moris parameters prints one";
+    let table: Table = text.parse().map_err(|error| Error::toml(source_name, &error, remedy))?;
+    let read = |(name, value): (String, &Value)| {
+        let row = parameter(&name, source_name, rows)?;
+        let value = slot_value(row, value).map_err(|reason| Error::wrong_value(source_name, &name, reason))?;
+        Ok((name, value))
+    };
+    flattened("", &table).into_iter().map(read).collect()
 }
 
-/// Reads tables within tables, whose keys are parts of names.
-struct Reader<'a> {
-    source_name: &'a str,
-    rows: &'a [Row],
+/// The values of tables within tables, whose keys are parts of names.
+fn flattened<'a>(prefix: &str, table: &'a Table) -> Vec<(String, &'a Value)> {
+    let of_key = |(key, value): (&String, &'a Value)| match value {
+        Value::Table(inner) => flattened(&format!("{prefix}{key}."), inner),
+        value => vec![(format!("{prefix}{key}"), value)],
+    };
+    table.iter().flat_map(of_key).collect()
 }
 
-impl Reader<'_> {
-    fn read_table(&self, prefix: &str, table: &Table, values: &mut NamedValues) -> Result<(), Error> {
-        for (key, value) in table {
-            let name = format!("{prefix}{key}");
-            match value {
-                Value::Table(inner) => self.read_table(&format!("{name}."), inner, values)?,
-                _ => {
-                    let value = self.value(&name, value)?;
-                    values.push((name, value));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn value(&self, name: &str, value: &Value) -> Result<f64, Error> {
-        let row = self.row(name)?;
-        slot_value(row, value).map_err(|reason| Error::WrongValue {
-            source_name: self.source_name.to_owned(),
+/// The row of the parameter of this name.
+fn parameter<'a>(name: &str, source_name: &str, rows: &'a [Row]) -> Result<&'a Row, Error> {
+    let parameters = || rows.iter().filter(|row| row.causality == Causality::Parameter);
+    let has_name = |row: &&Row| (0..row.slots()).any(|element| row.variable_name(element) == name);
+    parameters().find(has_name).ok_or_else(|| {
+        let names: Vec<String> = parameters().flat_map(|row| variable_names(std::slice::from_ref(row))).collect();
+        Error::UnknownName {
+            source_name: source_name.to_owned(),
+            what: "parameter",
             name: name.to_owned(),
-            reason,
-        })
-    }
-
-    /// The row of the parameter of this name.
-    fn row(&self, name: &str) -> Result<&Row, Error> {
-        let parameters = || self.rows.iter().filter(|row| row.causality == Causality::Parameter);
-        let has_name = |row: &&Row| (0..row.slots()).any(|element| row.variable_name(element) == name);
-        parameters().find(has_name).ok_or_else(|| {
-            let names: Vec<String> = parameters().flat_map(|row| variable_names(std::slice::from_ref(row))).collect();
-            Error::UnknownName {
-                source_name: self.source_name.to_owned(),
-                what: "parameter",
-                name: name.to_owned(),
-                nearest: nearest(name, names.iter().map(String::as_str)).into_iter().map(str::to_owned).collect(),
-                otherwise: "`cargo moris parameters` lists the washout's, an FMU's modelDescription.xml any model's",
-            }
-        })
-    }
+            nearest: nearest(name, names.iter().map(String::as_str)),
+            otherwise: "`cargo moris parameters` lists the washout's, an FMU's modelDescription.xml any model's",
+        }
+    })
 }
 
 /// A file's value in the encoding of the row's slot, or the reason why it cannot be used.
@@ -90,10 +67,9 @@ fn slot_value(row: &Row, value: &Value) -> Result<f64, String> {
         (Kind::Boolean, Value::Boolean(value)) => Ok(f64::from(*value)),
         (Kind::Enumeration(enumeration), Value::String(item)) => {
             let place = enumeration.items.iter().position(|known| known.name == item);
-            let items = || enumeration.items.iter().map(|item| item.name).collect::<Vec<_>>().join(", ");
             place
                 .map(|place| place as f64 + 1.0)
-                .ok_or_else(|| format!("is \"{item}\", but must be one of {}", items()))
+                .ok_or_else(|| format!("is \"{item}\", but must be one of {}", items(enumeration)))
         }
         (kind, value) => Err(format!("is {value}, but must be {}", what_it_takes(kind))),
     }
@@ -109,11 +85,12 @@ fn what_it_takes(kind: Kind) -> String {
         Kind::Real(unit) => format!("a number, in {}", unit.name),
         Kind::Integer => "a whole number".to_owned(),
         Kind::Boolean => "true or false".to_owned(),
-        Kind::Enumeration(enumeration) => {
-            let items: Vec<&str> = enumeration.items.iter().map(|item| item.name).collect();
-            format!("one of {}, in quotes", items.join(", "))
-        }
+        Kind::Enumeration(enumeration) => format!("one of {}, in quotes", items(enumeration)),
     }
+}
+
+fn items(enumeration: &Enumeration) -> String {
+    enumeration.items.iter().map(|item| item.name).collect::<Vec<_>>().join(", ")
 }
 
 /// The text of a parameter file with these values, each with its unit and description in a comment.
@@ -144,10 +121,7 @@ pub fn write(heading: &str, values: &[(String, f64)], rows: &[Row]) -> String {
 fn description(row: &Row) -> String {
     match row.kind {
         Kind::Real(unit) if !unit.name.is_empty() => format!("{} [{}]", row.text(), unit.name),
-        Kind::Enumeration(enumeration) => {
-            let items: Vec<&str> = enumeration.items.iter().map(|item| item.name).collect();
-            format!("{} One of {}.", row.text(), items.join(", "))
-        }
+        Kind::Enumeration(enumeration) => format!("{} One of {}.", row.text(), items(enumeration)),
         _ => row.text().to_owned(),
     }
 }

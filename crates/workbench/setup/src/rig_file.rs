@@ -156,25 +156,20 @@ const LARGEST_DIAMETER: f64 = 1.0;
 /// # Errors
 /// Text that is not TOML; a key that is not one, is missing or has a value that it cannot have.
 pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
-    let toml_error = |error: toml::de::Error| Error::Toml {
-        source_name: source_name.to_owned(),
-        text: error.to_string(),
-        remedy: "a rig file is TOML; moris rig new writes one",
-    };
+    let toml_error = |error| Error::toml(source_name, &error, "a rig file is TOML; moris rig new writes one");
     let table: toml::Table = text.parse().map_err(toml_error)?;
     // Before anything else: a misspelt key is also a missing one, and the misspelling is what helps.
     if let Some(name) = keys(&table).find(|key| !KEYS.contains(&key.as_str())) {
         return Err(Error::UnknownName {
             source_name: source_name.to_owned(),
             what: "key",
-            nearest: nearest(&name, KEYS.iter().copied()).into_iter().map(str::to_owned).collect(),
+            nearest: nearest(&name, KEYS.iter().copied()),
             name,
             otherwise: "docs/workbench.md lists the keys of a rig file",
         });
     }
     if let Some((name, value)) = not_finite(&table) {
-        let reason = format!("is {value}, but must be a finite number");
-        return Err(Error::WrongValue { source_name: source_name.to_owned(), name, reason });
+        return Err(Error::wrong_value(source_name, &name, format!("is {value}, but must be a finite number")));
     }
     let file: RigFile = toml::from_str(text).map_err(toml_error)?;
     file.check_joints(source_name)?;
@@ -227,11 +222,7 @@ impl RigFile {
     /// Checks beyond the file's syntax: each joint once, and lengths in metres.
     fn check_joints(&self, source_name: &str) -> Result<(), Error> {
         for (name, joints) in [("base", &self.base), ("platform", &self.platform)] {
-            let wrong = |reason: String| Error::WrongValue {
-                source_name: source_name.to_owned(),
-                name: format!("[{name}]"),
-                reason,
-            };
+            let wrong = |reason: String| Error::wrong_value(source_name, &format!("[{name}]"), reason);
             let joints = joints
                 .coordinates()
                 .ok_or_else(|| wrong("needs either radius and degrees, or joints; not both".to_owned()))?;
@@ -242,11 +233,8 @@ impl RigFile {
             }
         }
         if let Some(diameter) = self.actuator.diameter.filter(|diameter| !(0.0..LARGEST_DIAMETER).contains(diameter)) {
-            return Err(Error::WrongValue {
-                source_name: source_name.to_owned(),
-                name: "actuator.diameter".to_owned(),
-                reason: format!("is {} m, but must be from 0 to {LARGEST_DIAMETER} m", shown(diameter)),
-            });
+            let reason = format!("is {} m, but must be from 0 to {LARGEST_DIAMETER} m", shown(diameter));
+            return Err(Error::wrong_value(source_name, "actuator.diameter", reason));
         }
         Ok(())
     }

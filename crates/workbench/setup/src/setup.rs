@@ -26,9 +26,6 @@ pub struct Setup {
     pub actuator_diameter: Option<f64>,
 }
 
-/// Name of the default rig.
-const DEFAULT_RIG: &str = "default rig";
-
 impl Setup {
     /// Combines the default parameters, a rig file and parameter sets. Each overrides the values
     /// before it. A set is the name of a shipped set or a parameter file.
@@ -37,19 +34,24 @@ impl Setup {
     /// A file cannot be read, a name or value in it is invalid, or the parameters make no washout.
     pub fn load(rig: Option<&Path>, sets: &[String]) -> Result<Self, Error> {
         let rig = rig.map(load_rig).transpose()?;
+        let load = |set: &String| Ok((set_name(set), load_set(set, Parameters::ROWS)?));
+        let setup = Self::unchecked(rig, &sets.iter().map(load).collect::<Result<Vec<_>, Error>>()?);
+        check(&setup.parameters)?;
+        Ok(setup)
+    }
+
+    /// Combines the default parameters, a rig, and sets of values by name, without a check that
+    /// they make a washout.
+    pub fn unchecked(rig: Option<RigFile>, sets: &[(String, NamedValues)]) -> Self {
         let rig_alone = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
-        let mut parameters = rig_alone;
-        for set in sets {
-            parameters = overlaid(&parameters, &load_set(set, Parameters::ROWS)?);
-        }
-        check(&parameters)?;
-        Ok(Setup {
+        let names: Vec<&str> = sets.iter().map(|(name, _)| name.as_str()).collect();
+        Setup {
             actuator_diameter: rig.as_ref().and_then(|rig| rig.actuator.diameter),
-            rig_name: rig.map_or_else(|| DEFAULT_RIG.to_owned(), |rig| rig.name),
-            parameters_name: if sets.is_empty() { "default".to_owned() } else { names_of(sets) },
-            parameters,
+            rig_name: rig.map_or_else(|| "default rig".to_owned(), |rig| rig.name),
+            parameters_name: if sets.is_empty() { "default".to_owned() } else { names.join(" + ") },
+            parameters: sets.iter().fold(rig_alone, |parameters, (_, values)| overlaid(&parameters, values)),
             rig_alone,
-        })
+        }
     }
 }
 
@@ -72,11 +74,8 @@ pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
     }
     let file = Path::new(name);
     if !file.exists() && file.extension().is_none() {
-        let names = nearest(name, SETS.iter().map(|(known, _)| *known));
-        return Err(Error::NoSuchSet {
-            name: name.to_owned(),
-            nearest: names.into_iter().map(str::to_owned).collect(),
-        });
+        let nearest = nearest(name, SETS.iter().map(|(known, _)| *known));
+        return Err(Error::NoSuchSet { name: name.to_owned(), nearest });
     }
     parameter_file::read(&text(file)?, name, rows)
 }
@@ -85,9 +84,7 @@ fn text(file: &Path) -> Result<String, Error> {
     fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })
 }
 
-/// The sets' names, those of files without directory and extension.
-fn names_of(sets: &[String]) -> String {
-    let stem =
-        |set: &String| Path::new(set).file_stem().map_or_else(|| set.clone(), |stem| stem.to_string_lossy().into());
-    sets.iter().map(stem).collect::<Vec<String>>().join(" + ")
+/// The name of a set; of a file that without directory and extension.
+pub fn set_name(set: &str) -> String {
+    Path::new(set).file_stem().map_or_else(|| set.to_owned(), |stem| stem.to_string_lossy().into())
 }
