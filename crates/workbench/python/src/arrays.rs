@@ -1,12 +1,12 @@
 //! Arrays from Python: converted to 64-bit floats, their shapes checked.
 
+use moris_interface::{Group, Reader, slots_of};
 use moris_washout::Input;
-use moris_washout::interface::RollPitchYaw;
-use moris_washout::nalgebra::Vector3;
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::error;
+use crate::setup::Given;
 
 /// Steps of time that differ by less than this count as equal \[fraction of a step\].
 const EQUAL: f64 = 1e-6;
@@ -49,62 +49,63 @@ impl Time {
     }
 }
 
-/// The input arrays of a run, one for each field of [`Input`].
-pub struct Arrays<'a, 'py> {
-    pub specific_force: &'a Bound<'py, PyAny>,
-    pub angular_velocity: Option<&'a Bound<'py, PyAny>>,
-    pub orientation: Option<&'a Bound<'py, PyAny>>,
-    pub speed: Option<&'a Bound<'py, PyAny>>,
-    pub lean: Option<&'a Bound<'py, PyAny>>,
-    pub engaged: Option<&'a Bound<'py, PyAny>>,
-}
+/// The fields of [`Input`]: name, and number of elements of a vector.
+pub const FIELDS: [(&str, Option<usize>); 6] = [
+    ("specific_force", Some(3)),
+    ("angular_velocity", Some(3)),
+    ("orientation", Some(3)),
+    ("speed", None),
+    ("lean", None),
+    ("engaged", None),
+];
 
 /// End of the message of an input that is NaN.
 pub const NAN_REMEDY: &str = "; fill the gap, or take NaN as rest with nan=\"rest\"";
 
-/// The samples' times and inputs.
+/// The samples' times and inputs, of an array for each of [`FIELDS`].
 ///
 /// # Errors
 /// `RecordingError`: an array has another shape or holds NaN that does not count as rest, or time
 /// does not increase.
-pub fn samples(time: &Bound<PyAny>, arrays: &Arrays, nan_is_rest: bool) -> PyResult<(Vec<f64>, Time, Vec<Input>)> {
+pub fn samples(time: &Bound<PyAny>, arrays: [Given; 6], nan_is_rest: bool) -> PyResult<(Vec<f64>, Time, Vec<Input>)> {
     let times = values(time, "time", None, None)?;
     let steps = Time::of(time.py(), &times)?;
-    let count = times.len();
-    let inputs = |array: &Bound<PyAny>, name, columns| {
-        let values = values(array, name, Some(count), columns)?;
-        if nan_is_rest { Ok(values) } else { without_nan(array.py(), values, name, columns) }
-    };
-    let vectors = |array: Option<&Bound<PyAny>>, name| array.map(|array| inputs(array, name, Some(3))).transpose();
-    let scalars = |array: Option<&Bound<PyAny>>, name| array.map(|array| inputs(array, name, None)).transpose();
-    let force = inputs(arrays.specific_force, "specific_force", Some(3))?;
-    let rate = vectors(arrays.angular_velocity, "angular_velocity")?;
-    let angles = vectors(arrays.orientation, "orientation")?;
-    let speed = scalars(arrays.speed, "speed")?;
-    let lean = scalars(arrays.lean, "lean")?;
-    let engaged = scalars(arrays.engaged, "engaged")?;
-    let vector = |array: &[f64], k: usize| Vector3::from_column_slice(&array[3 * k..3 * k + 3]);
-    let mut inputs = vec![Input::default(); count];
-    for (k, input) in inputs.iter_mut().enumerate() {
-        input.specific_force = vector(&force, k);
-        if let Some(rate) = &rate {
-            input.angular_velocity = vector(rate, k);
+    let rest = slots_of(&Input::default());
+    let mut rows = rest.repeat(times.len());
+    let mut first = 0;
+    for ((name, columns), array) in FIELDS.into_iter().zip(arrays) {
+        let slots = first..first + columns.unwrap_or(1);
+        first = slots.end;
+        let Some(array) = array else { continue };
+        let values = values(array, name, Some(times.len()), columns)?;
+        if !nan_is_rest {
+            check_numbers(array.py(), &values, name, columns)?;
         }
-        if let Some(angles) = &angles {
-            input.orientation = RollPitchYaw::from_vector(vector(angles, k));
+        for (row, sample) in rows.chunks_exact_mut(rest.len()).zip(values.chunks_exact(slots.len())) {
+            row[slots.clone()].copy_from_slice(sample);
         }
-        input.speed = speed.as_ref().map_or(input.speed, |speed| speed[k]);
-        input.lean = lean.as_ref().map_or(input.lean, |lean| lean[k]);
-        input.engaged = engaged.as_ref().map_or(input.engaged, |engaged| engaged[k] != 0.0);
     }
+    let inputs = rows.chunks_exact(rest.len()).map(|row| Input::read(&mut Reader::new(row))).collect();
     Ok((times, steps, inputs))
 }
 
-/// The values, of which none is NaN.
-fn without_nan(py: Python, values: Vec<f64>, name: &str, columns: Option<usize>) -> PyResult<Vec<f64>> {
-    let Some(place) = values.iter().position(|value| value.is_nan()) else { return Ok(values) };
+/// Checks that no value is NaN.
+fn check_numbers(py: Python, values: &[f64], name: &str, columns: Option<usize>) -> PyResult<()> {
+    let Some(place) = values.iter().position(|value| value.is_nan()) else { return Ok(()) };
     let place = columns.map_or_else(|| place.to_string(), |count| format!("{}, {}", place / count, place % count));
     Err(error::recording(py, format!("{name}[{place}] is NaN{NAN_REMEDY}")))
+}
+
+/// Times, values row by row, and the names of the columns.
+pub type Series<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>);
+
+/// A row of values for each time.
+///
+/// # Errors
+/// There are not as many values.
+pub fn series(py: Python, times: Vec<f64>, values: Vec<f64>, names: Vec<String>) -> PyResult<Series> {
+    let shape = [times.len(), names.len()];
+    Ok((PyArray1::from_vec(py, times), PyArray1::from_vec(py, values).reshape(shape)?, names))
 }
 
 /// The values of an array of shape (`rows`,) or (`rows`, `columns`), row by row.

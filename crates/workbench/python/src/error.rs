@@ -20,9 +20,9 @@ pub fn refused(py: Python, error: &ParameterError, values: &NamedValues) -> PyEr
 }
 
 /// A rig or parameters that cannot be used.
-pub fn setup(py: Python, error: &Error, values: &NamedValues) -> PyErr {
+pub fn setup(py: Python, error: &Error) -> PyErr {
     match error {
-        Error::Refused(error) => refused(py, error, values),
+        Error::Refused(error) => refused(py, error, &NamedValues::new()),
         Error::UnknownName { what, name, nearest, .. } => {
             let remedy = match nearest.as_slice() {
                 [] if *what == "parameter" => "moris.parameters() lists them".to_owned(),
@@ -36,7 +36,7 @@ pub fn setup(py: Python, error: &Error, values: &NamedValues) -> PyErr {
         Error::NoSuchSet { name, nearest } => {
             exception(py, "ParameterError", (error.to_string(), name, None::<f64>, nearest.clone()))
         }
-        Error::Read { .. } | Error::Toml { .. } => exception(py, "ParameterError", (error.to_string(),)),
+        Error::Read { .. } | Error::Toml { .. } => plain(py, "ParameterError", error),
     }
 }
 
@@ -50,17 +50,7 @@ pub fn bound(py: Python, reason: &dyn Display) -> PyErr {
     exception(py, "BoundError", (format!("cannot compute the bound: {reason}"),))
 }
 
-/// A search that found no parameters that keep the limits.
-pub fn infeasible(py: Python, reason: &dyn Display) -> PyErr {
-    exception(py, "NoFeasibleParameters", (reason.to_string(),))
-}
-
-/// Parameters of which no kind of message is known.
-pub fn parameter(py: Python, message: String) -> PyErr {
-    exception(py, "ParameterError", (message,))
-}
-
-/// An FMU that cannot be made.
-pub fn build(py: Python, reason: &dyn Display) -> PyErr {
-    exception(py, "BuildError", (reason.to_string(),))
+/// An exception of `moris._errors` whose message is the reason alone.
+pub fn plain(py: Python, class: &str, reason: &dyn Display) -> PyErr {
+    exception(py, class, (reason.to_string(),))
 }

@@ -12,5 +12,5 @@ use pyo3::prelude::*;
 pub fn pack_fmu(py: Python, base: PathBuf, parameters: String, output: PathBuf) -> PyResult<PathBuf> {
     let options = StartOptions { parameters: vec![parameters], ..StartOptions::default() };
     let packed = py.detach(|| moris::build_fmu::pack(&base, &options, &output, &mut sink()));
-    packed.map_err(|error| crate::error::build(py, &error))
+    packed.map_err(|error| crate::error::plain(py, "BuildError", &error))
 }

@@ -5,17 +5,17 @@ use std::sync::Arc;
 
 use moris::recording::{ConventionOptions, Conventions, Dialect, Recording};
 use moris_batch::Manoeuvre;
-use moris_interface::{Group, Writer, slot_count};
+use moris_interface::{Group, slots_of};
 use moris_washout::Input;
 use moris_washout::interface::AngularVelocityFrame;
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use toml::{Table, Value};
 
-use crate::arrays::values;
+use crate::arrays::{Series, series, values};
 use crate::error;
 use crate::setup::table;
+use crate::variables::Variables;
 
 /// A recording in the washout's frames and units.
 #[pyclass(frozen, module = "moris._moris", name = "Recording")]
@@ -75,20 +75,9 @@ impl PyRecording {
     }
 
     /// The samples' times, their inputs row by row, and the names of the inputs.
-    #[allow(clippy::type_complexity)]
-    fn samples<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>)> {
-        const COUNT: usize = slot_count(Input::ROWS);
-        let inputs = self.inner.inputs();
-        let mut rows = vec![0.0; inputs.len() * COUNT];
-        for (input, row) in inputs.iter().zip(rows.chunks_exact_mut(COUNT)) {
-            input.write(&mut Writer::new(row));
-        }
-        let names = crate::variables::Variables::of(Input::ROWS).names;
-        let rows = PyArray1::from_vec(py, rows).reshape([inputs.len(), COUNT])?;
-        Ok((PyArray1::from_vec(py, self.inner.times().collect()), rows, names))
+    fn samples<'py>(&self, py: Python<'py>) -> PyResult<Series<'py>> {
+        let rows = self.inner.inputs().iter().flat_map(slots_of).collect();
+        series(py, self.inner.times().collect(), rows, Variables::of(Input::ROWS).names)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {

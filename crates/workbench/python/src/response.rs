@@ -8,7 +8,8 @@ use numpy::{Complex64, PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::{error, setup};
+use crate::error;
+use crate::setup::{self, Given};
 
 /// Names of the channels, frequencies \[rad/s\], and the responses with the test's amplitudes
 /// and to small signals.
@@ -27,8 +28,8 @@ type Responses<'py> =
 #[allow(clippy::too_many_arguments)]
 pub fn frequency_response<'py>(
     py: Python<'py>,
-    rig: Option<&Bound<PyAny>>,
-    parameters: Option<&Bound<PyAny>>,
+    rig: Given,
+    parameters: Given,
     strategy: Option<&str>,
     force: f64,
     rate: f64,
@@ -44,7 +45,7 @@ pub fn frequency_response<'py>(
     let amplitudes = Amplitudes { force, ..default.scaled(rate / default.rate) };
     let measured = py
         .detach(|| Measured::of(&setup.parameters, amplitudes, gravity_turns, || ()))
-        .map_err(|reason| error::parameter(py, reason.to_string()))?;
+        .map_err(|reason| error::plain(py, "ParameterError", &reason))?;
     let names = Channel::ALL.iter().map(|&channel| name(channel)).collect();
     let frequencies = PyArray1::from_slice(py, &frequencies());
     Ok((names, frequencies, arrays(py, &measured.test)?, arrays(py, &measured.small)?))

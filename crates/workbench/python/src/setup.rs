@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use moris_interface::Group;
 use moris_setup::rig_file::{self, RigFile};
-use moris_setup::{Error, NamedValues, Setup, all, load_rig, load_set, overlaid, parameter_file};
+use moris_setup::{NamedValues, Setup, all, load_rig, load_set, parameter_file, set_name};
 use moris_washout::{Parameters, check};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -14,104 +14,53 @@ use toml::{Table, Value};
 
 use crate::error;
 
+/// An argument that may be left out.
+pub type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
+
 /// The rig, parameters and strategy, put together and checked.
 ///
 /// # Errors
 /// `ParameterError`: a name, a value or the combination cannot be used.
-pub fn load(
-    py: Python,
-    rig: Option<&Bound<PyAny>>,
-    parameters: Option<&Bound<PyAny>>,
-    strategy: Option<&str>,
-) -> PyResult<Setup> {
-    let mut setup = unchecked(rig, parameters, strategy)?;
-    check(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
-    if setup.parameters_name.is_empty() {
-        setup.parameters_name = "default".to_owned();
-    }
-    Ok(setup)
-}
-
-fn unchecked(rig: Option<&Bound<PyAny>>, parameters: Option<&Bound<PyAny>>, strategy: Option<&str>) -> PyResult<Setup> {
+pub fn load(py: Python, rig: Given, parameters: Given, strategy: Option<&str>) -> PyResult<Setup> {
     let rig = rig.map(rig_of).transpose()?;
-    let rig_alone = rig.as_ref().map_or_else(Parameters::default, RigFile::parameters);
-    let mut setup = Setup {
-        rig_name: rig.as_ref().map_or_else(|| "default rig".to_owned(), |rig| rig.name.clone()),
-        parameters_name: String::new(),
-        parameters: rig_alone,
-        rig_alone,
-        actuator_diameter: rig.as_ref().and_then(|rig| rig.actuator.diameter),
-    };
-    if let Some(parameters) = parameters {
-        overlay(&mut setup, parameters)?;
-    }
+    let mut sets = parameters.map(sets_of).transpose()?.unwrap_or_default();
     if let Some(strategy) = strategy {
         let values = Table::from_iter([("strategy".to_owned(), Value::from(strategy))]);
-        lay_over(&mut setup, strategy, &values_of(parameters.map(Bound::py), &values)?);
+        sets.push((strategy.to_owned(), values_of(py, &values)?));
     }
+    let setup = Setup::unchecked(rig, &sets);
+    check(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
     Ok(setup)
 }
 
-/// The values that a Python object gives: a name, a dictionary, or a list of them.
+/// The parameter sets that a Python object gives, a name, a dictionary or a list of them: names and
+/// values.
 ///
 /// # Errors
 /// As [`load`].
-pub fn values(parameters: &Bound<PyAny>) -> PyResult<NamedValues> {
-    let mut setup = Setup {
-        rig_name: String::new(),
-        parameters_name: String::new(),
-        parameters: Parameters::default(),
-        rig_alone: Parameters::default(),
-        actuator_diameter: None,
-    };
-    let mut given = NamedValues::new();
-    each(parameters, &mut |_, values| given.extend(values))?;
-    lay_over(&mut setup, "", &given);
-    Ok(given)
-}
-
-fn overlay(setup: &mut Setup, parameters: &Bound<PyAny>) -> PyResult<()> {
-    each(parameters, &mut |name, values| lay_over(setup, name, &values))
-}
-
-fn lay_over(setup: &mut Setup, name: &str, values: &NamedValues) {
-    setup.parameters = overlaid(&setup.parameters, values);
-    if !setup.parameters_name.is_empty() {
-        setup.parameters_name.push_str(" + ");
-    }
-    setup.parameters_name.push_str(name);
-}
-
-/// Calls `act` with the name and the values of every set.
-fn each(parameters: &Bound<PyAny>, act: &mut dyn FnMut(&str, NamedValues)) -> PyResult<()> {
+pub fn sets_of(parameters: &Bound<PyAny>) -> PyResult<Vec<(String, NamedValues)>> {
     let py = parameters.py();
-    let refused = |error: &Error| error::setup(py, error, &NamedValues::new());
     if let Some(path) = path_of(parameters)? {
-        let text = path.to_string_lossy();
-        let stem = path.file_stem().map_or_else(|| text.clone(), |stem| stem.to_string_lossy());
-        act(&stem, load_set(&text, Parameters::ROWS).map_err(|error| refused(&error))?);
+        let set = path.to_string_lossy();
+        let values = load_set(&set, Parameters::ROWS).map_err(|error| error::setup(py, &error))?;
+        Ok(vec![(set_name(&set), values)])
     } else if parameters.cast::<PyMapping>().is_ok() {
-        act("given", values_of(Some(py), &table(parameters)?)?);
+        Ok(vec![("given".to_owned(), values_of(py, &table(parameters)?)?)])
     } else if parameters.cast::<PyList>().is_ok() || parameters.cast::<PyTuple>().is_ok() {
-        for set in parameters.try_iter()? {
-            each(&set?, act)?;
-        }
+        let sets = parameters.try_iter()?.map(|set| sets_of(&set?)).collect::<PyResult<Vec<_>>>()?;
+        Ok(sets.concat())
     } else {
-        return Err(PyTypeError::new_err(format!(
+        Err(PyTypeError::new_err(format!(
             "parameters must be a preset's name, a parameter file, a dict of values by name, or a list of these, not {}",
             parameters.get_type().name()?
-        )));
+        )))
     }
-    Ok(())
 }
 
 /// The values of a table, by the rules of a parameter file.
-fn values_of(py: Option<Python>, values: &Table) -> PyResult<NamedValues> {
+fn values_of(py: Python, values: &Table) -> PyResult<NamedValues> {
     let read = parameter_file::read(&values.to_string(), "parameters", Parameters::ROWS);
-    read.map_err(|error| match py {
-        Some(py) => error::setup(py, &error, &NamedValues::new()),
-        None => Python::attach(|py| error::setup(py, &error, &NamedValues::new())),
-    })
+    read.map_err(|error| error::setup(py, &error))
 }
 
 /// The rig of a rig file or of a dictionary with its keys.
@@ -120,7 +69,7 @@ fn values_of(py: Option<Python>, values: &Table) -> PyResult<NamedValues> {
 /// As [`load`].
 pub fn rig_of(rig: &Bound<PyAny>) -> PyResult<RigFile> {
     let py = rig.py();
-    let refused = |error: Error| error::setup(py, &error, &NamedValues::new());
+    let refused = |error| error::setup(py, &error);
     if let Some(path) = path_of(rig)? {
         return load_rig(&path).map_err(refused);
     }

@@ -6,7 +6,7 @@ use moris::measure::host::Host;
 use moris::recording::Recording;
 use moris::recording::preview::LONGEST_PREVIEW;
 use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fits_the_rig, page};
-use moris_interface::{Group, Writer, guid, slot_count};
+use moris_interface::{Group, guid, slots_of};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
 use moris_washout::interface::StrategyKind;
@@ -16,9 +16,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
+use crate::arrays::{Series, series};
 use crate::error;
 use crate::recording::PyRecording;
-use crate::setup;
+use crate::setup::{self, Given};
 use crate::variables::Variables;
 use crate::washout::parameter_dict;
 
@@ -47,8 +48,8 @@ impl PySimulation {
     fn new(
         py: Python,
         recording: &PyRecording,
-        rig: Option<&Bound<PyAny>>,
-        parameters: Option<&Bound<PyAny>>,
+        rig: Given,
+        parameters: Given,
         strategy: Option<&str>,
         bound: bool,
         preview: f64,
@@ -61,7 +62,7 @@ impl PySimulation {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
             Outcome::measured(simulated, &setup)
         });
-        let mut outcome = outcome.map_err(|reason| error::parameter(py, reason.to_string()))?;
+        let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
         if bound {
             outcome.bounds =
                 py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
@@ -95,22 +96,12 @@ impl PySimulation {
     }
 
     /// The samples' times, the inputs and outputs row by row, and the names of the columns.
-    #[allow(clippy::type_complexity)]
-    fn samples<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, Vec<String>)> {
-        const INPUTS: usize = slot_count(Input::ROWS);
-        const COUNT: usize = INPUTS + slot_count(Output::ROWS);
+    fn samples<'py>(&self, py: Python<'py>) -> PyResult<Series<'py>> {
         let Simulation { inputs, outputs, .. } = &self.outcome.simulation;
-        let mut rows = vec![0.0; outputs.len() * COUNT];
-        for ((input, output), row) in inputs.iter().zip(outputs).zip(rows.chunks_exact_mut(COUNT)) {
-            input.write(&mut Writer::new(&mut row[..INPUTS]));
-            output.write(&mut Writer::new(&mut row[INPUTS..]));
-        }
+        let slots = |(input, output)| slots_of::<Input>(input).into_iter().chain(slots_of::<Output>(output));
+        let rows = inputs.iter().zip(outputs).flat_map(slots).collect();
         let names = [Input::ROWS, Output::ROWS].into_iter().flat_map(|rows| Variables::of(rows).names).collect();
-        let rows = PyArray1::from_vec(py, rows).reshape([outputs.len(), COUNT])?;
-        Ok((PyArray1::from_vec(py, self.outcome.simulation.times()), rows, names))
+        series(py, self.outcome.simulation.times(), rows, names)
     }
 
     /// Angular velocity that the vehicle's rider feels, in head axes.
@@ -214,8 +205,8 @@ fn measure(row: Row) -> Measure {
 pub fn bound<'py>(
     py: Python<'py>,
     recording: &PyRecording,
-    rig: Option<&Bound<PyAny>>,
-    parameters: Option<&Bound<PyAny>>,
+    rig: Given,
+    parameters: Given,
 ) -> PyResult<Vec<Option<(f64, f64, Bound<'py, PyArray1<f64>>)>>> {
     let Setup { parameters, .. } = setup::load(py, rig, parameters, None)?;
     let recording = &recording.inner;
@@ -238,8 +229,8 @@ pub fn bound<'py>(
 #[pyfunction]
 pub fn parameter_values<'py>(
     py: Python<'py>,
-    rig: Option<&Bound<PyAny>>,
-    parameters: Option<&Bound<PyAny>>,
+    rig: Given,
+    parameters: Given,
     strategy: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
     parameter_dict(py, &setup::load(py, rig, parameters, strategy)?.parameters)
@@ -250,12 +241,7 @@ pub fn parameter_values<'py>(
 /// # Errors
 /// As [`parameter_values`].
 #[pyfunction]
-pub fn parameter_file(
-    py: Python,
-    heading: &str,
-    rig: Option<&Bound<PyAny>>,
-    parameters: Option<&Bound<PyAny>>,
-) -> PyResult<String> {
+pub fn parameter_file(py: Python, heading: &str, rig: Given, parameters: Given) -> PyResult<String> {
     let setup = setup::load(py, rig, parameters, None)?;
     let rig_alone = all(&setup::load(py, rig, None, None)?.parameters);
     let differing = all(&setup.parameters).into_iter().zip(rig_alone).filter(|(mine, rigs)| mine.1 != rigs.1);

@@ -2,12 +2,11 @@
 
 use moris::rig::picture;
 use moris::rig::survey::{Singularities, Survey};
-use moris_setup::NamedValues;
 use moris_setup::rig_file;
 use pyo3::prelude::*;
 
 use crate::error;
-use crate::setup::rig_of;
+use crate::setup::{Given, rig_of};
 
 /// The washout's default rig.
 const DEFAULT_RIG: &str = include_str!("../../../../examples/rigs/default.toml");
@@ -30,12 +29,10 @@ type Properties =
 /// # Errors
 /// `ParameterError`: the rig cannot be used.
 #[pyfunction]
-pub fn survey(py: Python, rig: Option<&Bound<PyAny>>, samples: u32) -> PyResult<Properties> {
+pub fn survey(py: Python, rig: Given, samples: u32) -> PyResult<Properties> {
     let file = match rig {
         Some(rig) => rig_of(rig)?,
-        None => {
-            rig_file::read(DEFAULT_RIG, "default rig").map_err(|error| error::setup(py, &error, &NamedValues::new()))?
-        }
+        None => rig_file::read(DEFAULT_RIG, "default rig").map_err(|error| error::setup(py, &error))?,
     };
     let survey =
         py.detach(|| Survey::of(&file, samples)).map_err(|error| error::refused(py, &error, &file.values()))?;

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::recording::PyRecording;
-use crate::setup;
+use crate::setup::{self, Given};
 use crate::simulation::{check_preview, host};
 
 /// All measures of a sweep, on every axis: subject, name and unit.
@@ -38,7 +38,7 @@ pub fn sweep_measures() -> Vec<(String, &'static str, &'static str)> {
 pub fn sweep_chunk<'py>(
     py: Python<'py>,
     recordings: Vec<PyRef<PyRecording>>,
-    rig: Option<&Bound<PyAny>>,
+    rig: Given,
     sets: Vec<Bound<PyAny>>,
     strategy: Option<&str>,
     preview: f64,

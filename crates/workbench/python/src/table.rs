@@ -29,10 +29,7 @@ type Variable<'py> = (
 /// Python is out of memory.
 #[pyfunction]
 pub fn variable_rows(py: Python) -> PyResult<Vec<Variable>> {
-    let mut rows = of(py, &Inputs::default())?;
-    rows.extend(of(py, &Output::default())?);
-    rows.extend(of(py, &Parameters::default())?);
-    Ok(rows)
+    Ok([of(py, &Inputs::default())?, of(py, &Output::default())?, of(py, &Parameters::default())?].concat())
 }
 
 fn of<'py, G: Group>(py: Python<'py>, start: &G) -> PyResult<Vec<Variable<'py>>> {

@@ -20,7 +20,7 @@ use pyo3::types::PyDict;
 
 use crate::error;
 use crate::recording::PyRecording;
-use crate::setup;
+use crate::setup::{self, Given};
 use crate::washout::parameter_dict;
 
 /// Time between two checks of progress and signals.
@@ -55,8 +55,8 @@ impl PyTuning {
         py: Python,
         recordings: Vec<PyRef<PyRecording>>,
         held_out: usize,
-        rig: Option<&Bound<PyAny>>,
-        parameters: Option<&Bound<PyAny>>,
+        rig: Given,
+        parameters: Given,
         strategy: Option<&str>,
         groups: Vec<String>,
         weights: [f64; 6],
@@ -174,11 +174,8 @@ impl PyTuning {
         }
         let done = done.map_err(|_| PyValueError::new_err("the search ended in a panic; this is a defect of moris"))?;
         let Tested { setup: tuned, results, fraction } = done.map_err(|reason| {
-            if reason.is::<NoFeasibleParameters>() {
-                error::infeasible(py, &reason)
-            } else {
-                error::parameter(py, reason.to_string())
-            }
+            let is_infeasible = reason.is::<NoFeasibleParameters>();
+            error::plain(py, if is_infeasible { "NoFeasibleParameters" } else { "ParameterError" }, &reason)
         })?;
         let was_interrupted = interrupted.load(Ordering::Relaxed);
         let text = summary::text(&self.before, &tuned, &results, fraction, was_interrupted);

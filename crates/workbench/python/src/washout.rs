@@ -1,18 +1,18 @@
 //! The class `Washout`.
 
-use moris_interface::{Group, Writer, guid, slots_of};
-use moris_setup::all;
+use moris_interface::{Group, Writer, guid, slot_count, slots_of};
+use moris_setup::{all, overlaid};
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::{Input, MOST_INTERNAL_STEPS, Washout};
-use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
-use crate::arrays::{Arrays, NAN_REMEDY, samples};
+use crate::arrays::{FIELDS, NAN_REMEDY, samples, series};
 use crate::output::{COUNT, PyOutput, VARIABLES};
 use crate::preview::{self, Previews};
+use crate::setup::Given;
 use crate::variables::Variables;
 use crate::{error, setup};
 
@@ -41,12 +41,7 @@ pub struct PyWashout {
 impl PyWashout {
     #[new]
     #[pyo3(signature = (rig=None, parameters=None, strategy=None))]
-    fn new(
-        py: Python,
-        rig: Option<&Bound<PyAny>>,
-        parameters: Option<&Bound<PyAny>>,
-        strategy: Option<&str>,
-    ) -> PyResult<Self> {
+    fn new(py: Python, rig: Given, parameters: Given, strategy: Option<&str>) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
         let washout =
             Washout::new(&setup.parameters).map_err(|error| error::refused(py, &error, &all(&setup.parameters)))?;
@@ -80,25 +75,22 @@ impl PyWashout {
     fn step(
         &mut self,
         dt: f64,
-        specific_force: Option<&Bound<PyAny>>,
-        angular_velocity: Option<&Bound<PyAny>>,
-        orientation: Option<&Bound<PyAny>>,
+        specific_force: Given,
+        angular_velocity: Given,
+        orientation: Given,
         speed: f64,
         lean: f64,
         engaged: bool,
-        preview: Option<&Bound<PyAny>>,
+        preview: Given,
         preview_step: Option<f64>,
         nan: &str,
     ) -> PyResult<PyOutput> {
         self.check_step(dt)?;
-        let nan_is_rest = nan_is_rest(nan)?;
-        let force = vector(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?;
-        let rate = vector(angular_velocity, "angular_velocity", [0.0; 3])?;
-        let angles = vector(orientation, "orientation", [0.0; 3])?;
+        let nan_is_rest = is_second("nan", nan, ["error", "rest"])?;
         let input = Input {
-            specific_force: force,
-            angular_velocity: rate,
-            orientation: RollPitchYaw::from_vector(angles),
+            specific_force: vector(specific_force, "specific_force", [0.0, 0.0, STANDARD_GRAVITY])?,
+            angular_velocity: vector(angular_velocity, "angular_velocity", [0.0; 3])?,
+            orientation: RollPitchYaw::from_vector(vector(orientation, "orientation", [0.0; 3])?),
             speed,
             lean,
             engaged,
@@ -140,27 +132,20 @@ impl PyWashout {
         py: Python<'py>,
         time: &Bound<'py, PyAny>,
         specific_force: &Bound<'py, PyAny>,
-        angular_velocity: Option<&Bound<'py, PyAny>>,
-        orientation: Option<&Bound<'py, PyAny>>,
-        speed: Option<&Bound<'py, PyAny>>,
-        lean: Option<&Bound<'py, PyAny>>,
-        engaged: Option<&Bound<'py, PyAny>>,
-        preview: Option<&Bound<'py, PyAny>>,
+        angular_velocity: Given<'_, 'py>,
+        orientation: Given<'_, 'py>,
+        speed: Given<'_, 'py>,
+        lean: Given<'_, 'py>,
+        engaged: Given<'_, 'py>,
+        preview: Given<'_, 'py>,
         preview_step: Option<f64>,
         inputs: &str,
         nan: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let slopes = match inputs {
-            "slopes" => true,
-            "values" => false,
-            _ => {
-                return Err(PyValueError::new_err(format!(
-                    "inputs is {inputs:?}, but must be \"slopes\" or \"values\""
-                )));
-            }
-        };
-        let arrays = Arrays { specific_force, angular_velocity, orientation, speed, lean, engaged };
-        let (times, time, samples) = samples(time, &arrays, nan_is_rest(nan)?)?;
+        let holds = is_second("inputs", inputs, ["slopes", "values"])?;
+        let nan_is_rest = is_second("nan", nan, ["error", "rest"])?;
+        let arrays = [Some(specific_force), angular_velocity, orientation, speed, lean, engaged];
+        let (times, time, samples) = samples(time, arrays, nan_is_rest)?;
         let previews = preview.map(|array| Previews::of(array, Some(samples.len()), preview_step)).transpose()?;
         for k in 1..samples.len() {
             self.check_step(time.step(k - 1))?;
@@ -180,19 +165,16 @@ impl PyWashout {
                 if let Some(previews) = &previews {
                     self.washout.preview(&previews.at(k));
                 }
-                if slopes {
-                    self.washout.step_between(&pair[0], &pair[1], time.step(k));
-                } else {
+                if holds {
                     self.washout.step(&pair[0], time.step(k));
+                } else {
+                    self.washout.step_between(&pair[0], &pair[1], time.step(k));
                 }
                 write(&self.washout);
             }
             rows
         });
-        let count = samples.len();
-        let rows = PyArray1::from_vec(py, rows).reshape([count, COUNT])?;
-        let times = PyArray1::from_vec(py, times);
-        py.import("moris._outputs")?.getattr("Outputs")?.call1((times, rows, VARIABLES.names.clone()))
+        py.import("moris._outputs")?.getattr("Outputs")?.call1(series(py, times, rows, VARIABLES.names.clone())?)
     }
 
     /// Changes parameters in motion. The platform does not jump; the effect of the
@@ -201,7 +183,8 @@ impl PyWashout {
     /// parameters: as for the constructor. Raises ParameterError for a name or a value that cannot
     /// be used, or if a fixed parameter would change. No parameter has then changed.
     fn retune(&mut self, py: Python, parameters: &Bound<PyAny>) -> PyResult<()> {
-        let changed = moris_setup::overlaid(self.washout.parameters(), &setup::values(parameters)?);
+        let sets = setup::sets_of(parameters)?;
+        let changed = sets.iter().fold(*self.washout.parameters(), |changed, (_, values)| overlaid(&changed, values));
         self.washout.retune(&changed).map_err(|error| error::refused(py, &error, &all(&changed)))
     }
 
@@ -276,36 +259,29 @@ impl PyWashout {
     }
 }
 
-/// The meaning of the argument `nan`.
-fn nan_is_rest(nan: &str) -> PyResult<bool> {
-    match nan {
-        "error" => Ok(false),
-        "rest" => Ok(true),
-        _ => Err(PyValueError::new_err(format!("nan is {nan:?}, but must be \"error\" or \"rest\""))),
-    }
+/// True if an argument is the second of the two words that it can be.
+fn is_second(argument: &str, given: &str, words: [&str; 2]) -> PyResult<bool> {
+    let place = words.iter().position(|word| *word == given);
+    let [first, second] = words;
+    let wrong = || PyValueError::new_err(format!("{argument} is {given:?}, but must be \"{first}\" or \"{second}\""));
+    Ok(place.ok_or_else(wrong)? == 1)
 }
 
 /// Checks that no number of an input is NaN.
 fn check_numbers(input: &Input) -> PyResult<()> {
-    let angles = input.orientation.to_vector();
-    let vectors = [
-        ("specific_force", &input.specific_force),
-        ("angular_velocity", &input.angular_velocity),
-        ("orientation", &angles),
-    ];
-    let elements = vectors.into_iter().flat_map(|(name, vector)| (0..3).map(move |k| (name, Some(k), vector[k])));
-    let scalars = [("speed", None, input.speed), ("lean", None, input.lean)];
-    match elements.chain(scalars).find(|(_, _, value)| value.is_nan()) {
-        None => Ok(()),
-        Some((name, place, _)) => {
-            let place = place.map_or_else(String::new, |k: usize| format!("[{k}]"));
-            Err(PyValueError::new_err(format!("{name}{place} is NaN{NAN_REMEDY}")))
-        }
-    }
+    let mut slots = [0.0; slot_count(Input::ROWS)];
+    input.write(&mut Writer::new(&mut slots));
+    let of_field = |(name, columns): (&'static str, Option<usize>)| {
+        (0..columns.unwrap_or(1)).map(move |k| (name, columns.map(|_| k)))
+    };
+    let mut places = FIELDS.into_iter().flat_map(of_field).zip(slots);
+    let Some(((name, place), _)) = places.find(|(_, value)| value.is_nan()) else { return Ok(()) };
+    let place = place.map_or_else(String::new, |k| format!("[{k}]"));
+    Err(PyValueError::new_err(format!("{name}{place} is NaN{NAN_REMEDY}")))
 }
 
 /// The vector of a sequence of three numbers.
-fn vector(object: Option<&Bound<PyAny>>, name: &str, default: [f64; 3]) -> PyResult<Vector3<f64>> {
+fn vector(object: Given, name: &str, default: [f64; 3]) -> PyResult<Vector3<f64>> {
     let Some(object) = object else { return Ok(Vector3::from(default)) };
     let wrong = |_| PyTypeError::new_err(format!("{name} is {object}, but must be three numbers"));
     if let Ok(tuple) = object.cast::<PyTuple>()
