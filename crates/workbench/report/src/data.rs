@@ -6,7 +6,7 @@
 use moris_washout::Parameters;
 use serde::Serialize;
 
-use crate::encode::{curve, flags, times};
+use crate::encode::{curve, curves, flags, times};
 use crate::simulator::Simulator;
 use crate::tilt_limits::TiltFlags;
 
@@ -107,22 +107,22 @@ pub struct Run {
     /// Felt: motion at the head of the rider on the platform.
     pub felt: Cues,
     /// Position of the platform frame's origin in the base frame: x, y, z \[m\].
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub position: [Vec<f64>; 3],
     /// Orientation of the platform: roll, pitch, yaw \[rad\].
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub orientation: [Vec<f64>; 3],
     /// The legs' lengths \[m\].
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub legs: [Vec<f64>; 6],
     /// Tilt coordination's part of roll and pitch \[rad\].
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub tilt: [Vec<f64>; 2],
     /// Rates of that part \[rad/s\].
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub tilt_rate: [Vec<f64>; 2],
     /// The rider's lean, positive to the right \[rad\]; empty for a rider without lean.
-    #[serde(serialize_with = "curve::one")]
+    #[serde(serialize_with = "curve")]
     pub lean: Vec<f64>,
     pub limited: LimitHistory,
     pub limits: Limits,
@@ -137,10 +137,10 @@ pub struct Run {
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Cues {
     /// x, y, z \[m/s2\]; (0, 0, 9.81) at rest.
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub specific_force: [Vec<f64>; 3],
     /// x, y, z \[rad/s\].
-    #[serde(serialize_with = "curve::many")]
+    #[serde(serialize_with = "curves")]
     pub angular_velocity: [Vec<f64>; 3],
 }
 
@@ -250,6 +250,6 @@ pub struct Chart {
 pub struct Line {
     pub label: String,
     /// One value for each time; a value that is not a number is a gap.
-    #[serde(serialize_with = "curve::one")]
+    #[serde(serialize_with = "curve")]
     pub values: Vec<f64>,
 }

@@ -83,30 +83,20 @@ fn deflated(bytes: &[u8]) -> String {
     STANDARD.encode(written.expect("memory takes whatever is written"))
 }
 
-/// Series for display only, with six digits.
-pub mod curve {
-    use serde::Serializer;
-    use serde::ser::{Serialize, SerializeSeq};
+/// A series for display only, with six digits. An empty series is null.
+///
+/// # Errors
+/// The serializer's.
+pub fn curve<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    (!values.is_empty()).then(|| Series::looked_at(values)).serialize(serializer)
+}
 
-    use super::Series;
-
-    /// An empty series is null.
-    ///
-    /// # Errors
-    /// The serializer's.
-    pub fn one<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
-        (!values.is_empty()).then(|| Series::looked_at(values)).serialize(serializer)
-    }
-
-    /// # Errors
-    /// The serializer's.
-    pub fn many<S: Serializer>(series: &[Vec<f64>], serializer: S) -> Result<S::Ok, S::Error> {
-        let mut list = serializer.serialize_seq(Some(series.len()))?;
-        for values in series {
-            list.serialize_element(&Series::looked_at(values))?;
-        }
-        list.end()
-    }
+/// Several such series, none of them null.
+///
+/// # Errors
+/// The serializer's.
+pub fn curves<S: Serializer>(series: &[Vec<f64>], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(series.iter().map(|values| Series::looked_at(values)))
 }
 
 /// Times. None are null.

@@ -34,6 +34,7 @@ const GAP: f64 = 0.1;
 const REACHED: f64 = 0.98;
 
 /// A quantity's largest fraction of its limit, and the limit in words.
+#[derive(Clone)]
 struct Utilisation {
     fraction: f64,
     /// The axis or leg.
@@ -171,22 +172,18 @@ fn of_actuators(run: &Run, rig: &Rig, at: &Stretch) -> [Vec<Utilisation>; 3] {
     let [shortest, longest] = rig.stroke;
     let (middle, half) = (0.5 * (shortest + longest), 0.5 * (longest - shortest));
     let farthest = |leg: &[f64], side: f64| at.of(leg).iter().fold(0.0, |far, x| f64::max(far, side * (x - middle)));
-    let legs = || run.legs.iter().enumerate().map(|(i, leg)| (format!("leg {}", i + 1), leg));
-    let short = legs().map(|(name, leg)| {
-        Utilisation::new(name, farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m"))
-    });
-    let long = legs().map(|(name, leg)| {
-        Utilisation::new(name, farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m"))
-    });
-    let velocities = legs().map(|(name, leg)| {
-        let limit = limits.actuator_velocity;
-        Utilisation::new(name, at.peak_rate(leg), limit, format!("speed limit of {limit:.2} m/s"))
-    });
-    let accelerations = legs().map(|(name, leg)| {
-        let limit = limits.actuator_acceleration;
-        Utilisation::new(name, at.peak_second_rate(leg), limit, format!("acceleration limit of {limit:.1} m/s²"))
-    });
-    [short.chain(long).collect(), velocities.collect(), accelerations.collect()]
+    let of_legs = |value: &dyn Fn(&[f64]) -> f64, limit: f64, text: String| -> Vec<Utilisation> {
+        let of_leg = |(leg, i): (&Vec<f64>, i32)| Utilisation::new(format!("leg {i}"), value(leg), limit, text.clone());
+        run.legs.iter().zip(1..).map(of_leg).collect()
+    };
+    let short = of_legs(&|leg| farthest(leg, -1.0), half, format!("shortest length of {shortest:.3} m"));
+    let long = of_legs(&|leg| farthest(leg, 1.0), half, format!("greatest length of {longest:.3} m"));
+    let (speed, acceleration) = (limits.actuator_velocity, limits.actuator_acceleration);
+    [
+        [short, long].concat(),
+        of_legs(&|leg| at.peak_rate(leg), speed, format!("speed limit of {speed:.2} m/s")),
+        of_legs(&|leg| at.peak_second_rate(leg), acceleration, format!("acceleration limit of {acceleration:.1} m/s²")),
+    ]
 }
 
 /// The first kind that reached its limit, in order of kinds; otherwise the one that came closest.
