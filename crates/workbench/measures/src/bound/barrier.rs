@@ -90,13 +90,25 @@ impl<const M: usize> Bounded<'_, M> {
         std::array::from_fn(|k| self.limits(k).iter().map(|limit| of(k, limit)).sum())
     }
 
-    /// Largest decrease of a slack or a multiplier in a step, as a fraction of it. For the uncentred
-    /// step itself, `uncentred` and `target` are 0.
+    /// Largest decrease of a slack or a multiplier in the uncentred step, as a fraction of it.
+    pub fn uncentred_decrease(&self, change: &[f64; M]) -> f64 {
+        let of = |k: usize, limit: &Limit| {
+            let slack = limit.sign * change[k] / limit.slack;
+            f64::max(-slack, 1.0 + slack)
+        };
+        self.largest(of)
+    }
+
+    /// The same in the centred step.
     pub fn decrease(&self, change: &[f64; M], uncentred: &[f64; M], target: f64) -> f64 {
         let of = |k: usize, limit: &Limit| {
             let multiplier = limit.relative_step(change[k], limit.target(uncentred[k], target));
             f64::max(-limit.sign * change[k] / limit.slack, -multiplier)
         };
+        self.largest(of)
+    }
+
+    fn largest(&self, of: impl Fn(usize, &Limit) -> f64) -> f64 {
         (0..M).flat_map(|k| self.limits(k).map(|limit| of(k, &limit))).fold(0.0, f64::max)
     }
 

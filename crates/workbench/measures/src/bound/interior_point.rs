@@ -78,7 +78,6 @@ pub fn solve<const N: usize, const U: usize, const E: usize>(
     let intervals = program.desired.len();
     let limits = 2 * (N + U + E) * intervals;
     let mut solver = Solver::at_rest(program);
-    let none = Change { states: vec![[0.0; N]; intervals + 1], inputs: vec![[0.0; U]; intervals] };
     for _ in 0..MOST_ITERATIONS {
         let products = solver.sum_of_products();
         let tolerance = solver.tolerance();
@@ -86,7 +85,7 @@ pub fn solve<const N: usize, const U: usize, const E: usize>(
             return Ok(solver.solution);
         }
         let uncentred = solver.uncentred_step();
-        let part = TO_THE_LIMIT.min(TO_THE_LIMIT / solver.largest_decrease(&uncentred, &none, 0.0));
+        let part = TO_THE_LIMIT.min(TO_THE_LIMIT / solver.largest_uncentred_decrease(&uncentred));
         let left = (1.0 - part) * products + part * part * solver.sum_of_uncentred_products(&uncentred);
         let target = (left / products).powi(3) * products / limits as f64;
         let change = solver.centred_step(&uncentred, target);
@@ -191,6 +190,20 @@ impl<'a, const N: usize, const U: usize, const E: usize> Solver<'a, N, U, E> {
             states.uncentred_products(&state) + inputs.uncentred_products(&input) + limits.uncentred_products(&limit)
         };
         (0..self.feedback.len()).map(of).sum()
+    }
+
+    fn largest_uncentred_decrease(&self, change: &Change<N, U>) -> f64 {
+        let of = |k| {
+            let Limits { states, inputs, limits } = self.limits(k);
+            let (state, input, limit) = self.changes(k, change);
+            let decreases = [
+                states.uncentred_decrease(&state),
+                inputs.uncentred_decrease(&input),
+                limits.uncentred_decrease(&limit),
+            ];
+            decreases.into_iter().fold(0.0, f64::max)
+        };
+        (0..self.feedback.len()).map(of).fold(0.0, f64::max)
     }
 
     fn largest_decrease(&self, change: &Change<N, U>, uncentred: &Change<N, U>, target: f64) -> f64 {
