@@ -146,21 +146,21 @@ impl Lateral {
             torso_acceleration: accelerations(-inverse * torso_coupling),
             wind: accelerations(inverse * Vector4::new(1.0, design.wind_x, design.wind_height, 0.0)),
         };
-        add_block(&mut lateral.per_speed, &(-inverse * gyroscopic_matrix(&t, sin, cos)));
+        add(&mut lateral.per_speed, 0, &(-inverse * gyroscopic_matrix(&t, sin, cos)));
         // The acceleration of the contact is y'' = velocity' + speed yaw rate.
         lateral.per_speed[(VELOCITY, YAW_RATE)] -= 1.0;
         lateral.constant[(LEAN, LEAN_RATE)] = 1.0;
         lateral.constant[(STEER, STEER_RATE)] = 1.0;
-        add_column(&mut lateral.constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
+        add(&mut lateral.constant, STEER_RATE, &(inverse * steer_unit * -design.steer_damping));
         for (place, stiffness) in [(LEAN, k0.column(0)), (STEER, k0.column(1))] {
             let moments = Vector4::new(0.0, 0.0, stiffness[0], stiffness[1]);
-            add_column(&mut lateral.constant, place, &(-inverse * moments));
+            add(&mut lateral.constant, place, &(-inverse * moments));
         }
         for contact in design.contacts() {
             lateral.add_tyre(&contact, &inverse);
             // Half of the critical damping of half the mass on the tyre's lateral spring.
             let damping = libm::sqrt(contact.tyre.cornering / contact.tyre.relaxation * 0.5 * t.m_t);
-            add_block(&mut lateral.hold, &(-inverse * contact.arms * contact.arms.transpose() * damping));
+            add(&mut lateral.hold, 0, &(-inverse * contact.arms * contact.arms.transpose() * damping));
         }
         lateral.add_feet_and_hands(&t, &k0, &inverse);
         Some(lateral)
@@ -171,7 +171,7 @@ impl Lateral {
     fn add_tyre(&mut self, contact: &Contact, inverse: &Matrix4<f64>) {
         let Contact { force, arms, steer_slip, steer_camber, tyre } = contact;
         let force = *force;
-        add_column(&mut self.constant, force, &(inverse * arms));
+        add(&mut self.constant, force, &(inverse * arms));
         for (place, arm) in arms.iter().enumerate() {
             self.constant[(force, place)] = -tyre.cornering * arm / tyre.relaxation;
         }
@@ -187,8 +187,8 @@ impl Lateral {
         let hands = (3, STEER, STEER_RATE, HANDS_STIFFNESS * k0[(1, 1)].abs(), t.a_ll);
         for (row, angle, rate, stiffness, inertia) in [feet, hands] {
             let damping = 2.0 * libm::sqrt(stiffness * inertia);
-            add_column(&mut self.hold, angle, &(inverse.column(row) * -stiffness));
-            add_column(&mut self.hold, rate, &(inverse.column(row) * -damping));
+            add(&mut self.hold, angle, &(inverse.column(row) * -stiffness));
+            add(&mut self.hold, rate, &(inverse.column(row) * -damping));
         }
     }
 
@@ -363,23 +363,13 @@ pub fn static_loads(bicycle: &Bicycle, gravity: f64) -> Wheels {
     Wheels { front, rear: t.m_t * gravity - front }
 }
 
-/// Adds a matrix that maps velocities to accelerations.
-fn add_block(matrix: &mut StateMatrix, block: &Matrix4<f64>) {
-    for column in 0..4 {
-        add_column(matrix, column, &block.column(column).into_owned());
-    }
-}
-
-/// Adds accelerations to a column's first four rows.
-fn add_column(matrix: &mut StateMatrix, column: usize, accelerations: &Vector4<f64>) {
-    for row in 0..4 {
-        matrix[(row, column)] += accelerations[row];
-    }
+/// Adds accelerations to the first four rows of columns from this one on.
+fn add<const COLUMNS: usize>(matrix: &mut StateMatrix, column: usize, accelerations: &SMatrix<f64, 4, COLUMNS>) {
+    let mut place = matrix.fixed_view_mut::<4, COLUMNS>(0, column);
+    place += accelerations;
 }
 
 /// Accelerations as a derivative of the state.
 fn accelerations(accelerations: Vector4<f64>) -> State {
-    let mut state = State::zeros();
-    state.fixed_rows_mut::<4>(0).copy_from(&accelerations);
-    state
+    accelerations.fixed_resize::<SIZE, 1>(0.0)
 }

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::interface::Parameters;
 use crate::lateral::{Wheels, bicycle, static_loads};
+use crate::rider::within;
 use crate::whipple::Bicycle;
 
 /// Data of the longitudinal equations.
@@ -138,7 +139,7 @@ impl Longitudinal {
     pub fn forces(&self, now: &Situation) -> Forces {
         let p = &self.parameters;
         let resistance = self.drag(now.speed) - now.wind;
-        let drive = now.throttle * p.drive_force.min(p.power / now.speed.max(1e-3))
+        let drive = now.throttle * self.largest_drive(now.speed)
             - (1.0 - now.throttle) * p.engine_braking * (now.speed / CLUTCH_SPEED).min(1.0);
         let brake = now.brake * p.brake_force;
 
@@ -239,9 +240,4 @@ fn pitch_inertia(bicycle: &Bicycle, frame_yy: f64) -> f64 {
 /// Longitudinal friction left by a lateral force: the friction circle.
 fn held(friction: f64, lateral: f64) -> f64 {
     libm::sqrt((friction * friction - lateral * lateral).max(0.0))
-}
-
-/// The limited value: at most `limit` to either side.
-fn within(value: f64, limit: f64) -> f64 {
-    value.max(-limit).min(limit)
 }

@@ -82,17 +82,8 @@ impl Model for Motorcycle {
         let longitudinal = Longitudinal::new(parameters);
         let suspension = Suspension::new(parameters);
         let (lateral, rider) = design_rider(parameters, &suspension, fastest(parameters, &longitudinal)?)?;
-        let state = State {
-            position: Vector2::zeros(),
-            heading: parameters.run.initial_heading,
-            speed: parameters.run.initial_speed,
-            lateral: lateral::State::zeros(),
-            suspension: suspension::State { position: Vector2::zeros(), velocity: Vector2::zeros() },
-            rider: crate::rider::State::default(),
-            throttle: 0.0,
-            brake: 0.0,
-            place: Place::default(),
-        };
+        let (heading, speed) = (parameters.run.initial_heading, parameters.run.initial_speed);
+        let state = State { heading, speed, ..State::default() };
         let follower = Follower::new(parameters, &lateral, &rider, &longitudinal)?;
         let mut motorcycle = Motorcycle {
             parameters: *parameters,
@@ -526,12 +517,12 @@ impl Motorcycle {
 
 /// A lateral state with the tyres' forces within these limits, and whether any was beyond.
 fn held(state: &lateral::State, limits: (grip::Limits, grip::Limits)) -> (lateral::State, bool) {
-    let forces = Wheels { front: state[place::FRONT_FORCE], rear: state[place::REAR_FORCE] };
-    let (forces, any) = grip::limited(forces, limits);
-    let mut state = *state;
-    state[place::FRONT_FORCE] = forces.front;
-    state[place::REAR_FORCE] = forces.rear;
-    (state, any)
+    let (mut held, mut any) = (*state, false);
+    for (tyre, (least, most)) in [(place::FRONT_FORCE, limits.0), (place::REAR_FORCE, limits.1)] {
+        held[tyre] = held[tyre].max(least).min(most);
+        any |= held[tyre] != state[tyre];
+    }
+    (held, any)
 }
 
 /// The derivative of a fallen motorcycle's lateral state: all rates end, and the tyres' forces.

@@ -26,7 +26,7 @@ const ERROR: usize = lateral::SIZE;
 pub const SPEEDS: usize = 48;
 
 /// Gains of the rider at one speed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GainSet {
     /// Torque against a deviation of the lateral state, and against the accumulated error.
     pub gain: lateral::State,
@@ -37,10 +37,6 @@ pub struct GainSet {
 }
 
 impl GainSet {
-    fn none() -> GainSet {
-        GainSet { gain: lateral::State::zeros(), error_gain: 0.0, turn: lateral::State::zeros(), turn_torque: 0.0 }
-    }
-
     fn interpolated(&self, other: &GainSet, t: f64) -> GainSet {
         let number = |from: f64, to: f64| from + t * (to - from);
         GainSet {
@@ -84,7 +80,7 @@ impl Rider {
     pub fn new(lateral: &Lateral, parameters: &Parameters, fastest: f64) -> Result<Rider, ParameterError> {
         let limits = &parameters.rider;
         let mut rider = Rider {
-            gains: SVector::repeat(GainSet::none()),
+            gains: SVector::repeat(GainSet::default()),
             speeds: Speeds { slowest: SLOWEST_FRACTION * limits.feet_speed, fastest },
             parameters: *limits,
             largest_lean: 0.0,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::{lateral, rider, suspension};
 
 /// The state of motorcycle and rider, or its time derivative.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     /// Position of the rear contact in the world \[m\].
     pub position: Vector2<f64>,

@@ -33,7 +33,7 @@ pub struct Suspension {
 }
 
 /// Heave and pitch (nose down) and their rates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct State {
     pub position: Vector2<f64>,
     pub velocity: Vector2<f64>,

@@ -3,7 +3,7 @@
 use moris_interface::{ParameterError, refuse};
 use serde::{Deserialize, Serialize};
 
-use super::preview_rider::{INTERVAL, Parts, PreviewRider, SAMPLES, plant_state};
+use super::preview_rider::{INTERVAL, PreviewRider, SAMPLES, plant_state};
 use super::speed_plan::{Limits, SpeedPlan};
 use super::table::Table;
 use crate::interface::Parameters;
@@ -136,18 +136,21 @@ impl Follower {
     /// Second derivative of the reference lean's tangent \[1/s2\].
     pub fn lean_control(&self, state: &State, ahead: &Ahead) -> f64 {
         let gains = self.rider.gains(state.speed);
-        let lean = libm::tan(state.rider.lean);
-        let curvature = self.table.curvature_at(state.place.distance);
+        let (rider, place) = (&state.rider, &state.place);
+        let lean = libm::tan(rider.lean);
+        let curvature = self.table.curvature_at(place.distance);
         let steady_lean = curvature * state.speed * state.speed * gains.lean_per_acceleration;
-        let plant = plant_state(&Parts {
-            lateral: &state.lateral,
-            error: state.rider.error,
-            reference: [lean, state.rider.lean_rate * (1.0 + lean * lean)],
-            torso: [state.rider.torso, state.rider.torso_rate],
-            deviation: within(state.place.deviation, LARGEST_DEVIATION),
-            heading: within(state.place.heading, LARGEST_HEADING),
-            integral: state.place.integral,
-        });
+        let others = [
+            rider.error,
+            lean,
+            rider.lean_rate * (1.0 + lean * lean),
+            rider.torso,
+            rider.torso_rate,
+            within(place.deviation, LARGEST_DEVIATION),
+            within(place.heading, LARGEST_HEADING),
+            place.integral,
+        ];
+        let plant = plant_state(&state.lateral, others);
         ahead.lean + gains.feedback(&plant, steady_lean)
     }
 

@@ -9,8 +9,6 @@
 //! L = N cos φ + F sin φ, F positive to the side of the lean. The ellipse's end on either side then
 //! is F = r μ L / (cos φ ± r μ sin φ).
 
-use crate::lateral::Wheels;
-
 /// Limits of a tyre's lateral force \[N\], to the left (negative) and to the right.
 pub type Limits = (f64, f64);
 
@@ -42,13 +40,6 @@ impl Friction {
 
 /// Least denominator of the ellipse's end.
 const LEAST_FRACTION: f64 = 0.1;
-
-/// The lateral forces within their limits, and whether any was beyond.
-pub fn limited(forces: Wheels, limits: (Limits, Limits)) -> (Wheels, bool) {
-    let within = |force: f64, (least, most): Limits| force.max(least).min(most);
-    let held = Wheels { front: within(forces.front, limits.0), rear: within(forces.rear, limits.1) };
-    (held, held != forces)
-}
 
 /// Deceleration of a motorcycle that slides on its side, as a fraction of gravity times friction.
 pub const SLIDING: f64 = 0.4;

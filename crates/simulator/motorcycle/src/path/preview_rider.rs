@@ -50,7 +50,7 @@ pub const INTERVAL: f64 = 0.1;
 const SPEEDS: usize = 24;
 
 /// Gains at one speed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PreviewGains {
     /// Gain of the plant's state.
     pub gain: Plant,
@@ -86,32 +86,9 @@ impl PreviewGains {
     }
 }
 
-/// Arguments of [`plant_state`].
-pub struct Parts<'a> {
-    pub lateral: &'a lateral::State,
-    pub error: f64,
-    /// Tangent of the reference lean, and its rate.
-    pub reference: [f64; 2],
-    /// Lean of the torso, and its rate.
-    pub torso: [f64; 2],
-    pub deviation: f64,
-    pub heading: f64,
-    pub integral: f64,
-}
-
-/// The plant's state.
-pub fn plant_state(parts: &Parts) -> Plant {
-    let mut state = Plant::zeros();
-    state.fixed_rows_mut::<{ lateral::SIZE }>(0).copy_from(parts.lateral);
-    state[ERROR] = parts.error;
-    state[REFERENCE] = parts.reference[0];
-    state[REFERENCE_RATE] = parts.reference[1];
-    state[TORSO] = parts.torso[0];
-    state[TORSO_RATE] = parts.torso[1];
-    state[DEVIATION] = parts.deviation;
-    state[HEADING] = parts.heading;
-    state[INTEGRAL] = parts.integral;
-    state
+/// The plant's state: the lateral state, and the coordinates after it in their order.
+pub fn plant_state(lateral: &lateral::State, others: [f64; SIZE - lateral::SIZE]) -> Plant {
+    Plant::from_iterator(lateral.iter().copied().chain(others))
 }
 
 /// Gains for all speeds.
@@ -126,13 +103,7 @@ impl PreviewRider {
     /// on a path.
     pub fn new(lateral: &Lateral, rider: &Rider) -> Option<Self> {
         let speeds = Speeds { slowest: rider.feet_speed(), fastest: rider.fastest() };
-        let none = PreviewGains {
-            gain: Plant::zeros(),
-            preview: SVector::zeros(),
-            turn: Plant::zeros(),
-            lean_per_acceleration: 0.0,
-        };
-        let mut designed = PreviewRider { gains: SVector::repeat(none), speeds };
+        let mut designed = PreviewRider { gains: SVector::repeat(PreviewGains::default()), speeds };
         for k in 0..SPEEDS {
             designed.gains[k] = design(lateral, rider, speeds.knot(k, SPEEDS))?;
         }
@@ -172,16 +143,12 @@ fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> Plant
         let torso_acceleration =
             frequency * (frequency * (fraction * unit[REFERENCE] - unit[TORSO]) - 2.0 * unit[TORSO_RATE]);
         let actions = Actions { torque, torso: unit[TORSO], torso_acceleration, wind: 0.0 };
-        let derivative = plant_state(&Parts {
-            lateral: &lateral.derivative(&motion, speed, 0.0, &actions),
-            error: unit[place::LEAN] - unit[REFERENCE],
-            reference: [unit[REFERENCE_RATE], 0.0],
-            torso: [unit[TORSO_RATE], torso_acceleration],
-            deviation: speed * unit[HEADING] + unit[place::VELOCITY],
-            heading: unit[place::YAW_RATE],
-            integral: unit[DEVIATION],
-        });
-        a.set_column(column, &derivative);
+        let error = unit[place::LEAN] - unit[REFERENCE];
+        let deviation = speed * unit[HEADING] + unit[place::VELOCITY];
+        let (heading, integral) = (unit[place::YAW_RATE], unit[DEVIATION]);
+        let rates =
+            [error, unit[REFERENCE_RATE], 0.0, unit[TORSO_RATE], torso_acceleration, deviation, heading, integral];
+        a.set_column(column, &plant_state(&lateral.derivative(&motion, speed, 0.0, &actions), rates));
     }
     a
 }
@@ -191,21 +158,10 @@ fn plant(lateral: &Lateral, rider: &Rider, gains: &GainSet, speed: f64) -> Plant
 /// Deviation and integral are zero, and the lean is given. The other coordinates solve the plant's
 /// equations with zero derivatives, except the heading's: the path turns with the yaw rate.
 fn steady_turn(a: &PlantMatrix) -> Option<(Plant, f64)> {
-    let unknown: [usize; 12] = std::array::from_fn(|k| if k < place::LEAN { k } else { k + 1 });
-    let equations: [usize; 12] = [
-        place::VELOCITY,
-        place::YAW_RATE,
-        place::LEAN_RATE,
-        place::STEER_RATE,
-        place::LEAN,
-        place::STEER,
-        place::REAR_FORCE,
-        place::FRONT_FORCE,
-        ERROR,
-        REFERENCE,
-        TORSO,
-        TORSO_RATE,
-    ];
+    // The first thirteen coordinates without one.
+    let without = |left_out: usize| -> [usize; 12] { std::array::from_fn(|k| if k < left_out { k } else { k + 1 }) };
+    // The reference's second derivative is the control.
+    let (unknown, equations) = (without(place::LEAN), without(REFERENCE_RATE));
     let matrix = SMatrix::<f64, 12, 12>::from_fn(|i, j| a[(equations[i], unknown[j])]);
     let right = SVector::<f64, 12>::from_fn(|i, _| -a[(equations[i], place::LEAN)]);
     let solution = matrix.lu().solve(&right)?;
