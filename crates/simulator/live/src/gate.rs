@@ -4,9 +4,7 @@
 //! difference to what has passed so far is added, and goes to zero: a glide. Value and slope of
 //! what passes are continuous there.
 
-use std::f64::consts::TAU;
-
-use crate::motion::{ANGLES, CHANNELS, Channels, FELT, Motion};
+use crate::motion::{ANGLES, CHANNELS, Channels, FELT, Motion, turns};
 
 /// Shortest and longest glide after a change of the source \[s\].
 pub const GLIDE: [f64; 2] = [1.0, 5.0];
@@ -109,11 +107,6 @@ impl Gate {
         };
         self.glide = Some(Glide { difference, slope: self.slope - slope, elapsed: 0.0, duration });
     }
-}
-
-/// The whole turns in an angle \[rad\].
-fn turns(angle: f64) -> f64 {
-    TAU * (angle / TAU).round()
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Motion of the vehicle, as the washout takes it.
 
+use std::f64::consts::TAU;
+
 use moris_washout::Input;
 use moris_washout::interface::{RollPitchYaw, STANDARD_GRAVITY};
 use nalgebra::{SVector, Vector3};
@@ -21,6 +23,11 @@ pub const ANGLES: std::ops::Range<usize> = 6..9;
 
 /// Size of each channel that is small, but felt.
 pub const FELT: [f64; CHANNELS] = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 1.0];
+
+/// The whole turns in an angle \[rad\].
+pub fn turns(angle: f64) -> f64 {
+    TAU * (angle / TAU).round()
+}
 
 impl Motion {
     /// A motion from its parts.

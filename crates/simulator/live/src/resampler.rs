@@ -3,7 +3,7 @@
 //! The delay must be as long as the time from a sample to the arrival of the next. Where it is not,
 //! the last sample is held until the next one arrives.
 
-use crate::motion::{ANGLES, Channels, Motion};
+use crate::motion::{ANGLES, Channels, Motion, turns};
 
 /// Samples that are kept: 0.6 s at 400 Hz.
 const KEPT: usize = 256;
@@ -54,8 +54,7 @@ impl Resampler {
         if self.count > 0 {
             let last = self.samples[self.newest];
             for k in ANGLES {
-                let change = motion.0[k] - last.motion.0[k];
-                motion.0[k] -= std::f64::consts::TAU * (change / std::f64::consts::TAU).round();
+                motion.0[k] -= turns(motion.0[k] - last.motion.0[k]);
             }
             let gap = (arrival - last.time).max(0.0);
             if gap < DELAY[1] {

@@ -64,9 +64,8 @@ impl Check {
     /// Least mean square of both quantities with which it decides.
     fn least(self) -> [f64; 2] {
         match self {
-            Check::Braking => [0.05, 0.05],
-            Check::LeftTurn => [0.05, 0.05],
-            _ => [4e-5, 4e-5],
+            Check::Braking | Check::LeftTurn => [0.05; 2],
+            _ => [4e-5; 2],
         }
     }
 }

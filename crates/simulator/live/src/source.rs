@@ -1,7 +1,7 @@
 //! Health of the telemetry: which samples count, and what their absence means.
 
 use crate::clock::{Clock, Stamp};
-use crate::motion::{ANGLES, Sample};
+use crate::motion::{ANGLES, Sample, turns};
 use crate::transitions::Event;
 
 /// Time without a good sample after which the source is silent \[s\].
@@ -146,7 +146,7 @@ fn is_elsewhere(before: &Sample, after: &Sample, time: f64) -> bool {
     let moved = before.position.zip(after.position).map_or(0.0, |(before, after)| (after - before).norm());
     let turned = |k: usize| {
         let change = after.motion.0[k] - before.motion.0[k];
-        (change - std::f64::consts::TAU * (change / std::f64::consts::TAU).round()).abs()
+        (change - turns(change)).abs()
     };
     moved > JUMP + 2.0 * speed * time || time < 0.1 && ANGLES.take(2).any(|k| turned(k) > TURN)
 }

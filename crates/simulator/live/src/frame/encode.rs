@@ -7,31 +7,8 @@ use super::{Frames, FramesError};
 use crate::session::Commands;
 
 /// Quantities of a frame besides the actuators' positions, in SI units.
-pub const QUANTITIES: [&str; 23] = [
-    "time",
-    "length1",
-    "length2",
-    "length3",
-    "length4",
-    "length5",
-    "length6",
-    "velocity1",
-    "velocity2",
-    "velocity3",
-    "velocity4",
-    "velocity5",
-    "velocity6",
-    "x",
-    "y",
-    "z",
-    "roll",
-    "pitch",
-    "yaw",
-    "fx",
-    "fy",
-    "fz",
-    "heave",
-];
+pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
+    velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave";
 /// Most bytes of a template.
 const MOST: usize = 4096;
 /// Most decimals of a quantity.
@@ -229,7 +206,7 @@ fn token(word: &str) -> Option<Token> {
         return Some(Token::Bytes(vec![byte]));
     };
     let Some(leg) = name.strip_prefix("leg") else {
-        let place = QUANTITIES.iter().position(|quantity| *quantity == name)?;
+        let place = QUANTITIES.split(' ').position(|quantity| quantity == name)?;
         let (kind, factor) = form.split_once('*').unwrap_or((form, "1"));
         if let Some(bits) = kind.strip_prefix('f') {
             let (bits, little) = bits.strip_suffix("le").map_or((bits, false), |bits| (bits, true));
