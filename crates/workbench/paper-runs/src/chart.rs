@@ -32,7 +32,7 @@ const LEGEND_HEIGHT: f64 = 0.16;
 const TOLERANCE: f64 = 0.0005;
 
 /// A diagram of curves over time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Panel {
     /// Title above the diagram.
     pub title: String,

@@ -64,14 +64,11 @@ pub fn write_strategies(path: &Path, traces: &[Trace]) -> Result<()> {
 /// The ride is missing from the traces, or the file cannot be written.
 pub fn write_ride(path: &Path, traces: &[Trace]) -> Result<()> {
     let ride = runs(traces, TOWN.name)?;
-    let title = |text: &str| text.to_owned();
+    let surge = "Surge: what the vehicle asks for, and what the rider feels".to_owned();
     let panels = [
-        with_roughest_second(Panel {
-            title: title("Surge: what the vehicle asks for, and what the rider feels"),
-            ..force("", &ride, 0)
-        }),
-        with_roughest_second(Panel { title: title("Sway"), ..force("", &ride, 1) }),
-        Panel { title: title("What the six legs do for it"), ..legs("", ride[0]) },
+        with_roughest_second(Panel { title: surge, ..force("", &ride, 0) }),
+        with_roughest_second(Panel { title: "Sway".to_owned(), ..force("", &ride, 1) }),
+        Panel { title: "What the six legs do for it".to_owned(), ..legs("", ride[0]) },
     ];
     draw(path, &panels, RIDE_PANEL_HEIGHT).with_context(|| format!("cannot write {}", path.display()))
 }
@@ -89,8 +86,7 @@ fn force(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
         quantity: FORCE,
         curves: felt_against_desired(runs, |s| s.desired_force[axis], |s| s.felt_force[axis]),
-        limits: vec![],
-        enlarged: None,
+        ..Panel::default()
     }
 }
 
@@ -100,8 +96,7 @@ fn rate(figure: &str, runs: &[&Trace], axis: usize) -> Panel {
         title: format!("{figure}: {quantity}, run {}", runs[0].run),
         quantity: RATE,
         curves: felt_against_desired(runs, |s| s.desired_rate[axis].to_degrees(), |s| s.felt_rate[axis].to_degrees()),
-        limits: vec![],
-        enlarged: None,
+        ..Panel::default()
     }
 }
 
@@ -168,7 +163,7 @@ fn legs(figure: &str, run: &Trace) -> Panel {
         quantity: "length [m]",
         curves: styles.into_iter().enumerate().map(leg).collect(),
         limits: run.stroke.to_vec(),
-        enlarged: None,
+        ..Panel::default()
     }
 }
 

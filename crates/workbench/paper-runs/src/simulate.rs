@@ -8,37 +8,6 @@ use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};
 
-const INPUTS: [&str; 8] = [
-    "vehicle.specificForce.x",
-    "vehicle.specificForce.y",
-    "vehicle.specificForce.z",
-    "vehicle.angularVelocity.x",
-    "vehicle.angularVelocity.y",
-    "vehicle.angularVelocity.z",
-    "vehicle.orientation.roll",
-    "vehicle.speed",
-];
-
-const OUTPUTS: [&str; 17] = [
-    "rider.specificForce.x",
-    "rider.specificForce.y",
-    "rider.specificForce.z",
-    "rider.angularVelocity.x",
-    "rider.angularVelocity.y",
-    "rider.angularVelocity.z",
-    "actuator[1].length",
-    "actuator[2].length",
-    "actuator[3].length",
-    "actuator[4].length",
-    "actuator[5].length",
-    "actuator[6].length",
-    "platform.position.x",
-    "platform.position.y",
-    "platform.position.z",
-    "tilt.rollRate",
-    "tilt.pitchRate",
-];
-
 const FLAGS: [&str; 4] = ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
 
 /// Simulates one run with one set of parameters, in communication steps of `step` seconds.
@@ -78,59 +47,78 @@ pub fn simulate(fmu: &Fmu, run: &Manoeuvre, parameters: &ParameterSet, step: f64
 
 /// The value references of the variables that a run needs.
 struct References {
-    inputs: [u32; INPUTS.len()],
-    outputs: [u32; OUTPUTS.len()],
+    desired_force: [u32; 3],
+    desired_rate: [u32; 3],
+    roll_and_speed: [u32; 2],
+    felt_force: [u32; 3],
+    felt_rate: [u32; 3],
+    legs: [u32; 6],
+    position: [u32; 3],
+    tilt_rate: [u32; 2],
     flags: [u32; FLAGS.len()],
 }
 
 impl References {
     fn of(fmu: &Fmu) -> Result<Self> {
+        let vector = |name: &str| value_references(fmu, ["x", "y", "z"].map(|axis| format!("{name}.{axis}")));
         Ok(References {
-            inputs: value_references(fmu, INPUTS)?,
-            outputs: value_references(fmu, OUTPUTS)?,
+            desired_force: vector("vehicle.specificForce")?,
+            desired_rate: vector("vehicle.angularVelocity")?,
+            roll_and_speed: value_references(fmu, ["vehicle.orientation.roll", "vehicle.speed"])?,
+            felt_force: vector("rider.specificForce")?,
+            felt_rate: vector("rider.angularVelocity")?,
+            legs: value_references(fmu, [1, 2, 3, 4, 5, 6].map(|leg| format!("actuator[{leg}].length")))?,
+            position: vector("platform.position")?,
+            tilt_rate: value_references(fmu, ["tilt.rollRate", "tilt.pitchRate"])?,
             flags: value_references(fmu, FLAGS)?,
         })
     }
 
     fn set_inputs(&self, instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<()> {
         let motion = run.motion(time);
-        let [fx, fy, fz] = motion.specific_force();
-        let [wx, wy, wz] = motion.angular_velocity();
-        let status = instance.set_real(&self.inputs, &[fx, fy, fz, wx, wy, wz, motion.roll, motion.speed]);
-        check(instance, status)
+        let mut set = |references: &[u32], values: &[f64]| {
+            let status = instance.set_real(references, values);
+            check(instance, status)
+        };
+        set(&self.desired_force, &motion.specific_force())?;
+        set(&self.desired_rate, &motion.angular_velocity())?;
+        set(&self.roll_and_speed, &[motion.roll, motion.speed])
     }
 
     fn sample(&self, instance: &mut Instance, run: &Manoeuvre, time: f64) -> Result<Sample> {
-        let mut values = [0.0; OUTPUTS.len()];
-        let status = instance.get_real(&self.outputs, &mut values);
-        check(instance, status)?;
         let mut flags = [0; FLAGS.len()];
         let status = instance.get_boolean(&self.flags, &mut flags);
         check(instance, status)?;
-
-        let [fx, fy, fz, wx, wy, wz, l1, l2, l3, l4, l5, l6, px, py, pz, roll_rate, pitch_rate] = values;
         let [tilt, soft, safety, actuator] = flags.map(|flag| flag != 0);
         let motion = run.motion(time);
         Ok(Sample {
             time,
             desired_force: motion.specific_force(),
             desired_rate: motion.angular_velocity(),
-            felt_force: [fx, fy, fz],
-            felt_rate: [wx, wy, wz],
-            legs: [l1, l2, l3, l4, l5, l6],
-            position: [px, py, pz],
-            tilt_rate: [roll_rate, pitch_rate],
+            felt_force: reals(instance, &self.felt_force)?,
+            felt_rate: reals(instance, &self.felt_rate)?,
+            legs: reals(instance, &self.legs)?,
+            position: reals(instance, &self.position)?,
+            tilt_rate: reals(instance, &self.tilt_rate)?,
             limited: LimitFlags { tilt, soft, safety, actuator },
         })
     }
 }
 
-fn value_references<const N: usize>(fmu: &Fmu, names: [&str; N]) -> Result<[u32; N]> {
+fn value_references<const N: usize>(fmu: &Fmu, names: [impl AsRef<str>; N]) -> Result<[u32; N]> {
     let mut references = [0; N];
-    for (reference, name) in references.iter_mut().zip(names) {
+    for (reference, name) in references.iter_mut().zip(&names) {
+        let name = name.as_ref();
         *reference = fmu.variable(name).with_context(|| format!("the FMU has no variable {name}"))?.value_reference;
     }
     Ok(references)
+}
+
+fn reals<const N: usize>(instance: &mut Instance, references: &[u32; N]) -> Result<[f64; N]> {
+    let mut values = [0.0; N];
+    let status = instance.get_real(references, &mut values);
+    check(instance, status)?;
+    Ok(values)
 }
 
 /// An error with the FMU's last message, unless the status is OK.

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use moris_measures::fidelity::{Fidelity, fidelity};
+use moris_measures::fidelity::fidelity;
 
-use crate::trace::Trace;
+use crate::trace::{Sample, Trace};
 
 /// Stands where a number is not defined.
 const UNDEFINED: &str = "–";
@@ -50,48 +50,29 @@ impl Table {
 
 /// Felt against desired specific force.
 pub fn force_table(traces: &[Trace]) -> Table {
-    let rows = traces.iter().flat_map(|trace| {
-        fidelity_rows(trace, |axis| {
-            let desired = trace.series(|sample| sample.desired_force[axis]);
-            fidelity(&desired, &trace.series(|sample| sample.felt_force[axis]), trace.step)
-        })
-    });
-    Table {
-        title: "Specific force at the rider's head, felt against desired",
-        header: vec!["run", "parameters", "axis", "RMS error [m/s2]", "peak error [m/s2]", "correlation", "delay [ms]"],
-        text_columns: 3,
-        rows: rows.collect(),
-    }
+    let title = "Specific force at the rider's head, felt against desired";
+    let errors = ["RMS error [m/s2]", "peak error [m/s2]"];
+    fidelity_table(title, errors, traces, |sample, axis| [sample.desired_force[axis], sample.felt_force[axis]])
 }
 
 /// Felt against desired angular velocity.
 pub fn rate_table(traces: &[Trace]) -> Table {
-    let rows = traces.iter().flat_map(|trace| {
-        fidelity_rows(trace, |axis| {
-            let desired = trace.series(|sample| sample.desired_rate[axis].to_degrees());
-            fidelity(&desired, &trace.series(|sample| sample.felt_rate[axis].to_degrees()), trace.step)
-        })
-    });
-    Table {
-        title: "Angular velocity of the rider's head, felt against desired",
-        header: vec![
-            "run",
-            "parameters",
-            "axis",
-            "RMS error [deg/s]",
-            "peak error [deg/s]",
-            "correlation",
-            "delay [ms]",
-        ],
-        text_columns: 3,
-        rows: rows.collect(),
-    }
+    let title = "Angular velocity of the rider's head, felt against desired";
+    let errors = ["RMS error [deg/s]", "peak error [deg/s]"];
+    let rates = |sample: &Sample, axis: usize| [sample.desired_rate[axis], sample.felt_rate[axis]].map(f64::to_degrees);
+    fidelity_table(title, errors, traces, rates)
 }
 
-/// A row for each axis on which something is desired or felt.
-fn fidelity_rows(trace: &Trace, on_axis: impl Fn(usize) -> Option<Fidelity>) -> Vec<Vec<String>> {
-    let row = |axis: usize| {
-        let fidelity = on_axis(axis)?;
+/// A row for each axis on which something is desired or felt; `on_axis` is what.
+fn fidelity_table(
+    title: &'static str,
+    [rms, peak]: [&'static str; 2],
+    traces: &[Trace],
+    on_axis: impl Fn(&Sample, usize) -> [f64; 2],
+) -> Table {
+    let row = |trace: &Trace, axis: usize| {
+        let [desired, felt] = [0, 1].map(|which| trace.series(|sample| on_axis(sample, axis)[which]));
+        let fidelity = fidelity(&desired, &felt, trace.step)?;
         let mut row = labels(trace);
         row.extend([
             AXES[axis].to_string(),
@@ -102,7 +83,12 @@ fn fidelity_rows(trace: &Trace, on_axis: impl Fn(usize) -> Option<Fidelity>) -> 
         ]);
         Some(row)
     };
-    (0..AXES.len()).filter_map(row).collect()
+    Table {
+        title,
+        header: vec!["run", "parameters", "axis", rms, peak, "correlation", "delay [ms]"],
+        text_columns: 3,
+        rows: traces.iter().flat_map(|trace| (0..AXES.len()).filter_map(move |axis| row(trace, axis))).collect(),
+    }
 }
 
 /// Table of the platform's motion.
