@@ -3,11 +3,11 @@
 use std::array;
 
 use moris_measures::{Axes, Measures, Row, bound_rows};
-use moris_report::{Better, Cues, Finding, LimitHistory, Measure, Run, Thinning};
+use moris_report::{Better, Cues, LimitHistory, Measure, Run, Thinning};
 use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
-use crate::{Simulation, findings};
+use crate::Simulation;
 
 /// A simulation, its measures, and the least possible errors.
 #[derive(Clone, Copy, Debug)]
@@ -41,22 +41,6 @@ impl Evaluated<'_> {
     /// RMS of the desired angular velocity \[rad/s\].
     pub fn desired_rate_rms(&self, axis: usize) -> f64 {
         rms(self.simulation.desired_rates().iter().map(|rate| rate[axis]))
-    }
-
-    /// The findings, the most important first.
-    pub fn findings(&self) -> Vec<Finding> {
-        findings::of(self)
-    }
-
-    /// True if the recording fits the rig and no channel has a larger error than a platform at
-    /// rest.
-    pub fn is_good(&self) -> bool {
-        findings::fits_freely(self.measures) && findings::is_better_than_rest(self)
-    }
-
-    /// Fit and cues in a few words.
-    pub fn verdict(&self) -> String {
-        findings::verdict(self)
     }
 
     /// The run of a report, without further charts.

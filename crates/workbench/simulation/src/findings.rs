@@ -43,20 +43,49 @@ const GIVEN_UP: &str =
 const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 
-/// The findings, the most important first: fit, comfort, channels worse than at rest, limits of the
-/// tilt, other channels, motion sickness.
-pub fn of(outcome: &Evaluated) -> Vec<Finding> {
-    let mut findings = vec![fits(outcome)];
-    findings.extend((0..3).flat_map(|axis| comfort(outcome, axis)));
-    let warnings = moris_washout::warnings(&outcome.simulation.parameters);
-    findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
-    let (worse, others): (Vec<Finding>, Vec<Finding>) =
-        channels(outcome).iter().filter_map(Channel::finding).partition(|finding| finding.weight == Weight::Warning);
-    findings.extend(worse);
-    findings.extend(tilt(outcome));
-    findings.extend(others);
-    findings.extend(sickness(outcome.measures));
-    findings
+impl Evaluated<'_> {
+    /// The findings, the most important first: fit, comfort, channels worse than at rest, limits of
+    /// the tilt, other channels, motion sickness.
+    pub fn findings(&self) -> Vec<Finding> {
+        let mut findings = vec![fits(self)];
+        findings.extend((0..3).flat_map(|axis| comfort(self, axis)));
+        let warnings = moris_washout::warnings(&self.simulation.parameters);
+        findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
+        let (worse, others): (Vec<Finding>, Vec<Finding>) =
+            channels(self).iter().filter_map(Channel::finding).partition(|finding| finding.weight == Weight::Warning);
+        findings.extend(worse);
+        findings.extend(tilt(self));
+        findings.extend(others);
+        findings.extend(sickness(self.measures));
+        findings
+    }
+
+    /// True if the recording fits the rig and no channel has a larger error than a platform at
+    /// rest.
+    pub fn is_good(&self) -> bool {
+        fits_freely(self.measures) && is_better_than_rest(self)
+    }
+
+    /// Fit and cues in a few words.
+    pub fn verdict(&self) -> String {
+        let channels = channels(self);
+        let worse: Vec<String> = channels
+            .iter()
+            .filter(|channel| channel.is_worse_than_rest())
+            .map(|channel| channel.name.to_lowercase())
+            .collect();
+        let fit = if fits_freely(self.measures) {
+            "fits"
+        } else if fits_the_rig(self.measures) {
+            "within the rig by soft limits alone"
+        } else {
+            "does not fit"
+        };
+        match worse.as_slice() {
+            [] => format!("{fit}, better than at rest"),
+            worse => format!("{fit}; worse than at rest: {}", worse.join(", ")),
+        }
+    }
 }
 
 fn finding(weight: Weight, text: String) -> Finding {
@@ -103,34 +132,13 @@ pub fn fits_the_rig(measures: &Measures) -> bool {
 }
 
 /// True if soft limits, which keep these from acting, were hardly ever active, either.
-pub fn fits_freely(measures: &Measures) -> bool {
+fn fits_freely(measures: &Measures) -> bool {
     fits_the_rig(measures) && measures.effort.soft_limited <= SELDOM
 }
 
 /// True if no channel is worse than on a platform at rest.
 pub fn is_better_than_rest(outcome: &Evaluated) -> bool {
     !channels(outcome).iter().any(Channel::is_worse_than_rest)
-}
-
-/// Fit and cues in a few words.
-pub fn verdict(outcome: &Evaluated) -> String {
-    let channels = channels(outcome);
-    let worse: Vec<String> = channels
-        .iter()
-        .filter(|channel| channel.is_worse_than_rest())
-        .map(|channel| channel.name.to_lowercase())
-        .collect();
-    let fit = if fits_freely(outcome.measures) {
-        "fits"
-    } else if fits_the_rig(outcome.measures) {
-        "within the rig by soft limits alone"
-    } else {
-        "does not fit"
-    };
-    match worse.as_slice() {
-        [] => format!("{fit}, better than at rest"),
-        worse => format!("{fit}; worse than at rest: {}", worse.join(", ")),
-    }
 }
 
 /// Active limits with total duration and first time; none without any.
