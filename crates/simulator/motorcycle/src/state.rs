@@ -59,33 +59,25 @@ pub enum Stage {
 impl State {
     /// This state and `factor` times a derivative.
     pub fn plus(&self, derivative: &State, factor: f64) -> State {
-        let number = |value: f64, rate: f64| value + factor * rate;
-        let (rider, rider_rate) = (&self.rider, &derivative.rider);
-        State {
-            position: self.position + derivative.position * factor,
-            heading: number(self.heading, derivative.heading),
-            speed: number(self.speed, derivative.speed),
-            lateral: self.lateral + derivative.lateral * factor,
-            suspension: suspension::State {
-                position: self.suspension.position + derivative.suspension.position * factor,
-                velocity: self.suspension.velocity + derivative.suspension.velocity * factor,
-            },
-            rider: rider::State {
-                lean: number(rider.lean, rider_rate.lean),
-                lean_rate: number(rider.lean_rate, rider_rate.lean_rate),
-                error: number(rider.error, rider_rate.error),
-                torso: number(rider.torso, rider_rate.torso),
-                torso_rate: number(rider.torso_rate, rider_rate.torso_rate),
-            },
-            throttle: number(self.throttle, derivative.throttle),
-            brake: number(self.brake, derivative.brake),
-            place: Place {
-                distance: number(self.place.distance, derivative.place.distance),
-                deviation: number(self.place.deviation, derivative.place.deviation),
-                integral: number(self.place.integral, derivative.place.integral),
-                heading: number(self.place.heading, derivative.place.heading),
-            },
-        }
+        let mut sum = *self;
+        sum.position += derivative.position * factor;
+        sum.heading += factor * derivative.heading;
+        sum.speed += factor * derivative.speed;
+        sum.lateral += derivative.lateral * factor;
+        sum.suspension.position += derivative.suspension.position * factor;
+        sum.suspension.velocity += derivative.suspension.velocity * factor;
+        sum.rider.lean += factor * derivative.rider.lean;
+        sum.rider.lean_rate += factor * derivative.rider.lean_rate;
+        sum.rider.error += factor * derivative.rider.error;
+        sum.rider.torso += factor * derivative.rider.torso;
+        sum.rider.torso_rate += factor * derivative.rider.torso_rate;
+        sum.throttle += factor * derivative.throttle;
+        sum.brake += factor * derivative.brake;
+        sum.place.distance += factor * derivative.place.distance;
+        sum.place.deviation += factor * derivative.place.deviation;
+        sum.place.integral += factor * derivative.place.integral;
+        sum.place.heading += factor * derivative.place.heading;
+        sum
     }
 
     /// The state with values below the threshold set to zero, so that the motorcycle comes to rest
