@@ -338,11 +338,8 @@ impl StewartPlatform {
             total_power: drive.dot(&Vector6::from(legs.velocity)),
             felt_specific_force: felt.specific_force,
             felt_angular_velocity: felt.angular_velocity,
-            command_refused: false,
-            drive_limited: false,
-            force_limited: false,
-            at_stop: false,
             stroke_margin: self.stroke_margin(legs).0,
+            ..Output::default()
         }
     }
 
