@@ -8,19 +8,18 @@ pub mod host;
 pub mod table;
 pub mod targets;
 
-use std::fs;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use moris_measures::Measures;
 use moris_setup::Setup;
 use moris_simulation::preview::parse_seconds;
 use rayon::prelude::*;
 
 use crate::option_values::number_in;
-use crate::recording::{ConventionOptions, FADE_IN, Recording};
+use crate::recording::{ConventionOptions, FADE_IN, Recording, files_in};
 use crate::setup_options::SetupOptions;
 use crate::simulate::{Outcome, bounds};
 use crate::status::WORSE;
@@ -136,29 +135,10 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     Ok(if options.check && !missed.is_empty() { ExitCode::from(WORSE) } else { ExitCode::SUCCESS })
 }
 
-/// The files named, and those with the extension csv in the folders named, by name.
+/// The files named, and those of recordings in the folders named, by name.
 pub(crate) fn recordings(paths: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    let mut files = Vec::new();
-    for path in paths {
-        if path.is_dir() {
-            files.extend(recordings_in(path)?);
-        } else {
-            files.push(path.clone());
-        }
-    }
-    Ok(files)
-}
-
-fn recordings_in(folder: &Path) -> Result<Vec<PathBuf>> {
-    let read = || format!("cannot read {}", folder.display());
-    let entries: Result<Vec<_>, _> = fs::read_dir(folder).with_context(read)?.collect();
-    let mut files: Vec<PathBuf> = entries.with_context(read)?.into_iter().map(|entry| entry.path()).collect();
-    files.retain(|file| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")));
-    files.sort();
-    if files.is_empty() {
-        bail!("there is no recording (*.csv) in {}", folder.display());
-    }
-    Ok(files)
+    let named = |path: &PathBuf| if path.is_dir() { files_in(path) } else { Ok(vec![path.clone()]) };
+    Ok(paths.iter().map(named).collect::<Result<Vec<_>, _>>()?.concat())
 }
 
 fn step(text: &str) -> Result<f64, String> {

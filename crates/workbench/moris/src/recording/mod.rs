@@ -50,6 +50,7 @@ use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};
 pub(crate) use read::source;
+pub use read::source::files_in;
 use table::{Table, laps, sampling};
 
 /// A recording.

@@ -2,9 +2,12 @@
 
 use std::fmt::Write;
 use std::fs;
+use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use flate2::Compression;
+use flate2::write::GzEncoder;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters, Washout};
 
@@ -158,6 +161,11 @@ fn a_folder_stands_for_its_recordings_and_the_bound_is_below_the_error() {
     for name in ["b", "a"] {
         write_recording(&directory.path().join(format!("rides/{name}.csv")));
     }
+    let (file, packed) = (directory.path().join("rides/b.csv"), directory.path().join("rides/b.csv.gz"));
+    let mut encoder = GzEncoder::new(Vec::new(), Compression::fast());
+    encoder.write_all(&fs::read(&file).unwrap()).unwrap();
+    fs::write(packed, encoder.finish().unwrap()).unwrap();
+    fs::remove_file(file).unwrap();
     let (output, text) = measure(directory.path(), &["rides", "--bound"]);
     assert!(output.status.success(), "{text}");
     let first = |name: &str| text.lines().position(|line| line.trim_start().starts_with(name)).unwrap();
@@ -175,7 +183,7 @@ fn steps_that_do_not_fit_and_empty_folders_are_errors_with_a_remedy() {
     for (arguments, expected) in [
         (&["ride.csv", "--step", "0.003"][..], "one must be a multiple of the other"),
         (&["ride.csv", "--step", "0"], "such as 0.001"),
-        (&["empty"], "no recording (*.csv) in empty"),
+        (&["empty"], "empty: is a directory without CSV files"),
     ] {
         let (output, _) = measure(directory.path(), arguments);
         let printed = String::from_utf8(output.stderr).unwrap();

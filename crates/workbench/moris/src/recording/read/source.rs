@@ -28,7 +28,11 @@ fn joined(file: &Path) -> Option<Vec<PathBuf>> {
     (text.contains(JOIN) && !file.exists()).then(|| text.split(JOIN).map(PathBuf::from).collect())
 }
 
-fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RecordingError> {
+/// The files of recordings in a directory, by name: CSV, also packed, and Racelogic's.
+///
+/// # Errors
+/// The directory cannot be read, or holds no CSV file.
+pub fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RecordingError> {
     let unreadable = |reason| RecordingError::Read { file: directory.to_owned(), reason };
     let is_csv = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
@@ -39,7 +43,7 @@ fn files_in(directory: &Path) -> Result<Vec<PathBuf>, RecordingError> {
     let mut files: Vec<PathBuf> = entries.map_err(unreadable)?.into_iter().filter(is_csv).collect();
     files.sort();
     if files.is_empty() {
-        return Err(RecordingError::whole(directory, "is a directory without CSV files"));
+        return Err(RecordingError::whole(directory, "is a directory without CSV files (*.csv, *.csv.gz, *.vbo)"));
     }
     Ok(files)
 }
