@@ -238,7 +238,7 @@ fn errors_name_a_remedy_and_fail() {
     write("late.toml", "actuator.deadTime = 0.5\n");
     write("wrong.toml", "actuator.bandwith = 60\n");
     for (arguments, expected) in [
-        (&["empty"][..], "no recording (*.csv) in empty"),
+        (&["empty"][..], "empty: is a directory without CSV files"),
         (&["rest.csv"], "take one with motion"),
         (&["ride.csv", "--platform", "weak.toml"], "raise the limit or lower the masses"),
         (&["ride.csv", "--platform", "late.toml"], "give a platform with at most 0.05 s"),
