@@ -141,7 +141,7 @@ def examples():
 def python_tests(options):
     """tests of the FMUs by FMPy, of their libraries and of the prose"""
     examples()
-    pytest(options, 1, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
+    pytest(options, 2, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
 
 
 def docs(options):

@@ -28,6 +28,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from conftest import only_all_cases
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "examples" / "README.md"
@@ -43,6 +44,8 @@ DRAWN = {
     "README.md": {"first-ride.svg": "first-ride/ride.svg"},
     "docs/strategies.md": {"strategies.svg": "paper-runs/strategies.svg"},
 }
+SEARCHES = ("docs/response.md", "docs/tuning-by-search.md", "docs/worst-case.md")
+"""Pages whose commands simulate hundreds of rides. The tests in Rust run the same commands in a short form."""
 COPIED = ("docs", "examples", "target/fmu")
 LINKED = ("benches", "build-fmu", "crates", "fuzz", "modelDescription", "src", "tests")
 
@@ -148,8 +151,13 @@ def with_commands(page):
     )
 
 
+def cases():
+    for page in filter(with_commands, PAGES):
+        yield pytest.param(page, id=name(page), marks=[only_all_cases] if name(page) in SEARCHES else [])
+
+
 @pytest.mark.skipif(os.name == "nt", reason="the commands are for bash")
-@pytest.mark.parametrize("page", [*filter(with_commands, PAGES)], ids=name)
+@pytest.mark.parametrize("page", cases())
 def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
     shown = run_page(page)
     # Elsewhere the last digits of a search may differ.

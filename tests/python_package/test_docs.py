@@ -103,6 +103,7 @@ def test_the_kubernetes_snippet_finds_a_scheduler_at_its_port(tmp_path):
         assert run(tmp_path, guarded(code)).split()[-2:] == ["36", "True"]
 
 
+@only_all_cases
 def test_the_notebook_runs_from_a_recording_to_an_fmu(tmp_path):
     import nbformat
     from nbclient import NotebookClient

@@ -8,7 +8,7 @@ from typing import get_args
 import moris
 import numpy as np
 import pytest
-from conftest import ROOT, STANDARD_GRAVITY
+from conftest import ROOT, STANDARD_GRAVITY, only_all_cases
 from moris import _types
 
 
@@ -115,6 +115,7 @@ def test_the_bound_is_below_the_error_and_above_nothing(ride):
         moris.bound({name: values[:2] for name, values in ride.items()})
 
 
+@only_all_cases
 def test_the_response_to_small_signals_is_the_filters_own():
     """Nothing but the angular channel's high-pass acts on yaw, times its scale; its order says which poles it has."""
     values = {"angular.yaw.omega1": 0.7, "angular.yaw.zeta1": 0.8, "angular.yaw.omega2": 0.4, "angular.yaw.zeta2": 1.1}

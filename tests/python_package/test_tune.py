@@ -8,7 +8,7 @@ import moris
 import numpy as np
 import pandas
 import pytest
-from conftest import ROOT
+from conftest import ROOT, only_all_cases
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +48,7 @@ def test_the_command_finds_the_same(tuned, rides, tmp_path):
     assert moris.parameters(parameters=tmp_path / "tuned.toml") == tuned.parameters
 
 
+@only_all_cases
 def test_workers_find_the_same_to_the_bit_though_one_is_killed(tuned, recordings):
     pytest.importorskip("distributed")
     from distributed import Client, LocalCluster
