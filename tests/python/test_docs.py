@@ -151,13 +151,12 @@ def with_commands(page):
     )
 
 
-def cases():
-    for page in filter(with_commands, PAGES):
-        yield pytest.param(page, id=name(page), marks=[only_all_cases] if name(page) in SEARCHES else [])
+def case(page):
+    return pytest.param(page, id=name(page), marks=[only_all_cases] if name(page) in SEARCHES else [])
 
 
 @pytest.mark.skipif(os.name == "nt", reason="the commands are for bash")
-@pytest.mark.parametrize("page", cases())
+@pytest.mark.parametrize("page", [case(page) for page in PAGES if with_commands(page)])
 def test_the_commands_of_a_page_run_and_print_what_it_shows(page):
     shown = run_page(page)
     # Elsewhere the last digits of a search may differ.
