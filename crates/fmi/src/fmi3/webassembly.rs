@@ -708,7 +708,7 @@ macro_rules! export_fmi3_component {
 #[doc(hidden)] // for `export_fmi3_component!`
 #[macro_export]
 macro_rules! component_methods {
-    ($($name:literal $constant:ident ($($argument:ident: $type:ty),*) -> fmi3Status => $body:path;)+) => {
+    ($($name:literal $constant:ident ($($argument:ident: $type:ty),*) -> fmi3Status => $body:expr;)+) => {
         $(
             const _: () = {
                 #[unsafe(export_name = concat!("fmi:fmi3/co-simulation@3.0.0#[method]co-simulation-instance.", $name))]
@@ -725,15 +725,12 @@ macro_rules! component_methods {
 #[macro_export]
 macro_rules! component_calls {
     ($($name:literal $constant:ident ($($argument:ident: $type:ty),*) -> fmi3Status => $body:path;)+) => {
-        $(
-            const _: () = {
-                #[unsafe(export_name = concat!("fmi:fmi3/co-simulation@3.0.0#[method]co-simulation-instance.", $name))]
-                unsafe extern "C" fn method(representation: *mut Representation $(, $argument: $type)*) -> fmi3Status {
-                    let body = |component: &mut _| $body(component $(, $argument)*);
-                    unsafe { $crate::abi::call(component::instance(representation), &function::$constant, body) }
-                }
-            };
-        )+
+        $crate::component_methods! {
+            $($name $constant ($($argument: $type),*) -> fmi3Status
+                => |instance, function, $($argument: $type),*| $crate::abi::call(
+                    instance, function, |component: &mut _| $body(component $(, $argument)*)
+                );)+
+        }
     };
 }
 
