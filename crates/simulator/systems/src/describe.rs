@@ -181,20 +181,17 @@ fn wires(inputs: &[Port], connections: &[Connection], outputs: &[Port]) -> Vec<E
 
 /// Every unit that the components' variables have, once.
 fn units(system: &System) -> Vec<Element> {
-    let mut units: Vec<&Unit> = Vec::new();
-    for row in system.components.iter().flat_map(|component| component.model.functions.identity.rows) {
-        if let Kind::Real(unit) = row.kind
-            && !unit.name.is_empty()
-            && units.iter().all(|known| known.name != unit.name)
-        {
-            units.push(unit);
+    let mut found: Vec<&Unit> = Vec::new();
+    for unit in system.components.iter().flat_map(|component| units::units(&component.model.functions.identity)) {
+        if found.iter().all(|known| known.name != unit.name) {
+            found.push(unit);
         }
     }
     let element = |unit: &Unit| {
         let base = units::exponents(unit).fold(Element::new("ssc:BaseUnit"), |base, (of, power)| base.with(of, power));
         Element::new("ssc:Unit").with("name", unit.name).containing([base])
     };
-    units.into_iter().map(element).collect()
+    found.into_iter().map(element).collect()
 }
 
 impl System {
