@@ -171,12 +171,13 @@ impl<M: Model> Instance<M> {
         if !variables.with_values(values).all(is_settable) {
             return Err(self.why_not_settable(variables, values));
         }
-        self.note_range(variables, values);
         if mode == Mode::StepComplete {
-            return self.set_and_retune(variables, values);
+            self.set_and_retune(variables, values)?;
+        } else {
+            self.state.dirty = true;
+            self.write(variables, values);
         }
-        self.state.dirty = true;
-        self.write(variables, values);
+        self.note_range(variables, values);
         Ok(())
     }
 
@@ -195,8 +196,9 @@ impl<M: Model> Instance<M> {
         })
     }
 
-    /// Warns of the first value beyond its input's range, unless the host has been told of one.
-    /// Zero does not count: hosts set inputs to zero for which they have no value yet.
+    /// Warns of the first value beyond its input's range among values that have been taken, unless
+    /// the host knows of one. Zero does not count: hosts set inputs to zero for which they have no
+    /// value yet.
     fn note_range<S: Scalar>(&mut self, variables: impl Variables, values: &[S]) {
         if self.warned_of_range {
             return;

@@ -17,8 +17,8 @@ pub struct Instance<M> {
     pub(crate) output_derivatives: Box<[f64]>,
     /// Room for all values as they were before parameters are set.
     pub(crate) old_values: Box<[f64]>,
-    /// Sentences about values that can be used and may be wrong, of which the
-    /// host does not know yet.
+    /// Sentences about values that can be used and may be wrong, from the call under way: none
+    /// from a call that fails.
     pub(crate) warnings: Vec<String>,
     /// An input beyond its range has had its warning, the only one until the instance is reset.
     pub(crate) warned_of_range: bool,

@@ -96,14 +96,14 @@ pub unsafe fn call<M: Model, H: Host>(
     if !function.allowed.contains(component.instance.mode()) {
         return component.not_allowed(function);
     }
-    let told = || {
+    let run = || {
         body(component)?;
         if !component.instance.warnings.is_empty() {
             component.warn(function);
         }
         Ok(())
     };
-    match with_default_arithmetic(|| panics::contain(told)) {
+    match with_default_arithmetic(|| panics::contain(run)) {
         Ok(Ok(())) => H::OK,
         Ok(Err(error)) => component.report(function, error),
         Err(error) => component.fail(function, error),

@@ -209,6 +209,21 @@ impl Instance<'_> {
         }
     }
 
+    /// Sets real variables in one call.
+    pub fn set_reals(&mut self, slots: &[u32], values: &[f64]) -> c_int {
+        assert_eq!(slots.len(), values.len());
+        let (count, first) = (slots.len(), values.as_ptr());
+        // SAFETY: the instance is alive, and the arrays are as long as said.
+        unsafe {
+            match &self.library.functions {
+                Functions::Fmi2(fmu) => (fmu.api().set_real)(self.pointer, slots.as_ptr(), count, first),
+                Functions::Fmi3(library) => {
+                    (library.api().set_float64)(self.pointer, slots.as_ptr(), count, first, count)
+                }
+            }
+        }
+    }
+
     /// Reads real variables.
     pub fn get_reals(&mut self, slots: &[u32], values: &mut [f64]) -> c_int {
         assert_eq!(slots.len(), values.len());

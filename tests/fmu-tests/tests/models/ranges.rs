@@ -116,6 +116,29 @@ fn an_input_beyond_its_range_is_a_warning_once() {
     }
 }
 
+/// The model refuses the force limit, so that no value of the call is taken.
+#[test]
+fn an_input_of_a_call_that_fails_is_no_warning() {
+    let [.., model] = MODELS;
+    let slots = ["command[1].velocity", "actuator.forceLimit"].map(|name| model.identity.slot(name).unwrap() as u32);
+    for version in VERSIONS {
+        let library = Library::open(model, version, &model.library());
+        let messages = Messages::default();
+        let mut instance = library.instantiate(&messages).unwrap();
+        assert_eq!((instance.enter_initialization_mode(), instance.exit_initialization_mode()), (OK, OK));
+        messages.borrow_mut().clear();
+        assert_eq!(instance.set_reals(&slots, &[300.0, 1.0]), DISCARD);
+        assert_eq!(instance.get_reals(&slots, &mut [0.0; 2]), OK);
+        assert_eq!(instance.reset(), OK);
+        let heard = messages.take();
+        assert!(heard[0].contains("actuator.forceLimit: is 1 N") && heard[1..] == ["reset"], "{heard:?}");
+        assert_eq!((instance.enter_initialization_mode(), instance.exit_initialization_mode()), (OK, OK));
+        messages.borrow_mut().clear();
+        assert_eq!(instance.set_reals(&slots, &[300.0, 4000.0]), OK);
+        assert!(messages.borrow()[0].contains("'command[1].velocity' is 300"), "{:?}", messages.borrow());
+    }
+}
+
 /// Rounding in a host may put an input slightly beyond its range. This must not end a simulation.
 #[test]
 fn inputs_beyond_their_range_count_as_its_end() {
