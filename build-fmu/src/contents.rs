@@ -31,7 +31,7 @@ pub fn contents(
     let mut contents = Contents::new();
     contents.insert("documentation/index.html".to_owned(), documentation::page(model, start, fmi).into_bytes());
     contents.insert("documentation/licenses/license.txt".to_owned(), LICENCES.as_bytes().to_vec());
-    contents.insert(fmi.icon_file().to_owned(), (model.icon)());
+    contents.insert(fmi.icon_file().to_owned(), model.icon.to_vec());
     let description = match sources {
         None => model.model_description(fmi, start),
         Some(_) => model.model_description_with_sources(fmi, start),

@@ -20,7 +20,6 @@ pub mod documentation;
 mod error;
 pub mod fmi_version;
 mod fmu;
-pub mod icon;
 pub mod library;
 mod macos_stub;
 pub mod model;

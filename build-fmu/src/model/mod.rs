@@ -53,8 +53,8 @@ pub struct FmuModel {
     pub wording: &'static [Wording],
     /// Groups of variables that a tool connects at once.
     pub terminals: &'static [Terminal],
-    /// Draws `model.png`.
-    pub icon: fn() -> Vec<u8>,
+    /// `model.png`, by which a tool shows the model.
+    pub icon: &'static [u8],
     /// The input of the reference ride: a table for [`Stimuli::new`].
     pub reference_input: &'static str,
 }

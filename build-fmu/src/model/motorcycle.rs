@@ -11,7 +11,7 @@ use moris_setup::{NamedValues, changed};
 use super::{
     FmuModel, ModelFns, PREVIEW, PREVIEW_MEMBERS, RIDER, VEHICLE, VEHICLE_MEMBERS, example, section, terminal,
 };
-use crate::{Error, icon};
+use crate::Error;
 
 /// The motorcycle's FMU.
 pub const MOTORCYCLE: FmuModel = FmuModel {
@@ -28,7 +28,7 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
         terminal("preview", PREVIEW, PREVIEW_MEMBERS),
         terminal("rider", RIDER, &[("rider.lean", "lean")]),
     ],
-    icon: icon::motorcycle,
+    icon: include_bytes!("../../icons/Motorcycle.png"),
     reference_input: include_str!("../../reference/Motorcycle_in.csv"),
 };
 

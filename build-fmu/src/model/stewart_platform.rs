@@ -6,7 +6,6 @@ use moris_stewart_platform::interface::neutral_lengths;
 use moris_washout::Rig;
 
 use super::{ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, RIDER, Wording, example, section, terminal};
-use crate::icon;
 
 /// The platform's FMU.
 pub const STEWART_PLATFORM: FmuModel = FmuModel {
@@ -44,7 +43,7 @@ pub const STEWART_PLATFORM: FmuModel = FmuModel {
         terminal("rider", RIDER, &[("rider.lean", "lean")]),
         terminal("platform", POSE, POSE_MEMBERS),
     ],
-    icon: icon::stewart_platform,
+    icon: include_bytes!("../../icons/StewartPlatform.png"),
     reference_input: include_str!("../../reference/StewartPlatform_in.csv"),
 };
 

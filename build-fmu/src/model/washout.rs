@@ -7,7 +7,6 @@ use super::{
     ACTUATORS, FmuModel, ModelFns, POSE, POSE_MEMBERS, PREVIEW, PREVIEW_MEMBERS, VEHICLE, VEHICLE_MEMBERS, Wording,
     example, section, terminal,
 };
-use crate::icon;
 
 /// The washout's FMU.
 pub const WASHOUT: FmuModel = FmuModel {
@@ -42,6 +41,6 @@ pub const WASHOUT: FmuModel = FmuModel {
         terminal("actuators", ACTUATORS, &[("actuator.length", "length"), ("actuator.velocity", "velocity")]),
         terminal("platform", POSE, POSE_MEMBERS),
     ],
-    icon: icon::motorcycle_on_platform,
+    icon: include_bytes!("../../icons/MorisWashout.png"),
     reference_input: include_str!("../../reference/MorisWashout_in.csv"),
 };
