@@ -40,9 +40,6 @@ pub enum Error {
     /// A file that should be there cannot be read.
     #[error("cannot read {}: {reason}", file.display())]
     Read { file: PathBuf, reason: io::Error },
-    /// The parameters of a system are invalid.
-    #[error("the system's parameters cannot be used: {reason}")]
-    Parameters { reason: String },
     /// A library cannot take start values.
     #[error("the library for {platform} has no place for start values of this model's variables")]
     NoPlace { platform: Platform },

@@ -9,6 +9,7 @@
 //! | [`model`] | the models |
 //! | [`platform`] | the platforms |
 //! | [`fmi_version`] | the versions of FMI |
+//! | [`ssp`] | packages of connected FMUs: `cargo build-ssp` |
 //! | [`tables`] | tables of the pages in `docs/` that follow from the models |
 
 pub mod archive;
@@ -26,6 +27,7 @@ pub mod model;
 pub mod platform;
 pub mod reference;
 mod sources;
+pub mod ssp;
 mod start_options;
 mod start_values;
 pub mod tables;

@@ -1,11 +1,17 @@
 //! The lap of MotorcycleLap.ssp: the models of its FMUs, with its start values and connections.
 //! They are stepped as by a co-simulation tool, with one step of delay for each connection.
 
+use moris_build_fmu::ssp::{COMPONENTS, Form, MOTORCYCLE_LAP};
 use moris_interface::SlotModel;
 use moris_motorcycle::Motorcycle;
 use moris_stewart_platform::StewartPlatform;
-use moris_systems::{MOTORCYCLE_LAP, system::Connection};
 use moris_washout::Washout;
+
+use crate::description::{connections, structure};
+
+/// The lap's duration and communication step \[s\].
+const DURATION: f64 = 100.0;
+const STEP: f64 = 0.001;
 
 /// Least RMS errors of surge and sway that any controller could reach on this lap \[m/s²\]. They
 /// are those of `moris simulate` for the motorcycle's outputs.
@@ -23,7 +29,7 @@ trait Stepped {
 
 impl<M: SlotModel> Stepped for M {
     fn advance(&mut self, slots: &mut [f64]) {
-        self.step_slots(slots, None, MOTORCYCLE_LAP.step_size);
+        self.step_slots(slots, None, STEP);
         self.write_outputs(slots);
     }
 }
@@ -37,29 +43,32 @@ fn part<M: SlotModel>(start: &[f64]) -> Part {
 
 /// A component's place in the system, and a variable's slot in it.
 fn place((component, variable): (&str, &str)) -> (usize, usize) {
-    let part = MOTORCYCLE_LAP.components.iter().position(|it| it.name == component).expect("a component");
-    let slot = MOTORCYCLE_LAP.components[part].model.functions.identity.slot(variable);
+    let part = COMPONENTS.iter().position(|(name, _)| *name == component).expect("a component");
+    let slot = COMPONENTS[part].1.functions.identity.slot(variable);
     (part, slot.unwrap_or_else(|| panic!("{component} has no {variable}")))
 }
 
 #[test]
 fn surge_and_sway_of_the_lap_are_near_the_bound() {
-    let starts = moris_systems::start_values(&MOTORCYCLE_LAP).unwrap();
+    let starts = MOTORCYCLE_LAP.starts().unwrap();
     let [motorcycle, washout, platform] = starts.as_slice() else { panic!("three components") };
     let mut parts = [
         part::<Motorcycle>(motorcycle.slots()),
         part::<Washout>(washout.slots()),
         part::<StewartPlatform>(platform.slots()),
     ];
-    let ends = |Connection { from, to }: Connection| (place((from.0, &from.1)), place((to.0, &to.1)));
-    let wires: Vec<_> = (MOTORCYCLE_LAP.connections)().into_iter().map(ends).collect();
+    let text = structure(&MOTORCYCLE_LAP, Form::Flat);
+    let wires: Vec<_> = connections(&text)
+        .iter()
+        .map(|[from, output, to, input]| (place((from, output)), place((to, input))))
+        .collect();
     let desired = ["x", "y"].map(|axis| place(("motorcycle", &format!("vehicle.specificForce.{axis}"))));
     let felt = ["x", "y"].map(|axis| place(("platform", &format!("rider.specificForce.{axis}"))));
     let never =
         [("motorcycle", "status.offPath"), ("washout", "status.actuatorLimited"), ("platform", "status.atStop")]
             .map(place);
 
-    let steps = (MOTORCYCLE_LAP.stop_time / MOTORCYCLE_LAP.step_size).round() as usize;
+    let steps = (DURATION / STEP).round() as usize;
     let mut squares = [[0.0; 2]; 2];
     let mut flagged = [0; 3];
     for _ in 0..steps {

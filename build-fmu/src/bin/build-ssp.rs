@@ -5,8 +5,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use clap::builder::PossibleValuesParser;
+use moris_build_fmu::ssp::{Form, SYSTEMS, System};
 use moris_build_fmu::{Platform, workspace};
-use moris_systems::{Form, SYSTEMS, System};
 
 /// Builds a package of connected FMUs with their parameters.
 ///
@@ -42,7 +42,7 @@ fn main() -> ExitCode {
     let form = if arguments.flat { Form::Flat } else { Form::Whole };
     let is_named = |system: &&&System| system.name == arguments.system;
     let system = SYSTEMS.iter().find(is_named).expect("names of systems are checked");
-    match moris_systems::build(system, form, &arguments.platform, &output, |line| println!("{line}")) {
+    match system.build(form, &arguments.platform, &output, |line| println!("{line}")) {
         Ok(built) => {
             println!("wrote {} ({} kB)", built.file.display(), built.size.div_ceil(1000));
             ExitCode::SUCCESS
