@@ -9,6 +9,7 @@
 //! | [`delay`](mod@delay) | delay of one signal behind another |
 //! | [`vestibular`] | what the semicircular canals and the otoliths make of a signal |
 //! | [`comfort`](mod@comfort) | shake, jolt and peak: what RMS errors hide |
+//! | [`shape`](mod@shape) | sign, time and proportion of surge and sway: shape, size, inverted |
 //! | [`cues`] | time above the perception thresholds: false cues, missing cues |
 //! | [`sickness`] | motion sickness of the ride and of the platform |
 //! | [`incongruence`](mod@incongruence) | how wrong the worst moment feels |
@@ -30,10 +31,11 @@ pub mod incongruence;
 mod listing;
 mod measures;
 mod run;
+pub mod shape;
 pub mod sickness;
 pub mod statistics;
 pub mod vestibular;
 
-pub use listing::{Row, all_rows, bound_rows};
+pub use listing::{Better, Row, all_rows, bound_rows};
 pub use measures::{Axes, Measures, References, Rider};
 pub use run::{LimitFlags, Platform, Run, RunError};

@@ -6,6 +6,18 @@ use crate::effort::Effort;
 use crate::fidelity::Fidelity;
 use crate::measures::{Axes, Measures, Rider};
 use crate::run::{LimitFlags, Platform, Run};
+use crate::shape::{AxisShape, Shape};
+
+/// The better of two values of a measure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Better {
+    /// The smaller one.
+    Less,
+    /// The larger one.
+    More,
+    /// Neither.
+    Neither,
+}
 
 /// One measure.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,6 +30,8 @@ pub struct Row {
     pub value: Option<f64>,
     /// `m/s²`, `°/s`, `ms`, `%`, ... or empty.
     pub unit: &'static str,
+    /// The better of two values.
+    pub better: Better,
     /// Definition, in a sentence.
     pub definition: &'static str,
     /// Where it is from.
@@ -35,7 +49,8 @@ const SICKNESS: &str = "Inoue, Liu, Wada: Revisiting Motion Sickness Models Base
     SAE Technical Paper 2023-01-0176";
 const DOSE: &str = "ISO 2631-1";
 const RATING: &str = "docs/measures.md, incongruence";
-const BOUND: &str = "docs/measures.md, the bound; solved with Clarabel (Goulart, Chen 2024)";
+const SHAPE: &str = "docs/measures.md, shape; threshold: Reid, Nahon, UTIAS Report 296, 1985";
+const BOUND: &str = "docs/measures.md, the bound; an interior-point method after Rao, Wright, Rawlings 1998";
 const THRESHOLDS: &str = "thresholds: Reid, Nahon: Flight Simulation Motion-Base Drive Algorithms, Part 1, UTIAS Report 296, \
     1985; vestibular model: Telban, Cardullo, NASA/CR-2005-213747";
 
@@ -46,12 +61,14 @@ impl Measures {
         let mut rows = Vec::new();
         for (k, axis) in AXES.iter().enumerate() {
             rows.extend(FORCE.rows(axis, &self.force[k]));
+            rows.extend(self.shape.axes.get(k).copied().flatten().iter().flat_map(|shape| shape_rows(axis, shape)));
             rows.extend(self.comfort[k].iter().flat_map(|comfort| comfort_rows(axis, comfort)));
             rows.extend(SENSED_FORCE.rows(axis, &self.sensed_force[k]));
             if self.sensed_force[k].is_some() {
                 rows.extend(cue_rows(format!("sensed specific force {axis}"), &self.force_cues[k]));
             }
         }
+        rows.extend(pooled_shape_rows(&self.shape));
         for (k, axis) in AXES.iter().enumerate() {
             rows.extend(RATE.rows(axis, &self.rate[k]));
             rows.extend(SENSED_RATE.rows(axis, &self.sensed_rate[k]));
@@ -68,7 +85,7 @@ impl Measures {
 /// The rows that a run with motion on every axis has: those of any other run are among them, in the
 /// same order. Their values mean nothing.
 pub fn all_rows() -> Vec<Row> {
-    let count = 8;
+    let count = 16;
     let moving: Vec<[f64; 3]> = (0..count).map(|k| [f64::from(k); 3]).collect();
     let still = vec![[0.0; 3]; moving.len()];
     let run = Run {
@@ -77,6 +94,7 @@ pub fn all_rows() -> Vec<Row> {
         felt_force: &still,
         felt_force_within_steps: &still,
         desired_rate: &moving,
+        scale: [1.0; 2],
         felt_rate: &still,
         platform: Platform {
             legs: &vec![[1.0; 6]; moving.len()],
@@ -97,8 +115,9 @@ struct Subject {
 
 impl Subject {
     /// A row that still needs its definition.
-    fn row(&self, name: &'static str, value: impl Into<Option<f64>>, unit: &'static str) -> Row {
-        Row { subject: self.name.clone(), name, value: value.into(), unit, definition: "", source: self.source }
+    fn row(&self, name: &'static str, better: Better, value: impl Into<Option<f64>>, unit: &'static str) -> Row {
+        let (subject, value, source) = (self.name.clone(), value.into(), self.source);
+        Row { subject, name, value, unit, better, definition: "", source }
     }
 }
 
@@ -128,14 +147,14 @@ impl Signal {
         let Some(fidelity) = fidelity else { return Vec::new() };
         let on = Subject { name: format!("{} {axis}", self.subject), source: self.source };
         vec![
-            on.row("RMS error", self.factor * fidelity.rms_error, self.unit)
+            on.row("RMS error", Better::Less, self.factor * fidelity.rms_error, self.unit)
                 .defined("Root mean square over the run of felt minus desired."),
-            on.row("peak error", self.factor * fidelity.peak_error, self.unit)
+            on.row("peak error", Better::Less, self.factor * fidelity.peak_error, self.unit)
                 .defined("Largest absolute value of felt minus desired."),
-            on.row("correlation", fidelity.correlation, "").defined(
+            on.row("correlation", Better::More, fidelity.correlation, "").defined(
                 "Pearson's correlation of felt and desired, which no scale changes; undefined where one of them is constant.",
             ),
-            on.row("delay", fidelity.delay.map(|delay| 1000.0 * delay), "ms").defined(
+            on.row("delay", Better::Less, fidelity.delay.map(|delay| 1000.0 * delay), "ms").defined(
                 "How much later felt comes: the shift, within 2 s, at which the two correlate best; undefined where they \
                  correlate by less than 0.9 there.",
             ),
@@ -146,16 +165,47 @@ impl Signal {
 fn comfort_rows(axis: &str, comfort: &Comfort) -> [Row; 3] {
     let on = Subject { name: format!("specific force {axis}"), source: COMFORT };
     [
-        on.row("shake", comfort.shake.map(|excess| excess.value), "m/s²").defined(
+        on.row("shake", Better::Less, comfort.shake.map(|excess| excess.value), "m/s²").defined(
             "RMS over 2 s of the felt force above 8 Hz less that of the desired force, the largest over the run, at least 0; \
              undefined up to 16 samples a second and for runs of 15 samples or less.",
         ),
-        on.row("jolt", comfort.jolt.map(|excess| excess.value), "m/s²").defined(
+        on.row("jolt", Better::Less, comfort.jolt.map(|excess| excess.value), "m/s²").defined(
             "Largest difference between two values of the felt force within 20 ms, less the largest such difference of the \
              desired force in the 60 ms around it, at least 0; undefined where less than 50 samples a second are known.",
         ),
-        on.row("peak", comfort.peak.value, "m/s²").defined(
+        on.row("peak", Better::Less, comfort.peak.value, "m/s²").defined(
             "Largest absolute value of the felt force, without gravity, less that of the desired force, at least 0.",
+        ),
+    ]
+}
+
+fn shape_rows(axis: &str, shape: &AxisShape) -> [Row; 3] {
+    let on = Subject { name: format!("specific force {axis}"), source: SHAPE };
+    [
+        on.row("shape", Better::More, shape.shape, "").defined(
+            "Correlation of felt and desired below 2 Hz: sign, time and proportion, whatever the size; 0 where nothing is felt.",
+        ),
+        on.row("size", Better::More, shape.size, "")
+            .defined("RMS of the felt force below 2 Hz over that of the desired force; 1 is full size."),
+        on.row("inverted", Better::Less, 100.0 * shape.inverted, "%").defined(
+            "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and has the opposite sign of the desired \
+             force.",
+        ),
+    ]
+}
+
+/// Surge and sway together.
+fn pooled_shape_rows(shape: &Shape) -> Vec<Row> {
+    let on = Subject { name: "horizontal specific force".to_owned(), source: SHAPE };
+    let Some(inverted) = shape.inverted else { return Vec::new() };
+    vec![
+        on.row("inverted", Better::Less, 100.0 * inverted, "%").defined(
+            "Fraction of the run in which the felt force below 2 Hz is above 0.17 m/s² and more than 90 degrees from the desired \
+             force.",
+        ),
+        on.row("shape error", Better::Less, shape.error.map(|error| 100.0 * error), "%").defined(
+            "RMS below 2 Hz of felt less scaled desired force, relative to the RMS of the scaled desired force; undefined at a \
+             scale of 0.",
         ),
     ]
 }
@@ -163,13 +213,13 @@ fn comfort_rows(axis: &str, comfort: &Comfort) -> [Row; 3] {
 fn cue_rows(subject: String, cues: &Cues) -> [Row; 3] {
     let on = Subject { name: subject, source: THRESHOLDS };
     [
-        on.row("sensed in the vehicle", 100.0 * cues.desired, "%")
+        on.row("sensed in the vehicle", Better::Neither, 100.0 * cues.desired, "%")
             .defined("Fraction of the run in which the vehicle's motion is above the threshold."),
-        on.row("false cues", 100.0 * cues.false_cues, "%").defined(
+        on.row("false cues", Better::Less, 100.0 * cues.false_cues, "%").defined(
             "Fraction of the run in which the platform's motion is above the threshold and the vehicle's is not, or has the \
              opposite sign.",
         ),
-        on.row("missing cues", 100.0 * cues.missing_cues, "%").defined(
+        on.row("missing cues", Better::Less, 100.0 * cues.missing_cues, "%").defined(
             "Fraction of the run in which the vehicle's motion is above the threshold and the platform's is not.",
         ),
     ]
@@ -183,16 +233,16 @@ pub fn bound_rows(axis: &str, desired: f64, felt: f64, bound: f64) -> [Row; 4] {
     let on = Subject { name: format!("specific force {axis}"), source: BOUND };
     let percentage = |error: f64| (desired > 0.0).then(|| 100.0 * error / desired);
     [
-        on.row("bound", bound, "m/s²").defined(
+        on.row("bound", Better::Neither, bound, "m/s²").defined(
             "Smallest RMS error of any controller, even with preview of the whole recording, on the linearised axis under the \
              same limits of tilt, tilt rate, travel, speed and acceleration.",
         ),
-        on.row("gap to the bound", (felt - bound).max(0.0), "m/s²")
+        on.row("gap to the bound", Better::Less, (felt - bound).max(0.0), "m/s²")
             .defined("RMS error beyond the bound: the most that a better controller could gain."),
-        on.row("relative error", percentage(felt), "%").defined(
+        on.row("relative error", Better::Less, percentage(felt), "%").defined(
             "RMS error as a fraction of the RMS of the desired specific force without gravity; 100 % for a platform at rest.",
         ),
-        on.row("relative bound", percentage(bound), "%").defined("The bound as the same fraction."),
+        on.row("relative bound", Better::Neither, percentage(bound), "%").defined("The bound as the same fraction."),
     ]
 }
 
@@ -201,19 +251,19 @@ fn rider_rows(rider: &Rider) -> [Row; 5] {
     let [vehicle, platform] = rider.sick;
     let [vehicle_dose, platform_dose] = rider.dose;
     [
-        from(SICKNESS).row("sick in the vehicle", vehicle, "%").defined(
+        from(SICKNESS).row("sick in the vehicle", Better::Neither, vehicle, "%").defined(
             "People who are sick after half an hour of the vehicle's motion, by the conflict between sensed and expected \
              vertical; without vision, from data of passengers.",
         ),
-        from(SICKNESS).row("sick on the platform", platform, "%").defined("The same of the platform's motion."),
-        from(DOSE).row("sickness dose in the vehicle", vehicle_dose, "m/s^1.5").defined(
+        from(SICKNESS).row("sick on the platform", Better::Less, platform, "%").defined("The same of the platform's motion."),
+        from(DOSE).row("sickness dose in the vehicle", Better::Neither, vehicle_dose, "m/s^1.5").defined(
             "Motion sickness dose value: root of the integral of the squared vertical acceleration, weighted by Wf.",
         ),
         from(DOSE)
-            .row("sickness dose on the platform", platform_dose, "m/s^1.5")
+            .row("sickness dose on the platform", Better::Less, platform_dose, "m/s^1.5")
             .defined("The same of the platform's motion."),
         from(RATING)
-            .row("incongruence", rider.incongruence.map(|incongruence| 100.0 * incongruence.value), "%")
+            .row("incongruence", Better::Less, rider.incongruence.map(|incongruence| 100.0 * incongruence.value), "%")
             .defined(
                 "Largest value of a low-pass of 3 s over the mismatch of lateral (66 %) and longitudinal force (34 %), relative to \
                  that of a platform at rest.",
@@ -224,25 +274,25 @@ fn rider_rows(rider: &Rider) -> [Row; 5] {
 fn effort_rows(effort: &Effort) -> [Row; 8] {
     let on = Subject { name: "platform".to_owned(), source: COMMON };
     [
-        on.row("stroke used", 100.0 * effort.stroke_used, "%").defined(
+        on.row("stroke used", Better::Neither, 100.0 * effort.stroke_used, "%").defined(
             "Span from the shortest to the longest length of any actuator, as a fraction of the stroke.",
         ),
-        on.row("smallest stroke margin", effort.smallest_margin, "m")
+        on.row("smallest stroke margin", Better::More, effort.smallest_margin, "m")
             .defined("Smallest distance of any actuator from either end of its stroke."),
-        on.row("largest tilt rate", effort.largest_tilt_rate.to_degrees(), "°/s")
+        on.row("largest tilt rate", Better::Neither, effort.largest_tilt_rate.to_degrees(), "°/s")
             .defined("Largest rate of tilt coordination in roll or pitch."),
-        on.row("tilt limited", 100.0 * effort.tilt_limited, "%").defined(
+        on.row("tilt limited", Better::Less, 100.0 * effort.tilt_limited, "%").defined(
             "Fraction of the steps in which tilt coordination lagged behind its target at its rate or angle limit, or for at \
              least 0.1 s at its acceleration limit.",
         ),
-        on.row("soft limits active", 100.0 * effort.soft_limited, "%").defined(
+        on.row("soft limits active", Better::Less, 100.0 * effort.soft_limited, "%").defined(
             "Fraction of the steps in which the soft limits changed the motion to stay within stroke, speed and acceleration.",
         ),
-        on.row("safety units active", 100.0 * effort.safety_active, "%")
+        on.row("safety units active", Better::Less, 100.0 * effort.safety_active, "%")
             .defined("Fraction of the steps in which a safety unit limited the platform."),
-        on.row("actuators limited", 100.0 * effort.actuator_limited, "%")
+        on.row("actuators limited", Better::Less, 100.0 * effort.actuator_limited, "%")
             .defined("Fraction of the steps in which the actuator guard limited an actuator."),
-        on.row("final distance from neutral", effort.final_distance, "m")
+        on.row("final distance from neutral", Better::Less, effort.final_distance, "m")
             .defined("Distance of the platform from neutral at the end."),
     ]
 }
@@ -263,6 +313,7 @@ mod tests {
             felt_force: &felt,
             felt_force_within_steps: &felt,
             desired_rate: &[[0.0; 3]; COUNT],
+            scale: [1.0; 2],
             felt_rate: &[[0.0; 3]; COUNT],
             platform: Platform {
                 legs: &[[1.3; 6]; COUNT],
@@ -295,11 +346,22 @@ mod tests {
     #[test]
     fn the_rows_of_any_run_are_among_all_rows_in_their_order() {
         let all = all_rows();
-        assert_eq!(all.len(), 3 * (4 + 3 + 4 + 3) + 3 * (4 + 4 + 3) + 5 + 8);
+        assert_eq!(all.len(), 3 * (4 + 3 + 4 + 3) + 2 * 3 + 2 + 3 * (4 + 4 + 3) + 5 + 8);
         let mut rest = all.iter();
         for row in rows_of(|t| [(2.0 * t).sin(), 0.0, 9.80665]) {
             let same = |other: &&Row| (&other.subject, other.name, other.unit) == (&row.subject, row.name, row.unit);
             assert!(rest.any(|other| same(&other)), "{}, {}", row.subject, row.name);
+        }
+    }
+
+    #[test]
+    fn a_measure_says_which_of_two_values_is_the_better() {
+        let is = |kind| all_rows().into_iter().filter(|row| row.better == kind).map(|row| row.name).collect::<Vec<_>>();
+        let more = ["shape", "size", "correlation", "smallest stroke margin"];
+        assert!(is(Better::More).iter().all(|name| more.contains(name)));
+        assert!(more.iter().all(|name| is(Better::More).contains(name)));
+        for name in ["RMS error", "delay", "shake", "inverted", "shape error", "false cues", "soft limits active"] {
+            assert!(is(Better::Less).contains(&name), "{name}");
         }
     }
 

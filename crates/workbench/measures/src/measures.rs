@@ -8,6 +8,7 @@ use crate::effort::{Effort, effort};
 use crate::fidelity::{Fidelity, fidelity};
 use crate::incongruence::{Incongruence, incongruence};
 use crate::run::{Run, RunError, axis};
+use crate::shape::{Desired, Shape};
 use crate::sickness::{dose, share_sick};
 use crate::vestibular::{CANALS, OTOLITHS, SensorModel, sensed};
 
@@ -38,6 +39,8 @@ pub struct Measures {
     pub force_cues: Axes<Cues>,
     /// False and missing cues of angular velocity.
     pub rate_cues: Axes<Cues>,
+    /// Sign, time and proportion of the specific force of surge and sway.
+    pub shape: Shape,
     /// Effort of the platform.
     pub effort: Effort,
     /// The rider's likely words on the whole run.
@@ -102,6 +105,7 @@ impl Measures {
             sensed_rate: rate.sensed,
             force_cues: force.cues,
             rate_cues: rate.cues,
+            shape: Desired::new(run.desired_force, run.step).shape(run.felt_force, run.scale),
             effort: effort(&run.platform),
             rider: Rider::of(run),
         })
@@ -164,6 +168,7 @@ mod tests {
                 felt_force: &felt,
                 felt_force_within_steps: &force(scale, 0.01 / divisions as f64, divisions * (count - 1) + 1),
                 desired_rate: &rest,
+                scale: [1.0; 2],
                 felt_rate: &rest,
                 platform: Platform {
                     legs: &vec![[1.3; 6]; count],

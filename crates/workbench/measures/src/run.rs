@@ -17,6 +17,8 @@ pub struct Run<'a> {
     pub felt_force_within_steps: &'a [[f64; 3]],
     /// Angular velocity that the vehicle's rider would feel, in head axes \[rad/s\].
     pub desired_rate: &'a [[f64; 3]],
+    /// Fraction of the vehicle's surge and sway that the rider is meant to feel.
+    pub scale: [f64; 2],
     /// Angular velocity that the rider on the platform feels, in head axes \[rad/s\].
     pub felt_rate: &'a [[f64; 3]],
     /// Motion of the platform.

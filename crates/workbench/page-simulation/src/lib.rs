@@ -58,6 +58,7 @@ struct ChartHead {
 /// Data that follow the curves.
 #[derive(Serialize)]
 struct Evaluation {
+    verdict: Finding,
     findings: Vec<Finding>,
     measures: Vec<Measure>,
     events: Vec<Event>,
@@ -189,12 +190,17 @@ impl Recorded {
         let holds = self.holds(&simulation.parameters);
         let bounds = self.bounds.map(|bound| Some(bound).filter(|bound| bound.is_finite() && holds));
         let samples = simulation.inputs.len();
-        let run = Evaluated { simulation: &simulation, measures: &measures, bounds }
+        let run = Evaluated { simulation: &simulation, measures: &measures, bounds, advice: None }
             .run("", &Thinning::new(samples, samples));
         CURVES.set(run.limited.tilt.iter().map(|&flag| f32::from(u8::from(flag))).collect());
         let events = events(&run, &Rig::from(&simulation.parameters));
-        serde_json::to_string(&Evaluation { findings: run.findings, measures: run.measures, events })
-            .map_err(|error| error.to_string())
+        serde_json::to_string(&Evaluation {
+            verdict: run.verdict,
+            findings: run.findings,
+            measures: run.measures,
+            events,
+        })
+        .map_err(|error| error.to_string())
     }
 
     /// The axes whose bounds are known.

@@ -95,6 +95,11 @@ impl PySimulation {
         self.outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect()
     }
 
+    #[getter]
+    fn verdict(&self) -> String {
+        self.outcome.evaluated().headline().text
+    }
+
     /// The samples' times, the inputs and outputs row by row, and the names of the columns.
     fn samples<'py>(&self, py: Python<'py>) -> PyResult<Series<'py>> {
         let Simulation { inputs, outputs, .. } = &self.outcome.simulation;

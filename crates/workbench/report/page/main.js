@@ -193,6 +193,8 @@ function drawMachine() {
 
 function showFindings(run) {
   const marks = { good: "\u2713", note: "\u2022", warning: "!" };
+  const { weight, text } = run.verdict;
+  Object.assign(byId("headline"), { hidden: !text, className: weight, textContent: text });
   byId("findings").replaceChildren(...[...run.findings, ...report.findings].map(({ weight, text }) => {
     const mark = element("span", { class: "finding-mark", "aria-hidden": "true" }, [marks[weight]]);
     return element("li", { class: weight }, [mark, element("span", {}, [text])]);

@@ -91,7 +91,7 @@ class Simulator {
       return { title, quantity, times: this.times, lines: [{ label, values: like(known?.values) }], limits: [] };
     };
     return {
-      limits, rig, charts: charts.map(chart), times: this.times, findings: [], measures: [], events: [],
+      limits, rig, charts: charts.map(chart), times: this.times, verdict: { weight: "note", text: "" }, findings: [], measures: [], events: [],
       desired: cues(before.desired), felt: cues(before.felt), position: each(before.position), orientation: each(before.orientation),
       legs: each(before.legs), tilt: each(before.tilt), tilt_rate: each(before.tilt_rate), lean: like(before.lean),
       limited: { tilt: flags(tilt), soft: flags(soft), safety: flags(safety), actuator: flags(actuator) },

@@ -97,6 +97,8 @@ impl From<&Parameters> for Rig {
 pub struct Run {
     /// Short name for legends, such as `default` or `tuned`.
     pub name: String,
+    /// The verdict with what to change, in a sentence or two; empty without one.
+    pub verdict: Finding,
     /// Findings, in order of importance.
     pub findings: Vec<Finding>,
     /// \[s\], ascending.

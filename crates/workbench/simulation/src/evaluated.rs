@@ -2,12 +2,13 @@
 
 use std::array;
 
-use moris_measures::{Axes, Measures, Row, bound_rows};
-use moris_report::{Better, Cues, LimitHistory, Measure, Run, Thinning};
+use moris_measures::{Axes, Better, Measures, Row, bound_rows};
+use moris_report::{Cues, LimitHistory, Measure, Run, Thinning};
 use moris_washout::Output;
 use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::Simulation;
+use crate::advice::Advice;
 
 /// A simulation, its measures, and the least possible errors.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +20,8 @@ pub struct Evaluated<'a> {
     /// The least RMS error of the specific force that a controller could reach, by axis \[m/s2\];
     /// none where it is not known.
     pub bounds: Axes<Option<f64>>,
+    /// What another scale would give; none where it was not computed.
+    pub advice: Option<Advice>,
 }
 
 impl Evaluated<'_> {
@@ -52,6 +55,7 @@ impl Evaluated<'_> {
         let leans = inputs.iter().any(|input| input.lean != 0.0);
         Run {
             name: name.to_owned(),
+            verdict: self.headline(),
             findings: self.findings(),
             times: thinning.at_times(|k| k as f64 * step),
             desired: Cues {
@@ -94,18 +98,13 @@ fn measure(row: Row) -> Measure {
         name: row.name.to_owned(),
         value: row.value,
         unit: row.unit.to_owned(),
-        better: better(row.name),
+        better: match row.better {
+            Better::Less => moris_report::Better::Less,
+            Better::More => moris_report::Better::More,
+            Better::Neither => moris_report::Better::Neither,
+        },
         definition: row.definition.to_owned(),
         source: row.source.to_owned(),
-    }
-}
-
-/// Which of two values of a measure of this name is the better.
-fn better(name: &str) -> Better {
-    match name {
-        "correlation" | "smallest stroke margin" => Better::More,
-        "stroke used" | "sensed in the vehicle" | "largest tilt rate" | "bound" | "relative bound" => Better::Neither,
-        _ => Better::Less,
     }
 }
 

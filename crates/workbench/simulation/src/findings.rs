@@ -4,6 +4,7 @@ use moris_measures::Measures;
 use moris_measures::comfort::{Comfort, Excess};
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
+use moris_measures::shape::AxisShape;
 use moris_report::{Finding, Limits, TiltLimit, Weight};
 use moris_washout::Output;
 
@@ -36,6 +37,10 @@ const SICKER: f64 = 2.0;
 
 /// Largest fraction of the time with soft limits at which a recording fits the rig.
 const SELDOM: f64 = 0.01;
+/// Fraction of the time from which inverted cues are a warning, and the least correlation of a cue
+/// that is right in time and proportion.
+pub(crate) const INVERTED: f64 = 0.02;
+pub(crate) const RIGHT_SHAPE: f64 = 0.85;
 /// The cost of soft limits.
 const GIVEN_UP: &str =
     "Meanwhile the platform gave up part of the cue to stay within its stroke, speed and acceleration.";
@@ -44,11 +49,12 @@ const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 
 impl Evaluated<'_> {
-    /// The findings, the most important first: fit, comfort, channels worse than at rest, limits of
+    /// The findings, the most important first: fit, comfort, shape, channels worse than at rest, limits of
     /// the tilt, other channels, motion sickness.
     pub fn findings(&self) -> Vec<Finding> {
         let mut findings = vec![fits(self)];
         findings.extend((0..3).flat_map(|axis| comfort(self, axis)));
+        findings.extend(shape(self));
         let warnings = moris_washout::warnings(&self.simulation.parameters);
         findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
         let (worse, others): (Vec<Finding>, Vec<Finding>) =
@@ -132,7 +138,7 @@ pub fn fits_the_rig(measures: &Measures) -> bool {
 }
 
 /// True if soft limits, which keep these from acting, were hardly ever active, either.
-fn fits_freely(measures: &Measures) -> bool {
+pub(crate) fn fits_freely(measures: &Measures) -> bool {
     fits_the_rig(measures) && measures.effort.soft_limited <= SELDOM
 }
 
@@ -198,6 +204,36 @@ fn comfort(outcome: &Evaluated, axis: usize) -> Vec<Finding> {
     sentences.into_iter().flatten().map(|text| finding(Weight::Warning, text)).collect()
 }
 
+/// Sign, time, proportion and size of the felt force of surge and sway.
+fn shape(outcome: &Evaluated) -> Option<Finding> {
+    let shape = &outcome.measures.shape;
+    let (most, inverted) = shape.most_inverted()?;
+    let of_axes = |value: &dyn Fn(&AxisShape) -> String| {
+        let axes =
+            shape.axes.iter().zip(AXES).filter_map(|(axis, name)| {
+                axis.as_ref().map(|axis| format!("{} in {}", value(axis), name.to_lowercase()))
+            });
+        axes.collect::<Vec<_>>().join(", ")
+    };
+    let shapes = of_axes(&|axis| format!("{:.2}", axis.shape));
+    let sizes = of_axes(&|axis| format!("{:.0} %", 100.0 * axis.size));
+    if inverted >= INVERTED {
+        let advice = outcome.advice.map_or_else(String::new, |advice| advice.clauses());
+        let text = format!(
+            "{} is felt the wrong way round for {:.0} % of the time{advice}. Shape: {shapes}; size: {sizes}.",
+            AXES[most],
+            100.0 * inverted
+        );
+        return Some(finding(Weight::Warning, text));
+    }
+    let is_right = shape.axes.iter().flatten().all(|axis| axis.shape >= RIGHT_SHAPE);
+    let (weight, verdict) = match is_right {
+        true => (Weight::Good, "Surge and sway are felt the right way round and in time"),
+        false => (Weight::Note, "Surge and sway are felt the right way round, but not in proportion"),
+    };
+    Some(finding(weight, format!("{verdict}. Shape: {shapes}; size: {sizes}.")))
+}
+
 fn worth_saying(excess: Option<Excess>, least: f64) -> Option<Excess> {
     excess.filter(|excess| excess.value >= least)
 }
@@ -233,8 +269,8 @@ struct Channel {
     desired: f64,
     /// Least RMS that is worth a sentence.
     least: f64,
-    /// Least error that a controller could reach.
-    bound: Option<f64>,
+    /// Least error that a controller could reach, and the limits that it was computed with.
+    bound: Option<(f64, String)>,
 }
 
 /// The channels of a simulation: surge, sway, heave, and the rates of roll, pitch and yaw.
@@ -249,7 +285,7 @@ fn channels(outcome: &Evaluated) -> Vec<Channel> {
             cues: measures.force_cues[axis],
             desired: outcome.desired_rms(axis),
             least: LEAST[0],
-            bound: outcome.bounds[axis],
+            bound: outcome.bounds[axis].map(|bound| (bound, bound_limits(outcome, axis))),
         })
     };
     let rate = |axis: usize| {
@@ -265,6 +301,16 @@ fn channels(outcome: &Evaluated) -> Vec<Channel> {
         })
     };
     (0..3).filter_map(force).chain((0..3).filter_map(rate)).collect()
+}
+
+/// The limits that the bound of an axis was computed with.
+fn bound_limits(outcome: &Evaluated, axis: usize) -> String {
+    if axis == 2 {
+        return "within these limits of travel, speed and acceleration".to_owned();
+    }
+    let tilt = &outcome.simulation.parameters.tilt;
+    let degrees = |angle: f64| (10.0 * angle.to_degrees()).round() / 10.0;
+    format!("within these limits of tilt ({}°, {} °/s) and travel", degrees(tilt.angle_limit), degrees(tilt.rate_limit))
 }
 
 impl Channel {
@@ -327,11 +373,11 @@ impl Channel {
     }
 
     fn bound_sentence(&self) -> String {
-        self.bound.map_or_else(String::new, |least| {
-            if least < FAITHFUL * self.fidelity.rms_error {
-                format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² on this rig.")
+        self.bound.as_ref().map_or_else(String::new, |(least, limits)| {
+            if *least < FAITHFUL * self.fidelity.rms_error {
+                format!(" With preview of the whole recording, a controller might reach {least:.2} m/s² {limits}.")
             } else {
-                format!(" No controller could get below {least:.2} m/s² on this rig.")
+                format!(" No controller could get below {least:.2} m/s² {limits}.")
             }
         })
     }

@@ -5,17 +5,20 @@
 //!
 //! - [`Simulation`] steps the washout, [`Unfinished`] part by part; [`preview`] gives it
 //!   the recording's future.
+//! - [`advice`] is what another scale would give.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
 //! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
 
 #![forbid(unsafe_code)]
 
+pub mod advice;
 pub mod capabilities;
 pub mod clearance;
 mod evaluated;
 pub mod findings;
 pub mod frequency_response;
+mod headline;
 mod measured;
 pub mod preview;
 mod simulation;

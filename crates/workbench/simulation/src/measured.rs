@@ -28,12 +28,14 @@ pub fn measures_with(simulation: &Simulation, references: &mut References) -> Re
         actuator: output.actuator_limited,
     };
     let rig = &simulation.parameters.rig;
+    let scale = &simulation.parameters.conditioning.force_scale;
     let run = Run {
         step: simulation.step,
         desired_force: &inputs(|input| input.specific_force.into()),
         felt_force: &outputs(|output| output.felt_specific_force.into()),
         felt_force_within_steps: &simulation.felt_within_steps.iter().map(|&felt| felt.into()).collect::<Vec<_>>(),
         desired_rate: &simulation.desired_rates().into_iter().map(Into::into).collect::<Vec<_>>(),
+        scale: [scale.x, scale.y],
         felt_rate: &outputs(|output| output.felt_angular_velocity.into()),
         platform: Platform {
             legs: &simulation.outputs.iter().map(|output| output.length).collect::<Vec<_>>(),

@@ -3,6 +3,7 @@
 use moris_measures::comfort::Comfort;
 use moris_measures::cues::Cues;
 use moris_measures::fidelity::Fidelity;
+use moris_measures::shape::AxisShape;
 use moris_simulation::Evaluated;
 use moris_washout::platform::reach::Axis;
 
@@ -21,6 +22,8 @@ pub struct Channel {
     pub sensed: Option<Fidelity>,
     /// Shake, jolt and peak of a force; none of a rate.
     pub comfort: Option<Comfort>,
+    /// Shape, size and inverted time of surge and sway, where enough is desired.
+    pub shape: Option<AxisShape>,
     /// Fractions of the time with a cue in the vehicle, a false one and a
     /// missing one on the platform.
     pub cues: Cues,
@@ -60,6 +63,7 @@ pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
             bound: bounds[k].filter(|_| is_force),
             felt: felt?,
             sensed,
+            shape: measures.shape.axes.get(k).copied().flatten().filter(|_| is_force),
             comfort: measures.comfort[k].filter(|_| is_force),
             cues,
         })

@@ -34,7 +34,7 @@ fn host_text(host: &Host) -> String {
 }
 
 fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
-    let columns: [Column<(&str, &Channel)>; 12] = [
+    let columns: [Column<(&str, &Channel)>; 15] = [
         ("recording", |(recording, _)| (*recording).to_owned()),
         ("channel", |(_, channel)| name(channel.axis).to_owned()),
         ("unit", |(_, channel)| channel.unit().to_owned()),
@@ -47,6 +47,9 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
         ("false %", |(_, channel)| percent(channel.cues.false_cues)),
         ("missing %", |(_, channel)| percent(channel.cues.missing_cues)),
         ("shake/jolt/peak", |(_, channel)| or_undefined(channel.comfort.as_ref().map(comfort_cell))),
+        ("shape", |(_, channel)| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.shape)))),
+        ("size", |(_, channel)| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.size)))),
+        ("inverted %", |(_, channel)| or_undefined(channel.shape.map(|shape| percent(shape.inverted)))),
     ];
     let rows = recordings.iter().flat_map(|recording| {
         let names = [recording.name.as_str()].into_iter().chain(std::iter::repeat(""));

@@ -42,6 +42,8 @@ struct SetResult {
     fits: bool,
     /// False if a channel has a larger error than a platform at rest.
     better_than_rest: bool,
+    /// The verdict with what to change.
+    verdict: String,
     /// Findings in sentences, the most important first.
     findings: Vec<String>,
     /// Least RMS error of the specific force along x, y and z that any controller could reach, in
@@ -94,6 +96,7 @@ fn result(outcome: &Outcome) -> SetResult {
         parameters: outcome.setup.parameters_name.clone(),
         fits: fits_the_rig(&outcome.measures),
         better_than_rest: is_better_than_rest(&outcome.evaluated()),
+        verdict: outcome.evaluated().headline().text,
         findings: outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect(),
         force_bounds: outcome.evaluated().bounds,
         measures: measures.map(measure).collect(),

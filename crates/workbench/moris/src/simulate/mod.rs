@@ -29,6 +29,7 @@ use anyhow::{Context, Result, bail};
 use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
 use moris_simulation::Evaluated;
+use moris_simulation::advice::Advice;
 use moris_simulation::preview::{Previewer, parse_seconds};
 use moris_washout::interface::StrategyKind;
 
@@ -101,6 +102,8 @@ pub struct Outcome {
     pub measures: Measures,
     /// The bound, axis by axis; none without a desired signal or if not requested.
     pub bounds: Axes<Option<AxisBound>>,
+    /// What another scale would give; none where the shape needs none, or it was not computed.
+    pub advice: Option<Advice>,
 }
 
 impl Outcome {
@@ -129,13 +132,13 @@ impl Outcome {
     pub fn measured(simulation: Simulation, setup: &Setup) -> Result<Self> {
         let measures = measures(&simulation)?;
         let setup = Setup { parameters: simulation.parameters, ..setup.clone() };
-        Ok(Outcome { setup, simulation, measures, bounds: Axes::default() })
+        Ok(Outcome { setup, simulation, measures, bounds: Axes::default(), advice: None })
     }
 
     /// The simulation with its measures and the bounds' errors.
     pub fn evaluated(&self) -> Evaluated<'_> {
         let bounds = self.bounds.each_ref().map(|bound| bound.as_ref().map(|bound| bound.bound.rms_error));
-        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds }
+        Evaluated { simulation: &self.simulation, measures: &self.measures, bounds, advice: self.advice }
     }
 
     /// The bounds of its recording on its rig.

@@ -17,6 +17,7 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
     for outcome in outcomes {
         let setup = &outcome.setup;
         text += &format!("\n{}, parameters {}:\n", setup.rig_name, setup.parameters_name);
+        text += &format!("  {}\n", outcome.evaluated().headline().text);
         for finding in outcome.evaluated().findings() {
             text += &format!("  {}\n", finding.text);
         }
@@ -27,7 +28,7 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
 
 /// The measures of the cues, axis by axis; axes on which nothing happens are left out.
 fn table(outcome: &Outcome) -> TextTable {
-    let columns: [Column<Channel>; 12] = [
+    let columns: [Column<Channel>; 15] = [
         ("felt against desired", |channel| {
             let kind = if channel.axis.is_rotation() { "rate" } else { "force" };
             format!("{kind} {}", ["x", "y", "z"][channel.axis as usize % 3])
@@ -43,6 +44,9 @@ fn table(outcome: &Outcome) -> TextTable {
         ("sensed: RMS error", |channel| or_undefined(channel.sensed.map(|sensed| number(channel, sensed.rms_error)))),
         ("false cues", |channel| format!("{:.1} %", 100.0 * channel.cues.false_cues)),
         ("missing cues", |channel| format!("{:.1} %", 100.0 * channel.cues.missing_cues)),
+        ("shape", |channel| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.shape)))),
+        ("size", |channel| or_undefined(channel.shape.map(|shape| format!("{:.2}", shape.size)))),
+        ("inverted", |channel| or_undefined(channel.shape.map(|shape| format!("{:.1} %", 100.0 * shape.inverted)))),
     ];
     TextTable::of(&columns, channels(&outcome.evaluated()))
 }

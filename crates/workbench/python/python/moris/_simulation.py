@@ -38,13 +38,14 @@ class Simulation(Outputs):
     """A simulated recording: every input and output at each sample, and the measures.
 
     time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
-    recording: the Recording. measures: Measures. findings: sentences, the most important first.
+    recording: the Recording. measures: Measures. verdict: with what to change. findings: sentences, the most important first.
     preview: time of the recording that was previewed [s]. parameters: dict of all parameters. fits: False where
         a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time.
     """
 
     recording: Recording
     measures: Measures
+    verdict: str
     findings: list[str]
     parameters: dict[str, Value]
     preview: float
@@ -57,6 +58,7 @@ class Simulation(Outputs):
         self.recording = recording
         self.preview = preview
         self.measures = Measures(native.measures)
+        self.verdict = native.verdict
         self.findings = native.findings
         self.parameters = native.parameters
         self.fits = native.fits
@@ -93,7 +95,7 @@ class Simulation(Outputs):
 
     def _repr_html_(self) -> str:
         findings = "".join(f"<li>{escape(finding)}</li>" for finding in self.findings)
-        return f"<b>{escape(self.name)}</b><ul>{findings}</ul>{_picture(self)}{self.measures._repr_html_()}"
+        return f"<b>{escape(self.name)}</b><p><b>{escape(self.verdict)}</b></p><ul>{findings}</ul>{_picture(self)}{self.measures._repr_html_()}"
 
 
 def _picture(simulation: Simulation) -> str:

@@ -1,0 +1,66 @@
+//! The verdict of a simulation: one sentence on the most important finding, one on what to change.
+
+use moris_report::{Finding, Weight};
+
+use crate::Evaluated;
+use crate::findings::{INVERTED, RIGHT_SHAPE, fits_freely, fits_the_rig, is_better_than_rest};
+
+/// Jolt and shake from which they are the verdict \[m/s2\].
+const JOLTS: f64 = 1.0;
+const SHAKES: f64 = 0.1;
+
+impl Evaluated<'_> {
+    /// The verdict with what to change.
+    pub fn headline(&self) -> Finding {
+        let measures = self.measures;
+        let inverted = measures.shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
+        let worst = |k: usize| measures.comfort.iter().flatten().map(|comfort| comfort.values()[k]).fold(0.0, f64::max);
+        let (weight, text) = if !fits_the_rig(measures) {
+            (Weight::Warning, format!("Too much for the rig: its limits stop the platform. {}", self.smaller_scale()))
+        } else if inverted >= INVERTED {
+            let percent = 100.0 * inverted;
+            (
+                Weight::Warning,
+                format!("Felt the wrong way round for {percent:.0} % of the time. {}", self.smaller_scale()),
+            )
+        } else if worst(1) >= JOLTS || worst(0) >= SHAKES {
+            let text = "Right in sign, but not smooth: the platform jolts or shakes the rider. Another strategy or a smaller \
+                        scale is smoother.";
+            (Weight::Warning, text.to_owned())
+        } else if !is_better_than_rest(self) {
+            let text = "Right in sign, but a channel is worse than on a platform at rest. The findings name it; scale it down.";
+            (Weight::Warning, text.to_owned())
+        } else {
+            self.good()
+        };
+        Finding { weight, text }
+    }
+
+    /// What to change where the scale asks too much.
+    fn smaller_scale(&self) -> String {
+        match self.advice.and_then(|advice| advice.scaled) {
+            Some(found) => format!("Scale force and rates by {:.2}.", found.factor),
+            None => "A smaller scale of force and rates, a better strategy or a faster tilt helps; moris fit finds the scale."
+                .to_owned(),
+        }
+    }
+
+    /// The verdict where nothing is wrong.
+    fn good(&self) -> (Weight, String) {
+        let shape = &self.measures.shape;
+        let soft = if fits_freely(self.measures) { "" } else { " Soft limits take a part of the cues." };
+        match (shape.least_shape(), shape.size()) {
+            (Some(least), Some(size)) if least >= RIGHT_SHAPE => {
+                (Weight::Good, format!("Felt the right way round, at {:.0} % of the size.{soft}", 100.0 * size))
+            }
+            (Some(_), Some(size)) => (
+                Weight::Note,
+                format!(
+                    "Felt the right way round in part, at {:.0} % of the size.{soft} moris fit finds a scale with a better shape.",
+                    100.0 * size
+                ),
+            ),
+            _ => (Weight::Good, format!("Nothing is wrong; surge and sway are hardly asked for.{soft}")),
+        }
+    }
+}
