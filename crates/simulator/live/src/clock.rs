@@ -41,6 +41,15 @@ struct Last {
 }
 
 impl Clock {
+    /// All arrivals until now are earlier by this time \[s\].
+    pub fn slip(&mut self, time: f64) {
+        if let Some(last) = &mut self.last {
+            last.arrival -= time;
+            last.lag -= time;
+            last.stamp -= time;
+        }
+    }
+
     /// The time of a sample with this packet's clock that arrived then.
     pub fn stamp(&mut self, arrival: f64, clock: Option<f64>) -> Stamp {
         let behind = clock.map_or(0.0, |clock| arrival - clock);

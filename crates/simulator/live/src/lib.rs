@@ -12,6 +12,7 @@
 //! | [`clock`] | time of a sample from its packet's clock or its arrival |
 //! | [`resampler`] | linear interpolation of irregular samples, with a delay |
 //! | [`gate`] | change of the washout's source without a jump |
+//! | [`legs`] | where the legs are before they follow commands |
 //! | [`travel`] | the way between the settled pose and neutral |
 //! | [`blend`] | the way from one parameter set to another |
 //! | [`signs`] | test of the telemetry's signs |
@@ -46,6 +47,7 @@ pub mod clock;
 pub mod format;
 pub mod frame;
 pub mod gate;
+pub mod legs;
 pub mod log;
 pub mod moog;
 pub mod motion;
@@ -56,6 +58,7 @@ pub mod source;
 pub mod transitions;
 pub mod travel;
 
+pub use legs::Legs;
 pub use motion::{Motion, Sample};
 pub use session::{Commands, Refusal, STEP, Session, Settings};
 pub use transitions::{Event, State};

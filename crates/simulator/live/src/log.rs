@@ -10,6 +10,7 @@ use moris_interface::{Group, Reader, Slot, slots_of};
 use moris_washout::Parameters;
 use nalgebra::Vector3;
 
+use crate::legs::Legs;
 use crate::motion::{CHANNELS, Channels, Motion, Sample};
 use crate::session::{Commands, Session, Settings};
 use crate::transitions::Event;
@@ -26,6 +27,10 @@ pub enum Happening {
     Event(Event),
     /// A sample that arrived at this time of the session \[s\].
     Sample(f64, Sample),
+    /// The place of the legs.
+    Legs(Legs),
+    /// The session's clock has slipped by this time \[s\].
+    Slip(f64),
     /// A value of a parameter has been chosen, by its slot.
     Choice(u16, f64),
     /// The chosen parameters come into force.
@@ -93,6 +98,12 @@ impl Display for Entry {
             Happening::Event(event) => write!(f, "event,{}", event.name()),
             Happening::End(digest) => write!(f, "end,{digest:016x}"),
             Happening::Choice(slot, value) => write!(f, "parameter,{},{value:?}", name_of(usize::from(*slot))),
+            Happening::Legs(Legs::Reported(lengths)) => {
+                write!(f, "legs,reported")?;
+                lengths.iter().try_for_each(|length| write!(f, ",{length:?}"))
+            }
+            Happening::Legs(legs) => write!(f, "legs,{}", legs.name()),
+            Happening::Slip(time) => write!(f, "slip,{time:?}"),
             Happening::Retune => write!(f, "retune"),
             Happening::Sample(arrival, sample) => {
                 write!(f, "sample,{arrival:?},")?;
@@ -123,6 +134,17 @@ impl Entry {
             "end" => Happening::End(u64::from_str_radix(fields.next()?, 16).ok()?),
             "parameter" => Happening::Choice(slot_of(fields.next()?)? as u16, fields.next()?.parse().ok()?),
             "retune" => Happening::Retune,
+            "slip" => Happening::Slip(fields.next()?.parse().ok()?),
+            "legs" => Happening::Legs(match fields.next()? {
+                "reported" => {
+                    let mut lengths = [0.0; 6];
+                    for length in &mut lengths {
+                        *length = fields.next()?.parse().ok()?;
+                    }
+                    Legs::Reported(lengths)
+                }
+                name => Legs::named(name)?,
+            }),
             "sample" => {
                 let mut next = || fields.next();
                 let arrival = next()?.parse().ok()?;
@@ -172,12 +194,15 @@ pub struct Replayed {
     pub recorded: Option<u64>,
 }
 
-/// Repeats a recorded session. `observe` receives the commands of each step.
+/// Repeats a recorded session, up to its last whole line. `observe` receives the commands of each
+/// step.
 ///
 /// # Errors
 /// The text is no recorded session.
 pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed, ReplayError> {
-    let mut lines = text.lines().enumerate().map(|(place, line)| (place + 1, line)).peekable();
+    // A full disk cuts the last line off.
+    let whole = text.rfind('\n').map_or(text, |end| &text[..end]);
+    let mut lines = whole.lines().enumerate().map(|(place, line)| (place + 1, line)).peekable();
     let first = lines.next().filter(|(_, line)| *line == FIRST).ok_or(ReplayError::Line(1))?;
     let settings = lines.next().and_then(|(_, line)| line.strip_prefix("settings,"));
     let settings: Settings =
@@ -209,6 +234,8 @@ pub fn replay(text: &str, mut observe: impl FnMut(&Session)) -> Result<Replayed,
             // What was refused then is refused now.
             Happening::Event(event) => drop(session.handle(event)),
             Happening::Sample(arrival, sample) => session.receive(arrival, &sample),
+            Happening::Legs(legs) => drop(session.locate(legs)),
+            Happening::Slip(time) => session.slip(time),
             Happening::Choice(slot, value) => session.choose(usize::from(slot), value),
             Happening::Retune => drop(session.retune()),
             Happening::End(recorded) => return Ok(Replayed { steps, digest: digest.0, recorded: Some(recorded) }),

@@ -66,6 +66,11 @@ impl Resampler {
         self.count = (self.count + 1).min(KEPT);
     }
 
+    /// All times until now are earlier by this time \[s\].
+    pub fn slip(&mut self, time: f64) {
+        self.samples.iter_mut().for_each(|sample| sample.time -= time);
+    }
+
     /// Forgets all samples: the next one has nothing to do with them.
     pub fn clear(&mut self) {
         self.count = 0;

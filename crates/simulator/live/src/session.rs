@@ -8,6 +8,7 @@ use moris_washout::{ParameterError, Parameters, Washout};
 use serde::{Deserialize, Serialize};
 
 use crate::gate::{Change, Gate};
+use crate::legs::{Legs, lengths_within, lowest};
 use crate::motion::{Channels, Motion, Sample};
 use crate::resampler::{At, Resampler};
 use crate::signs::{Check, Signs};
@@ -20,6 +21,11 @@ pub const STEP: f64 = 0.001;
 /// A leg is at neutral within this part of its stroke, at this part of it per second. A slow
 /// wash-out of the yaw goes on for long.
 const AT_NEUTRAL: [f64; 2] = [0.03, 0.01];
+/// Part of the cue, and of the actuators' speed, below which the way down may begin.
+const DESCENT_CUE: f64 = 0.2;
+const DESCENT_SPEED: f64 = 0.25;
+/// Time in which the cue goes out, about \[s\].
+const FADE: f64 = 4.0;
 /// Least time of engaging \[s\], also where the washout has stayed engaged through a pause.
 const LEAST_ENGAGING: f64 = 4.0;
 /// Part of the way to neutral that is too short to change a pose.
@@ -27,13 +33,22 @@ const NO_WAY: f64 = 1e-9;
 /// Glide after a gap: twice its length, within these \[s\].
 const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
 
+/// Largest speed and acceleration of the legs on the way home, in those of the actuators.
+const TRAVEL: f64 = 0.25;
+
 /// Settings of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Settings {
     /// Delay of the telemetry \[s\]; none: as short as its gaps permit.
     pub delay: Option<f64>,
-    /// Part of the stroke at which the legs are at the settled pose.
+    /// Part of the stroke that the legs keep from their ends at the settled pose.
     pub settled: f64,
+    /// True if the legs are at the settled pose at first. Otherwise their place is unknown until
+    /// [`Session::locate`].
+    pub starts_settled: bool,
+    /// Speed of a leg that a controller can follow from any place \[m/s\]: [`Legs::Slow`].
+    pub slow_speed: f64,
     /// Largest speed of a leg on the way to neutral and down \[m/s\].
     pub travel_speed: f64,
     /// Engage although the telemetry's signs contradict each other.
@@ -42,12 +57,19 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Settings { delay: None, settled: 0.02, travel_speed: 0.15, ignore_signs: false }
+        Settings {
+            delay: None,
+            settled: 0.02,
+            starts_settled: true,
+            slow_speed: 0.02,
+            travel_speed: 0.15,
+            ignore_signs: false,
+        }
     }
 }
 
 /// Reason for which an event of a person is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Refusal {
     /// The event does nothing in this state.
     #[error("{} does nothing in the state {}", .0.name(), .1.name())]
@@ -58,6 +80,30 @@ pub enum Refusal {
     /// The signs contradict each other.
     #[error("the telemetry contradicts itself, expected: {}", .0.text())]
     Signs(Check),
+    /// The place of the legs is unknown.
+    #[error(
+        "{} needs the legs' place, which is unknown: let the controller report it, confirm that the platform is \
+         settled, or start slowly", .0.name()
+    )]
+    Unknown(Event),
+    /// The legs' place is given while they follow commands.
+    #[error("the legs follow commands in the state {}; their place is given in the state off", .0.name())]
+    Commanded(State),
+    /// A reported length is none of this rig.
+    #[error(
+        "actuator {} is reported to be {length} m long, which is outside its stroke from {shortest} to {longest} m; \
+         check the report's unit and the rig file", .leg + 1
+    )]
+    Length {
+        /// The leg, from 0.
+        leg: usize,
+        /// Its reported length \[m\].
+        length: f64,
+        /// The shortest length \[m\].
+        shortest: f64,
+        /// The longest length \[m\].
+        longest: f64,
+    },
 }
 
 /// Commands after a step.
@@ -98,10 +144,14 @@ pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> R
 }
 
 /// The pose with these lengths of the legs, at this part of the way to the washout's pose; that
-/// pose if no other is found.
-fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64) -> Pose {
+/// pose if no other is found from there or from the one before.
+fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64, before: Option<&Pose>) -> Pose {
     let above = Pose { position: output.position, orientation: Orientation::new(output.orientation) };
-    if 1.0 - part < NO_WAY { above } else { forward_kinematics(geometry, length, &above).unwrap_or(above) }
+    if 1.0 - part < NO_WAY {
+        return above;
+    }
+    let found = before.and_then(|before| forward_kinematics(geometry, length, before).ok());
+    found.or_else(|| forward_kinematics(geometry, length, &above).ok()).unwrap_or(above)
 }
 
 /// The washout beside a running vehicle. A step allocates nothing.
@@ -126,9 +176,20 @@ pub struct Session {
     gate: Gate,
     /// The source has changed since the last step.
     changed: bool,
+    /// Time by which the clock has slipped since the last step \[s\].
+    slipped: f64,
     travel: Travel,
-    travel_rate: f64,
+    /// Part of the way in a step.
+    travel_part: f64,
     goes_up: bool,
+    /// Steps to wait at the way's beginning before it goes up.
+    holds: u64,
+    /// The way up waits for the washout to be at neutral.
+    waits: bool,
+    /// True if the legs are where they are commanded to be.
+    located: bool,
+    /// The lengths at the beginning of the way to neutral.
+    begin: [f64; 6],
     settled: [f64; 6],
     neutral: [f64; 6],
     stroke: f64,
@@ -147,12 +208,9 @@ impl Session {
         let washout = Washout::new(&parameters)?.starting_with(&at_rest.input(false));
         let output = washout.output();
         let rig = &parameters.rig;
-        let part = settings.settled.clamp(0.0, 1.0);
-        let settled = [rig.min_length + part * (rig.max_length - rig.min_length); 6];
-        let way = output.length.iter().zip(settled).map(|(neutral, settled)| (neutral - settled).abs());
-        let speed = settings.travel_speed.min(0.25 * rig.velocity_limit);
         let geometry = Geometry::from(rig);
-        let pose = pose_between(&geometry, &output, &settled, 0.0);
+        let settled = lowest(rig, &geometry, settings.settled);
+        let pose = pose_between(&geometry, &output, &settled, 0.0, None);
         let heave = pose.position.z - rig.neutral_height;
         let commands = Commands {
             state: State::Off,
@@ -163,7 +221,7 @@ impl Session {
             heave,
             washout: output,
         };
-        Ok(Session {
+        let mut session = Session {
             geometry,
             settings: *settings,
             slots: slots_of(&parameters),
@@ -177,15 +235,32 @@ impl Session {
             held_from: None,
             gate: Gate::default(),
             changed: false,
+            slipped: 0.0,
             travel: Travel::default(),
-            travel_rate: Travel::rate(way.fold(0.0, f64::max), speed),
+            travel_part: 0.0,
             goes_up: false,
+            holds: 0,
+            waits: false,
+            located: settings.starts_settled,
+            begin: settled,
             settled,
             neutral: output.length,
             stroke: rig.max_length - rig.min_length,
             commands,
             washout,
-        })
+        };
+        session.begin_at(settled);
+        Ok(session)
+    }
+
+    /// The way to neutral begins at these lengths.
+    fn begin_at(&mut self, lengths: [f64; 6]) {
+        let rig = &self.washout.parameters().rig;
+        let [speed, acceleration] = [rig.velocity_limit, rig.acceleration_limit].map(|limit| TRAVEL * limit);
+        let speed = self.settings.travel_speed.min(speed).min(acceleration * Travel::SMOOTHING);
+        let way = self.neutral.iter().zip(lengths).map(|(neutral, length)| (neutral - length).abs());
+        self.begin = lengths;
+        self.travel_part = speed * STEP / way.fold(1e-3, f64::max);
     }
 
     /// The time \[s\].
@@ -196,6 +271,19 @@ impl Session {
     /// The state.
     pub fn state(&self) -> State {
         self.state
+    }
+
+    /// True if the legs are where [`Session::commands`] has them. Otherwise frames would move them
+    /// there from an unknown place, and `start` and `clear` are refused.
+    pub fn is_located(&self) -> bool {
+        self.located
+    }
+
+    /// Time until the platform is settled \[s\], while it parks; an estimate until the cue has
+    /// gone out.
+    pub fn time_to_settled(&self) -> Option<f64> {
+        let up = if self.goes_up { self.time_to_descent() } else { 0.0 };
+        (self.state == State::Parking).then(|| up + self.travel.steps_down(self.travel_part) * STEP)
     }
 
     /// The source of telemetry.
@@ -256,8 +344,11 @@ impl Session {
     /// The reason for which it has no effect.
     pub fn handle(&mut self, event: Event) -> Result<(), Refusal> {
         let next = self.state.after(event);
-        if event.is_external() && next == self.state && event != Event::Fault {
+        if event.is_external() && next == self.state && !event.is_of_device() {
             return Err(Refusal::State(event, self.state));
+        }
+        if matches!(event, Event::Start | Event::Clear) && !self.located {
+            return Err(Refusal::Unknown(event));
         }
         if event == Event::Engage {
             if self.source.health() != Health::Running {
@@ -271,24 +362,65 @@ impl Session {
         Ok(())
     }
 
+    /// Takes the place of the legs, in the state off or after the controller was lost. The way to
+    /// neutral begins there.
+    ///
+    /// # Errors
+    /// The legs follow commands, or a reported length is outside the stroke.
+    pub fn locate(&mut self, legs: Legs) -> Result<(), Refusal> {
+        if self.state != State::Off && self.located {
+            return Err(Refusal::Commanded(self.state));
+        }
+        let lengths = match legs {
+            Legs::Unknown => {
+                self.located = false;
+                return Ok(());
+            }
+            Legs::Settled | Legs::Slow => self.settled,
+            Legs::Reported(lengths) => lengths_within(&self.washout.parameters().rig, lengths)?,
+        };
+        let slow_steps = self.stroke / self.settings.slow_speed.max(1e-3) / STEP;
+        self.holds = if legs == Legs::Slow { slow_steps as u64 } else { 0 };
+        self.located = true;
+        self.goes_up = false;
+        self.travel.settle();
+        self.begin_at(lengths);
+        self.hold_legs();
+        Ok(())
+    }
+
+    /// Commands the lengths at which the way to neutral begins.
+    fn hold_legs(&mut self) {
+        let output = &self.commands.washout;
+        let pose = pose_between(&self.geometry, output, &self.begin, 0.0, Some(&self.commands.pose));
+        let heave = pose.position.z - self.washout.parameters().rig.neutral_height;
+        self.commands = Commands { length: self.begin, velocity: [0.0; 6], pose, heave, ..self.commands };
+    }
+
     /// The transition of an event, without a person's guards.
     fn enter(&mut self, next: State, event: Event) {
         let before = self.state;
         self.changed |= before.follows_telemetry() != next.follows_telemetry();
         self.changed |= event == Event::Teleport;
+        self.located &= event != Event::Lost;
         if next != before {
             self.state = next;
             self.since = self.steps;
         }
         match next {
-            State::Off => {
+            // The controller holds the legs where they are.
+            State::Off if before != State::Off => {
                 self.goes_up = false;
                 self.travel.settle();
+                self.begin_at(self.commands.length);
             }
-            State::Settled | State::Fault => (),
-            // Parking goes down once it is at neutral.
-            State::Parking => (),
-            _ => self.goes_up = true,
+            State::Off | State::Settled | State::Fault => (),
+            // To neutral first, if the way has begun at other lengths than the settled ones.
+            State::Parking => self.goes_up |= self.begin != self.settled,
+            _ => {
+                self.waits |= before == State::Off;
+                self.goes_up = true;
+            }
         }
     }
 
@@ -313,6 +445,17 @@ impl Session {
         }
     }
 
+    /// The session's clock has slipped: so much time \[s\] has passed in which no step was made.
+    /// Arrivals from now on are earlier by it.
+    pub fn slip(&mut self, time: f64) {
+        if time > 0.0 && time.is_finite() {
+            self.source.slip(time);
+            self.resampler.slip(time);
+            self.held_from = self.held_from.map(|from| from - time);
+            self.slipped += time;
+        }
+    }
+
     /// Advances by [`STEP`].
     pub fn step(&mut self) -> &Commands {
         self.steps += 1;
@@ -331,7 +474,7 @@ impl Session {
         let engaged = self.state.is_engaged();
         self.washout.step_between(&start.input(engaged), &end.input(engaged), STEP);
         let output = self.washout.output();
-        self.travel.advance(self.goes_up, self.travel_rate, STEP);
+        self.travel(&output);
         self.arrive(&output);
         self.command(now, output);
         &self.commands
@@ -342,11 +485,13 @@ impl Session {
         let rest = At { motion: Motion::at_rest(), slope: Channels::zeros(), held_from: None };
         let follows = self.state.follows_telemetry();
         let at = self.resampler.at(now - self.delay).filter(|_| follows).unwrap_or(rest);
+        let slipped = std::mem::take(&mut self.slipped);
         let gap = self.held_from.filter(|from| at.held_from != Some(*from));
         let change = if std::mem::take(&mut self.changed) {
             Change::Source
-        } else if let Some(from) = gap {
-            Change::Gap((2.0 * (now - self.delay - from)).clamp(GAP_GLIDE[0], GAP_GLIDE[1]))
+        } else if slipped > 0.0 || gap.is_some() {
+            let lasted = gap.map_or(0.0, |from| now - self.delay - from).max(slipped);
+            Change::Gap((2.0 * lasted).clamp(GAP_GLIDE[0], GAP_GLIDE[1]))
         } else {
             Change::None
         };
@@ -354,24 +499,53 @@ impl Session {
         (at, change)
     }
 
+    /// True if the legs of the washout are at neutral and slow.
+    fn is_at_neutral(&self, output: &Output) -> bool {
+        let [distance, speed] = AT_NEUTRAL.map(|part| part * self.stroke);
+        (0..6).all(|k| (output.length[k] - self.neutral[k]).abs() < distance && output.leg_velocity[k].abs() < speed)
+    }
+
+    /// True if the way down can begin: the cue is nearly out, and the legs are slow.
+    fn may_descend(&self, output: &Output) -> bool {
+        let slow = DESCENT_SPEED * self.washout.parameters().rig.velocity_limit;
+        self.washout.engagement() < DESCENT_CUE && output.leg_velocity.iter().all(|speed| speed.abs() < slow)
+    }
+
+    /// Time until the way down can begin, about \[s\].
+    fn time_to_descent(&self) -> f64 {
+        let up = if self.begin == self.settled { 0.0 } else { 2.0 * Travel::SMOOTHING };
+        up.max(FADE * self.washout.engagement())
+    }
+
+    /// Advances on the way between the lengths at rest and neutral.
+    fn travel(&mut self, output: &Output) {
+        if self.state == State::Off {
+            return;
+        }
+        let is_up = self.travel.is_up();
+        if is_up && self.begin != self.settled {
+            self.begin_at(self.settled);
+        }
+        if self.state == State::Parking && self.begin == self.settled {
+            self.goes_up &= !self.may_descend(output);
+        }
+        self.holds = self.holds.saturating_sub(1);
+        self.waits &= !(self.washout.engagement() == 0.0 && self.is_at_neutral(output));
+        let goes_up = self.goes_up && !(self.waits || self.holds > 0);
+        self.travel.advance(goes_up, self.travel_part);
+    }
+
     /// The transition that follows if the state's own motion is complete.
     fn arrive(&mut self, output: &Output) {
-        let faded = self.washout.engagement() == 0.0;
-        let [distance, speed] = AT_NEUTRAL.map(|part| part * self.stroke);
-        let near =
-            |k: usize| (output.length[k] - self.neutral[k]).abs() < distance && output.leg_velocity[k].abs() < speed;
-        let at_neutral = (0..6).all(near);
+        let at_neutral = self.is_at_neutral(output);
         let arrived = match self.state {
             State::Homing => at_neutral && self.travel.is_up(),
             State::Engaging => {
                 let lasts = (self.steps - self.since) as f64 * STEP >= LEAST_ENGAGING;
                 lasts && self.washout.engagement() == 1.0 && self.gate.is_open()
             }
-            State::Disengaging => faded && at_neutral,
-            State::Parking => {
-                self.goes_up &= !(faded && at_neutral);
-                !self.goes_up && self.travel.is_down()
-            }
+            State::Disengaging => self.washout.engagement() == 0.0 && at_neutral,
+            State::Parking => !self.goes_up && self.travel.is_down(),
             _ => false,
         };
         if arrived {
@@ -382,9 +556,9 @@ impl Session {
     fn command(&mut self, now: f64, output: Output) {
         let part = self.travel.fraction();
         let before = self.commands.length;
-        let length = std::array::from_fn(|k| self.settled[k] + part * (output.length[k] - self.settled[k]));
+        let length = std::array::from_fn(|k| self.begin[k] + part * (output.length[k] - self.begin[k]));
         let velocity = std::array::from_fn(|k| (length[k] - before[k]) / STEP);
-        let pose = pose_between(&self.geometry, &output, &length, part);
+        let pose = pose_between(&self.geometry, &output, &length, part, Some(&self.commands.pose));
         let heave = pose.position.z - self.washout.parameters().rig.neutral_height;
         self.commands = Commands { state: self.state, time: now, length, velocity, pose, heave, washout: output };
     }

@@ -127,6 +127,12 @@ impl Source {
         accepted
     }
 
+    /// All times until now are earlier by this time \[s\].
+    pub fn slip(&mut self, time: f64) {
+        self.clock.slip(time);
+        self.last_good -= time;
+    }
+
     /// The event that follows from silence until now.
     pub fn listen(&mut self, now: f64) -> Option<Event> {
         let silence = now - self.last_good;

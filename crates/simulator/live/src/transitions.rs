@@ -73,6 +73,8 @@ named! {
         Clear "clear",
         /// The device or the computer fails.
         Fault "fault",
+        /// The controller is gone.
+        Lost "lost",
         /// The vehicle is paused.
         Pause "pause",
         /// No good sample for 0.5 s.
@@ -93,31 +95,36 @@ impl Event {
     /// follow from samples and time.
     pub fn is_external(self) -> bool {
         use Event::*;
-        matches!(self, Start | Engage | Disengage | Park | Stop | Clear | Fault)
+        matches!(self, Start | Engage | Disengage | Park | Stop | Clear | Fault | Lost)
+    }
+
+    /// True for an event of the device or the computer.
+    pub fn is_of_device(self) -> bool {
+        matches!(self, Event::Fault | Event::Lost)
     }
 
     /// The command of a person with this name.
     pub fn of_person(name: &str) -> Option<Self> {
-        Self::named(name).filter(|event| event.is_external() && *event != Event::Fault)
+        Self::named(name).filter(|event| event.is_external() && !event.is_of_device())
     }
 }
 
 /// The next state, by state and event in the order of [`Event::ALL`].
 #[rustfmt::skip]
-pub const TRANSITIONS: [(State, [State; 13]); 10] = {
+pub const TRANSITIONS: [(State, [State; 14]); 10] = {
     use State::{Disengaging as Diseng, Engaged, Engaging, Fault, Frozen, Homing, Neutral, Off, Parking, Settled};
     [
-        //          start    engage    disengage park     stop clear    fault  pause    silence  stale    resume    teleport  arrived
-        (Off,      [Homing,  Off,      Off,      Off,     Off, Off,     Off,   Off,     Off,     Off,     Off,      Off,      Off]),
-        (Settled,  [Homing,  Settled,  Settled,  Settled, Off, Settled, Fault, Settled, Settled, Settled, Settled,  Settled,  Settled]),
-        (Homing,   [Homing,  Homing,   Homing,   Parking, Off, Homing,  Fault, Homing,  Homing,  Homing,  Homing,   Homing,   Neutral]),
-        (Neutral,  [Neutral, Engaging, Neutral,  Parking, Off, Neutral, Fault, Neutral, Neutral, Neutral, Neutral,  Neutral,  Neutral]),
-        (Engaging, [Engaging,Engaging, Diseng,   Parking, Off, Engaging,Fault, Frozen,  Frozen,  Diseng,  Engaging, Engaging, Engaged]),
-        (Engaged,  [Engaged, Engaged,  Diseng,   Parking, Off, Engaged, Fault, Frozen,  Frozen,  Diseng,  Engaged,  Engaging, Engaged]),
-        (Frozen,   [Frozen,  Frozen,   Diseng,   Parking, Off, Frozen,  Fault, Frozen,  Frozen,  Diseng,  Engaging, Frozen,   Frozen]),
-        (Diseng,   [Diseng,  Engaging, Diseng,   Parking, Off, Diseng,  Fault, Diseng,  Diseng,  Diseng,  Diseng,   Diseng,   Neutral]),
-        (Parking,  [Homing,  Parking,  Parking,  Parking, Off, Parking, Fault, Parking, Parking, Parking, Parking,  Parking,  Settled]),
-        (Fault,    [Fault,   Fault,    Fault,    Fault,   Off, Homing,  Fault, Fault,   Fault,   Fault,   Fault,    Fault,    Fault]),
+        //          start    engage    disengage park     stop clear    fault  lost   pause    silence  stale    resume    teleport  arrived
+        (Off,      [Homing,  Off,      Off,      Off,     Off, Off,     Off, Off,     Off,     Off,     Off,     Off,      Off,      Off]),
+        (Settled,  [Homing,  Settled,  Settled,  Settled, Off, Settled, Fault, Fault, Settled, Settled, Settled, Settled,  Settled,  Settled]),
+        (Homing,   [Homing,  Homing,   Homing,   Parking, Off, Homing,  Fault, Fault, Homing,  Homing,  Homing,  Homing,   Homing,   Neutral]),
+        (Neutral,  [Neutral, Engaging, Neutral,  Parking, Off, Neutral, Fault, Fault, Neutral, Neutral, Neutral, Neutral,  Neutral,  Neutral]),
+        (Engaging, [Engaging,Engaging, Diseng,   Parking, Off, Engaging,Fault, Fault, Frozen,  Frozen,  Diseng,  Engaging, Engaging, Engaged]),
+        (Engaged,  [Engaged, Engaged,  Diseng,   Parking, Off, Engaged, Fault, Fault, Frozen,  Frozen,  Diseng,  Engaged,  Engaging, Engaged]),
+        (Frozen,   [Frozen,  Frozen,   Diseng,   Parking, Off, Frozen,  Fault, Fault, Frozen,  Frozen,  Diseng,  Engaging, Frozen,   Frozen]),
+        (Diseng,   [Diseng,  Engaging, Diseng,   Parking, Off, Diseng,  Fault, Fault, Diseng,  Diseng,  Diseng,  Diseng,   Diseng,   Neutral]),
+        (Parking,  [Homing,  Parking,  Parking,  Parking, Off, Parking, Fault, Fault, Parking, Parking, Parking, Parking,  Parking,  Settled]),
+        (Fault,    [Fault,   Fault,    Fault,    Fault,   Off, Homing,  Fault, Fault, Fault,   Fault,   Fault,   Fault,    Fault,    Fault]),
     ]
 };
 

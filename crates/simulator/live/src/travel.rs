@@ -1,55 +1,87 @@
-//! The way between the settled pose and neutral.
+//! The way between the lengths at which the legs rest and neutral.
 
-use serde::{Deserialize, Serialize};
+use crate::session::STEP;
 
-/// Part of the way from the settled pose, 0, to neutral, 1. It follows its target through three
-/// equal lags: without overshoot, and with a continuous acceleration whatever the target does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Units of the way: sums of whole numbers are exact, so that both ends are reached.
+const WHOLE: i64 = 1 << 40;
+/// Steps over which the ramp is averaged, twice.
+const WINDOW: usize = 400;
+
+/// Part of the way from the lengths at rest, 0, to neutral, 1: a ramp of constant speed, averaged
+/// twice over 0.4 s. Both ends are reached exactly, without overshoot. The acceleration is
+/// continuous whatever the target does, and at most 2.5 times the ramp's speed.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Travel {
-    lags: [f64; 3],
+    ramp: i64,
+    first: Average,
+    second: Average,
 }
 
-/// Largest rate of three lags' answer to a step, in terms of the lags' rate: 2 exp(-2).
-const LARGEST_RATE: f64 = 0.270_671;
-/// Fastest lag \[1/s\].
-const FASTEST: f64 = 3.0;
-/// Part of the way that is too short to be seen.
-const THERE: f64 = 0.01;
+/// Mean of the last values.
+#[derive(Clone, Debug, PartialEq)]
+struct Average {
+    values: [i64; WINDOW],
+    next: usize,
+    sum: i64,
+}
+
+impl Default for Average {
+    fn default() -> Self {
+        Average { values: [0; WINDOW], next: 0, sum: 0 }
+    }
+}
+
+impl Average {
+    fn take(&mut self, value: i64) -> i64 {
+        self.sum += value - std::mem::replace(&mut self.values[self.next], value);
+        self.next = (self.next + 1) % WINDOW;
+        self.sum / WINDOW as i64
+    }
+
+    fn is(&self, value: i64) -> bool {
+        self.values.iter().all(|found| *found == value)
+    }
+}
 
 impl Travel {
-    /// The rate of the lags with which a way of this length is gone at most at this speed \[1/s\].
-    pub fn rate(length: f64, speed: f64) -> f64 {
-        (speed / (LARGEST_RATE * length.max(1e-3))).min(FASTEST)
+    /// Time of each average \[s\].
+    pub const SMOOTHING: f64 = WINDOW as f64 * STEP;
+
+    /// Advances by a step of at most `part` of the way towards 1 if `up`, else towards 0.
+    pub fn advance(&mut self, up: bool, part: f64) {
+        let most = (part.clamp(0.0, 1.0) * WHOLE as f64) as i64;
+        let target = if up { WHOLE } else { 0 };
+        self.ramp += (target - self.ramp).clamp(-most, most);
+        let averaged = self.first.take(self.ramp);
+        self.second.take(averaged);
     }
 
-    /// Advances by a step towards 1 if `up`, else towards 0.
-    pub fn advance(&mut self, up: bool, rate: f64, step: f64) {
-        let mut target = f64::from(up);
-        let fraction = -libm::expm1(-rate * step);
-        for lag in &mut self.lags {
-            *lag += fraction * (target - *lag);
-            target = *lag;
-        }
-    }
-
-    /// At the settled pose at once.
+    /// At the lengths at rest at once.
     pub fn settle(&mut self) {
-        self.lags = [0.0; 3];
+        *self = Travel::default();
     }
 
     /// The part of the way that is gone.
     pub fn fraction(&self) -> f64 {
-        self.lags[2]
+        self.second.sum as f64 / (WHOLE * WINDOW as i64) as f64
     }
 
-    /// True at neutral.
+    /// True at neutral, and at rest there.
     pub fn is_up(&self) -> bool {
-        self.lags.iter().all(|lag| *lag >= 1.0 - THERE)
+        self.ramp == WHOLE && self.first.is(WHOLE) && self.second.is(WHOLE)
     }
 
-    /// True at the settled pose.
+    /// True at the lengths at rest, and at rest there.
     pub fn is_down(&self) -> bool {
-        self.lags.iter().all(|lag| *lag <= THERE)
+        self.ramp == 0 && self.first.is(0) && self.second.is(0)
+    }
+
+    /// Steps until [`Travel::is_down`] is true, if it goes down by `part` of the way a step.
+    pub fn steps_down(&self, part: f64) -> f64 {
+        if self.is_down() {
+            return 0.0;
+        }
+        self.ramp as f64 / WHOLE as f64 / part.max(1e-12) + 2.0 * WINDOW as f64
     }
 }
 
@@ -58,21 +90,41 @@ mod tests {
     use super::*;
 
     #[test]
-    fn it_arrives_within_its_speed_and_with_no_sudden_acceleration() {
+    fn it_arrives_exactly_within_its_speed_and_with_no_sudden_acceleration() {
         let (length, speed, step) = (0.3, 0.15, 1e-3);
-        let rate = Travel::rate(length, speed);
+        let part = speed / length * step;
         let mut travel = Travel::default();
         let mut way = vec![0.0; 3];
         for k in 0..20_000 {
             // To and fro at any time.
-            travel.advance(k / 1_700 % 3 != 1 || k > 12_000, rate, step);
+            travel.advance(k / 1_700 % 3 != 1 || k > 12_000, part);
             way.push(length * travel.fraction());
         }
         assert!(travel.is_up() && !travel.is_down());
-        let speeds: Vec<f64> = way.windows(2).map(|pair| (pair[1] - pair[0]) / step).collect();
-        let accelerations: Vec<f64> = speeds.windows(2).map(|pair| (pair[1] - pair[0]) / step).collect();
-        assert!(speeds.iter().all(|found| found.abs() <= speed));
-        assert!(accelerations.iter().all(|found| found.abs() <= 0.5));
+        assert_eq!(travel.fraction(), 1.0);
+        let slopes = |values: &[f64]| -> Vec<f64> { values.windows(2).map(|two| (two[1] - two[0]) / step).collect() };
+        let speeds = slopes(&way);
+        let accelerations = slopes(&speeds);
+        assert!(speeds.iter().all(|found| found.abs() <= speed + 1e-9));
+        // Twice the speed within 0.4 s where it turns round.
+        assert!(accelerations.iter().all(|found| found.abs() <= 2.0 * speed / 0.4 + 1e-6));
         assert!(accelerations.windows(2).all(|pair| (pair[1] - pair[0]).abs() <= 0.003));
+        assert!(way.iter().all(|value| (0.0..=length).contains(value)));
+    }
+
+    #[test]
+    fn the_time_down_is_that_which_it_takes() {
+        let part = 0.5e-3;
+        for ups in [100, 1_500, 5_000] {
+            let mut travel = Travel::default();
+            (0..ups).for_each(|_| travel.advance(true, part));
+            let expected = travel.steps_down(part);
+            let mut steps = 0.0;
+            while !travel.is_down() {
+                travel.advance(false, part);
+                steps += 1.0;
+            }
+            assert!((steps - expected).abs() <= 2.0, "{steps}, not {expected}");
+        }
     }
 }

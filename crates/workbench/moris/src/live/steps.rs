@@ -96,6 +96,8 @@ impl Steps<'_> {
             if late.as_secs_f64() > LATEST {
                 zero += late;
                 summary.slips += 1;
+                self.record(Happening::Slip(late.as_secs_f64()), &mut summary);
+                self.session.slip(late.as_secs_f64());
                 self.note(Note::Slipped(self.session.time(), late.as_secs_f64()), &mut summary);
             }
             while let Ok(Received { arrival, sample }) = self.received.pop() {
@@ -161,6 +163,8 @@ impl Steps<'_> {
             State::Off => return,
             _ if self.shared.interrupts.load(Ordering::Relaxed) > 1 => Event::Stop,
             State::Settled => Event::Stop,
+            // Where the legs are is unknown: frames would move them.
+            State::Fault if !self.session.is_located() => Event::Stop,
             State::Fault => Event::Clear,
             State::Parking => return,
             _ => Event::Park,

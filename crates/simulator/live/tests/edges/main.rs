@@ -1,0 +1,3 @@
+//! The edges of a session: what it does when a plug is pulled, with computed clocks and states.
+
+mod legs;
