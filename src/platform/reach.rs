@@ -72,6 +72,34 @@ pub fn single_axis_range(rig: &Rig, axis: Axis) -> Range {
     Range { min: -reach(rig, axis, -1.0), max: reach(rig, axis, 1.0) }
 }
 
+/// Stroke from which on reserves have their full size \[m\].
+const FULL_STROKE: f64 = 0.3;
+
+/// Fraction of a reserve at the ends of the stroke that a rig keeps: in proportion to a short
+/// stroke, which the whole reserve would use up.
+pub fn short_stroke(rig: &Rig) -> f64 {
+    ((rig.max_length - rig.min_length) / FULL_STROKE).min(1.0)
+}
+
+/// Smaller of the two reaches of surge and of sway, as [`single_axis_range`] but in closed form.
+///
+/// A leg whose joints are d apart at neutral has the squared length |d|^2 + 2 x d_k + x^2.
+pub fn horizontal_reach(rig: &Rig) -> [f64; 2] {
+    let neutral = Vector3::new(0.0, 0.0, rig.neutral_height);
+    [0, 1].map(|k: usize| {
+        let legs = rig.platform.iter().zip(&rig.base);
+        legs.map(|(platform, base)| {
+            let apart = neutral + platform - base;
+            let along = apart[k].abs();
+            let half_chord = |length: f64| (along * along - apart.norm_squared() + length * length).max(0.0).sqrt();
+            // Away from the base joint the leg ends at its longest, towards it also at its shortest.
+            let (longest, shortest) = (half_chord(rig.max_length), half_chord(rig.min_length));
+            if shortest > 0.0 { (longest - along).min((along - shortest).abs()) } else { longest - along }
+        })
+        .fold(f64::INFINITY, f64::min)
+    })
+}
+
 /// Largest reach considered: translations \[multiples of the longest leg\], rotations \[rad\].
 const FARTHEST: [f64; 2] = [2.0, std::f64::consts::FRAC_PI_2];
 /// Number of points checked on the path, so that a leg that leaves its stroke and returns is found.
@@ -112,6 +140,26 @@ mod tests {
         assert_near(Axis::Roll, degrees, -25.2, 25.2, 0.06);
         assert_near(Axis::Pitch, degrees, -25.5, 24.9, 0.06);
         assert_near(Axis::Yaw, degrees, -34.0, 34.0, 0.06);
+    }
+
+    #[test]
+    fn the_closed_form_is_the_search() {
+        let default = Rig::default();
+        let short = Rig { min_length: 1.28, max_length: 1.33, ..default };
+        let low = Rig { neutral_height: 0.95, max_length: 1.35, ..default };
+        for rig in [default, short, low, Rig { max_length: 3.0, ..default }] {
+            for (closed, axis) in horizontal_reach(&rig).into_iter().zip([Axis::Surge, Axis::Sway]) {
+                let searched = single_axis_range(&rig, axis).min_reach();
+                assert!((closed - searched).abs() < 1e-6, "{axis:?}: {closed} beside {searched}");
+            }
+        }
+    }
+
+    #[test]
+    fn short_strokes_have_smaller_reserves() {
+        let stroke = |stroke: f64| short_stroke(&Rig { min_length: 1.0, max_length: 1.0 + stroke, ..Rig::default() });
+        assert!((stroke(0.1) - 1.0 / 3.0).abs() < 1e-12 && (stroke(0.15) - 0.5).abs() < 1e-12);
+        assert_eq!([0.31, 0.6, 1.5].map(stroke), [1.0; 3]);
     }
 
     /// Straight up, a leg whose joints are `d` apart in plan has the length sqrt(d^2 + z^2).

@@ -25,6 +25,7 @@ use crate::interface::{Parameters, Rig};
 use crate::motion::Motion;
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::{RollPitchYaw, RotationalMotion};
+use crate::platform::reach::short_stroke;
 use crate::platform::{Geometry, Legs, PlatformCoordinates, PlatformMotion, jacobian, leg_accelerations};
 
 /// The soft limits with their state.
@@ -120,13 +121,14 @@ impl SoftLimits {
     /// The soft limits for these parameters; a strategy wants at most `heave` \[m\].
     pub fn new(parameters: &Parameters, heave: f64) -> Self {
         let Parameters { safety, soft_limit, rig, .. } = parameters;
+        let margin = soft_limit.margin * short_stroke(rig);
         let farthest = |k: usize| if k == 2 { min(safety.position_limit[k], heave) } else { safety.position_limit[k] };
         let axes = [0, 1, 2].map(|k: usize| {
             let ends = [-farthest(k), farthest(k)];
-            Ends::new(ends, safety.velocity_limit[k], safety.acceleration_limit[k], soft_limit.margin)
+            Ends::new(ends, safety.velocity_limit[k], safety.acceleration_limit[k], margin)
         });
         let Rig { min_length, max_length, velocity_limit, acceleration_limit, .. } = *rig;
-        let leg = Ends::new([min_length, max_length], velocity_limit, acceleration_limit, soft_limit.margin);
+        let leg = Ends::new([min_length, max_length], velocity_limit, acceleration_limit, margin);
         SoftLimits {
             geometry: Geometry::from(rig),
             neutral_height: rig.neutral_height,

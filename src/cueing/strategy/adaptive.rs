@@ -18,7 +18,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::at_rest_if_tiny;
-use super::law::{AxisState, Decision, Law, Situation, Unsolvable};
+use super::law::{AxisState, Circumstances, Decision, Law, Situation, Unsolvable};
 use super::regulator::AxisModel;
 use crate::interface::{AdaptiveParameters, Parameters};
 
@@ -51,6 +51,8 @@ const LEAST_GAIN: f64 = 0.1;
 const SENSITIVITY_DECAY: f64 = 0.2;
 /// The weights of travel increase when less than this is left of a stroke \[m\] ...
 const NEAR_END: f64 = 0.1;
+/// Stroke above which that distance grows in proportion \[m\].
+const NEAR_END_STROKE: f64 = 0.6;
 /// ... by up to this many times their value, at its end.
 const LARGEST_INCREASE: f64 = 10.0;
 
@@ -65,7 +67,9 @@ impl Law for Adaptive {
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
-        let stroke_margin = situation.circumstances.guard.stroke_margin();
+        let Circumstances { parameters, guard, .. } = situation.circumstances;
+        let longer = ((parameters.rig.max_length - parameters.rig.min_length) / NEAR_END_STROKE).max(1.0);
+        let stroke_margin = guard.stroke_margin() / longer;
         Some(self.decide(&situation.states, situation.references, stroke_margin, step))
     }
 }

@@ -26,8 +26,10 @@ use crate::cueing::compensation::{centripetal, tangential};
 use crate::interface::Parameters;
 use crate::motion::Motion;
 use crate::motion::braking_law::Limits;
+use crate::motion::min_max::min;
 use crate::motion::orientation::RotationalMotion;
 use crate::platform::LocationFrame;
+use crate::platform::reach::horizontal_reach;
 
 /// Travel and tilt of surge and sway, and the law that decides on them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -204,12 +206,13 @@ impl Circumstances<'_> {
 
 /// The strategies' models of surge and sway.
 fn models(parameters: &Parameters) -> [AxisModel; 2] {
-    let Parameters { tilt, safety, structure, .. } = parameters;
+    let Parameters { tilt, safety, structure, rig, .. } = parameters;
+    let reach = horizontal_reach(rig);
     let head_height = LocationFrame::new(structure, 0.0).point.z;
     [0, 1].map(|k: usize| AxisModel {
         head_height,
         gravity: structure.gravity,
-        position_limit: safety.position_limit[k],
+        position_limit: min(safety.position_limit[k], reach[k]),
         velocity_limit: safety.velocity_limit[k],
         angle_limit: tilt.angle_limit,
         rate_limit: tilt.rate_limit,

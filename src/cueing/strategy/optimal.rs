@@ -58,12 +58,25 @@ fn unsolvable(parameters: &Parameters) -> Unsolvable {
     Unsolvable { strategy: "optimal", weight_position: parameters.optimal.weight_position }
 }
 
+/// Travel above which its weight no longer falls with the square of its limit \[m\].
+const WEIGHED_TRAVEL: f64 = 0.37;
+
+/// The model whose limit of travel the weights refer to.
+///
+/// A long travel is used up before the tilt, whose rate is the same on every rig, can give it
+/// back. Beyond [`WEIGHED_TRAVEL`] D the weights of the travel L therefore grow: L counts as
+/// D (D/L)^(1/2).
+fn weighed(model: &AxisModel) -> AxisModel {
+    let longer = (model.position_limit / WEIGHED_TRAVEL).max(1.0);
+    AxisModel { position_limit: model.position_limit.min(WEIGHED_TRAVEL) / longer.sqrt(), ..*model }
+}
+
 impl Optimal {
     /// At rest. None if the weights cannot be used.
     pub fn new(models: &[AxisModel; 2], tuning: &Tuning) -> Option<Self> {
         let regulator = |axis: usize| match &tuning.disturbance {
-            None => Regulator::new(&models[axis], &tuning.weights),
-            Some(disturbance) => disturbance.regulator(&models[axis], &tuning.weights),
+            None => Regulator::new(&weighed(&models[axis]), &tuning.weights),
+            Some(disturbance) => disturbance.regulator(&weighed(&models[axis]), &tuning.weights),
         };
         let regulators = [regulator(0)?, regulator(1)?];
         Some(Optimal { models: *models, regulators, tuning: *tuning, slow: [0.0; 2] })
@@ -126,7 +139,7 @@ mod tests {
         });
         let mut optimal = after(6, references);
         let decisions = optimal.decide(&states, references, STEP);
-        let gains = Regulator::new(&MODEL, &tuning().weights).unwrap().gains;
+        let gains = Regulator::new(&weighed(&MODEL), &tuning().weights).unwrap().gains;
         for k in 0..2 {
             let slow = references[k] * (1.0 - (-7.0 * STEP / tuning().split_time).exp());
             let AxisState { position, velocity, tilt, tilt_rate, .. } = states[k];

@@ -7,6 +7,7 @@ use super::program::Nodes;
 use crate::cueing::strategy::law::Circumstances;
 use crate::interface::Parameters;
 use crate::motion::orientation::{Orientation, RollPitchYaw};
+use crate::platform::reach::short_stroke;
 use crate::platform::{Geometry, Pose, jacobian, leg_lengths};
 
 /// The rig, and the motion of the platform that is not planned.
@@ -61,7 +62,7 @@ impl<'a> Surroundings<'a> {
             geometry: guard.geometry(),
             neutral_height: rig.neutral_height,
             stroke: [rig.min_length, rig.max_length],
-            margin: predictive.leg_margin,
+            margin: predictive.leg_margin * short_stroke(rig),
             heave: linear.position.z,
             heave_velocity: linear.velocity.z,
             heave_bound: LARGEST_HEAVE,

@@ -2,3 +2,4 @@
 
 mod parameter_files;
 mod rig_files;
+mod rigs_of_all_sizes;

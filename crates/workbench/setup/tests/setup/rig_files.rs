@@ -8,7 +8,11 @@ use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::reach::{Axis, single_axis_range};
 use moris_washout::{Parameters, Rig};
 
-fn example(name: &str) -> PathBuf {
+/// The rigs of the kinds that people have.
+pub const RIGS: [&str; 8] =
+    ["hobby100", "hobby150", "hobby200", "diy283", "dim330", "moog-like450", "flight091", "flight125"];
+
+pub fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../examples/rigs").join(name)
 }
 
@@ -36,8 +40,8 @@ fn the_default_rig_s_file_is_the_default_rig() {
 
 #[test]
 fn every_example_is_a_rig_that_a_washout_runs_on() {
-    for name in ["default.toml", "compact.toml", "long-stroke.toml", "narrow.toml"] {
-        let file = load_rig(&example(name)).unwrap();
+    for name in ["default", "compact", "long-stroke", "narrow"].into_iter().chain(RIGS) {
+        let file = load_rig(&example(&format!("{name}.toml"))).unwrap();
         assert_eq!(file.check(), Ok(()), "{name}");
         // The examples are set up so that they reach about as far up as down.
         let heave = single_axis_range(&file.rig(), Axis::Heave);
