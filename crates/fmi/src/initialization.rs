@@ -6,7 +6,8 @@ use crate::instance_state::Experiment;
 use crate::{CallError, Instance, Mode};
 
 impl<M: Model> Instance<M> {
-    /// Sets the start and stop time \[s\].
+    /// Sets the start and stop time \[s\]. An infinite stop time is none, and the tolerance is not
+    /// used: 0 is the value of hosts that have none.
     ///
     /// # Errors
     /// A time or the tolerance is out of range. Then nothing has changed.
@@ -21,16 +22,17 @@ impl<M: Model> Instance<M> {
                 "the start time {start} is not a finite number; pass a time in seconds"
             )));
         }
-        if let Some(stop) = stop.filter(|stop| !stop.is_finite() || *stop < start) {
+        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
             return Err(CallError::error(format!(
-                "the stop time {stop} must be finite and at least the start time {start}"
+                "the stop time {stop} must be a number and at least the start time {start}"
             )));
         }
-        if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance > 0.0)) {
+        if let Some(tolerance) = tolerance.filter(|tolerance| !(tolerance.is_finite() && *tolerance >= 0.0)) {
             return Err(CallError::error(format!(
-                "the tolerance {tolerance} must be positive and finite; it is not used"
+                "the tolerance {tolerance} must be finite and not negative; it is not used"
             )));
         }
+        let stop = stop.filter(|stop| stop.is_finite());
         self.state.experiment = Some(Experiment { start, stop });
         self.set_time(start);
         Ok(())

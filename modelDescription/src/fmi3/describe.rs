@@ -52,7 +52,9 @@ fn co_simulation(identity: &Identity) -> Element {
 /// The quantities of reals with their units, and the enumerations; none without any.
 ///
 /// A variable's unit stands in its type. The standard allows it in the variable, too, as in the
-/// description of FMI 2.0, but the importer fmi-sim rejects it there.
+/// description of FMI 2.0, but the importer fmi-sim rejects it there. An enumeration has no
+/// description of its own, which FMPy 0.3.15 to 0.3.23 cannot read: its items and the variable
+/// have theirs.
 fn type_definitions(identity: &Identity) -> Option<Element> {
     let quantities = units::units(identity).into_iter().map(|unit| {
         let quantity = Element::new("Float64Type").with("name", unit.quantity).with("quantity", unit.quantity);
@@ -61,7 +63,6 @@ fn type_definitions(identity: &Identity) -> Option<Element> {
     let enumerations = enumerations(identity).into_iter().map(|enumeration| {
         Element::new("EnumerationType")
             .with("name", enumeration.name)
-            .with("description", enumeration.text.trim())
             .containing(items(enumeration))
     });
     Element::list("TypeDefinitions", quantities.chain(enumerations).collect())

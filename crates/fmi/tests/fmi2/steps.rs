@@ -99,3 +99,53 @@ fn steps_may_vary() {
         assert!((instance.get("y").unwrap() - response(time)).abs() < 1e-12);
     }
 }
+
+/// Times of a host in single precision: by product and by sum.
+fn single_times(start: f32, step: f32, count: usize) -> [Vec<f64>; 2] {
+    let product = (0..count).map(|k| f64::from(start + k as f32 * step)).collect();
+    let sum = std::iter::successors(Some(start), |time| Some(time + step)).take(count).map(f64::from).collect();
+    [product, sum]
+}
+
+#[test]
+fn a_host_in_single_precision_steps_for_as_long_as_its_times_differ() {
+    for (start, step) in [(0.0, 0.01), (0.0, 1.0 / 60.0), (1000.0, 0.001), (50_000.0, 0.01), (100_000.0, 1.0 / 60.0)] {
+        for times in single_times(start, step, 3000) {
+            let mut instance = instantiated();
+            assert_eq!(instance.setup_experiment(f64::from(start), None), Status::Ok);
+            assert_eq!(instance.enter_initialization_mode(), Status::Ok);
+            assert_eq!(instance.exit_initialization_mode(), Status::Ok);
+            for &time in &times {
+                instance.step(time, f64::from(step)).unwrap();
+            }
+        }
+    }
+}
+
+#[test]
+fn the_stop_time_in_single_precision_is_reached() {
+    let (stop, step) = (10.0f32, 0.01f32);
+    let [product, _] = single_times(0.0, step, 1000);
+    let mut instance = instantiated();
+    instance.initialize(&[], Some(f64::from(stop))).unwrap();
+    for time in product {
+        instance.step(time, f64::from(step)).unwrap();
+    }
+}
+
+#[test]
+fn a_repeated_or_omitted_step_is_refused_at_any_time_of_single_precision() {
+    // The last is a calendar's time, a multiple of the 128 s between numbers of single precision.
+    for (start, step) in [(0.0, 0.01), (20_000.0, 0.01), (1_700_000_000.0 - 1_700_000_000.0 % 128.0, 0.01)] {
+        let mut instance = instantiated();
+        assert_eq!(instance.setup_experiment(start, None), Status::Ok);
+        assert_eq!(instance.enter_initialization_mode(), Status::Ok);
+        assert_eq!(instance.exit_initialization_mode(), Status::Ok);
+        instance.step(start, step).unwrap();
+        for wrong in [start, start + 2.0 * step] {
+            let status = instance.do_step(wrong, step);
+            assert_call_error(&instance, status, Status::Error, &["fmi2DoStep", "present"]);
+        }
+        instance.step(start + step, step).unwrap();
+    }
+}

@@ -122,11 +122,14 @@ impl Experiment {
         let refused_if = |defined| if defined { ERROR } else { OK };
         match choices.below(16) {
             0 => (experiment.start, experiment.right) = (palette::not_finite(choices), ERROR),
-            1 => (experiment.stop, experiment.right) = (palette::not_finite(choices), refused_if(stop_defined)),
+            1 => {
+                experiment.stop = palette::not_finite(choices);
+                experiment.right = refused_if(stop_defined && experiment.stop != f64::INFINITY);
+            }
             2 => (experiment.stop, experiment.right) = (start - 1e-3, refused_if(stop_defined)),
             3 => {
                 experiment.tolerance = choices.of(&[0.0, -1.0, f64::NAN, f64::INFINITY]);
-                experiment.right = refused_if(tolerance_defined);
+                experiment.right = refused_if(tolerance_defined && experiment.tolerance != 0.0);
             }
             _ => {}
         }
