@@ -213,9 +213,6 @@ impl Washout {
     /// A step in which the input goes linearly from the last one to `end`.
     fn ramp_to(&mut self, end: &Input, step: f64, observe: impl FnMut(&Vector3<f64>)) {
         let end = end.sanitized();
-        if let Some(start) = self.last.input.ramp_start(&end) {
-            self.last = CuedInput::new(start, &self.parameters);
-        }
         self.last.input.engaged = end.engaged;
         if let Some(law) = self.strategy.previewed() {
             law.put_off_preview(step);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::filter::critically_damped::CriticallyDamped;
 use crate::interface::{AngularVelocityFrame, ConditioningParameters, GravityRemoval, Input};
-use crate::motion::orientation::{away_from_zero, rates_from_reference};
+use crate::motion::orientation::rates_from_reference;
 
 /// The signal to cue: zero at rest.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -40,14 +40,7 @@ pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lea
     // The rider sits upright for most of the time.
     let leaned = if lean == 0.0 { roll } else { libm::sincos(input.orientation.roll + lean) };
     let force = input.specific_force + gravity * removed_gravity(parameters.gravity_removal, leaned, pitch);
-    let rates = match parameters.angular_velocity_frame {
-        AngularVelocityFrame::World => {
-            let (sin_pitch, cos_pitch) = pitch;
-            let (yaw, pitch) = (libm::sincos(input.orientation.yaw), (sin_pitch, away_from_zero(cos_pitch)));
-            rates_from_reference(input.angular_velocity, yaw, pitch).to_vector()
-        }
-        AngularVelocityFrame::Body => rates_from_body(input.angular_velocity, roll, pitch),
-    };
+    let rates = rates(input, parameters.angular_velocity_frame, roll, pitch);
     Cue {
         force: scaled_and_limited(force, parameters),
         rates: rates.component_mul(&parameters.rate_scale).zip_map(&parameters.rate_limit, soft_limit),
@@ -84,8 +77,8 @@ pub fn forward_acceleration(input: &Input, parameters: &ConditioningParameters, 
 /// The direction of gravity in head axes, R_D^H (0, 0, -1), or the part of it that is removed.
 fn removed_gravity(
     removal: GravityRemoval,
-    (sin_roll, cos_roll): (f64, f64),
-    (sin_pitch, cos_pitch): (f64, f64),
+    (sin_roll, cos_roll): SinCos,
+    (sin_pitch, cos_pitch): SinCos,
 ) -> Vector3<f64> {
     match removal {
         GravityRemoval::None => Vector3::zeros(),
@@ -94,14 +87,69 @@ fn removed_gravity(
     }
 }
 
+/// Vertical component of the body's z axis up to which the rates are those in body axes, and from
+/// which on they are those of the angles. It is 0 at the pole of eq. (10), a pitch of 90 degrees,
+/// and below that upside down.
+const UPRIGHT: [f64; 2] = [0.1, 0.4];
+
+/// Sine and cosine of an angle.
+type SinCos = (f64, f64);
+
+/// Rates of roll, pitch and yaw: those of the angles by the inverse of eq. (10) where the vehicle
+/// is upright, else the angular velocity in body axes, between them a mean of both.
+///
+/// They depend on the rotation alone, not on the angles that describe it.
+fn rates(input: &Input, frame: AngularVelocityFrame, roll: SinCos, pitch: SinCos) -> Vector3<f64> {
+    let yaw = match frame {
+        AngularVelocityFrame::World => libm::sincos(input.orientation.yaw),
+        AngularVelocityFrame::Body => (0.0, 1.0),
+    };
+    // Beyond a pitch of 90 degrees: the other angles of the same rotation, which eq. (10) is for.
+    let turned = |(sin, cos): SinCos| if pitch.1 < 0.0 { (-sin, -cos) } else { (sin, cos) };
+    let (roll, pitch, yaw) = (turned(roll), (pitch.0, pitch.1.abs()), turned(yaw));
+    let weight = smooth_step(pitch.1 * roll.1, UPRIGHT);
+    let omega = input.angular_velocity;
+    let of_angles = || match frame {
+        AngularVelocityFrame::World => rates_from_reference(omega, yaw, pitch).to_vector(),
+        AngularVelocityFrame::Body => rates_from_body(omega, roll, pitch),
+    };
+    let in_body = || match frame {
+        AngularVelocityFrame::World => to_body(omega, roll, pitch, yaw),
+        AngularVelocityFrame::Body => omega,
+    };
+    match weight {
+        1.0 => of_angles(),
+        0.0 => in_body(),
+        _ => in_body().lerp(&of_angles(), weight),
+    }
+}
+
+/// 0 up to the first limit, 1 from the second on, between them without a corner.
+fn smooth_step(value: f64, [low, high]: [f64; 2]) -> f64 {
+    let x = ((value - low) / (high - low)).clamp(0.0, 1.0);
+    x * x * (3.0 - 2.0 * x)
+}
+
+/// A vector of the reference frame in body axes: R' v, eq. (2).
+fn to_body(
+    v: Vector3<f64>,
+    (sin_roll, cos_roll): SinCos,
+    (sin_pitch, cos_pitch): SinCos,
+    (sin_yaw, cos_yaw): SinCos,
+) -> Vector3<f64> {
+    let (ahead, across) = (cos_yaw * v.x + sin_yaw * v.y, cos_yaw * v.y - sin_yaw * v.x);
+    let up = sin_pitch * ahead + cos_pitch * v.z;
+    Vector3::new(
+        cos_pitch * ahead - sin_pitch * v.z,
+        cos_roll * across + sin_roll * up,
+        cos_roll * up - sin_roll * across,
+    )
+}
+
 /// Rates of roll, pitch and yaw from an angular velocity in body axes: eq. (10) with omega = R
 /// omega_body, inverted.
-fn rates_from_body(
-    omega: Vector3<f64>,
-    (sin_roll, cos_roll): (f64, f64),
-    (sin_pitch, cos_pitch): (f64, f64),
-) -> Vector3<f64> {
-    let yaw = (sin_roll * omega.y + cos_roll * omega.z) / away_from_zero(cos_pitch);
+fn rates_from_body(omega: Vector3<f64>, (sin_roll, cos_roll): SinCos, (sin_pitch, cos_pitch): SinCos) -> Vector3<f64> {
+    let yaw = (sin_roll * omega.y + cos_roll * omega.z) / cos_pitch;
     Vector3::new(omega.x + sin_pitch * yaw, cos_roll * omega.y - sin_roll * omega.z, yaw)
 }
 

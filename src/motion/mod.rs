@@ -3,6 +3,7 @@
 //! [`Motion`] is one motion, or three side by side.
 
 pub mod braking_law;
+pub(crate) mod interpolation;
 pub(crate) mod lanes;
 pub(crate) mod min_max;
 pub mod orientation;

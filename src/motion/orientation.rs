@@ -155,7 +155,7 @@ pub fn rates_from_reference(
 
 /// The cosine of a pitch as a divisor, with a magnitude of at least 0.1. The inverse of eq. (10) is
 /// singular at 90 degrees; so bounded, the rates stay finite beyond a pitch of 84 degrees.
-pub fn away_from_zero(cos_pitch: f64) -> f64 {
+fn away_from_zero(cos_pitch: f64) -> f64 {
     const SMALLEST: f64 = 0.1;
     cos_pitch.abs().max(SMALLEST).copysign(cos_pitch)
 }

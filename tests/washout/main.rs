@@ -3,6 +3,7 @@
 //!
 //! There is one binary for all topics: they share helpers, and are linked once.
 
+mod attitudes;
 mod braking_law;
 mod chain;
 mod comfort;

@@ -109,17 +109,6 @@ fn an_angle_that_starts_again_is_not_turned_back_through() {
 }
 
 #[test]
-fn through_a_loop_s_top_the_orientation_is_not_interpolated() {
-    // At a pitch of 90 degrees roll and yaw jump by half a turn, and the vehicle has hardly turned.
-    let before = Input { orientation: RollPitchYaw::new(0.1, 1.55, 0.2), ..Input::default() };
-    let after = Input { orientation: RollPitchYaw::new(0.1 - TAU / 2.0, 1.56, 0.2 + TAU / 2.0), ..before };
-    assert_eq!(before.ramp_start(&after).unwrap().orientation, after.orientation);
-    let turned = Input { orientation: RollPitchYaw::new(0.2, 1.5, 0.2 - TAU), ..before };
-    let start = before.ramp_start(&turned).unwrap().orientation;
-    assert!((start.yaw - (0.2 - TAU)).abs() < 1e-12 && (start.roll - 0.1).abs() < 1e-12, "{start:?}");
-}
-
-#[test]
 fn engaging_and_the_first_step_are_as_with_held_inputs() {
     let mut washout = washout(&[
         ("input.reconstruction", RAMP),

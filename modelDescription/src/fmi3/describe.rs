@@ -61,9 +61,7 @@ fn type_definitions(identity: &Identity) -> Option<Element> {
         units::with_nominal(units::with_display(quantity.with("unit", unit.name), unit), unit)
     });
     let enumerations = enumerations(identity).into_iter().map(|enumeration| {
-        Element::new("EnumerationType")
-            .with("name", enumeration.name)
-            .containing(items(enumeration))
+        Element::new("EnumerationType").with("name", enumeration.name).containing(items(enumeration))
     });
     Element::list("TypeDefinitions", quantities.chain(enumerations).collect())
 }
