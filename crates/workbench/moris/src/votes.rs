@@ -5,13 +5,14 @@
 //! from those of the rig with default parameters.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use moris_live::log::slot_of;
 use moris_setup::NamedValues;
 use serde::{Deserialize, Serialize};
+
+use crate::text_file;
 
 /// Values of a set by their names.
 pub type Set = BTreeMap<String, f64>;
@@ -29,7 +30,7 @@ pub struct Vote {
 /// # Errors
 /// It cannot be read, has no vote, or a line is none.
 pub fn read(file: &Path) -> Result<Vec<Vote>> {
-    let text = fs::read_to_string(file).with_context(|| file.display().to_string())?;
+    let text = text_file::read(file).with_context(|| file.display().to_string())?;
     let vote = |(place, line): (usize, &str)| -> Result<Vote> {
         let here = || format!("{}, line {}", file.display(), place + 1);
         let vote: Vote = serde_json::from_str(line)
@@ -83,6 +84,8 @@ pub fn preferred(votes: &[Vote]) -> Option<NamedValues> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn set(value: f64) -> Set {

@@ -27,7 +27,7 @@ mod tables;
 mod telemetry;
 mod vehicle;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{Write, stdin};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -169,7 +169,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         return tables::main(list, out);
     }
     if let Some(file) = &options.replay {
-        return replay(options, &fs::read_to_string(file).with_context(|| file.display().to_string())?, out);
+        return replay(options, &crate::text_file::read(file).with_context(|| file.display().to_string())?, out);
     }
     options.core.map_or(Ok(()), priority::check_core)?;
     if options.empty_loop {

@@ -45,7 +45,7 @@ use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
 use axes::convert;
-use checks::{consistency, outliers, unusual};
+use checks::{consistency, dead, outliers, unusual};
 use conventions::RateFrame;
 pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};
@@ -109,6 +109,7 @@ impl Recording {
         let (mut inputs, mounting) = convert::inputs(&table, conventions)?;
         warnings.extend(mounting);
         checks::plausibility(&table, &inputs, conventions)?;
+        warnings.extend(dead::warnings(&table, &inputs, conventions));
         warnings.extend(consistency::warnings(&table, &inputs, conventions));
         convert::fade_in(&mut inputs, table.step(), conventions.fade_in);
         warnings.extend(unusual::warnings(&table, &inputs));

@@ -23,6 +23,12 @@ pub fn extremes(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), v| (least.min(v), greatest.max(v)))
 }
 
+/// True for a signal that has one value throughout.
+pub fn is_constant(values: &[f64]) -> bool {
+    let (least, greatest) = extremes(values.iter().copied());
+    greatest - least <= 1e-9 * greatest.abs().max(1.0)
+}
+
 pub fn root_mean_square(values: &[f64]) -> f64 {
     (values.iter().map(|value| value * value).sum::<f64>() / values.len().max(1) as f64).sqrt()
 }

@@ -12,7 +12,8 @@ const OF_PARAMETERS: [&str; 5] = ["--parameters", "--strategy", "--compare", "--
 /// This program's command line for one recording, with `--parameters` at its end for another file.
 pub fn with_other_parameters(recording: &Path) -> String {
     // The program and its subcommand come first.
-    of(std::env::args().skip(2), &recording.display().to_string())
+    let arguments = std::env::args_os().skip(2).map(|argument| argument.to_string_lossy().into_owned());
+    of(arguments, &recording.display().to_string())
 }
 
 fn of(mut arguments: impl Iterator<Item = String>, recording: &str) -> String {

@@ -14,7 +14,6 @@ pub mod points;
 pub mod study;
 pub mod table;
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -116,6 +115,6 @@ fn with(progress: &Mutex<Progress>, call: impl FnOnce(&mut Progress)) {
 
 /// The default platform with the values of a parameter file.
 fn read_platform(file: &Path) -> Result<Platform> {
-    let text = fs::read_to_string(file).with_context(|| format!("cannot read {}", file.display()))?;
+    let text = crate::text_file::read(file).with_context(|| format!("cannot read {}", file.display()))?;
     Ok(overlaid(&Platform::default(), &parameter_file::read(&text, &file.display().to_string(), Platform::ROWS)?))
 }

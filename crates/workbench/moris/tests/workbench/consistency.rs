@@ -80,8 +80,8 @@ fn a_wrong_sign_is_told() {
     assert!(found.contains("use --columns wz=wz where"), "{found}");
 
     let found = warnings("speed", [-1.0, 1.0, 1.0, 1.0], &plain);
-    assert!(found.contains("x points backward. If it does, use --columns ax=-ax."), "{found}");
+    assert!(found.contains("If the axis does, use --columns ax=-ax."), "{found}");
     let mounting = Some(Mounting::parse("0,0,180").unwrap());
     let found = warnings("speed", PLAIN, &ConventionOptions { mounting, ..plain });
-    assert!(found.contains("If it does, check --mounting."), "{found}");
+    assert!(found.contains("If the axis does, check --mounting."), "{found}");
 }

@@ -2,6 +2,7 @@
 
 mod commands;
 mod consistency;
+mod forms;
 mod frequency_response;
 mod import;
 mod loggers;

@@ -31,15 +31,15 @@ class Recording:
     name: of the recording; by default the file's, without extension.
     format: name of a logger's format, such as "phyphox"; `moris simulate --help` lists them.
     columns: dict of names that are not these: {"ax": "accel_x"}; signs and sums as in docs/recordings.md.
-    time_unit: "s", "ms", "us", "ns". force_unit: "m/s2", "g", "mg". rate_unit: "rad/s", "deg/s".
-    angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn".
+    time_unit: "s", "ms", "us", "ns", "min", "h", "d". force_unit: "m/s2", "g", "mg", "ft/s2". rate_unit: "rad/s", "deg/s".
+    angle_unit: "rad", "deg". speed_unit: "m/s", "km/h", "mph", "kn", "ft/s".
     gravity: "included" as an accelerometer reads it, or "removed".
     axes: "forward-left-up" or "forward-right-down". rate_frame: "body" or "world".
     mounting: [roll, pitch, yaw] of the sensor in the vehicle [deg], or "auto".
     empty_fields: of a file, "error" or "interpolate". repair: True to interpolate over a logger's error values and spikes.
     missing: "error", or "rest" to take ay az wx wy wz that the source lacks as at rest. lap: number of the lap to read where
         time starts again with each.
-    resample: samples a second, to interpolate a recording whose steps are unequal.
+    rate: samples a second of a source without times. resample: samples a second, to interpolate a recording whose steps are unequal.
     fade_in: seconds over which the recording is faded in from rest: 1 by default, 0 to take it as it is.
 
     Raises RecordingError where columns are missing or the units or axes are implausible, with the remedy.

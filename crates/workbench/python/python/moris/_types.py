@@ -29,11 +29,11 @@ class RecordingOptions(TypedDict, total=False):
 
     format: str | None
     columns: Mapping[str, str] | None
-    time_unit: Literal["s", "ms", "us", "ns"] | None
-    force_unit: Literal["m/s2", "g", "mg"] | None
+    time_unit: Literal["s", "ms", "us", "ns", "min", "h", "d"] | None
+    force_unit: Literal["m/s2", "g", "mg", "ft/s2"] | None
     rate_unit: Literal["rad/s", "deg/s"] | None
     angle_unit: Literal["rad", "deg"] | None
-    speed_unit: Literal["m/s", "km/h", "mph", "kn"] | None
+    speed_unit: Literal["m/s", "km/h", "mph", "kn", "ft/s"] | None
     gravity: Literal["included", "removed"] | None
     axes: Literal["forward-left-up", "forward-right-down"] | None
     mounting: Sequence[float] | Literal["auto"] | None
@@ -42,5 +42,6 @@ class RecordingOptions(TypedDict, total=False):
     missing: Literal["error", "rest"] | None
     lap: int | None
     repair: bool | None
+    rate: float | None
     resample: float | None
     fade_in: float | None

@@ -1,25 +1,70 @@
-//! Wrong units of roll and pitch, by their size.
+//! Wrong units of roll, pitch, yaw and lean, by their size and by the rates.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use moris_washout::Input;
 
+use super::consistency::derivative_and_rate;
 use super::remedy;
-use crate::recording::conventions::{AngleUnit, Quantity};
+use crate::recording::columns::UnitSource;
+use crate::recording::conventions::{AngleUnit, Conventions, Quantity, RateFrame};
+use crate::recording::message::given;
+use crate::recording::signal::{regression, root_mean_square};
 use crate::recording::table::Table;
 
 /// Roll or pitch that no vehicle exceeds \[rad\].
 const STEEPEST: f64 = 3.2;
+/// Roll, pitch or lean that vehicles reach only where their rates show it \[rad\].
+const STEEP: f64 = FRAC_PI_2 + 0.1;
+/// Ratios of an angle's derivative and a rate that show degrees.
+const DEGREES: [f64; 2] = [30.0, 110.0];
+/// Least derivative and rate that are compared, as root mean squares \[rad/s\].
+const LEAST_RATE: f64 = 0.005;
 
-/// Rejects angles that no vehicle reaches.
-pub fn check(table: &Table, inputs: &[Input]) -> Result<(), String> {
+/// Rejects angles that no vehicle reaches, and those that change as degrees would. A given unit
+/// overrides all tests but the first.
+pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), String> {
     let angles = inputs.iter().map(|input| input.orientation.roll.abs().max(input.orientation.pitch.abs()));
     let steepest = angles.fold(0.0, f64::max);
-    if steepest <= STEEPEST {
-        return Ok(());
+    let is_radians = |quantity| table.unit(quantity).0 == AngleUnit::Radian.unit();
+    if steepest > STEEPEST {
+        return Err(if is_radians(Quantity::Angle(0)) {
+            let remedy = remedy(table, Quantity::Angle(0), AngleUnit::Degree.word());
+            format!("roll or pitch reaches {steepest:.0}: these are degrees, not radians; {remedy}")
+        } else {
+            format!("roll or pitch reaches {:.0} degrees, which no vehicle does", steepest.to_degrees())
+        });
     }
-    Err(if table.unit(Quantity::Angle(0)).0 == AngleUnit::Radian.unit() {
-        let remedy = remedy(table, Quantity::Angle(0), AngleUnit::Degree.word());
-        format!("roll or pitch reaches {steepest:.0}: these are degrees, not radians; {remedy}")
-    } else {
-        format!("roll or pitch reaches {:.0} degrees, which no vehicle does", steepest.to_degrees())
-    })
+    let is_open = |quantity| table.unit(quantity).1 == UnitSource::Default && table.columns.contains_key(&quantity);
+    let lean = inputs.iter().map(|input| input.lean.abs()).fold(0.0, f64::max);
+    let evidence = (0..3)
+        .filter(|&axis| is_open(Quantity::Angle(axis)))
+        .find_map(|axis| evidence(table, inputs, conventions, axis))
+        .map(|evidence| (Quantity::Angle(0), evidence))
+        .or_else(|| {
+            (is_open(Quantity::Lean) && lean > STEEP).then(|| (Quantity::Lean, format!("lean reaches {lean:.1}")))
+        });
+    let Some((quantity, evidence)) = evidence else { return Ok(()) };
+    let remedy = remedy(table, quantity, AngleUnit::Degree.word());
+    let radians = given(quantity.dimension().option(), AngleUnit::Radian.word());
+    Err(format!("{evidence}: these are degrees, not radians; {remedy} (or {radians}, if they are)"))
+}
+
+/// Evidence that an angle is in degrees.
+fn evidence(table: &Table, inputs: &[Input], conventions: &Conventions, axis: usize) -> Option<String> {
+    let name = ["roll", "pitch", "yaw"][axis];
+    let ratio = |period: f64| {
+        let (derivative, rate) = derivative_and_rate(inputs, axis, table.step(), period);
+        let is_small = |values: &[f64]| root_mean_square(values) < LEAST_RATE;
+        if is_small(&derivative) || is_small(&rate) { None } else { regression(&rate, &derivative) }
+    };
+    let is_body = conventions.rate_frame == RateFrame::Body;
+    // Degrees jump by 360.
+    let degrees = || ratio(360.0).filter(|ratio| is_body && (DEGREES[0]..DEGREES[1]).contains(&ratio.abs()));
+    if let Some(ratio) = degrees() {
+        return Some(format!("{name} changes {:.0} times as fast as its rate", ratio.abs()));
+    }
+    let reach = inputs.iter().map(|input| input.orientation.to_vector()[axis].abs()).fold(0.0, f64::max);
+    let is_confirmed = || ratio(TAU).is_some_and(|ratio| (0.5..2.0).contains(&ratio.abs()));
+    (axis < 2 && reach > STEEP && !is_confirmed()).then(|| format!("{name} reaches {reach:.1}"))
 }

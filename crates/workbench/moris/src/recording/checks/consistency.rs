@@ -1,24 +1,31 @@
 //! Contradictions between the channels of a recording.
 //!
-//! - Speed is the integral of the force along x.
+//! - Speed is the integral of the force along x, without gravity on slopes.
 //! - The lateral force of bends is speed times yaw rate, where a vehicle does not lean.
 //! - Rates are the derivatives of angles.
 
-use moris_washout::Input;
+use std::f64::consts::TAU;
 
-use super::remedy;
+use clap::ValueEnum;
+use moris_washout::Input;
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use super::speeds::signed_speeds;
+use super::{remedy, remedy_with};
 use crate::recording::columns::UnitSource;
-use crate::recording::conventions::{Conventions, Quantity, RateFrame, Unit};
+use crate::recording::conventions::{Conventions, ForceUnit, Gravity, Quantity, RateFrame, SpeedUnit, TimeUnit, Unit};
 use crate::recording::message::{given, named};
 use crate::recording::signal::{centred, integral, regression, root_mean_square, smooth};
 use crate::recording::table::Table;
 
 /// Time over which changes of speed are compared with the force \[s\].
-const WINDOW: f64 = 2.0;
+pub const WINDOW: f64 = 2.0;
 /// Least change of speed in it that is compared, as a root mean square \[m/s\].
-const LEAST_CHANGE: f64 = 0.3;
+pub const LEAST_CHANGE: f64 = 0.3;
 /// Least lateral force of bends that is compared, as a root mean square \[m/s2\].
-const LEAST_SWAY: f64 = 0.3;
+pub const LEAST_SWAY: f64 = 0.3;
+/// Fraction of these sizes down to which the other signal is compared: it may be in a larger unit.
+const FAINT: f64 = 0.01;
 /// Least rate that is compared with an angle, as a root mean square \[rad/s\].
 const LEAST_RATE: f64 = 0.02;
 /// Ratio of two signals that should be equal, up to which they are taken as equal: slopes and bias
@@ -26,66 +33,152 @@ const LEAST_RATE: f64 = 0.02;
 const RATIO: f64 = 1.5;
 /// Largest relative distance from another unit's ratio that shows this unit.
 const UNIT_TOLERANCE: f64 = 0.2;
+/// Ratio above which no slope or bias changes the speed, but the scale of time is wrong.
+const SCALE: f64 = 5.0;
 /// Ratio below which a sign is wrong. Two-wheelers have a small lateral force of either sign.
 const OPPOSITE: f64 = -0.5;
 
 /// Warnings that name the options for channels that contradict each other.
 pub fn warnings(table: &Table, inputs: &[Input], conventions: &Conventions) -> Vec<String> {
-    let of_speed = || [speed_and_force(table, inputs, conventions), bends(table, inputs, conventions)];
-    let of_speed = table.columns.contains_key(&Quantity::Speed).then(of_speed).into_iter().flatten().flatten();
-    of_speed.chain(angles_and_rates(table, inputs, conventions)).collect()
+    let mut warnings = Vec::new();
+    if table.columns.contains_key(&Quantity::Speed) {
+        let (speeds, reversing) = signed_speeds(inputs, table.step());
+        let surge = surge_ratio(table.step(), inputs, &speeds);
+        let sway = sway_ratio(table.step(), inputs, &speeds);
+        let of_surge = surge.and_then(|surge| speed_and_force(table, conventions, surge, sway));
+        let is_explained = of_surge.is_some() || surge.is_some_and(is_equal);
+        warnings.extend(of_surge);
+        warnings.extend(sway.and_then(|sway| bends(table, conventions, sway, is_explained)));
+        warnings.extend(reversing);
+    }
+    warnings.extend(angles_and_rates(table, inputs, conventions));
+    warnings
+}
+
+/// True for a ratio that slopes and bias explain.
+fn is_equal(ratio: f64) -> bool {
+    (1.0 / RATIO..RATIO).contains(&ratio)
 }
 
 /// Factor from the signal that is expected to the other; none where one is small, or they do not go
 /// together.
 fn ratio(expected: &[f64], found: &[f64], least: f64) -> Option<f64> {
-    let is_small = |values| root_mean_square(values) < least;
-    if is_small(expected) || is_small(found) { None } else { regression(expected, found) }
+    let is_small = |values, least| root_mean_square(values) < least;
+    if is_small(expected, least) || is_small(found, FAINT * least) { None } else { regression(expected, found) }
 }
 
-/// Compares changes of speed with the integral of the force along x.
-fn speed_and_force(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
-    let step = table.step();
-    let window = ((WINDOW / step).round() as usize).max(1);
-    let integral = integral(inputs.iter().map(|input| input.specific_force.x), step);
-    let starts = 0..inputs.len().saturating_sub(window);
-    let changes: Vec<f64> = starts.clone().map(|k| inputs[k + window].speed - inputs[k].speed).collect();
-    let expected = centred(starts.map(|k| integral[k + window] - integral[k]));
-    if root_mean_square(&changes) < LEAST_CHANGE || root_mean_square(&expected) < LEAST_CHANGE {
+/// Changes of a signal over [`WINDOW`], or a quarter of a short one.
+pub fn changes(values: &[f64], step: f64) -> Vec<f64> {
+    let window = ((WINDOW / step).round() as usize).min(values.len() / 4).max(1);
+    values.iter().skip(window).zip(values).map(|(after, before)| after - before).collect()
+}
+
+/// Ratio of the changes of speed and the integral of the force along x. Where slopes explain it, as
+/// the pitch or the rate of pitch gives them, it is 1.
+fn surge_ratio(step: f64, inputs: &[Input], speeds: &[f64]) -> Option<f64> {
+    let found = changes(speeds, step);
+    let of_force = |force: &[f64]| {
+        let expected = centred(changes(&integral(force.iter().copied(), step), step).into_iter());
+        let is_small = root_mean_square(&found) < LEAST_CHANGE || root_mean_square(&expected) < FAINT * LEAST_CHANGE;
+        if is_small { None } else { regression(&expected, &centred(found.iter().copied())) }
+    };
+    let force: Vec<f64> = inputs.iter().map(|input| input.specific_force.x).collect();
+    let ratio = of_force(&force);
+    if ratio.is_some_and(is_equal) {
+        return ratio;
+    }
+    // Pitch is positive with the nose down, where gravity accelerates.
+    let pitch: Vec<f64> = inputs.iter().map(|input| input.orientation.pitch).collect();
+    let of_rate = centred(integral(inputs.iter().map(|input| input.angular_velocity.y), step).into_iter());
+    let on_slopes = |pitch: &Vec<f64>| {
+        let force: Vec<f64> = force.iter().zip(pitch).map(|(f, pitch)| f + STANDARD_GRAVITY * pitch.sin()).collect();
+        of_force(&force).is_some_and(is_equal)
+    };
+    if [pitch, of_rate].iter().any(on_slopes) { Some(1.0) } else { ratio }
+}
+
+/// Ratio of the lateral force and speed times yaw rate.
+fn sway_ratio(step: f64, inputs: &[Input], speeds: &[f64]) -> Option<f64> {
+    let expected = smooth(inputs.iter().zip(speeds).map(|(input, speed)| speed * input.angular_velocity.z), step);
+    let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
+    ratio(&expected, &lateral, LEAST_SWAY)
+}
+
+/// A unit, or a scale of time, that explains a ratio.
+enum Cause {
+    Unit(Quantity, Unit),
+    TimeScale(f64),
+}
+
+/// Judges the ratio of the changes of speed and the integral of the force along x.
+fn speed_and_force(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>) -> Option<String> {
+    let fact = format!("The speed changes {surge:.1} times as much as the integral of the force along x");
+    if surge < OPPOSITE {
+        let remedy = turned(conventions, Quantity::Force(0));
+        return Some(format!(
+            "{fact}: the axis may point to the back, or the force be positive in braking, or slopes or reversing cause \
+             it. If the axis does, {remedy}."
+        ));
+    }
+    if is_equal(surge) {
         return None;
     }
-    let ratio = regression(&expected, &centred(changes.into_iter()))?;
-    let fact = format!("The speed changes {ratio:.1} times as much as the integral of the force along x");
-    if ratio < OPPOSITE {
-        let remedy = turned(conventions, Quantity::Force(0));
-        return Some(format!("{fact}: x points backward. If it does, {remedy}."));
-    }
-    let meaning = match other_unit(table, ratio) {
-        Some(other) => {
-            let remedy = remedy(table, Quantity::Speed, other.word);
-            format!("it seems to be in {}, not in {}: {remedy}", other.word, table.unit(Quantity::Speed).0.word)
+    let meaning = match cause(table, conventions, surge, sway) {
+        Some(Cause::Unit(Quantity::Speed, unit)) => {
+            let remedy = remedy(table, Quantity::Speed, unit.word);
+            format!("it seems to be in {}, not in {}: {remedy}", unit.word, table.unit(Quantity::Speed).0.word)
+        }
+        Some(Cause::Unit(quantity, unit)) => {
+            let (name, remedy) = (quantity.dimension().name(), remedy(table, quantity, unit.word));
+            format!("the {name} seems to be in {}, not in {}: {remedy}", unit.word, table.unit(quantity).0.word)
+        }
+        Some(Cause::TimeScale(scale)) => {
+            let scaled = format!("\"time={} * {scale:.3}\"", conventions.column(Quantity::Time));
+            let (unit, columns) = (named("time-unit"), given("columns", scaled));
+            format!("the time seems to run {scale:.1} times too fast: check {unit}, or use {columns}")
         }
         None => format!("check {}", named("speed-unit")),
     };
-    (!(1.0 / RATIO..RATIO).contains(&ratio)).then(|| format!("{fact}: {meaning}."))
+    Some(format!("{fact}: {meaning}."))
 }
 
-/// The unit of a speed that is so many times too large.
-fn other_unit(table: &Table, ratio: f64) -> Option<Unit> {
-    let (given, _) = table.unit(Quantity::Speed);
-    let distance = |other: &Unit| (ratio * other.in_si / given.in_si).ln().abs();
-    let others = Quantity::Speed.dimension().units().filter(|other| *other != given);
-    let nearest = others.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-    (distance(&nearest) < UNIT_TOLERANCE).then_some(nearest)
+/// The unit or scale that explains the ratios of the changes of speed and of the lateral force.
+fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>) -> Option<Cause> {
+    let near = |a: f64, b: f64| (a / b).ln().abs();
+    // In bends a wrong unit of speed or force has the opposite effect, and that of time none.
+    let of_time = sway.is_none_or(|sway| sway > 0.0 && near(sway, 1.0) < near(sway, 1.0 / surge));
+    let of_others = sway.is_none_or(|sway| sway <= 0.0 || near(sway, 1.0) >= near(sway, 1.0 / surge) || surge < SCALE);
+    let mut causes: Vec<(f64, Cause)> = Vec::new();
+    let mut consider = |quantity: Quantity, units: Vec<Unit>, effect: fn(f64, f64) -> f64| {
+        let given = table.unit(quantity).0;
+        for unit in units.into_iter().filter(|unit| *unit != given) {
+            causes.push((near(surge, effect(given.in_si, unit.in_si)), Cause::Unit(quantity, unit)));
+        }
+    };
+    if of_others {
+        // Feet are too near to km/h.
+        let speeds = SpeedUnit::value_variants().iter().filter(|unit| **unit != SpeedUnit::FootPerSecond);
+        consider(Quantity::Speed, speeds.map(|unit| unit.unit()).collect(), |given, other| given / other);
+        if conventions.gravity == Gravity::Removed {
+            let forces = ForceUnit::value_variants().iter().map(|unit| unit.unit()).collect();
+            consider(Quantity::Force(0), forces, |given, other| other / given);
+        }
+    }
+    if of_time {
+        let times = TimeUnit::value_variants().iter().map(|unit| unit.unit()).collect();
+        consider(Quantity::Time, times, |given, other| other / given);
+    }
+    let nearest =
+        causes.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(distance, _)| *distance < UNIT_TOLERANCE);
+    let scale =
+        || (of_time && sway.is_some() && !(1.0 / SCALE..SCALE).contains(&surge)).then_some(Cause::TimeScale(surge));
+    nearest.map(|(_, cause)| cause).or_else(scale)
 }
 
-/// Compares the lateral force of bends with speed times yaw rate.
-fn bends(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<String> {
-    let step = table.step();
-    let expected = smooth(inputs.iter().map(|input| input.speed * input.angular_velocity.z), step);
-    let lateral = smooth(inputs.iter().map(|input| input.specific_force.y), step);
-    let ratio = ratio(&expected, &lateral, LEAST_SWAY)?;
-    if ratio < OPPOSITE {
+/// Judges the ratio of the lateral force of bends and speed times yaw rate. Where the speed fits the
+/// force along x, its unit is right.
+fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool) -> Option<String> {
+    if sway < OPPOSITE {
         let rate = turned(conventions, Quantity::Rate(2));
         let force = turned(conventions, Quantity::Force(1));
         let remedy = if conventions.mounting.is_some() {
@@ -94,19 +187,40 @@ fn bends(table: &Table, inputs: &[Input], conventions: &Conventions) -> Option<S
             format!("{rate} where the rate is positive to the right, or {force} where the force is")
         };
         return Some(format!(
-            "In bends the lateral force is {ratio:.1} times speed by yaw rate: one of them has the wrong sign. Use the one \
+            "In bends the lateral force is {sway:.1} times speed by yaw rate: one of them has the wrong sign. Use the one \
              that applies: {remedy}."
         ));
     }
+    if is_explained || sway >= 1.0 / RATIO {
+        return None;
+    }
     let (given, source) = table.unit(Quantity::Speed);
-    let other = other_unit(table, 1.0 / ratio).filter(|_| source == UnitSource::Default && ratio < 1.0 / RATIO)?;
+    let quantity = match cause(table, conventions, 1.0 / sway, Some(sway))? {
+        Cause::Unit(Quantity::Speed, unit) if source == UnitSource::Default => (Quantity::Speed, unit, given, "speed"),
+        Cause::Unit(Quantity::Force(0), unit) => {
+            (Quantity::Force(0), unit, table.unit(Quantity::Force(0)).0, "specific force")
+        }
+        _ => return None,
+    };
+    let (quantity, other, given, name) = quantity;
     Some(format!(
-        "In bends the lateral force is {ratio:.2} times speed by yaw rate. If the vehicle does not lean, its speed is in {}, \
-         not in {}: {}.",
+        "In bends the lateral force is {sway:.2} times speed by yaw rate. If the vehicle does not lean, its {name} is in \
+         {}, not in {}: {}.",
         other.word,
         given.word,
-        remedy(table, Quantity::Speed, other.word)
+        remedy(table, quantity, other.word)
     ))
+}
+
+/// Smoothed derivative of an angle and the rate about its axis. Yaw jumps by a turn.
+pub fn derivative_and_rate(inputs: &[Input], axis: usize, step: f64, period: f64) -> (Vec<f64>, Vec<f64>) {
+    let angle = |input: &Input| input.orientation.to_vector()[axis];
+    let changes = inputs.windows(2).map(|pair| {
+        let change = angle(&pair[1]) - angle(&pair[0]);
+        (change - period * (change / period).round()) / step
+    });
+    let derivative = smooth(changes, step);
+    (derivative, smooth(inputs[1..].iter().map(|input| input.angular_velocity[axis]), step))
 }
 
 /// Compares rates with the derivatives of angles.
@@ -114,14 +228,9 @@ fn angles_and_rates(table: &Table, inputs: &[Input], conventions: &Conventions) 
     if conventions.rate_frame != RateFrame::Body {
         return Vec::new();
     }
-    let step = table.step();
     let opposite = |axis: usize| {
         table.columns.get(&Quantity::Angle(axis))?;
-        let angle = |input: &Input| input.orientation.to_vector()[axis];
-        // Yaw jumps by a turn.
-        let changes = inputs.windows(2).map(|pair| (angle(&pair[1]) - angle(&pair[0])).sin() / step);
-        let derivative = smooth(changes, step);
-        let rate = smooth(inputs[1..].iter().map(|input| input.angular_velocity[axis]), step);
+        let (derivative, rate) = derivative_and_rate(inputs, axis, table.step(), TAU);
         let ratio = ratio(&derivative, &rate, LEAST_RATE)?;
         let name = ["roll", "pitch", "yaw"][axis];
         let remedy = turned(conventions, Quantity::Rate(axis));
@@ -143,5 +252,5 @@ fn turned(conventions: &Conventions, quantity: Quantity) -> String {
     }
     let name = conventions.column(quantity);
     let turned = name.strip_prefix('-').map_or_else(|| format!("-{name}"), str::to_owned);
-    format!("use {}", given("columns", format!("{}={turned}", quantity.key())))
+    remedy_with(quantity, &turned)
 }

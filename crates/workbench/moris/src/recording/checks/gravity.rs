@@ -13,6 +13,8 @@ use crate::recording::table::Table;
 /// Largest distance of the median specific force from standard gravity \[m/s2\]: sensors
 /// are biased and tilted.
 const GRAVITY_TOLERANCE: f64 = 3.0;
+/// Size of gravity from which it may be in counts \[1\].
+const COUNTS: f64 = 60.0;
 /// Medians below this contain no gravity \[m/s2\].
 const NO_GRAVITY: f64 = 3.0;
 
@@ -37,6 +39,7 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
             let remedy = remedy(table, Quantity::Force(2), other.word);
             format!("which is gravity in {}, not in {}: {remedy}", other.word, unit.word)
         }
+        None if size > COUNTS => counts(size, conventions),
         None => meaning(&median, conventions),
     };
     Err(format!(
@@ -47,6 +50,20 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
         raw.z * signs[2],
         unit.word
     ))
+}
+
+/// Gravity in counts of a sensor, and its scale.
+fn counts(size: f64, conventions: &Conventions) -> String {
+    let scaled = |axis: usize| {
+        let quantity = Quantity::Force(axis);
+        format!("{}={} / {size:.0}", quantity.key(), conventions.column(quantity))
+    };
+    let columns = given("columns", format!("\"{}\"", [0, 1, 2].map(scaled).join(",")));
+    let unit = given("force-unit", "g");
+    format!(
+        "which is gravity in no unit: if they are counts of the sensor, its scale factor is about {size:.0} a g, and the \
+         exact one is in its data sheet: use {columns} with {unit}, and the scale of the rates likewise"
+    )
 }
 
 /// The meaning of a median in the right unit that is not gravity along z.

@@ -2,14 +2,17 @@
 //!
 //! - [`outliers`] finds samples that no vehicle causes.
 //! - `gravity`, `angles` and `rates` detect wrong units and axes.
-//! - [`consistency`] detects channels that contradict each other.
+//! - [`consistency`] detects channels that contradict each other, with the sign that `speeds` gives
+//!   the speed, and [`dead`] those that stand still.
 //! - [`unusual`] warns about recordings that are possible.
 
 mod angles;
 pub mod consistency;
+pub mod dead;
 mod gravity;
 pub mod outliers;
 mod rates;
+mod speeds;
 pub mod unusual;
 
 use moris_washout::Input;
@@ -24,10 +27,16 @@ use super::table::Table;
 /// # Errors
 /// They are not. The message names those that fit, and the option for them.
 pub fn plausibility(table: &Table, inputs: &[Input], conventions: &Conventions) -> Result<(), RecordingError> {
-    gravity::check(table, inputs, conventions)
-        .and_then(|()| angles::check(table, inputs))
+    // Angles first: with them gravity is put back.
+    angles::check(table, inputs, conventions)
+        .and_then(|()| gravity::check(table, inputs, conventions))
         .and_then(|()| rates::check(table, inputs, conventions))
         .map_err(|reason| table.refused(reason))
+}
+
+/// The remedy for a column: another name.
+fn remedy_with(quantity: Quantity, name: &str) -> String {
+    format!("use {}", given("columns", format!("{}={name}", quantity.key())))
 }
 
 /// The remedy for a unit: an option where the header leaves it open, otherwise the header.

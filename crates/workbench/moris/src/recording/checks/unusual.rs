@@ -19,19 +19,35 @@ const JOLT: f64 = 1.0;
 
 /// Warnings about a recording that is unusual but possible.
 pub fn warnings(table: &Table, inputs: &[Input]) -> Vec<String> {
-    [bias(inputs, 0, "x"), bias(inputs, 1, "y"), fast_rates(table, inputs), jolt(&inputs[0])]
+    [bias(table, inputs, 0), bias(table, inputs, 1), fast_rates(table, inputs), jolt(&inputs[0])]
         .into_iter()
         .flatten()
         .collect()
 }
 
-fn bias(inputs: &[Input], axis: usize, name: &str) -> Option<String> {
-    let mean = inputs.iter().map(|input| input.specific_force[axis]).sum::<f64>() / inputs.len() as f64;
+/// A lasting force along x or y, and what may be its cause.
+fn bias(table: &Table, inputs: &[Input], axis: usize) -> Option<String> {
+    let mean_of = |value: &dyn Fn(&Input) -> f64| inputs.iter().map(value).sum::<f64>() / inputs.len() as f64;
+    let mean = mean_of(&|input| input.specific_force[axis]);
+    let has_speed = table.columns.contains_key(&Quantity::Speed);
+    let gain = inputs[inputs.len() - 1].speed - inputs[0].speed;
+    let (name, motion, explained) = if axis == 0 {
+        ("x", "the recording ends faster than it begins", gain / (inputs.len() as f64 * table.step()))
+    } else {
+        ("y", "the bends are mostly to one side", mean_of(&|input| input.speed * input.angular_velocity.z))
+    };
+    let cause = if has_speed && (mean - explained).abs() < BIAS {
+        format!("{motion}, as the speed shows")
+    } else if axis == 0 {
+        format!("the sensor is tilted by {{tilt}} degrees or biased, or {motion}, or uphill")
+    } else {
+        format!("the sensor or the road is tilted by {{tilt}} degrees, or the sensor biased, or {motion}")
+    };
     let tilt = (mean / STANDARD_GRAVITY).clamp(-1.0, 1.0).asin().to_degrees();
+    let cause = cause.replace("{tilt}", &format!("{tilt:.1}"));
     (mean.abs() > BIAS).then(|| {
         format!(
-            "The specific force along {name} is {mean:.2} m/s2 on average: the sensor is tilted by {tilt:.1} degrees or \
-             biased, or the recording ends faster than it begins, or uphill. The platform will lean as much."
+            "The specific force along {name} is {mean:.2} m/s2 on average: {cause}. The platform will lean as much."
         )
     })
 }

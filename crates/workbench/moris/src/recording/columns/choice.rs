@@ -1,8 +1,9 @@
 //! The choice of columns for the quantities.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
-use super::units::Unit;
+use super::units::{TimeUnit, Unit};
 use super::{Header, Quantity, Term};
 use crate::recording::conventions::Conventions;
 use crate::recording::message::named;
@@ -33,6 +34,12 @@ pub fn value_places(layout: &[Column]) -> Vec<usize> {
     used.flat_map(|column| column.terms.iter().map(|term| term.place)).collect()
 }
 
+/// The period of a column of angles, in the column's unit; none of other columns.
+pub fn period(layout: &[Column], place: usize) -> Option<f64> {
+    let column = layout.iter().find(|column| column.terms.iter().any(|term| term.place == place))?;
+    column.quantity.is_angle().then_some(TAU / column.unit.in_si)
+}
+
 impl Header {
     /// The columns that are used. `skips_time` is set where each of several files has its own time.
     ///
@@ -42,7 +49,13 @@ impl Header {
     /// - A unit is unknown, or contradicts an option.
     pub fn columns(&self, conventions: &Conventions, skips_time: bool) -> Result<Vec<Column>, String> {
         let mut columns = Vec::new();
-        for (quantity, terms) in self.terms_of_quantities(conventions, skips_time)? {
+        for (quantity, mut terms) in self.terms_of_quantities(conventions, skips_time)? {
+            if quantity == Quantity::Time && terms.len() > 1 {
+                self.scale_to_seconds(&mut terms);
+                let (unit, source) = (TimeUnit::Second.unit(), UnitSource::Header);
+                columns.push(Column { quantity, terms, unit, source });
+                continue;
+            }
             let (unit, source) = self.unit_of_sum(&terms, quantity.dimension(), conventions)?;
             columns.push(Column { quantity, terms, unit, source });
         }

@@ -29,16 +29,6 @@ impl Header {
         self.titles.len()
     }
 
-    /// True where no column has a name.
-    pub fn is_blank(&self) -> bool {
-        self.titles.iter().all(|title| title.full.is_empty())
-    }
-
-    /// True if the header has numbers in place of names.
-    pub fn is_numbers(&self) -> bool {
-        self.titles.iter().all(|title| title.full.is_empty() || title.full.parse::<f64>().is_ok())
-    }
-
     /// A column's name as messages quote it.
     pub fn shown(&self, place: usize) -> String {
         self.titles.get(place).map_or_else(String::new, |title| quoted(&title.qualified(&title.full)))

@@ -3,21 +3,25 @@
 use super::Header;
 use crate::recording::message::{named, quoted};
 
-/// A column of the file, and the sign with which it counts.
+/// A column of the file, and the factor with which it counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Term {
-    pub sign: f64,
+    pub factor: f64,
     /// Place in the line, from 0; of several files, in the line of all their columns.
     pub place: usize,
 }
 
 impl Header {
-    /// The columns of `name`, or of `-name`, or of terms with spaces around their signs.
-    pub(super) fn terms(&self, text: &str) -> Result<Option<Vec<Term>>, String> {
+    /// The columns of `name`, or of `-name`, or of terms with spaces around their signs. A term may
+    /// be multiplied or divided by a number.
+    pub fn terms(&self, text: &str) -> Result<Option<Vec<Term>>, String> {
         if let Some(place) = self.place(text)? {
-            return Ok(Some(vec![Term { sign: 1.0, place }]));
+            return Ok(Some(vec![Term { factor: 1.0, place }]));
         }
-        let term = |(sign, name): (f64, &str)| Ok(self.place(name)?.map(|place| Term { sign, place }));
+        let term = |(sign, part): (f64, &str)| {
+            let (factor, name) = if self.place(part)?.is_some() { (1.0, part) } else { scaled(part) };
+            Ok(self.place(name)?.map(|place| Term { factor: sign * factor, place }))
+        };
         signed_parts(text).into_iter().map(term).collect()
     }
 
@@ -63,6 +67,20 @@ impl Header {
     /// The column's place in its file, for messages: empty where there are several files.
     fn number(&self, place: usize) -> String {
         if self.titles[place].file.is_some() { String::new() } else { format!(" (column {})", place + 1) }
+    }
+}
+
+/// The factor and the name of `name * 2`, `2 * name` and `name / 2`.
+fn scaled(part: &str) -> (f64, &str) {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite() && *number != 0.0);
+    if let Some((name, divisor)) = part.rsplit_once(" / ")
+        && let Some(divisor) = number(divisor)
+    {
+        return (1.0 / divisor, name.trim());
+    }
+    match part.split_once(" * ").map(|(a, b)| (a, number(a), b, number(b))) {
+        Some((_, Some(factor), name, _)) | Some((name, _, _, Some(factor))) => (factor, name.trim()),
+        _ => (1.0, part),
     }
 }
 

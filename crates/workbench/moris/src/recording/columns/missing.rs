@@ -41,7 +41,28 @@ impl Header {
             let (title, remedy) = (format.title(), given("format", format.word()));
             return format!("this looks like a recording of {title}; use {remedy} (there is no column {names})");
         }
-        let keys: Vec<String> = missing.iter().map(|quantity| format!("{}=NAME", quantity.key())).collect();
+        // Formats have optional channels: others may have measured the same.
+        let likely = |quantity: &Quantity| {
+            let place = conventions.format.and_then(|_| self.likely(*quantity, &[]).first().copied());
+            place.map(|place| format!("{}={}", quantity.key(), self.name(place)))
+        };
+        let found: Vec<String> = missing.iter().filter_map(likely).collect();
+        let keys = missing.iter().map(|quantity| format!("{}=NAME", quantity.key()));
+        let keys: Vec<String> = if found.is_empty() {
+            keys.collect()
+        } else {
+            found.into_iter().map(|pair| format!("\"{pair}\"")).collect()
+        };
+        let is_long = ["name", "value"]
+            .iter()
+            .all(|end| self.titles.iter().any(|title| title.name.to_lowercase().ends_with(end)));
+        if is_long && missing.len() >= 6 {
+            return format!(
+                "there are {}: this looks like a line for each value of a channel, which is not read; make a column of each \
+                 channel, in Python: pandas.DataFrame.pivot",
+                self.listed()
+            );
+        }
         let may_rest = |quantity: &Quantity| matches!(quantity, Quantity::Force(1..) | Quantity::Rate(_));
         format!(
             "there {} {}; there are {}; name what is called otherwise with {}{}",
@@ -49,7 +70,9 @@ impl Header {
             self.with_nearest(&names),
             self.listed(),
             given("columns", keys.join(",")),
-            if missing.iter().all(may_rest) {
+            if missing == [Quantity::Time] {
+                format!(", or use {} if its samples come at equal steps", given("rate", "HERTZ"))
+            } else if missing.iter().all(may_rest) || keys.len() < missing.len() {
                 format!(", or use {} if nothing measured them", given("missing", "rest"))
             } else {
                 String::new()

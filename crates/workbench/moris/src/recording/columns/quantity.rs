@@ -20,6 +20,14 @@ impl Quantity {
         [Time, Force(0), Force(1), Force(2), Rate(0), Rate(1), Rate(2), Angle(0), Angle(1), Angle(2), Speed, Lean]
     };
 
+    /// Roll, pitch and yaw.
+    pub const ANGLES: [Quantity; 3] = [Quantity::Angle(0), Quantity::Angle(1), Quantity::Angle(2)];
+
+    /// True for angles, which are the same after a turn.
+    pub fn is_angle(self) -> bool {
+        matches!(self, Quantity::Angle(_) | Quantity::Lean)
+    }
+
     /// True for time, specific force and rates, which every recording must have.
     pub fn is_required(self) -> bool {
         matches!(self, Quantity::Time | Quantity::Force(_) | Quantity::Rate(_))

@@ -24,23 +24,28 @@ pub enum Likeness {
 }
 
 impl Title {
-    /// Takes `ax [m/s2]` apart. Of several brackets, the first with a known unit
-    /// counts, otherwise the last.
+    /// Takes `ax [m/s2]` and `ax,m/s2` apart. Of several brackets, the first with a known unit
+    /// counts, otherwise the last. The mark of a comment before the name is no part of it.
     pub fn new(full: &str) -> Self {
         let full = full.trim();
-        let name = match full.find(['[', '(']) {
-            Some(end) if end > 0 => full[..end].trim(),
-            _ => full,
+        let end = full.find(['[', '(']).filter(|&end| end > 0).unwrap_or(full.len());
+        let behind = &full[end..];
+        let (name, after_comma) = match full[..end].trim().split_once(',') {
+            Some((name, unit)) => (name, Some(unit.trim())),
+            None => (full[..end].trim(), None),
         };
-        let brackets: Vec<&str> = full[name.len()..]
+        let bare = name.trim_start_matches(['#', '%']).trim();
+        let name = if bare.is_empty() { name } else { bare };
+        let brackets: Vec<&str> = behind
             .split(['[', '('])
             .skip(1)
             .filter_map(|part| Some(part[..part.find([']', ')'])?].trim()))
             // A number in brackets is an index.
             .filter(|unit| !unit.is_empty() && *unit != "-" && unit.parse::<usize>().is_err())
             .collect();
-        let unit = brackets.iter().find(|unit| any_spelled(unit).is_some()).or(brackets.last());
-        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit: unit.map(|&unit| unit.to_owned()) }
+        let unit = brackets.iter().find(|unit| any_spelled(unit).is_some()).or(brackets.last()).copied();
+        let unit = unit.or(after_comma.filter(|unit| any_spelled(unit).is_some()));
+        Title { file: None, full: full.to_owned(), name: name.to_owned(), unit: unit.map(str::to_owned) }
     }
 
     /// The title with its file's name before it, where there are several files.

@@ -27,15 +27,27 @@ impl Header {
         Ok((unit, source))
     }
 
-    /// The time's unit: seconds where it is written out as dates or times of day.
+    /// The time's unit and its source: seconds where it is a sum, which is scaled already.
     ///
     /// # Errors
     /// As [`Header::columns`].
-    pub fn time_unit(&self, place: usize, is_written_out: bool, conventions: &Conventions) -> Result<Unit, String> {
-        if is_written_out {
-            return Ok(TimeUnit::Second.unit());
+    pub fn time_unit(&self, terms: &[Term], conventions: &Conventions) -> Result<(Unit, UnitSource), String> {
+        match terms {
+            [one] => self.unit(one.place, Dimension::Time, conventions),
+            _ => Ok((TimeUnit::Second.unit(), UnitSource::Header)),
         }
-        self.unit(place, Dimension::Time, conventions).map(|(unit, _)| unit)
+    }
+
+    /// Scales columns of time that are added, as `sec + nanosec`, to seconds, each by the unit
+    /// behind its name, or by the one that its name is.
+    pub fn scale_to_seconds(&self, terms: &mut [Term]) {
+        for term in terms {
+            let title = &self.titles[term.place];
+            let word = title.name.rsplit(['.', '_', ' ', '/']).next().unwrap_or_default();
+            let mut spellings = title.unit.as_deref().into_iter().chain([word]);
+            let unit = spellings.find_map(|text| Dimension::Time.spelled(text));
+            term.factor *= unit.map_or(1.0, |unit| unit.in_si);
+        }
     }
 
     /// The unit of a column: the header's, the option's, or the default, in this order.

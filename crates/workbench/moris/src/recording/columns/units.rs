@@ -4,6 +4,9 @@ use moris_washout::interface::STANDARD_GRAVITY;
 
 use crate::recording::conventions::choices;
 
+/// A foot \[m\].
+const FOOT: f64 = 0.3048;
+
 /// A unit of one of the quantities of a recording.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
@@ -48,13 +51,19 @@ units! {
     /// Unit of the time.
     TimeUnit {
         /// Seconds
-        "s" Second = 1.0, ["sec" "secs" "second" "seconds"],
+        "s" Second = 1.0, ["unixtime" "sec" "secs" "second" "seconds"],
         /// Milliseconds
-        "ms" Millisecond = 1e-3, ["msec" "msecs" "millisecond" "milliseconds" "millis"],
+        "ms" Millisecond = 1e-3, ["msec" "msecs" "millisec" "millisecond" "milliseconds" "millis"],
         /// Microseconds
-        "us" Microsecond = 1e-6, ["µs" "usec" "microsecond" "microseconds" "micros"],
+        "us" Microsecond = 1e-6, ["µs" "usec" "usecs" "microsec" "microsecond" "microseconds" "micros"],
         /// Nanoseconds
-        "ns" Nanosecond = 1e-9, ["nsec" "nanosecond" "nanoseconds" "nanos"],
+        "ns" Nanosecond = 1e-9, ["nsec" "nsecs" "nanosec" "nanosecs" "nanosecond" "nanoseconds" "nanos"],
+        /// Minutes
+        "min" Minute = 60.0, ["mins" "minute" "minutes"],
+        /// Hours
+        "h" Hour = 3600.0, ["hr" "hrs" "hour" "hours"],
+        /// Days
+        "d" Day = 86_400.0, ["day" "days"],
     }
 }
 
@@ -68,6 +77,9 @@ units! {
         "g" Gravity = STANDARD_GRAVITY, ["gs" "gee" "g0" "gn" "gforce" "g-force"],
         /// Thousandths of standard gravity
         "mg" MilliGravity = 1e-3 * STANDARD_GRAVITY, ["milli-g" "millig"],
+        /// Feet per second squared
+        "ft/s2" FootPerSecondSquared = FOOT,
+            ["fts-2" "fps2" "fpss" "ft/s/s" "ft/(s2)" "ft/sec2" "ft/sec/sec" "feet/s2" "feet/sec2" "feet/second2"],
     }
 }
 
@@ -103,6 +115,8 @@ units! {
         "mph" MilePerHour = 0.44704, ["mi/h" "miles/h" "miles/hour"],
         /// Knots
         "kn" Knot = 1852.0 / 3600.0, ["kt" "kts" "knot" "knots"],
+        /// Feet per second
+        "ft/s" FootPerSecond = FOOT, ["fts-1" "fps" "ft/sec" "feet/s" "feet/sec" "feet/second"],
     }
 }
 

@@ -53,6 +53,8 @@ pub struct Conventions {
     pub lap: Option<usize>,
     /// Interpolates over error values and spikes.
     pub repair: bool,
+    /// Samples a second of a recording without times \[1/s\].
+    pub rate: Option<f64>,
     /// Samples a second to interpolate at \[1/s\].
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
@@ -75,7 +77,8 @@ impl Conventions {
 
     /// True for a quantity that a recording must have.
     pub fn needs(&self, quantity: Quantity) -> bool {
-        quantity.is_required() && !self.is_at_rest(quantity)
+        let has_rate = quantity == Quantity::Time && self.rate.is_some();
+        quantity.is_required() && !self.is_at_rest(quantity) && !has_rate
     }
 
     /// True for a quantity that a recording must have, or whose column is named.

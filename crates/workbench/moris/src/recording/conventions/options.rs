@@ -1,7 +1,6 @@
 //! The options for conventions, on the command line and in a file.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::PathBuf;
 
 use schemars::JsonSchema;
@@ -13,6 +12,7 @@ use super::{
     RateFrame, RateUnit, SpeedUnit, TimeUnit,
 };
 use crate::recording::message::{Dialect, RecordingError};
+use crate::text_file;
 
 /// Options that describe a recording.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
@@ -26,6 +26,7 @@ pub struct ConventionOptions {
     /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
     /// roll pitch yaw, speed, lean): time=t,ax=accel_x. A sign turns an axis round:
     /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
+    /// A number scales a column: "ax=counts_x / 16384".
     /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
     /// Upper and lower case are the same
     #[arg(long, value_name = "KEY=NAME", value_delimiter = ',', value_parser = column_name)]
@@ -87,6 +88,10 @@ pub struct ConventionOptions {
     #[arg(long)]
     pub repair: bool,
 
+    /// Samples a second of a recording without a column of time, or in place of its times
+    #[arg(long, value_name = "HERTZ")]
+    pub rate: Option<f64>,
+
     /// Interpolate linearly at this rate a recording whose samples do not come at equal steps
     #[arg(long, value_name = "HERTZ")]
     pub resample: Option<f64>,
@@ -125,7 +130,7 @@ impl ConventionOptions {
     /// The options over the file's, if there is one.
     fn with_file(&self) -> Result<ConventionOptions, RecordingError> {
         let Some(file) = &self.conventions else { return Ok(self.clone()) };
-        let text = fs::read_to_string(file).map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
+        let text = text_file::read(file).map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
         let given = toml::from_str(&text).map_err(|error| RecordingError::whole(file, error.to_string()))?;
         Ok(self.over(given))
     }
@@ -149,6 +154,7 @@ impl ConventionOptions {
             missing: self.missing.or(under.missing),
             lap: self.lap.or(under.lap),
             repair: self.repair || under.repair,
+            rate: self.rate.or(under.rate),
             resample: self.resample.or(under.resample),
             fade_in: self.fade_in.or(under.fade_in),
             conventions: self.conventions.clone(),
@@ -157,6 +163,7 @@ impl ConventionOptions {
 
     fn checked(&self) -> Result<Conventions, RecordingError> {
         let allowed = [
+            ("rate", self.rate, 1.0..=1e5, "samples a second"),
             ("resample", self.resample, 1.0..=1e5, "samples a second"),
             ("lap", self.lap, 1.0..=1e6, "laps"),
             ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
@@ -189,6 +196,7 @@ impl ConventionOptions {
             missing: self.missing.unwrap_or(Missing::Error),
             lap: self.lap.map(|lap| lap as usize),
             repair: self.repair,
+            rate: self.rate,
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
             dialect: Dialect::Command,

@@ -1,7 +1,8 @@
 //! From files to rows of numbers.
 //!
 //! - [`source`] finds the files of a recording and `text` reads them, but not those that `foreign`
-//!   tells from CSV. `vbox` makes CSV of Racelogic's files.
+//!   tells from CSV. `vbox` makes CSV of Racelogic's files, and `tagged` of logs
+//!   whose lines begin with their kind.
 //! - [`Sheet`] is a file with its header, before which there may be a `preamble`.
 //! - `rows` parses its lines, as `numbers` or as `time`, to [`Samples`].
 
@@ -12,6 +13,7 @@ mod rows;
 mod samples;
 mod sheet;
 pub mod source;
+mod tagged;
 mod text;
 mod time;
 mod vbox;

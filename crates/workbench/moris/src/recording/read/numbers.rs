@@ -5,21 +5,100 @@ use crate::recording::message::{given, quoted};
 /// Above all that is measured, in any unit: times in ns since 1970 are below 1e19.
 const LARGEST: f64 = 1e30;
 
-/// Parses numbers that all have the same decimal mark.
+/// Words for a value that is missing, in lower case.
+const MISSING: [&str; 31] = [
+    "",
+    "na",
+    "n/a",
+    "n.a.",
+    "#n/a",
+    "#na",
+    "<na>",
+    "nan",
+    "-nan",
+    "+nan",
+    "nan(ind)",
+    "-nan(ind)",
+    "1.#ind",
+    "-1.#ind",
+    "1.#qnan",
+    "-1.#qnan",
+    "1.#nan",
+    "nat",
+    "null",
+    "(null)",
+    "<null>",
+    "#null!",
+    "\\n",
+    "none",
+    "nil",
+    "missing",
+    "invalid",
+    "unavailable",
+    "#value!",
+    "#div/0!",
+    "#num!",
+];
+
+/// Parses numbers that all have the same decimal mark, and the same sign between thousands.
 #[derive(Default)]
 pub struct Numbers {
     mark: Option<char>,
+    /// Comma or point between thousands.
+    group: Option<char>,
 }
 
 impl Numbers {
+    /// The way in which the fields of some columns are written.
+    ///
+    /// A comma or point separates thousands where a number has both, or several, or where each is
+    /// before three digits among whole numbers below 1000. One that is not before three digits
+    /// shows that it is the decimal mark.
+    pub fn of<'a>(columns: impl Iterator<Item = impl Iterator<Item = &'a str>>) -> Self {
+        // By mark: it separates thousands for certain, perhaps, or not at all.
+        let (mut certain, mut likely, mut decimal) = ([false; 2], [false; 2], [false; 2]);
+        for column in columns {
+            let (mut grouped, mut has_small, mut has_large) = ([false; 2], false, false);
+            for field in column {
+                let digits = field.trim().trim_start_matches(['-', '+', '−']);
+                let counts = MARKS.map(|mark| digits.matches(mark).count());
+                if counts == [0, 0] {
+                    has_small |= !digits.is_empty() && digits.len() <= 3 && digits.bytes().all(|b| b.is_ascii_digit());
+                    has_large |= digits.len() > 3 && digits.bytes().all(|b| b.is_ascii_digit());
+                }
+                for (k, mark) in MARKS.into_iter().enumerate().filter(|(k, _)| counts[*k] > 0) {
+                    let is_first = counts[1 - k] > 0 && digits.find(mark) < digits.find(MARKS[1 - k]);
+                    let whole = if is_first { &digits[..digits.find(MARKS[1 - k]).unwrap_or(0)] } else { digits };
+                    match is_grouped(whole, mark) {
+                        true if is_first || counts[k] > 1 => certain[k] = true,
+                        true => grouped[k] = true,
+                        false => decimal[k] = true,
+                    }
+                }
+            }
+            (0..2).for_each(|k| likely[k] |= grouped[k] && has_small && !has_large);
+        }
+        let group = (0..2).find(|&k| (certain[k] || likely[k]) && !decimal[k]).map(|k| MARKS[k]);
+        Numbers { mark: None, group }
+    }
+
     /// A field's number.
     ///
     /// # Errors
     /// The reason why it is none.
     pub fn parse(&mut self, field: Option<&str>) -> Result<f64, String> {
         let text = field.ok_or("is missing: the line has too few fields")?.trim();
-        let mark = text.chars().find(|c| [',', '.'].contains(c));
-        let number = if mark == Some(',') { text.replacen(',', ".", 1).parse::<f64>() } else { text.parse::<f64>() };
+        // Nearly all numbers are plain.
+        let plain = text.parse::<f64>().ok().filter(|_| self.group.is_none() && self.mark != Some(','));
+        let cleaned;
+        let (number, mark) = match plain {
+            Some(number) => (Ok(number), text.contains('.').then_some('.')),
+            None => {
+                cleaned = self.cleaned(text);
+                let mark = cleaned.chars().find(|c| MARKS.contains(c));
+                (cleaned.replacen(',', ".", 1).parse::<f64>(), mark)
+            }
+        };
         if let (Some(mark), Ok(_)) = (mark, &number)
             && *self.mark.get_or_insert(mark) != mark
         {
@@ -35,10 +114,35 @@ impl Numbers {
                 Err(format!("is {}, which no sensor measures; cut this part off", quoted(text)))
             }
             Ok(_) => Err(format!("is {}; {}", quoted(text), remedy())),
-            Err(_) if text.is_empty() => Err(format!("is empty; {}", remedy())),
-            Err(_) => Err(format!("is \"{}\", which is not a number", quoted(text))),
+            _ if text.is_empty() => Err(format!("is empty; {}", remedy())),
+            _ if is_empty(Some(text)) => Err(format!("is \"{}\", which is no value; {}", quoted(text), remedy())),
+            _ => Err(format!("is \"{}\", which is not a number", quoted(text))),
         }
     }
+
+    /// The text with a plain minus, and without signs between thousands.
+    fn cleaned(&self, text: &str) -> String {
+        let is_apart = |c: char| matches!(c, '\'' | '’' | '_' | ' ' | '\u{a0}' | '\u{2009}' | '\u{202f}');
+        let groups = text.split(is_apart).skip(1);
+        let is_grouped = groups.clone().count() > 0
+            && groups.clone().all(|part| part.bytes().take_while(u8::is_ascii_digit).count() == 3);
+        let keeps = |c: &char| Some(*c) != self.group && !(is_grouped && is_apart(*c));
+        text.chars().filter(keeps).map(|c| if c == '−' { '-' } else { c }).collect()
+    }
+}
+
+/// Marks of decimals or between thousands.
+const MARKS: [char; 2] = [',', '.'];
+
+/// True for digits in groups of three behind the first one to three, which are no zero.
+fn is_grouped(text: &str, mark: char) -> bool {
+    let all_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let mut parts = text.split(mark);
+    let first = parts.next().unwrap_or_default();
+    (1..=3).contains(&first.len())
+        && !first.starts_with('0')
+        && all_digits(first)
+        && parts.all(|part| part.len() == 3 && all_digits(part))
 }
 
 /// The remedy for a gap.
@@ -46,12 +150,15 @@ fn remedy() -> String {
     format!("cut this part off, fill the gap with plausible values, or use {}", given("empty-fields", "interpolate"))
 }
 
-/// True for a field that holds nothing: empty, or NaN.
+/// True for a field that holds nothing: empty, a word for a missing value, or signs such as - or ?.
 pub fn is_empty(field: Option<&str>) -> bool {
-    field.is_none_or(|field| field.trim().is_empty() || field.trim().eq_ignore_ascii_case("nan"))
+    field.is_none_or(|field| {
+        let field = field.trim();
+        MISSING.iter().any(|word| field.eq_ignore_ascii_case(word)) || field.chars().all(|c| "-–—?*.".contains(c))
+    })
 }
 
 /// True for a number, with a decimal point or comma.
-pub fn is_number(field: &str) -> bool {
-    field.trim().replace(',', ".").parse::<f64>().is_ok()
+pub fn is_number(field: impl AsRef<str>) -> bool {
+    field.as_ref().trim().replace(',', ".").parse::<f64>().is_ok()
 }

@@ -5,32 +5,38 @@ use csv::{Position, StringRecord};
 use super::numbers::{Numbers, is_empty};
 use super::preamble::reader;
 use super::samples::Samples;
-use super::sheet::Sheet;
-use super::time::Times;
+use super::sheet::{Sheet, is_blank};
+use super::time;
 use crate::recording::conventions::{Conventions, EmptyFields};
 use crate::recording::message::RecordingError;
 
+/// Lines that show how numbers are written.
+const SHOWN: usize = 5000;
+
 impl Sheet {
-    /// Reads columns.
+    /// Reads columns, and the time in its unit, in seconds where it is written out.
     ///
     /// # Errors
     /// A value is not a number, a line has too many fields, there are fewer than two lines.
-    pub fn samples(&self, places: &[usize], time: usize, conventions: &Conventions) -> Result<Samples, RecordingError> {
-        let text = self.body();
+    pub fn samples(&self, places: &[usize], conventions: &Conventions) -> Result<Samples, RecordingError> {
+        let text = &self.body;
         let mut reader = reader(text, self.delimiter);
         let mut record = StringRecord::new();
         let mut advance =
             |record: &mut StringRecord| reader.read_record(record).map_err(|error| self.refused(error.to_string()));
-        for _ in 0..self.below {
-            advance(&mut record)?;
-        }
         let may_be_empty = conventions.empty_fields == EmptyFields::Interpolate;
-        let mut row =
-            Row { sheet: self, places, time, may_be_empty, numbers: Numbers::default(), times: Times::default() };
+        let mut row = Row { sheet: self, places, may_be_empty, numbers: self.numbers(places) };
         let mut samples = Samples::new(places);
         while advance(&mut record)? {
-            let line = self.start.1 + record.position().map_or(0, |position| line_of_record(position, text));
-            match row.parse(&record, line) {
+            if self.is_passed_over(&record) {
+                continue;
+            }
+            let line = self.first_line - 1 + record.position().map_or(0, |position| line_of_record(position, text));
+            let parsed = match conventions.rate {
+                Some(rate) => row.values(&record, line).map(|values| (samples.time.len() as f64 / rate, values)),
+                None => row.parse(&record, line),
+            };
+            match parsed {
                 Ok((time, values)) => samples.push(line, time, values),
                 Err(error) => {
                     let is_cut = record.len() < self.header.width() || !text.ends_with('\n');
@@ -44,7 +50,34 @@ impl Sheet {
         if samples.time.len() < 2 {
             return Err(self.refused("has fewer than two samples below its header"));
         }
+        if self.is_cut {
+            samples.warnings.push("The file ends with zero bytes in place of lines, which are left out.".to_owned());
+        }
         Ok(samples)
+    }
+
+    /// True for lines that are no samples: separators alone, comments, and the header once more, as
+    /// loggers write it when they start again.
+    fn is_passed_over(&self, record: &StringRecord) -> bool {
+        let is_comment = || record.get(0).is_some_and(|field| field.starts_with('%') || field.starts_with("//"));
+        let is_heading = |heading: &StringRecord| {
+            let fields = |record: &StringRecord| record.iter().map(|field| field.trim().to_owned()).collect::<Vec<_>>();
+            record.get(0) == heading.get(0) && fields(record) == fields(heading)
+        };
+        is_blank(record) || is_comment() || self.headings.iter().any(is_heading)
+    }
+
+    /// The way in which the first lines of columns are written. Between commas, a comma is no part
+    /// of a number without quotation marks.
+    fn numbers(&self, places: &[usize]) -> Numbers {
+        if self.delimiter == b',' && !self.body.contains('"') {
+            return Numbers::default();
+        }
+        let times = self.time.iter().flatten().filter(|_| !self.has_written_times).map(|term| term.place);
+        let places: Vec<usize> = times.chain(places.iter().copied()).collect();
+        let records: Vec<StringRecord> =
+            reader(&self.body, self.delimiter).into_records().take(SHOWN).filter_map(Result::ok).collect();
+        Numbers::of(places.iter().map(|&place| records.iter().filter_map(move |record| record.get(place))))
     }
 }
 
@@ -52,30 +85,39 @@ impl Sheet {
 struct Row<'a> {
     sheet: &'a Sheet,
     places: &'a [usize],
-    time: usize,
     may_be_empty: bool,
     numbers: Numbers,
-    times: Times,
 }
 
 impl Row<'_> {
     /// The time and the values of a line.
     fn parse(&mut self, record: &StringRecord, line: u64) -> Result<(f64, Vec<f64>), RecordingError> {
+        let sheet = self.sheet;
+        let mut total = 0.0;
+        for term in sheet.time.iter().flatten() {
+            let time = match record.get(term.place) {
+                Some(field) if sheet.has_written_times => time::parse(field),
+                field => self.numbers.parse(field),
+            };
+            let column = || Some(sheet.header.shown(term.place));
+            let time = time.map_err(|reason| RecordingError::line(&sheet.file, line, column(), reason))?;
+            total += term.factor * time;
+        }
+        Ok((total, self.values(record, line)?))
+    }
+
+    /// The values of a line.
+    fn values(&mut self, record: &StringRecord, line: u64) -> Result<Vec<f64>, RecordingError> {
         let header = &self.sheet.header;
         let refused = |column, reason| RecordingError::line(&self.sheet.file, line, column, reason);
         if record.iter().skip(header.width()).any(|field| !field.trim().is_empty()) {
             return Err(refused(None, too_many_fields(record.len(), header.width())));
         }
-        let time = match record.get(self.time) {
-            Some(field) if self.sheet.has_written_times => self.times.parse(field),
-            field => self.numbers.parse(field),
-        };
-        let time = time.map_err(|reason| refused(Some(header.shown(self.time)), reason))?;
         let value = |&place: &usize| match record.get(place) {
             field if self.may_be_empty && is_empty(field) => Ok(f64::NAN),
             field => self.numbers.parse(field).map_err(|reason| refused(Some(header.shown(place)), reason)),
         };
-        Ok((time, self.places.iter().map(value).collect::<Result<_, _>>()?))
+        self.places.iter().map(value).collect()
     }
 }
 

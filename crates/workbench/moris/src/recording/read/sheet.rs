@@ -2,87 +2,125 @@
 
 use std::path::{Path, PathBuf};
 
-use csv::{Reader, StringRecord};
+use csv::StringRecord;
 
 use super::numbers::is_number;
-use super::preamble::{delimiter, header_start, reader};
-use super::text::text;
+use super::preamble::{self, Found, Separator, reader, separator_below, tabulated};
+use super::text::{Text, text};
 use super::time::is_written_out;
-use super::{source, vbox};
-use crate::recording::columns::Header;
+use super::{source, tagged, vbox};
+use crate::recording::columns::{Header, Term};
 use crate::recording::conventions::{Conventions, Quantity};
-use crate::recording::message::RecordingError;
+use crate::recording::message::{RecordingError, given};
 
 /// A CSV file in memory.
 pub struct Sheet {
     /// The file as messages name it.
     pub file: PathBuf,
     pub header: Header,
-    /// The place of its time; none if it has no such column.
-    pub time: Option<usize>,
+    /// The columns of its time; none if it has none.
+    pub time: Option<Vec<Term>>,
     /// True where its times are dates or times of day.
     pub has_written_times: bool,
-    text: String,
-    /// Where the header begins in the text \[bytes\], and the number of lines before it.
-    pub(super) start: (usize, u64),
+    /// The lines below the header.
+    pub(super) body: String,
+    /// The number of the first of them.
+    pub(super) first_line: u64,
     pub(super) delimiter: u8,
-    /// Lines of units and sources below the header.
-    pub(super) below: usize,
+    /// The header, and the lines of units and sources below it, which may come again.
+    pub(super) headings: Vec<StringRecord>,
+    /// True where the file ends with bytes that are no text.
+    pub(super) is_cut: bool,
 }
 
 impl Sheet {
-    /// Opens a file: a header of names, then lines of numbers, with commas, semicolons or
-    /// tabulators between them. A line of units may follow the header, and a logger's preamble may
-    /// precede it. Lines that begin with # are comments. Between semicolons or tabulators, numbers
-    /// may have a decimal comma.
+    /// Opens a file: a header of names, then lines of numbers, with commas, semicolons, tabulators,
+    /// bars or blanks between them. A line of units may follow the header, and a logger's preamble
+    /// may precede it. Lines that begin with # or % are comments, of which one may be the header.
     ///
     /// # Errors
     /// The file cannot be read, is no CSV, or has no header.
     pub fn open(file: &Path, conventions: &Conventions) -> Result<Self, RecordingError> {
-        let text = text(file)?;
-        let text = vbox::as_csv(&text).unwrap_or(text);
+        let Text { text, is_cut } = text(file)?;
+        let text = vbox::as_csv(&text).or_else(|| tagged::as_csv(&text, conventions)).unwrap_or(text);
         let file = source::shown(file);
         let whole = |reason: &str| RecordingError::whole(&file, reason);
-        let start = header_start(&text, conventions);
-        let delimiter = delimiter(&text[start.0..]);
-        let mut reader = reader(&text[start.0..], delimiter);
-        let mut header = Header::new(reader.headers().map_err(|error| whole(&error.to_string()))?);
-        if header.is_blank() {
-            return Err(whole("is empty; the first line must name the columns"));
+        let found = preamble::find(&text, conventions);
+        let Found { mut titles, separator, end, line } = found.ok_or_else(|| whole(without_header(&text)))?;
+        let separator = separator_below(&text[end..], separator, titles.len());
+        let (body, delimiter) = match separator {
+            Separator::Sign(sign) => (text[end..].to_owned(), sign),
+            Separator::Blanks => (tabulated(&text[end..]), b'\t'),
+        };
+        drop(text);
+        // R names the rows, but not their column.
+        let row_names = separator == Separator::Blanks && body.starts_with('"');
+        if row_names && preamble::fields(body.lines().next().unwrap_or_default(), separator).len() == titles.len() + 1 {
+            titles.insert(0, String::new());
         }
-        if header.is_numbers() {
-            return Err(whole("begins with numbers; the first line must name the columns: time,ax,ay,az,wx,wy,wz"));
+        let mut header = Header::new(titles.iter().map(String::as_str));
+        let mut headings = vec![StringRecord::from(titles)];
+        let first = descriptions(&body, delimiter, &mut header, &mut headings);
+        let first = first.map_err(|error| whole(&error.to_string()))?;
+        let time = header.terms(conventions.column(Quantity::Time)).map_err(|reason| whole(&reason))?;
+        let mut time = time.filter(|_| conventions.rate.is_none());
+        if let Some(terms) = time.as_mut().filter(|terms| terms.len() > 1) {
+            header.scale_to_seconds(terms);
         }
-        let mut record = StringRecord::new();
-        let below = descriptions(&mut reader, &mut record, &mut header).map_err(|error| whole(&error.to_string()))?;
-        let time = header.place(conventions.column(Quantity::Time)).map_err(|reason| whole(&reason))?;
-        let has_written_times = time.and_then(|time| record.get(time)).is_some_and(is_written_out);
-        Ok(Sheet { file, header, time, has_written_times, text, start, delimiter, below })
-    }
-
-    /// The text from the header on.
-    pub(super) fn body(&self) -> &str {
-        &self.text[self.start.0..]
+        let has_written_times =
+            matches!(time.as_deref(), Some([one]) if first.get(one.place).is_some_and(is_written_out));
+        Ok(Sheet { file, header, time, has_written_times, body, first_line: line, delimiter, headings, is_cut })
     }
 
     /// An error of the file as a whole.
     pub fn refused(&self, reason: impl Into<String>) -> RecordingError {
         RecordingError::whole(&self.file, reason)
     }
+
+    /// The reason why the file has no time.
+    pub fn without_time(&self, conventions: &Conventions) -> RecordingError {
+        self.refused(format!(
+            "there is no column {}; if its samples come at equal steps, use {}",
+            conventions.column(Quantity::Time),
+            given("rate", "HERTZ")
+        ))
+    }
 }
 
-/// Reads the lines of units and sources below the header, and the first line of numbers after them
-/// into `record`. Returns how many there are.
-fn descriptions(reader: &mut Reader<&[u8]>, record: &mut StringRecord, header: &mut Header) -> csv::Result<usize> {
-    if !reader.read_record(record)? || !header.take_units(record.iter()) {
-        return Ok(0);
+/// The reason why a text has no header.
+fn without_header(text: &str) -> &'static str {
+    if text.trim().is_empty() {
+        "is empty; the first line must name the columns"
+    } else {
+        "begins with numbers; the first line must name the columns: time,ax,ay,az,wx,wy,wz"
     }
+}
+
+/// Reads the lines of units and of sources below the header into the header and the headings.
+/// Returns the first line of numbers.
+fn descriptions(
+    body: &str,
+    delimiter: u8,
+    header: &mut Header,
+    headings: &mut Vec<StringRecord>,
+) -> csv::Result<StringRecord> {
+    let mut records = reader(body, delimiter).into_records();
+    let mut next = || records.by_ref().find(|record| !record.as_ref().is_ok_and(is_blank)).transpose();
+    let mut record = next()?.unwrap_or_default();
+    if !header.take_units(record.iter()) {
+        return Ok(record);
+    }
+    headings.push(record);
+    record = next()?.unwrap_or_default();
     // Some loggers write the source of each column below its unit.
-    let is_source = reader.read_record(record)?
-        && !record.iter().any(|field| is_number(field) || is_written_out(field))
-        && record.iter().any(|field| !field.trim().is_empty());
-    if is_source {
-        reader.read_record(record)?;
+    if !record.is_empty() && !record.iter().any(|field| is_number(field) || is_written_out(field)) {
+        headings.push(record);
+        record = next()?.unwrap_or_default();
     }
-    Ok(if is_source { 2 } else { 1 })
+    Ok(record)
+}
+
+/// True for a line without any text, also one of separators alone, and for one that underlines.
+pub(super) fn is_blank(record: &StringRecord) -> bool {
+    record.iter().flat_map(str::chars).all(|c| c.is_whitespace() || "-=+:".contains(c))
 }

@@ -1,7 +1,8 @@
-//! Times that are not plain numbers: dates with a time (ISO 8601), and times of day.
+//! Times that are not plain numbers: dates with a time (ISO 8601), and times of day with or without
+//! another date.
 //!
-//! Of dates as 01/05/2026 the order of day and month is not known, and not needed: their times of
-//! day are used, also past midnight.
+//! Of dates as 01/05/2026 the order of day and month is not known, and month names are in any
+//! language. Neither is needed: their times of day are used, also past midnight.
 
 use jiff::Timestamp;
 use jiff::civil::DateTime;
@@ -9,44 +10,28 @@ use jiff::tz::TimeZone;
 
 use crate::recording::message::quoted;
 
-/// A day \[s\].
-const DAY: f64 = 86_400.0;
+/// Most words and numbers of a date beside its time of day.
+const MOST_WORDS: usize = 8;
 
 /// True where a field is a date and time or a time of day, and no number.
 pub fn is_written_out(field: &str) -> bool {
-    date(field.trim()).or_else(|| time_of_day(field.trim())).is_some()
+    parse(field).is_ok()
 }
 
-/// Reads the times of a column in order. A time of day that restarts at midnight
-/// continues with the next day.
-#[derive(Default)]
-pub struct Times {
-    midnights: f64,
-    last: f64,
-}
-
-impl Times {
-    /// The time in seconds: since 1970 for a date, since the first midnight for a time of day.
-    ///
-    /// # Errors
-    /// The field is neither.
-    pub fn parse(&mut self, field: &str) -> Result<f64, String> {
-        let text = field.trim();
-        if let Some(time) = date(text) {
-            return Ok(time);
-        }
-        let Some(time) = time_of_day(text) else {
-            return Err(format!(
-                "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z or 12:30:00.25",
-                quoted(text)
-            ));
-        };
-        if time + self.midnights < self.last - DAY / 2.0 {
-            self.midnights += DAY;
-        }
-        self.last = time + self.midnights;
-        Ok(self.last)
-    }
+/// The time in seconds: since 1970 for a date in ISO 8601, otherwise since midnight, or since the hour
+/// for minutes and seconds.
+///
+/// # Errors
+/// The field is neither.
+pub fn parse(field: &str) -> Result<f64, String> {
+    let text = field.trim();
+    date(text).or_else(|| compact(text)).or_else(|| time_of_day(text)).ok_or_else(|| {
+        format!(
+            "is \"{}\", which is no time; write seconds, 2026-05-01T12:30:00.25Z, 12:30:00.25, 20260501_123000.25, or a \
+             time of day with AM or PM behind it and a date beside it",
+            quoted(text)
+        )
+    })
 }
 
 /// A date with a time, in UTC unless it states its offset, as seconds since 1970.
@@ -63,47 +48,85 @@ fn date(text: &str) -> Option<f64> {
     Some(timestamp.as_nanosecond() as f64 * 1e-9)
 }
 
-/// The text after a date with the year at its end.
-fn without_date(text: &str) -> &str {
-    let is_date = |date: &str| {
-        let parts: Vec<&str> = date.split(['/', '.', '-']).collect();
-        let is_part = |part: &&str, digits: std::ops::RangeInclusive<usize>| {
-            digits.contains(&part.len()) && part.bytes().all(|byte| byte.is_ascii_digit())
-        };
-        matches!(&parts[..], [a, b, year] if is_part(a, 1..=2) && is_part(b, 1..=2) && is_part(year, 4..=4))
-    };
-    match text.split_once([' ', 'T']) {
-        Some((date, time)) if is_date(date) => time.trim_start(),
-        _ => text,
+/// `20260501_123000250` or `20260501T123000.25`, in seconds since midnight.
+fn compact(text: &str) -> Option<f64> {
+    let (date, time) = text.split_once(['_', 'T', 't', ' ', '-'])?;
+    let time = time.trim_end_matches(['Z', 'z']);
+    let digits = |text: &str| text.bytes().all(|byte| byte.is_ascii_digit());
+    if date.len() != 8 || !digits(date) || time.len() < 6 || !digits(time.get(..6)?) {
+        return None;
     }
+    let fraction = time[6..].trim_start_matches(['.', ',', '_', '-']);
+    digits(fraction).then_some(())?;
+    clock(&time[..2], &time[2..4], &format!("{}.{fraction}", &time[4..6]))
 }
 
-/// `h:m:s` or `m:s`, with decimals of a second, in seconds.
+/// The time of day in a text with a date of any kind, in seconds since midnight.
 fn time_of_day(text: &str) -> Option<f64> {
-    let parts: Vec<&str> = without_date(text).split(':').collect();
-    let (hours, minutes, seconds) = match parts[..] {
-        [hours, minutes, seconds] => (whole(hours)?, whole(minutes)?, seconds),
-        [minutes, seconds] => (0.0, whole(minutes)?, seconds),
-        _ => return None,
+    let colon = text.find(':')?;
+    let is_of_time = |c: char| c.is_ascii_digit() || ":.,".contains(c);
+    let begin = text[..colon].trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let end = text[colon..].find(|c| !is_of_time(c)).map_or(text.len(), |length| colon + length);
+    // A minus is no time of day.
+    let before = &text[..begin];
+    if !(before.is_empty() || before.ends_with([' ', 'T', '_', '\u{a0}', '\u{202f}']) || before.ends_with("  ")) {
+        return None;
+    }
+    let behind = text[end..].trim();
+    let half = [("am", 0.0), ("pm", 12.0)].into_iter().find_map(|(word, hours)| {
+        let letters = |c: &char| !['.', ' ', '\u{a0}', '\u{202f}'].contains(c);
+        let plain: String = behind.to_lowercase().chars().filter(letters).take(3).collect();
+        let is_word = plain.starts_with(word) && !plain.chars().nth(2).is_some_and(char::is_alphabetic);
+        is_word.then_some(hours)
+    });
+    if !is_date(before) || !(half.is_some() || is_date(behind)) {
+        return None;
+    }
+    let time = &text[begin..end];
+    let parts: Vec<&str> = time.split(':').collect();
+    let seconds = match parts[..] {
+        [hours, minutes, seconds] => clock(hours, minutes, seconds),
+        // The fraction of a second behind a colon.
+        [hours, minutes, seconds, fraction] if fraction.len() >= 3 && seconds.len() == 2 => {
+            clock(hours, minutes, &format!("{seconds}.{fraction}"))
+        }
+        [minutes, seconds] => clock("0", minutes, seconds),
+        _ => None,
+    }?;
+    let Some(half) = half else { return Some(seconds) };
+    (seconds < 13.0 * 3600.0).then(|| seconds % (12.0 * 3600.0) + 3600.0 * half)
+}
+
+/// True for words and numbers that may stand beside a time of day: a date, a time zone.
+fn is_date(text: &str) -> bool {
+    let is_joint = |c: char| c.is_whitespace() || "/.,-+:_()T".contains(c);
+    let words: Vec<&str> = text.split(is_joint).filter(|word| !word.is_empty()).collect();
+    let is_word = |word: &&str| {
+        word.len() <= 4 && word.bytes().all(|b| b.is_ascii_digit()) || word.chars().all(char::is_alphabetic)
     };
+    let letters: usize = words.iter().filter(|word| word.chars().all(char::is_alphabetic)).map(|word| word.len()).sum();
+    words.len() <= MOST_WORDS && words.iter().all(is_word) && letters <= 30
+}
+
+/// Hours, minutes, and seconds with decimals, in seconds.
+fn clock(hours: &str, minutes: &str, seconds: &str) -> Option<f64> {
+    let whole = |text: &str| text.parse::<u32>().ok().map(f64::from);
     if !seconds.starts_with(|c: char| c.is_ascii_digit()) {
         return None;
     }
     let seconds: f64 = seconds.replacen(',', ".", 1).parse().ok()?;
-    (seconds < 61.0).then_some(3600.0 * hours + 60.0 * minutes + seconds)
-}
-
-fn whole(text: &str) -> Option<f64> {
-    text.trim().parse::<u32>().ok().map(f64::from)
+    (seconds < 61.0).then_some(3600.0 * whole(hours)? + 60.0 * whole(minutes)? + seconds)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const DAY: f64 = 86_400.0;
+
     #[test]
     fn dates_and_times_of_day_are_seconds() {
-        let parse = |text: &str| Times::default().parse(text).unwrap();
+        let parse = |text: &str| parse(text).unwrap();
         // 2026-05-01 is day 20574 of the epoch.
         let noon = 20_574.0 * DAY + 12.0 * 3600.0;
         for text in [
@@ -117,22 +140,37 @@ mod tests {
             assert!(is_written_out(text), "{text}");
         }
         assert!((parse("2026-05-01T12:00:00.250Z") - noon - 0.25).abs() < 1e-6);
-        assert_eq!(parse("12:30:00.25"), 45_000.25);
-        assert_eq!(parse("12:30:00,25"), 45_000.25);
         assert_eq!(parse("01:02.5"), 62.5);
-        for text in ["12.5", "1e3", "-1:2", "1:2:3:4", "12:xx", "2026-05-01", ""] {
+        for text in
+            ["12.5", "1e3", "-1:2", "1:2:3:4", "12:xx", "2026-05-01", "", ":", "1:", "é:1", "12:30:00 13 PM x9y"]
+        {
             assert!(!is_written_out(text), "{text}");
         }
     }
 
     #[test]
-    fn midnight_is_passed() {
-        let mut times = Times::default();
-        let parsed: Vec<f64> =
-            ["23:59:59.5", "00:00:00.0", "00:00:00.5"].iter().map(|text| times.parse(text).unwrap()).collect();
-        assert_eq!(parsed, [86_399.5, 86_400.0, 86_400.5]);
-        // A time that merely goes back is left to the check of the order.
-        let mut times = Times::default();
-        assert_eq!((times.parse("10:00:00"), times.parse("09:59:59")), (Ok(36_000.0), Ok(35_999.0)));
+    fn the_time_of_day_is_found_beside_any_date() {
+        for text in [
+            "12:30:00.25",
+            "12:30:00,25",
+            "12:30:00:250",
+            "12:30:00.25 PM",
+            "12:30:00.25 p.m.",
+            "05/01/2026 12:30:00.25",
+            "01.05.2026 12:30:00,25",
+            "01-May-2026 12:30:00.25",
+            "01-may.-2026 12:30:00.25",
+            "May 1, 2026 12:30:00.25 PM",
+            "Fri May 01 12:30:00.25 GMT+01:00 2026",
+            "Fri, 01 May 2026 12:30:00.25 +0100",
+            "1. März 2026 12:30:00,25",
+            "20260501_123000250",
+            "20260501T123000.25",
+            "20260501 123000.25",
+        ] {
+            assert_eq!(parse(text), Ok(45_000.25), "{text}");
+        }
+        assert_eq!((parse("12:00:01 AM"), parse("1:00:00 pm")), (Ok(1.0), Ok(46_800.0)));
+        assert_eq!(parse("59:59.5"), Ok(3599.5));
     }
 }

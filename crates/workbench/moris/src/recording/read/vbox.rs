@@ -7,10 +7,12 @@
 use crate::recording::columns::units::any_spelled;
 
 /// Names of channels in the loggers' spellings without spaces and signs, and as the format `vbox`
-/// has them. The first that a file has counts: an inertial unit's before a satellite receiver's.
-const NAMES: [(&str, &[&str]); 7] = [
+/// has them, with the unit of a file that gives none. The first that a file has counts: an inertial
+/// unit's before a satellite receiver's.
+const NAMES: [(&str, &str, &[&str]); 7] = [
     (
         "longitudinal accel",
+        "g",
         &[
             "xaccel",
             "longacc",
@@ -23,13 +25,14 @@ const NAMES: [(&str, &[&str]); 7] = [
     ),
     (
         "lateral accel",
+        "g",
         &["yaccel", "latacc", "lataccg", "lataccel", "lateralacc", "lateralaccel", "lateralacceleration"],
     ),
-    ("vertical accel", &["zaccel", "vertacc", "vertaccel", "verticalaccel", "verticalacceleration"]),
-    ("roll rate", &["rollrate", "xrate"]),
-    ("pitch rate", &["pitchrate", "yrate"]),
-    ("yaw rate", &["yawrate", "zrate"]),
-    ("speed", &["velocity", "velocitykmh"]),
+    ("vertical accel", "g", &["zaccel", "vertacc", "vertaccel", "verticalaccel", "verticalacceleration"]),
+    ("roll rate", "deg/s", &["rollrate", "xrate", "xrotationgyroscope", "xrateofrotation", "gyrox"]),
+    ("pitch rate", "deg/s", &["pitchrate", "yrate", "yrotationgyroscope", "yrateofrotation", "gyroy"]),
+    ("yaw rate", "deg/s", &["yawrate", "zrate", "zrotationgyroscope", "zrateofrotation", "gyroz"]),
+    ("speed", "km/h", &["velocity", "velocitykmh", "speed"]),
 ];
 
 /// The text as CSV with the same lines; none if it is no .vbo file.
@@ -84,11 +87,13 @@ fn titles(text: &str, names: &[&str]) -> Vec<String> {
         let spelled = |spellings: &[&str]| {
             spellings.iter().find_map(|spelling| plain.iter().position(|name| name == spelling)) == Some(place)
         };
-        NAMES.iter().find(|(_, spellings)| spelled(spellings)).map_or(names[place], |(name, _)| name)
+        let found = NAMES.iter().find(|(_, _, spellings)| spelled(spellings));
+        found.map_or((names[place], None), |(name, unit, _)| (*name, Some(*unit)))
     };
     let title = |place: usize| {
-        let name = called(place).replace(',', " ");
-        unit(place).map_or_else(|| name.clone(), |unit| format!("{name} [{unit}]"))
+        let (name, usual) = called(place);
+        let name = name.replace(',', " ");
+        unit(place).or(usual).map_or_else(|| name.clone(), |unit| format!("{name} [{unit}]"))
     };
     (0..names.len()).map(title).collect()
 }

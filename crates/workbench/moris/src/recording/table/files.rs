@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use super::clocks::Clock;
 use super::join::{self, Part};
-use super::{Table, gaps};
-use crate::recording::columns::{Header, value_places};
-use crate::recording::conventions::{Conventions, Quantity};
+use super::{Table, gaps, placeholders};
+use crate::recording::columns::{Column, Header, UnitSource, value_places};
+use crate::recording::conventions::{Conventions, TimeUnit};
 use crate::recording::message::RecordingError;
 use crate::recording::read::{Samples, Sheet, source};
 
@@ -37,9 +38,11 @@ pub fn recordings(paths: &[PathBuf], conventions: &Conventions) -> Vec<PathBuf> 
 
 fn of_file(file: &Path, conventions: &Conventions) -> Result<Table, RecordingError> {
     let sheet = Sheet::open(file, conventions)?;
-    let columns = sheet.header.columns(conventions, sheet.has_written_times);
+    let columns = sheet.header.columns(conventions, sheet.has_written_times || conventions.rate.is_some());
     let layout = columns.map_err(|reason| sheet.refused(reason))?;
-    let samples = samples(&sheet, &value_places(&layout), conventions)?;
+    let mut samples = samples(&sheet, &value_places(&layout), &layout, conventions)?;
+    let warnings = placeholders::warnings(&sheet, &samples, &layout, conventions);
+    samples.warnings.extend(warnings);
     Ok(Table::new(sheet.file, layout, samples, conventions))
 }
 
@@ -69,7 +72,8 @@ fn of_files(
         let used = places.iter().filter(|place| (first..end).contains(place));
         let own: Vec<usize> = used.map(|place| place - first).collect();
         if !own.is_empty() {
-            let mut samples = samples(sheet, &own, conventions)?;
+            let own_layout = from_place(&layout, first);
+            let mut samples = samples(sheet, &own, &own_layout, conventions)?;
             samples.columns.iter_mut().for_each(|(place, _)| *place += first);
             parts.push(Part { file: sheet.file.clone(), samples });
         } else if !is_directory {
@@ -81,14 +85,35 @@ fn of_files(
     Ok(Table::new(name, layout, samples, conventions))
 }
 
+/// The layout with the places in the file whose columns begin at one.
+fn from_place(layout: &[Column], first: usize) -> Vec<Column> {
+    let mut own = layout.to_vec();
+    for term in own.iter_mut().flat_map(|column| &mut column.terms) {
+        term.place = term.place.wrapping_sub(first);
+    }
+    own
+}
+
 /// The samples of a file without gaps, with the time in seconds.
-fn samples(sheet: &Sheet, places: &[usize], conventions: &Conventions) -> Result<Samples, RecordingError> {
-    let refused = |reason| sheet.refused(reason);
-    let no_time = || refused(format!("there is no column {}", conventions.column(Quantity::Time)));
-    let time = sheet.time.ok_or_else(no_time)?;
-    let unit = sheet.header.time_unit(time, sheet.has_written_times, conventions).map_err(refused)?;
-    let mut samples = sheet.samples(places, time, conventions)?;
-    samples.time.iter_mut().for_each(|time| *time *= unit.in_si);
-    gaps::fill(&mut samples, sheet)?;
+fn samples(
+    sheet: &Sheet,
+    places: &[usize],
+    layout: &[Column],
+    conventions: &Conventions,
+) -> Result<Samples, RecordingError> {
+    let mut samples = sheet.samples(places, conventions)?;
+    if conventions.rate.is_none() {
+        let terms = sheet.time.clone().ok_or_else(|| sheet.without_time(conventions))?;
+        let is_written = sheet.has_written_times;
+        let (unit, source) = if is_written {
+            (TimeUnit::Second.unit(), UnitSource::Header)
+        } else {
+            sheet.header.time_unit(&terms, conventions).map_err(|reason| sheet.refused(reason))?
+        };
+        let (unit, is_open) = (unit.in_si, source == UnitSource::Default);
+        let clock = Clock { time: &mut samples.time, unit, is_open, is_written };
+        samples.warnings.extend(clock.to_seconds());
+    }
+    gaps::fill(&mut samples, sheet, layout)?;
     Ok(samples)
 }

@@ -1,6 +1,8 @@
 //! Gaps in columns that are sampled at different rates.
 
+use super::interpolation::between;
 use super::times::LONGEST_GAP;
+use crate::recording::columns::{Column, period};
 use crate::recording::message::RecordingError;
 use crate::recording::read::{Samples, Sheet};
 
@@ -9,7 +11,7 @@ use crate::recording::read::{Samples, Sheet};
 ///
 /// # Errors
 /// A column has no values, or at no time do all columns have values.
-pub fn fill(samples: &mut Samples, sheet: &Sheet) -> Result<(), RecordingError> {
+pub fn fill(samples: &mut Samples, sheet: &Sheet, layout: &[Column]) -> Result<(), RecordingError> {
     if samples.columns.iter().flat_map(|(_, values)| values).all(|value| !value.is_nan()) {
         return Ok(());
     }
@@ -33,7 +35,7 @@ pub fn fill(samples: &mut Samples, sheet: &Sheet) -> Result<(), RecordingError> 
             }
             for k in a + 1..b {
                 let t = if span > 0.0 { (time[k] - time[a]) / span } else { 0.0 };
-                values[k] = values[a] + t * (values[b] - values[a]);
+                values[k] = between(values[a], values[b], t, period(layout, *place));
             }
         }
     }

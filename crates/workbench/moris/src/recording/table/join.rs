@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::interpolation::{places, values};
 use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
-use crate::recording::columns::Column;
+use crate::recording::columns::{Column, period};
 use crate::recording::conventions::Quantity;
 use crate::recording::message::RecordingError;
 use crate::recording::read::Samples;
@@ -89,7 +89,8 @@ pub fn by_time(
     let mut joined = Samples { time, columns: Vec::new(), lines, warnings: Vec::new() };
     for part in &parts {
         let places = places(&part.samples.time, &joined.time);
-        let columns = part.samples.columns.iter().map(|(place, column)| (*place, values(&places, column)));
+        let columns = part.samples.columns.iter();
+        let columns = columns.map(|(place, column)| (*place, values(&places, column, period(layout, *place))));
         joined.columns.extend(columns);
         joined.warnings.extend(part.samples.warnings.iter().cloned().chain(part.gap()));
     }

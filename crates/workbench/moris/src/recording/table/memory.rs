@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::Table;
 use crate::recording::columns::{Header, value_places};
-use crate::recording::conventions::Conventions;
+use crate::recording::conventions::{Conventions, Quantity};
 use crate::recording::message::{RecordingError, quoted};
 use crate::recording::read::Samples;
 
@@ -21,9 +21,20 @@ pub fn of_columns(
     let file = PathBuf::from(name);
     let refused = |reason: String| RecordingError::whole(&file, reason);
     let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
-    let layout = header.columns(conventions, false).map_err(refused)?;
+    let layout = header.columns(conventions, conventions.rate.is_some()).map_err(refused)?;
+    let count = layout.first().and_then(|column| column.terms.first()).map_or(0, |term| columns[term.place].1.len());
     // The time is the first of all quantities.
-    let (time, unit) = (&columns[layout[0].terms[0].place].1, layout[0].unit);
+    let of_time = layout.first().filter(|column| column.quantity == Quantity::Time);
+    let time: Vec<f64> = (0..count)
+        .map(|sample| match (of_time, conventions.rate) {
+            (Some(column), _) => {
+                let values =
+                    column.terms.iter().map(|term| term.factor * columns[term.place].1.get(sample).unwrap_or(&0.0));
+                column.unit.in_si * values.sum::<f64>()
+            }
+            (None, rate) => sample as f64 / rate.unwrap_or(1.0),
+        })
+        .collect();
     if time.len() < 2 {
         return Err(refused("has fewer than two samples".to_owned()));
     }
@@ -39,9 +50,9 @@ pub fn of_columns(
         }
     }
     let samples = Samples {
-        time: time.iter().map(|time| time * unit.in_si).collect(),
         columns: value_places(&layout).into_iter().map(|place| (place, columns[place].1.clone())).collect(),
         lines: (1..=time.len() as u64).collect(),
+        time,
         warnings: Vec::new(),
     };
     Ok(Table::new(file, layout, samples, conventions))

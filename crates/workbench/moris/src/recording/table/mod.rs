@@ -1,16 +1,20 @@
 //! The numbers of a recording, column by column, in SI units.
 //!
 //! - `files` reads a table from files, and `memory` from columns in memory.
+//! - `clocks` continues clocks that begin again.
 //! - `gaps` fills gaps in columns, and `join` makes one table of several files.
+//! - `placeholders` finds columns that stand still beside others that move.
 //! - [`laps`] chooses one of several laps.
 //! - [`sampling`] makes the steps of time equal, by `interpolation`. `times` examines times.
 
+mod clocks;
 mod files;
 mod gaps;
 mod interpolation;
 mod join;
 pub mod laps;
 mod memory;
+mod placeholders;
 pub mod sampling;
 mod times;
 
@@ -51,7 +55,7 @@ impl Table {
         let Samples { time, columns, lines, warnings } = samples;
         let values: BTreeMap<usize, Vec<f64>> = columns.into_iter().collect();
         let sum = |column: &Column| -> Vec<f64> {
-            let at = |sample: usize| column.terms.iter().map(|t| t.sign * values[&t.place][sample]).sum::<f64>();
+            let at = |sample: usize| column.terms.iter().map(|t| t.factor * values[&t.place][sample]).sum::<f64>();
             (0..time.len()).map(|sample| at(sample) * column.unit.in_si).collect()
         };
         let measured = layout.iter().filter(|column| column.quantity != Quantity::Time);

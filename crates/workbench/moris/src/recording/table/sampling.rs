@@ -1,9 +1,15 @@
 //! Resampling at equal steps. Measures and comparisons need them, the washout's filters do not.
 
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
 use super::Table;
-use super::interpolation::{places, values};
+use super::interpolation::{orientations, places, values};
 use super::times::{LONGEST_GAP, disorder, gaps, spread_equal_times, usual_step};
-use crate::recording::conventions::{Conventions, Quantity};
+use clap::ValueEnum;
+use moris_interface::shown;
+
+use crate::recording::conventions::{Conventions, Quantity, TimeUnit, Unit};
 use crate::recording::message::{RecordingError, given, named};
 
 /// Largest distance of a sample from its time at equal steps \[fractions of a step\]. It allows for
@@ -12,7 +18,7 @@ const JITTER: f64 = 0.2;
 /// Coarsest step of a usable recording \[s\].
 const COARSEST: f64 = 0.25;
 /// Finest step: below it, time is in another unit \[s\].
-const FINEST: f64 = 1e-5;
+const FINEST: f64 = 1e-4;
 /// Largest number of samples: about a day at 100 Hz.
 const MOST_SAMPLES: f64 = 1e7;
 
@@ -38,15 +44,29 @@ pub fn at_equal_steps(mut table: Table, conventions: &Conventions) -> Result<(Ta
 
 fn check_unit(table: &Table) -> Result<(), RecordingError> {
     let usual = usual_step(&table.time);
-    let unit = table.unit(Quantity::Time).0.word;
+    let (unit, _) = table.unit(Quantity::Time);
     let reason = if usual > COARSEST {
         format!("too coarse for a washout; if time is in ms or another unit, give it with {}", named("time-unit"))
     } else if usual < FINEST {
-        format!("finer than any recording; give the unit of time with {}", named("time-unit"))
+        let others = TimeUnit::value_variants().iter().map(|other| other.unit());
+        let rate = |other: Unit| unit.in_si / (usual * other.in_si);
+        let fits = |other: &Unit| (4.0..=2000.0).contains(&rate(*other));
+        let fitting: Vec<String> = others
+            .filter(fits)
+            .map(|other| format!("{} if it is in {}", shown(rate(other).round()), other.word))
+            .collect();
+        let fitting = if fitting.is_empty() { String::new() } else { format!(" ({})", fitting.join(", ")) };
+        format!(
+            "{:.0} samples a second are more than any recording has{fitting}; give the unit of time with {}, or its scale \
+             with {}",
+            1.0 / usual,
+            named("time-unit"),
+            given("columns", format!("\"time={} * 1000\"", "NAME"))
+        )
     } else {
         return Ok(());
     };
-    Err(table.refused(format!("samples come every {usual} s if time is in {unit}: {reason}")))
+    Err(table.refused(format!("samples come every {usual} s if time is in {}: {reason}", unit.word)))
 }
 
 fn check_equal(table: &Table) -> Result<(), RecordingError> {
@@ -79,7 +99,13 @@ fn resampled(table: Table, rate: f64) -> Result<(Table, Vec<String>), RecordingE
     let count = (steps.floor() as usize + 1).max(2);
     let time: Vec<f64> = (0..count).map(|k| first + k as f64 / rate).collect();
     let places = places(&table.time, &time);
-    let columns = table.columns.iter().map(|(&quantity, column)| (quantity, values(&places, column))).collect();
+    let interpolated = |(&quantity, column): (&Quantity, &Vec<f64>)| {
+        (quantity, values(&places, column, quantity.is_angle().then_some(TAU)))
+    };
+    let mut columns: BTreeMap<Quantity, Vec<f64>> = table.columns.iter().map(interpolated).collect();
+    if let [Some(roll), Some(pitch), Some(yaw)] = Quantity::ANGLES.map(|angle| table.columns.get(&angle)) {
+        columns.extend(Quantity::ANGLES.into_iter().zip(orientations(&places, [roll, pitch, yaw])));
+    }
     let lines = places.iter().map(|place| table.lines[place.after]).collect();
     let gap = |(step, line)| {
         format!("Nothing was recorded for {step:.2} s after line {line}; the gap is interpolated linearly.")

@@ -49,17 +49,17 @@ pub fn error_values(table: &Table, quantity: Quantity, values: &[f64]) -> Vec<us
 
 /// Isolated samples: one or two that are far from those before and after them.
 pub fn spikes(quantity: Quantity, values: &[f64]) -> Vec<usize> {
-    // Yaw jumps by a turn.
-    if quantity == Quantity::Angle(2) {
+    // Angles jump by a turn.
+    if quantity.is_angle() {
         return Vec::new();
     }
     let (largest, least_spike) = largest_and_least_spike(quantity.dimension());
     let window = |k: usize, reach: usize| k.saturating_sub(reach)..(k + reach + 1).min(values.len());
     let deviation = |k: usize| (values[k] - median(values[window(k, NEIGHBOURS)].iter().copied())).abs();
+    let deviations: Vec<f64> = (0..values.len()).map(deviation).collect();
     let is_spike = |&k: &usize| {
-        let deviation_here = deviation(k);
-        deviation_here > least_spike
-            && (values[k].abs() > largest || deviation_here > SPREADS * spread(window(k, AROUND).map(deviation)))
+        let around = || spread(deviations[window(k, AROUND)].iter().copied());
+        deviations[k] > least_spike && (values[k].abs() > largest || deviations[k] > SPREADS * around())
     };
     (0..values.len()).filter(is_spike).collect()
 }

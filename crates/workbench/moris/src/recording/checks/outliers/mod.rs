@@ -29,7 +29,9 @@ pub fn check(table: &mut Table, repair: bool) -> Result<Vec<String>, RecordingEr
         }
         let spikes: Vec<usize> =
             spikes(quantity, values).into_iter().filter(|spike| errors.binary_search(spike).is_err()).collect();
-        warnings.extend(flat_tops(values).iter().map(|tops| flat_top_warning(table, quantity, tops)));
+        let is_sensor = matches!(quantity, Quantity::Force(_) | Quantity::Rate(_));
+        let tops = if is_sensor { flat_tops(values) } else { Vec::new() };
+        warnings.extend(tops.iter().map(|tops| flat_top_warning(table, quantity, tops)));
         if repair && !(errors.is_empty() && spikes.is_empty()) {
             let mut wrong = [errors, spikes].concat();
             wrong.sort_unstable();

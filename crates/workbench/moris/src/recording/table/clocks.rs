@@ -1,0 +1,162 @@
+//! Clocks that begin again, and times that are other numbers than seconds: HHMMSS, and days.
+
+use super::times::usual_step;
+use crate::recording::message::named;
+
+/// A day \[s\].
+const DAY: f64 = 86_400.0;
+/// Periods of clocks in seconds: minutes and seconds, twelve hours, a day, a week of satellites.
+const PERIODS: [f64; 4] = [3600.0, 43_200.0, DAY, 7.0 * DAY];
+/// Bits of counters.
+const BITS: [i32; 5] = [16, 24, 30, 31, 32];
+/// Longest step over a clock's end \[usual steps\].
+const LONGEST: f64 = 20.0;
+/// Serial numbers of days: since 1970, since 1899 as spreadsheets count, and Julian \[d\].
+const SERIAL: [f64; 2] = [10_000.0, 3e6];
+/// Steps that are those of recordings \[s\].
+const STEPS: [f64; 2] = [1e-4, 0.25];
+
+/// Times in a unit, in the file's order.
+pub struct Clock<'a> {
+    pub time: &'a mut Vec<f64>,
+    /// The unit \[s\].
+    pub unit: f64,
+    /// True where neither the file nor an option gives the unit.
+    pub is_open: bool,
+    /// True for dates and times of day.
+    pub is_written: bool,
+}
+
+impl Clock<'_> {
+    /// Brings the times to seconds that go on. Returns warnings.
+    pub fn to_seconds(self) -> Vec<String> {
+        let Clock { time, unit, is_open, is_written } = self;
+        let mut warnings = Vec::new();
+        if is_open && is_serial_days(time) {
+            let first = time[0].floor();
+            time.iter_mut().for_each(|time| *time = (*time - first) * DAY);
+            let option = named("time-unit");
+            warnings
+                .push(format!("The times are read as days, as spreadsheets write dates; {option} gives another unit."));
+        } else if !is_written && let Some(seconds) = of_digits(time, unit) {
+            *time = seconds;
+            warnings.push("The times are read as HHMMSS: they leave out the seconds from 60 to 99.".to_owned());
+            go_on(time, &PERIODS);
+        } else {
+            let counters = BITS.map(|bits| 2f64.powi(bits));
+            let micros = [32, 31].map(|bits| 1e-6 * 2f64.powi(bits) / unit);
+            let millis = [32, 31].map(|bits| 1e-3 * 2f64.powi(bits) / unit);
+            let periods: Vec<f64> =
+                PERIODS.map(|period| period / unit).into_iter().chain(micros).chain(millis).collect();
+            let counted: &[f64] = if is_written { &[] } else { &counters };
+            if let Some(sample) = go_on(time, &[&periods, counted].concat()).filter(|_| !is_written) {
+                warnings.push(format!("The clock begins again at sample {}; its times are continued.", sample + 1));
+            }
+            time.iter_mut().for_each(|time| *time *= unit);
+        }
+        warnings
+    }
+}
+
+/// Adds a period wherever the clock begins again: where a step back is a usual step with the period
+/// added, or half a day back. Returns the first such sample.
+fn go_on(time: &mut [f64], periods: &[f64]) -> Option<usize> {
+    let usual = usual_step(time);
+    let (mut added, mut first) = (0.0, None);
+    let mut before = *time.first()?;
+    for (sample, time) in time.iter_mut().enumerate().skip(1) {
+        let step = *time - before;
+        before = *time;
+        if step < 0.0 && usual > 0.0 {
+            let fits = |period: &&f64| step + **period > 0.0 && step + **period <= LONGEST * usual;
+            if let Some(period) = periods.iter().find(fits) {
+                added += period;
+                first = first.or(Some(sample));
+            }
+        }
+        *time += added;
+    }
+    first
+}
+
+/// True for days since a date: as seconds they would come at more than 100 kHz.
+fn is_serial_days(time: &[f64]) -> bool {
+    let step = usual_step(time) * DAY;
+    time.iter().all(|time| (SERIAL[0]..SERIAL[1]).contains(time)) && (STEPS[0]..=STEPS[1]).contains(&step)
+}
+
+/// The seconds of times of day HHMMSS, also with a date before or milliseconds behind; none where they
+/// may be plain numbers, as those that leave out nothing.
+fn of_digits(time: &[f64], unit: f64) -> Option<Vec<f64>> {
+    if unit != 1.0 && unit != 1e-3 {
+        return None;
+    }
+    [1.0, 1e-3].into_iter().find_map(|scale| {
+        let seconds: Vec<f64> = time.iter().map(|time| seconds(time * scale)).collect::<Option<_>>()?;
+        let usual = usual_step(&seconds);
+        let leaves_out = |k: usize| {
+            let (step, written) = (seconds[k] - seconds[k - 1], scale * (time[k] - time[k - 1]));
+            let is_usual = step > 0.0 && step <= 3.0 * usual;
+            is_usual && (written - step > 39.0)
+        };
+        (1..time.len()).any(leaves_out).then_some(seconds)
+    })
+}
+
+/// The seconds since midnight of HHMMSS; none if it is no time of day.
+fn seconds(digits: f64) -> Option<f64> {
+    let time = digits % 1e6;
+    let (hours, minutes, seconds) = ((time / 1e4).floor(), (time % 1e4 / 100.0).floor(), time % 100.0);
+    (digits >= 0.0 && hours < 24.0 && minutes < 60.0 && seconds < 60.0)
+        .then_some(3600.0 * hours + 60.0 * minutes + seconds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The times in seconds of 50 samples a second, written by a function.
+    fn read(unit: f64, is_written: bool, write: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut time: Vec<f64> = (0..1500).map(|k| write(0.02 * f64::from(k))).collect();
+        Clock { time: &mut time, unit, is_open: !is_written, is_written }.to_seconds();
+        let first = time[0];
+        time.into_iter().map(|time| time - first).collect()
+    }
+
+    fn assert_goes_on(time: &[f64], name: &str) {
+        for (k, time) in time.iter().enumerate() {
+            assert!((time - 0.02 * k as f64).abs() < 1e-4, "{name}: {k}: {time}");
+        }
+    }
+
+    #[test]
+    fn clocks_that_begin_again_are_continued() {
+        let counter =
+            |bits: i32, ticks: f64| move |t: f64| (2f64.powi(bits) + (t - 12.0) * ticks).round() % 2f64.powi(bits);
+        assert_goes_on(&read(1e-6, false, counter(32, 1e6)), "microseconds");
+        assert_goes_on(&read(1e-3, false, counter(16, 1e3)), "milliseconds");
+        assert_goes_on(&read(1.0, false, |t| (604_788.0 + t) % 604_800.0), "week");
+        assert_goes_on(&read(1e-3, false, |t| 1e3 * ((604_788.0 + t) % 604_800.0)), "week in ms");
+        assert_goes_on(&read(1.0, true, |t| (86_390.0 + t) % 86_400.0), "midnight");
+        assert_goes_on(&read(1.0, true, |t| (3590.0 + t) % 3600.0), "minutes");
+        assert_goes_on(&read(1.0, true, |t| 3600.0 + (43_190.0 + t) % 43_200.0), "twelve hours");
+        // Laps begin again at no clock's end.
+        let laps = read(1.0, false, |t| t % 15.0);
+        assert!((laps[750] - 0.0).abs() < 1e-9, "{}", laps[750]);
+    }
+
+    #[test]
+    fn digits_and_days_are_seconds() {
+        let digits = |t: f64| {
+            let s = 45_590.0 + t;
+            1e4 * (s / 3600.0).floor() + 100.0 * (s % 3600.0 / 60.0).floor() + (s % 60.0 * 1e3).round() / 1e3
+        };
+        assert_goes_on(&read(1.0, false, digits), "HHMMSS");
+        assert_goes_on(&read(1.0, false, |t| 1e3 * digits(t)), "HHMMSSmmm");
+        assert_goes_on(&read(1.0, false, |t| 20_260_501e6 + digits(t)), "YYYYMMDDHHMMSS");
+        for day in [20_574.0, 46_143.0, 740_102.0] {
+            assert_goes_on(&read(1.0, false, |t| day + 0.5 + t / DAY), "days");
+        }
+        assert_goes_on(&read(1.0, false, |t| 20_574.0 + t), "seconds");
+    }
+}
