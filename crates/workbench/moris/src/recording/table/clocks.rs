@@ -29,7 +29,7 @@ pub struct Clock<'a> {
 
 impl Clock<'_> {
     /// Brings the times to seconds that go on. Returns warnings.
-    pub fn to_seconds(self) -> Vec<String> {
+    pub fn into_seconds(self) -> Vec<String> {
         let Clock { time, unit, is_open, is_written } = self;
         let mut warnings = Vec::new();
         if is_open && is_serial_days(time) {
@@ -118,7 +118,7 @@ mod tests {
     /// The times in seconds of 50 samples a second, written by a function.
     fn read(unit: f64, is_written: bool, write: impl Fn(f64) -> f64) -> Vec<f64> {
         let mut time: Vec<f64> = (0..1500).map(|k| write(0.02 * f64::from(k))).collect();
-        Clock { time: &mut time, unit, is_open: !is_written, is_written }.to_seconds();
+        Clock { time: &mut time, unit, is_open: !is_written, is_written }.into_seconds();
         let first = time[0];
         time.into_iter().map(|time| time - first).collect()
     }

@@ -112,7 +112,7 @@ fn samples(
         };
         let (unit, is_open) = (unit.in_si, source == UnitSource::Default);
         let clock = Clock { time: &mut samples.time, unit, is_open, is_written };
-        samples.warnings.extend(clock.to_seconds());
+        samples.warnings.extend(clock.into_seconds());
     }
     gaps::fill(&mut samples, sheet, layout)?;
     Ok(samples)
