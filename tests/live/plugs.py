@@ -9,6 +9,7 @@ docs/live.md is that of 150 s.
 
 import argparse
 import os
+import signal
 import socket
 import tempfile
 import threading
@@ -26,7 +27,7 @@ SHORT = 0.3  # s between the plugs without a time
 
 class Ride:
     def __init__(self, seconds, directory):
-        self.hold = seconds / 12 if seconds else SHORT
+        self.hold = seconds / 17 if seconds else SHORT
         self.pipe = directory / "recording"
         os.mkfifo(self.pipe)
         self.disk = threading.Event()
@@ -88,9 +89,30 @@ class Ride:
         self.controller.is_open = False
         time.sleep(1.0)
         self.controller.is_open = True
-        frames = self.controller.frames
+
+    def second_vehicle(self):
+        second = Vehicle(self.live.port)
+        second.ahead = 1.7
         time.sleep(0.5)
-        assert self.controller.frames > frames, "no frames after the controller is back"
+        second.ended.set()
+
+    def idle_connections(self):
+        host, port = self.browser.own.removeprefix("http://").split(":")
+        idle = [socket.create_connection((host, int(port))) for _ in range(30)]
+        begin = time.monotonic()
+        answer = self.browser.ask({"event": "start"})
+        taken = time.monotonic() - begin
+        assert answer == 200 and taken < 0.5, f"an order was answered with {answer} after {taken:.2f} s"
+        [connection.close() for connection in idle]
+
+    def burst(self, seconds):
+        def act():
+            self.vehicle.holds = True
+            time.sleep(seconds)
+            self.vehicle.holds = False
+            time.sleep(1.0)
+
+        return act
 
     def without_page(self):
         self.browser.close()
@@ -142,8 +164,14 @@ def ride(seconds, picture):
         glide = [" s  engaging"] if seconds else []
         one.pull("the source's clock leaps by 1000 s", jump, *glide)
         one.pull("a teleport: the roll jumps by 1 rad", one.broken(fields(7, "1"), 0.5), *glide)
-        one.pull("garbage on the source's port", one.garbage)
-        one.pull("the controller is away for 1 s", one.without_controller)
+        one.pull("garbage on the source's port", one.garbage, "dropped: ")
+        one.pull("a line of commands that is no UTF-8", lambda: one.live.write(b"\xff\xfe\n"), "commands: ")
+        one.pull("a second vehicle on the same port", one.second_vehicle, "telemetry comes from")
+        one.pull("30 idle connections to the page", one.idle_connections)
+        one.pull("packets are held up for 0.4 s", one.burst(0.4))
+        one.pull("the controller is away for 1 s", one.without_controller, "CONTROLLER LOST", " s  fault")
+        one.pull("a person clears the fault", lambda: one.live.command("clear"), " s  homing", " s  neutral")
+        one.pull("a person engages again", lambda: one.live.command("engage"), " s  engaging")
         one.pull("the page is closed, and opened again", one.without_page)
         one.pull("the recording's disk is full", one.full_disk, "the recording has ended")
         one.pull("the source is away for 2 s", one.silent(2.0), " s  frozen", "telemetry: stale", " s  disengaging")
@@ -152,6 +180,7 @@ def ride(seconds, picture):
         one.live.interrupt()
         one.live.wait_for(" s  parking", since)
         if not seconds:
+            time.sleep(0.6)
             one.live.interrupt()
         one.live.wait_for(" s  off", since)
         status, printed = one.live.end()
@@ -164,6 +193,87 @@ def ride(seconds, picture):
         print(f"Ctrl-C: {', '.join(one.controller.words)}; the recording's error is the exit status\n{printed}")
         if picture:
             Path(picture).write_text(draw(one.controller.rows, one.live.states, one.plugs))
+
+
+def ended_by(number):
+    """A signal parks the platform, and the second one of a supervisor does not change that."""
+    controller = Controller()
+    live = Live(controller)
+    live.command("start")
+    live.wait_for(" s  neutral")
+    live.interrupt(number)
+    time.sleep(0.05)
+    live.interrupt(number)
+    time.sleep(0.6)
+    if number != signal.SIGINT:
+        live.interrupt(number)
+    forecast = live.wait_for("parking takes")
+    live.wait_for(" s  off")
+    status, _ = live.end()
+    controller.ended.set()
+    assert status == 0 and controller.words[-2:] == ["park", "stop"], (status, controller.words)
+    assert not controller.faults, controller.faults[:5]
+    print(f"{signal.Signals(number).name}, three times: {forecast}; {', '.join(controller.words)}")
+
+
+def deaf():
+    """The readers of standard error and output are gone: orders are obeyed all the same."""
+    controller = Controller()
+    reader, writer = os.pipe()
+    live = Live(controller, "--engage", stderr=writer)
+    os.close(writer)
+    vehicle = Vehicle(live.port)
+    time.sleep(0.5)
+    os.close(reader)
+    live.process.stdout.close()
+    time.sleep(1.5)
+    live.write(b"nonsense\n\xff\n")
+    time.sleep(0.3)
+    live.command("stop")
+    time.sleep(0.3)
+    frames = controller.frames
+    time.sleep(0.3)
+    live.interrupt()
+    status = live.process.wait(30)
+    vehicle.ended.set()
+    controller.ended.set()
+    assert "stop" in controller.words and controller.frames == frames, controller.words
+    print(f"no readers: {frames} frames, stop obeyed, exit status {status}")
+
+
+def alone():
+    """Nobody is at the controller's address: a fault within 0.5 s, and an exit status."""
+    controller = Controller()
+    controller.is_open = False
+    time.sleep(0.5)
+    live = Live(controller, "--page")
+    browser = Browser(live.wait_for("page: ").removeprefix("page: "))
+    begin = time.monotonic()
+    live.command("start")
+    live.wait_for("CONTROLLER LOST")
+    taken = time.monotonic() - begin
+    live.wait_for(" s  fault")
+    time.sleep(0.2)
+    assert browser.message["state"] == "fault" and browser.message["is_lost"], browser.message["state"]
+    live.interrupt()
+    status, _ = live.end()
+    controller.ended.set()
+    assert taken < 0.5 and status != 0, (taken, status)
+    print(f"nobody at the controller: a fault after {taken:.2f} s, exit status {status}")
+
+
+def two_sessions():
+    """A second session with the same controller is refused."""
+    controller = Controller()
+    live = Live(controller)
+    live.wait_for("commands: ")
+    second = Live(controller)
+    status, _ = second.end()
+    assert status != 0 and any("another session" in text for text in second.said), second.said
+    live.interrupt()
+    live.end()
+    controller.ended.set()
+    print("a second session with the same controller: refused")
 
 
 def killed():
@@ -189,4 +299,9 @@ if __name__ == "__main__":
     parser.add_argument("--picture", help="SVG to draw")
     arguments = parser.parse_args()
     ride(arguments.seconds, arguments.picture)
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT):
+        ended_by(number)
+    deaf()
+    alone()
+    two_sessions()
     killed()

@@ -20,6 +20,9 @@ MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--
 # The default rig's stroke, and its largest leg speed with the steps between two frames lost [m, m/s].
 STROKE = (1.0, 1.6)
 FASTEST = 1.05
+# The time between frames of the form csv [s], and the largest change of a leg from frame to frame [m].
+INTERVAL = 0.01
+STEP = 1.2 * 1.0 * INTERVAL
 
 
 def free_port():
@@ -38,6 +41,7 @@ class Controller:
         self.rows = []
         self.words = []
         self.last = None
+        self.step = 0.0
         self.faults = []
         self.is_open = True
         self.ended = threading.Event()
@@ -67,6 +71,11 @@ class Controller:
         self.frames += 1
         if not all(STROKE[0] <= leg <= STROKE[1] for leg in legs):
             self.faults.append(f"{now} s: a leg beyond its stroke: {legs}")
+        if self.last:
+            step = max(abs(leg - before) for leg, before in zip(legs, self.last[1]))
+            self.step = max(self.step, step)
+            if step > STEP:
+                self.faults.append(f"{now} s: a leg {1e3 * step:.1f} mm from the last frame")
         if self.last and now > self.last[0]:
             fastest = max(abs(leg - before) for leg, before in zip(legs, self.last[1])) / (now - self.last[0])
             if fastest > FASTEST:
@@ -84,36 +93,41 @@ class Vehicle:
         self.runs = True
         self.ahead = 0.0
         self.broken = None
+        self.holds = False  # lines are kept, and sent at once afterwards
         self.ended = threading.Event()
         threading.Thread(target=self.send, daemon=True).start()
 
     def send(self):
         out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        begin = time.monotonic()
+        begin, held = time.monotonic(), []
         while not self.ended.wait(1 / 60):
             if self.runs:
                 text = line(time.monotonic() - begin + self.ahead)
-                out.sendto((self.broken(text) if self.broken else text).encode(), ("127.0.0.1", self.port))
+                held.append((self.broken(text) if self.broken else text).encode())
+            while held and not self.holds:
+                out.sendto(held.pop(0), ("127.0.0.1", self.port))
 
 
 class Live:
     """The command. Lines that it says are in `said`."""
 
-    def __init__(self, controller, *options, source=None):
+    def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE):
         self.port = free_port()
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
         command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", *options]
         self.process = subprocess.Popen(
-            command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stderr
         )
         self.said = []
         self.state = "off"
         self.states = []
         self.news = threading.Condition()
-        threading.Thread(target=self.listen, daemon=True).start()
+        if stderr == subprocess.PIPE:
+            threading.Thread(target=self.listen, daemon=True).start()
 
     def listen(self):
         for text in self.process.stderr:
+            text = text.decode()
             with self.news:
                 self.said.append(text.strip())
                 at, _, word = text.strip().rpartition(" s  ")
@@ -134,15 +148,19 @@ class Live:
                 assert left > 0 and self.news.wait(left), f"not said: {words}; said: {self.said[-20:]}"
 
     def command(self, name):
-        self.process.stdin.write(name + "\n")
+        self.write(name.encode() + b"\n")
+
+    def write(self, text):
+        self.process.stdin.write(text)
         self.process.stdin.flush()
 
-    def interrupt(self):
-        self.process.send_signal(signal.SIGINT)
+
+    def interrupt(self, number=signal.SIGINT):
+        self.process.send_signal(number)
 
     def end(self):
         """The exit status and what was printed."""
-        out = self.process.stdout.read()
+        out = self.process.stdout.read().decode()
         return self.process.wait(), out
 
     def resident(self):

@@ -227,3 +227,34 @@ proptest! {
         let _ = text.parse::<Format>();
     }
 }
+
+#[test]
+fn keys_may_stand_in_keys_and_lists() {
+    let table = |at: &str| {
+        let head = "name = 'own'\nabout = ''\nnote = ''\nlayout = 'json'\ngravity = 'included'\n[fields]\nax = { at = ";
+        format!("{head}'{at}' }}\nay = {{ at = 'ay' }}\n").parse::<Format>().unwrap()
+    };
+    let packet = br#"{"ay": 2.0, "a.b": 3.0, "a": {"b": 4.0, "c": {"d": [5.0, {"e": 6.0}]}}}"#;
+    for (at, expected) in [("a.b", 3.0), ("a.c.d.0", 5.0), ("a.c.d.1.e", 6.0)] {
+        assert_eq!(table(at).decode(packet).unwrap().motion.force().x, expected, "{at}");
+    }
+    for missing in ["a.x", "a.c.d.7", "a.c.d.e", "a.b.c", ""] {
+        assert!(table(missing).decode(packet).is_err(), "{missing}");
+    }
+}
+
+#[test]
+fn packets_of_another_format_are_explained() {
+    let outsim: Format = shipped("outsim").unwrap().parse().unwrap();
+    let mut motionsim = vec![0; 88];
+    motionsim[..4].copy_from_slice(b"BNG1");
+    assert_eq!(
+        outsim.explain(&motionsim, 4444),
+        "88-byte packets arrive on 4444; outsim has 64 or 68: motionsim fits: --format motionsim"
+    );
+    let unknown = outsim.explain(&[7; 33], 4444);
+    assert!(unknown.contains("33-byte packets") && unknown.contains("no format of moris live fits"), "{unknown}");
+    let csv: Format = shipped("csv").unwrap().parse().unwrap();
+    let object = csv.explain(br#"{"ax": 1.0, "ay": 2.0, "az": 9.8}"#, 4444);
+    assert!(object.contains("json fits"), "{object}");
+}

@@ -1,6 +1,11 @@
 //! Frames written out by hand from each device's layout.
 
 use moris_live::frame::{Encoder, Frames, SHIPPED, Values, shipped};
+use moris_live::{Session, Settings};
+use moris_washout::Parameters;
+use moris_washout::interface::RollPitchYaw;
+use moris_washout::motion::orientation::Orientation;
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
 /// Legs at 0, 1/4, 1/2, 3/4 and 1 of a stroke of 1.0 to 1.6 m, and one beyond it.
@@ -41,16 +46,49 @@ fn simtools() {
     assert_eq!(frame(shipped("simtools").unwrap()), b"0,16384,32768,49151,65535,65535X");
 }
 
+/// The pose that OpenXR-MotionCompensation makes of a frame, in the axes x forward, y left, z up:
+/// the displacement is turned by yaw, pitch and roll, in this order.
+fn seen(frame: &[u8]) -> Isometry3<f64> {
+    let numbers: Vec<f64> = frame.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
+    let [sway, surge, heave, yaw, roll, pitch] = numbers[..] else { panic!("{numbers:?}") };
+    // Sway to the right, pitch with the nose up.
+    let own = Vector3::new(surge, -sway, heave) * 1e-3;
+    let about = |axis, degrees: f64| UnitQuaternion::from_axis_angle(&axis, degrees.to_radians());
+    let rotation = about(Vector3::z_axis(), yaw) * about(Vector3::y_axis(), -pitch) * about(Vector3::x_axis(), roll);
+    Isometry3::from_parts((rotation * own).into(), rotation)
+}
+
 #[test]
-fn vr_pose() {
+fn vr_pose_gives_the_headset_the_pose_of_the_platform() {
     let encoder = Encoder::new(&shipped("vr-pose").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
-    let values = Values { pose: [0.1, -0.2, 9.0, 0.5, -0.25, 0.125], heave: 0.03, ..Values::default() };
+    let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
+    let neutral = session.washout().parameters().rig.neutral_height;
+    let mut commands = *session.step();
     let mut out = Vec::new();
+    for (position, angles) in [
+        ([0.1, -0.2, 0.03], [0.0, 0.0, 0.0]),
+        ([0.1, -0.2, 0.03], [0.3, -0.25, 0.125]),
+        ([-0.05, 0.02, -0.1], [-0.1, 0.4, 1.2]),
+    ] {
+        let [roll, pitch, yaw] = angles;
+        let place = Vector3::from(position);
+        commands.pose.position = place + Vector3::z() * neutral;
+        commands.pose.orientation = Orientation::new(RollPitchYaw::new(roll, pitch, yaw));
+        commands.heave = place.z;
+        encoder.frame(&Values::from(&commands), &mut out);
+        assert_eq!(out.len(), 48);
+        let platform = Isometry3::from_parts(place.into(), UnitQuaternion::from_euler_angles(roll, pitch, yaw));
+        // A point of the world, seen from the platform, and back through what the headset receives.
+        for point in [Point3::new(0.0, 0.0, 1.2), Point3::new(30.0, -4.0, 1.0)] {
+            let view = platform.inverse_transform_point(&point);
+            assert!((seen(&out).transform_point(&view) - point).norm() < 1e-9, "{position:?} {angles:?}");
+        }
+    }
+    // The signs by themselves: to the left is a negative sway, nose down a negative pitch.
+    let values = Values { own: [0.1, 0.2, 0.03], pose: [0.0, 0.0, 0.0, 0.1, 0.2, 0.3], ..Values::default() };
     encoder.frame(&values, &mut out);
-    assert_eq!(out.len(), 48);
     let numbers: Vec<f64> = out.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
-    // Sway, surge, heave [mm], yaw, roll, pitch [degrees].
-    for (found, expected) in numbers.iter().zip([-200.0, 100.0, 30.0, 7.161_972, 28.647_890, -14.323_945]) {
+    for (found, expected) in numbers.iter().zip([-200.0, 100.0, 30.0, 17.188_734, 5.729_578, -11.459_156]) {
         assert!((found - expected).abs() < 1e-5, "{numbers:?}");
     }
 }
@@ -101,6 +139,7 @@ fn templates_that_make_no_sense_are_refused() {
         ("frame = \"'open\"", "'open"),
         ("frame = ''\nstop = 'rest:1'", "rest:1"),
         ("frame = ''\ninterval = 0", "interval"),
+        ("frame = ''\ntime-out = 11", "time-out"),
         ("frame = ''\nreversed = [0]", "reversed"),
         ("frame = ''\nrange = [0, 9000000000000]", "range"),
     ] {

@@ -6,7 +6,7 @@ const HEADER = "time,ax,ay,az,wx,wy,wz,roll,pitch,yaw,speed";
 const machine = new View(byId("view"), page.rig, "motorcycle");
 const strips = { surge: new Strip(byId("surge")), sway: new Strip(byId("sway")) };
 const lamps = new Lamps(byId("lamps"));
-const now = { client: "", controls: false, drives: false, names: [], view: null, state: "", messages: 0, recorded: null };
+const now = { client: "", number: 0, shared: false, canDrive: false, controls: false, drives: false, names: [], view: null, state: "", messages: 0, recorded: null };
 let paints = {};
 
 /** A refusal, for a while. */
@@ -16,8 +16,11 @@ function say(text) {
   now.forgets = setTimeout(() => setText("message", ""), 8000);
 }
 
+/** Commands that work from every page. */
+const ALWAYS = ["stop", "park"];
+
 async function send(what) {
-  if (!now.controls) return "This page looks only: another page controls.";
+  if (!now.controls && !ALWAYS.includes(what.event)) return "This page looks only: another page controls. Stop and Park work here, too.";
   return ask(now.client, what);
 }
 
@@ -38,6 +41,15 @@ function record() {
   byId("record").textContent = isOn ? "Stop and save (R)" : "Record (R)";
 }
 
+/** `holder` is the number of the page that controls, or 0: then the next that asks does. */
+function showRole(holder) {
+  now.controls = now.shared || holder === 0 || holder === now.number;
+  now.drives = now.canDrive && (holder === 0 || holder === now.number);
+  driving.run(() => now.drives);
+  setText("role", now.controls ? (holder === 0 ? "No page controls: the next command does." : "This page controls.") : "This page looks only: another one controls. Stop and Park work here, too.");
+  for (const button of document.querySelectorAll("#commands button")) button.disabled = !now.controls && !ALWAYS.includes(button.dataset.event);
+}
+
 function showLateness(classes) {
   const most = Math.max(...classes.map(([, count]) => count), 1);
   byId("late").tBodies[0].replaceChildren(...classes.filter(([, count]) => count > 0).map(([end, count]) => {
@@ -47,7 +59,7 @@ function showLateness(classes) {
   }));
 }
 
-function take({ rows, state, health, delay, late, lines, changed, pair: told }) {
+function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, late_frames: lateFrames }) {
   if (!rows) return;
   for (const row of rows) {
     const view = Object.fromEntries(now.names.map((name, i) => [name, row[i]]));
@@ -60,24 +72,26 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told }) 
   now.messages += 1;
   now.state = state;
   setText("state", state);
+  byId("state").classList.toggle("fault", state === "fault");
+  byId("lost").hidden = !isLost;
+  showRole(holder);
   setText("health", `telemetry: ${health}, delay ${fixed(1000 * delay, 0)} ms`);
   sliders.take(changed);
   pair.take(told, now.controls);
   if (now.messages % 12 === 1) {
     byId("journal").replaceChildren(...lines.map((line) => element("li", {}, [line])));
     showLateness(late);
+    setText("late-frames", `Frames leave ${lateFrames.map((late) => fixed(late / 1000, 1)).join(" ms late, at most ")} ms.`);
   }
 }
 
 function connect() {
   const events = new EventSource(`/events?token=${token}`);
   events.addEventListener("welcome", ({ data }) => {
-    const { client, controls, drives, names } = JSON.parse(data);
-    Object.assign(now, { client, controls, drives, names });
-    driving.run(() => now.drives);
+    const { client, number, shared, can_drive: canDrive, controls, names } = JSON.parse(data);
+    Object.assign(now, { client, number, shared, canDrive, names });
     for (const strip of Object.values(strips)) strip.clear();
-    setText("role", controls ? "This page controls." : "This page looks only: another one controls.");
-    for (const button of document.querySelectorAll("#commands button")) button.disabled = !controls;
+    showRole(controls ? number : -1);
   });
   events.addEventListener("message", ({ data }) => take(JSON.parse(data)));
   events.addEventListener("end", () => {

@@ -5,7 +5,7 @@ use moris_washout::motion::orientation::Orientation;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-use super::{Axes, ByteOrder, Field, Format, Gravity, Layout, Number, Place, QUANTITIES, Quantity, Unit};
+use super::{Axes, ByteOrder, Field, Format, Gravity, Layout, Number, Place, QUANTITIES, Quantity, SHIPPED, Unit};
 use crate::motion::{Motion, Sample};
 
 /// Reason for which a packet is dropped.
@@ -43,7 +43,7 @@ impl Format {
                 (Place::Index(at), Layout::Binary) => number(packet, *at, field.kind, self.byte_order),
                 (Place::Index(at), Layout::Pairs) => paired(body, *at),
                 (Place::Index(at), Layout::Csv) => column(text(), *at),
-                (Place::Key(key), _) => object.as_ref().and_then(|object| value(object.get(key)?)),
+                (Place::Key(key), _) => object.as_ref().and_then(|object| value(at_path(object, key)?)),
                 _ => None,
             };
             let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed(*quantity);
@@ -54,6 +54,37 @@ impl Format {
             }
         }
         Ok(self.sample(&values))
+    }
+
+    /// Description of a packet of another format: its length, those of this format, and the shipped
+    /// formats that it fits.
+    pub fn explain(&self, packet: &[u8], port: u16) -> String {
+        let lengths: Vec<String> = self.lengths.iter().map(usize::to_string).collect();
+        let expected = match lengths.as_slice() {
+            [] => String::new(),
+            lengths => format!("; {} has {}", self.name, lengths.join(" or ")),
+        };
+        let why = match self.decode(packet) {
+            Err(Dropped::Length(_)) | Ok(_) => String::new(),
+            Err(dropped) => format!(" ({} expects otherwise: {dropped})", self.name),
+        };
+        let fitting: Vec<&str> = SHIPPED
+            .iter()
+            .filter(|(name, text)| *name != self.name && text.parse::<Format>().is_ok_and(|of| of.fits(packet)))
+            .map(|(name, _)| *name)
+            .collect();
+        let advice = match fitting.as_slice() {
+            [] => "no format of moris live fits; write a table for it".to_owned(),
+            [one] => format!("{one} fits: --format {one}"),
+            some => format!("these fit: {}", some.join(", ")),
+        };
+        format!("{}-byte packets arrive on {port}{expected}{why}: {advice}", packet.len())
+    }
+
+    /// True if a packet has this format's length or head, and plausible numbers.
+    fn fits(&self, packet: &[u8]) -> bool {
+        let is_plain = self.lengths.is_empty() && self.head.is_empty() && self.layout == Layout::Binary;
+        !is_plain && self.decode(packet).is_ok_and(|sample| sample.is_plausible())
     }
 
     fn sample(&self, values: &[Option<f64>; QUANTITIES]) -> Sample {
@@ -83,6 +114,15 @@ impl Format {
             has_angles: all([Roll, Pitch, Yaw]),
         }
     }
+}
+
+/// The value of a key, or of keys in keys and numbers in lists with dots between them.
+fn at_path<'a>(object: &'a Value, path: &str) -> Option<&'a Value> {
+    let inner = |object: &'a Value, key: &str| match object {
+        Value::Array(list) => list.get(key.parse::<usize>().ok()?),
+        _ => object.get(key),
+    };
+    object.get(path).or_else(|| path.split('.').try_fold(object, inner))
 }
 
 /// True for the fields without which a packet of text says nothing.

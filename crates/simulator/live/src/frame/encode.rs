@@ -3,12 +3,14 @@
 use std::io::Write;
 use std::ops::Range;
 
+use nalgebra::Vector3;
+
 use super::{Frames, FramesError};
 use crate::session::Commands;
 
 /// Quantities of a frame besides the actuators' positions, in SI units.
 pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
-    velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave";
+    velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave own_x own_y own_z";
 /// Most bytes of a template.
 const MOST: usize = 4096;
 /// Most decimals of a quantity.
@@ -32,6 +34,8 @@ pub struct Values {
     /// The same without the way between the lowest pose and neutral \[m\], for a base that goes it
     /// by itself.
     pub heave_above: f64,
+    /// Displacement of the platform from neutral in its own turned axes \[m\].
+    pub own: [f64; 3],
 }
 
 impl From<&Commands> for Values {
@@ -46,6 +50,7 @@ impl From<&Commands> for Values {
             force: washout.felt_specific_force.into(),
             heave: *heave,
             heave_above: heave - (p.z - washout.position.z),
+            own: pose.orientation.rotation.tr_mul(&Vector3::new(p.x, p.y, *heave)).into(),
         }
     }
 }
@@ -53,6 +58,7 @@ impl From<&Commands> for Values {
 impl Values {
     fn quantity(&self, place: usize) -> f64 {
         let values = self.length.iter().chain(&self.velocity).chain(&self.pose).chain(&self.force).chain([&self.heave]);
+        let values = values.chain(&self.own);
         std::iter::once(&self.time).chain(values).nth(place).copied().unwrap_or_default()
     }
 }

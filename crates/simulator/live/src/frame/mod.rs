@@ -41,7 +41,7 @@ pub use encode::{Encoder, QUANTITIES, Values};
 
 /// A template of frames.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Frames {
     /// Its name.
     pub name: String,
@@ -58,6 +58,8 @@ pub struct Frames {
     /// Time between frames \[s\].
     #[serde(default = "millisecond")]
     pub interval: f64,
+    /// Time without frames after which the controller stops by itself \[s\].
+    pub time_out: Option<f64>,
     /// Sent when the platform starts.
     #[serde(default)]
     pub start: String,
@@ -100,6 +102,9 @@ impl FromStr for Frames {
         let frames: Frames = toml::from_str(text)?;
         if !(1e-3..=1.0).contains(&frames.interval) {
             return Err(FramesError::Range("interval must be from 0.001 to 1 s"));
+        }
+        if frames.time_out.is_some_and(|time| !(frames.interval..=10.0).contains(&time)) {
+            return Err(FramesError::Range("time-out must be from the interval to 10 s"));
         }
         if frames.reversed.iter().any(|leg| !(1..=6).contains(leg)) {
             return Err(FramesError::Range("reversed has actuators from 1 to 6"));

@@ -1,7 +1,7 @@
 //! The journal: events on standard error, and the recorded session.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Write, stderr};
+use std::io::{self, BufWriter, Write};
 use std::time::Duration;
 
 use moris_live::log::Entry;
@@ -10,7 +10,10 @@ use moris_live::source::Health;
 use moris_live::{Refusal, State};
 use rtrb::Consumer;
 
+use super::console;
+use super::frames::Loss;
 use super::page::Desk;
+use super::watch::Part;
 
 /// Something that happened at a time \[s\].
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +32,10 @@ pub enum Note {
     Retuned(f64, bool),
     /// The computer was late: the session's clock has slipped by this time \[s\].
     Slipped(f64, f64),
+    /// The controller does not follow any more.
+    Lost(f64, Loss),
+    /// A thread has ended by an error of this program.
+    Failed(f64, Part),
 }
 
 /// The line of a new state.
@@ -50,6 +57,10 @@ fn line(note: &Note) -> Option<String> {
         Note::Retuned(_, true) => return None,
         Note::Retuned(time, false) => format!("{time:9.3} s  refused: these parameters cannot change now"),
         Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),
+        Note::Lost(time, loss) => format!("{time:9.3} s  {loss}"),
+        Note::Failed(time, part) => {
+            format!("{time:9.3} s  the thread that {} has failed: the session parks and ends", part.name())
+        }
     })
 }
 
@@ -84,8 +95,7 @@ pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>
 }
 
 /// Prints a line, and shows it in the page.
-fn say(line: &str, page: Option<&Desk>) {
-    // The reader of the lines may be gone.
-    let _ = writeln!(stderr(), "{line}");
+pub fn say(line: &str, page: Option<&Desk>) {
+    console::line(line);
     page.inspect(|page| page.say(line));
 }

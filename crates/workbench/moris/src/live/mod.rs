@@ -3,54 +3,74 @@
 //! `moris_live` decides; here are its clock, its sockets and its threads:
 //!
 //! - `priority` asks for real time, `lateness` counts how late steps and frames are.
+//! - `console` prints without waiting, `watch` sees the ends of threads, `signals` those of the
+//!   system.
+//! - `commands` reads lines; `parking` says how long it takes.
 //! - `telemetry` receives packets, or plays a recording; `ros2` subscribes to a topic; `vehicle`
 //!   steps an FMU or a motorcycle.
 //! - `controls` has what the page holds of a vehicle's controls.
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
-//! - `frames` sends frames, `journal` prints what happens and records the session.
+//! - `frames` sends frames; `wire` keeps them within the speed of actuators, `contact` sees a
+//!   controller that is gone, `occupied` one that another session has.
+//! - `sender` follows one sender of telemetry and explains what it sends; `journal` prints what happens and records the session.
 //! - `page` serves the page in a browser.
 //! - `tables` lists formats and templates.
 //!
 //! Threads exchange values through rings without locks. The loop waits for none of them.
 
+mod commands;
+mod console;
+mod contact;
 mod controls;
 mod frames;
 mod journal;
 mod lateness;
+mod occupied;
 mod pace;
 mod page;
+mod parking;
 mod priority;
 #[cfg(feature = "ros2")]
 mod ros2;
+mod sender;
+mod signals;
 mod steps;
 mod tables;
 mod telemetry;
 mod vehicle;
+mod watch;
+mod wire;
 
 use std::fs::File;
 use std::io::{Write, stdin};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU32, AtomicU64, Ordering};
 use std::thread;
+use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
 use moris_live::frame::{Encoder, Values};
-use moris_live::{Event, STEP, Session, Settings, log, moog};
-use rtrb::{Producer, RingBuffer};
+use moris_live::{STEP, Session, Settings, log, moog};
+use rtrb::RingBuffer;
 
 use crate::option_values::number_in;
 use crate::setup_options::SetupOptions;
+use commands::COMMANDS;
 use controls::{Controls, Handling};
-use frames::{Device, Sent, Sink};
-use page::{Desk, Order, Server, Start};
+use frames::{Device, Sender, Sent, Sink};
+use occupied::Occupied;
+use page::{Desk, Server, Start};
+use signals::{Interrupts, Signals};
+use watch::{Failed, Part, watch};
 
 /// Step the washout beside a running vehicle, and command a platform
 ///
 /// Receives telemetry, steps the washout at 1 kHz and sends frames to the actuators. Lines on
-/// standard input are commands: start, engage, disengage, park, stop, clear. Ctrl-C parks the
-/// platform and ends; a second Ctrl-C ends at once. Not a safety device: an emergency stop and
+/// standard input are commands: start, engage, disengage, park, stop, clear. Ctrl-C and all signals
+/// that can be caught park the platform and end; a second Ctrl-C, at least 0.5 s after the first,
+/// ends at once. Not a safety device: an emergency stop and
 /// limits of power belong outside of this program.
 #[derive(Clone, Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -124,6 +144,15 @@ pub struct Options {
     #[arg(long, requires = "page")]
     allow_control: bool,
 
+    /// Time without frames after which the controller stops by itself; a longer gap is a fault
+    /// [default: that of the template, if it has one]
+    #[arg(long, value_name = "SECONDS", value_parser = time_out)]
+    time_out: Option<f64>,
+
+    /// Send poses that are ahead of now by this time, such as a headset's latency; lengths stay
+    #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = pose_ahead)]
+    pose_ahead: f64,
+
     /// Park and end after this time
     #[arg(long = "for", value_name = "SECONDS", value_parser = seconds)]
     duration: Option<f64>,
@@ -145,19 +174,39 @@ fn seconds(text: &str) -> Result<f64, String> {
     number_in(text, 0.0..=1e6, "a number of seconds from 0 to 1e6")
 }
 
+fn time_out(text: &str) -> Result<f64, String> {
+    number_in(text, 0.001..=10.0, "a number of seconds from 0.001 to 10")
+}
+
+fn pose_ahead(text: &str) -> Result<f64, String> {
+    number_in(text, 0.0..=0.1, "a number of seconds from 0 to 0.1")
+}
+
 /// Values that all threads read.
 #[derive(Debug, Default)]
 struct Shared {
     /// The session's state.
     state: AtomicU8,
-    /// Number of times that Ctrl-C has been pressed.
-    interrupts: AtomicU32,
     /// The recording that is played has ended.
     played: AtomicBool,
     /// The loop has ended.
     done: AtomicBool,
     /// Packets that are not of the format.
     dropped: AtomicU32,
+    /// Threads that have failed.
+    failed: Failed,
+    /// Lateness of the latest frame, and of the latest of all \[us\].
+    late_frame: [AtomicU64; 2],
+}
+
+impl Shared {
+    /// A frame has left so late.
+    fn show_late(&self, late: Duration) {
+        let late = late.as_micros().min(u128::from(u64::MAX)) as u64;
+        let [last, most] = &self.late_frame;
+        last.store(late, Ordering::Relaxed);
+        most.fetch_max(late, Ordering::Relaxed);
+    }
 }
 
 /// Runs the command.
@@ -182,16 +231,19 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let ignore_signs = options.ignore_signs || input.handling() == Some(Handling::Rider);
     let settings = Settings { delay: options.delay, ignore_signs, ..Settings::default() };
     let mut session = Session::new(&setup.parameters, &settings)?;
+    // Until the end: another session has no part in this controller.
+    let _occupied = options.to.as_deref().map(Occupied::take).transpose()?;
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
-    let (device, interval) = if options.frames == moog::NAME {
+    let (device, interval, time_out) = if options.frames == moog::NAME {
         sink.listen()?;
-        (Device::moog(), moog::INTERVAL)
+        (Device::moog(), moog::INTERVAL, None)
     } else {
         let template = tables::frames(&options.frames)?;
         let rig = &setup.parameters.rig;
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
-        (Device::Template(Box::new(encoder)), template.interval)
+        (Device::Template(Box::new(encoder)), template.interval, template.time_out)
     };
+    let time_out = options.time_out.or(time_out).map(Duration::from_secs_f64);
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
     if let Some(file) = &mut record {
         let header = log::header(&setup.parameters, &settings);
@@ -200,45 +252,63 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let votes = options.votes.as_ref().map(|file| File::options().append(true).create(true).open(file));
     let votes = votes.transpose().context("cannot write votes")?;
     let shared = Arc::new(Shared::default());
-    let pressed = Arc::clone(&shared);
-    let count = move || {
-        pressed.interrupts.fetch_add(1, Ordering::Relaxed);
-    };
-    ctrlc::set_handler(count).context("cannot listen for Ctrl-C")?;
+    let interrupts = Interrupts::new(Signals::listen()?);
 
     let (samples, received) = RingBuffer::new(1024);
     let (commands, commanded) = RingBuffer::new(64);
     // As many as there are parameters, and more.
     let (to_loop, asked) = RingBuffer::new(1024);
+    let (urgent, asked_at_once) = RingBuffer::new(64);
     let controls = input.handling().map(|handling| Arc::new(Controls::new(handling)));
-    let desk = Arc::new(Desk::new(&setup, votes, to_loop, controls.clone(), options.allow_control)?);
+    let desk = Arc::new(Desk::new(&setup, votes, [to_loop, urgent], controls.clone(), options.allow_control)?);
     let page = Start::of(&setup, input.handling());
-    let server = options.page.map(|port| Server::open(port, options.listen, &page, Arc::clone(&desk))).transpose()?;
+    let open = |port| Server::open(port, options.listen, &page, Arc::clone(&desk), Arc::clone(&shared));
+    let server = options.page.map(open).transpose()?;
     let (shown, showing) = RingBuffer::new(256);
     let (from_device, reported) = RingBuffer::new(16);
     let (to_device, to_send) = RingBuffer::new(256);
     let (to_journal, journal) = RingBuffer::new(8192);
-    eprintln!("commands: {COMMANDS}; Ctrl-C parks and ends");
+    let (to_forecast, parking) = RingBuffer::new(1);
+    console::line(&format!("commands: {COMMANDS}; Ctrl-C parks and ends"));
     if let Some(server) = &server {
-        eprintln!("page: {}", server.address());
+        console::line(&format!("page: {}", server.address()));
     }
     // It waits for a line for ever: nobody joins it.
-    thread::spawn(move || read_commands(commands));
+    let listening = Arc::clone(&shared);
+    thread::spawn(move || watch(&listening.failed, Part::Commands, || commands::read(stdin(), commands)));
     let interval = if options.dry { interval.max(0.1) } else { interval };
+    let speed = setup.parameters.rig.velocity_limit;
     let summary = thread::scope(|scope| {
-        let sender = scope.spawn(move || frames::send(to_send, device, &sink, from_device));
-        let printer = scope.spawn(|| journal::keep(journal, record, server.as_ref().map(|_| &*desk)));
+        let (shared, desk) = (&*shared, &desk);
+        let page = server.as_ref().map(|_| &**desk);
+        let sender = scope.spawn(move || {
+            prepare_helper(options);
+            let mut sender = Sender::new(to_send, device, sink, from_device, (interval, speed), shared);
+            sender.time_out = time_out;
+            sender.run()
+        });
+        let printer =
+            scope.spawn(move || watch(&shared.failed, Part::Journal, || journal::keep(journal, record, page)));
         if let Some(server) = &server {
-            scope.spawn(|| server.run(&shared));
-            scope.spawn(|| desk.show(showing, &shared));
+            scope.spawn(|| watch(&shared.failed, Part::Page, || server.run(shared)));
+            scope.spawn(|| watch(&shared.failed, Part::Page, || desk.show(showing, shared)));
         }
-        scope.spawn(|| input.run(controls.as_deref(), samples, &shared));
+        scope.spawn(move || watch(&shared.failed, Part::Page, || parking::forecast(parking, page, shared)));
+        let controls = controls.as_deref();
+        scope.spawn(move || {
+            prepare_helper(options);
+            watch(&shared.failed, Part::Telemetry, || input.run(controls, samples, shared, page))
+        });
         let mut steps = steps::Steps {
             session: &mut session,
-            shared: &shared,
+            shared,
             received,
-            orders: [commanded, asked, reported],
-            frames: frames::Frames::new(to_device, sender.thread().clone(), interval),
+            orders: [commanded, asked_at_once, asked, reported],
+            interrupts,
+            parking: to_forecast,
+            is_lost: false,
+            known: [false; Part::ALL.len()],
+            frames: frames::Frames::new(to_device, sender.thread().clone(), interval, options.pose_ahead),
             journal: to_journal,
             shown: server.as_ref().map(|_| shown),
             engages: options.engage,
@@ -255,49 +325,53 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         let kept = printer.join();
         (summary, sent, kept)
     });
+    console::flush();
     let (Ok(Ok(summary)), Ok(sent), Ok(kept)) = summary else {
         bail!("the loop has ended by an error of this program; the stop string has been sent");
     };
-    write!(out, "{summary}")?;
+    let mut report = summary.to_string();
     let counts = session.source().counts();
-    writeln!(
-        out,
-        "telemetry: {} packets, {} of another format, {} bad, {} repeated, {} teleports; delay {:.1} ms",
+    report += &format!(
+        "telemetry: {} packets, {} of another format, {} bad, {} repeated, {} teleports; delay {:.1} ms\n",
         counts.received,
         shared.dropped.load(Ordering::Relaxed),
         counts.bad,
         counts.repeated,
         counts.teleports,
         1e3 * session.delay()
-    )?;
-    let Sent { sent, failed, skipped, passage } = sent;
-    writeln!(out, "frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames)?;
-    writeln!(out, "from a packet to the next frame: {}", passage.summary())?;
-    kept.context("cannot record the session")?;
+    );
+    let Sent { sent, failed, skipped, passage, late, gap } = sent;
+    report += &format!("frames: {sent} sent, {} not, {skipped} left out for newer ones", failed + summary.lost_frames);
+    report += &format!("; the longest gap {:.0} ms\n", 1e3 * gap.as_secs_f64());
+    report += &format!("frames late by: {}\n", late.summary());
+    report += &format!("from a packet to the next frame: {}\n", passage.summary());
+    let written = out.write_all(report.as_bytes());
+    // A reader of the report that is gone hides no failure.
+    if let Some(part) = Part::ALL.into_iter().find(|part| shared.failed.has(*part)) {
+        bail!("the thread that {} has failed by an error of this program", part.name());
+    }
+    if let Some(loss) = summary.loss {
+        bail!("the session was in a fault: {loss}");
+    }
+    kept.unwrap_or(Ok(())).context("cannot record the session")?;
+    written?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// The commands of a person.
-const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
-
-/// Passes lines on as commands.
-fn read_commands(mut commands: Producer<Order>) {
-    for line in stdin().lines().map_while(Result::ok) {
-        match Event::of_person(line.trim()) {
-            Some(event) => drop(commands.push(Order::Event(event))),
-            None if line.trim().is_empty() => (),
-            None => eprintln!("commands: {COMMANDS}"),
-        }
+/// Gives the calling thread, which the loop needs on time, its priority.
+fn prepare_helper(options: &Options) {
+    if !options.no_priority {
+        priority::claim_below();
     }
 }
 
 /// Gives the calling thread, the loop's, its priority and its core.
 fn prepare_loop(options: &Options) {
     if !options.no_priority {
-        eprintln!("{}", priority::claim());
+        console::line(&priority::claim());
     }
     if let Some(Err(error)) = options.core.map(priority::keep_on) {
-        eprintln!("the loop is on no core of its own: {error}");
+        console::line(&format!("the loop is on no core of its own: {error}"));
     }
 }
 

@@ -2,26 +2,46 @@
 
 use anyhow::Result;
 
-/// Gives the calling thread a real-time priority, and keeps the program's memory from being swapped
-/// out. Says what is permitted.
+/// Priorities of the loop, and of threads that it needs on time: just below it.
 #[cfg(target_os = "linux")]
-pub fn claim() -> String {
-    use rustix::mm::{MlockAllFlags, mlockall};
+const OF_LOOP: u8 = 50;
+#[cfg(target_os = "linux")]
+const OF_OTHERS: u8 = 48;
+
+/// Gives the calling thread a real-time priority. True if that is permitted.
+#[cfg(target_os = "linux")]
+fn raise(priority: u8) -> bool {
     use thread_priority::{
         RealtimeThreadSchedulePolicy, ThreadPriority, ThreadSchedulePolicy, set_thread_priority_and_policy,
         thread_native_id,
     };
     let policy = ThreadSchedulePolicy::Realtime(RealtimeThreadSchedulePolicy::Fifo);
+    let priority = priority.try_into().map(ThreadPriority::Crossplatform);
+    priority.is_ok_and(|priority| set_thread_priority_and_policy(thread_native_id(), priority, policy).is_ok())
+}
+
+/// Gives the calling thread, which sends frames or receives telemetry, a priority just below the
+/// loop's where that is permitted.
+#[cfg(target_os = "linux")]
+pub fn claim_below() {
+    raise(OF_OTHERS);
+}
+
+/// As above, where there is no such thing.
+#[cfg(not(target_os = "linux"))]
+pub fn claim_below() {}
+
+/// Gives the calling thread, the loop's, a real-time priority, and keeps the program's memory from being swapped
+/// out. Says what is permitted.
+#[cfg(target_os = "linux")]
+pub fn claim() -> String {
+    use rustix::mm::{MlockAllFlags, mlockall};
     // Above what is ordinary, and below the system's own threads.
-    let priority = match 50_u8.try_into().map(ThreadPriority::Crossplatform) {
-        Ok(priority) => set_thread_priority_and_policy(thread_native_id(), priority, policy).map_err(|_| ()),
-        Err(_) => Err(()),
-    };
+    let is_raised = raise(OF_LOOP);
     // Without what comes later: the loop takes no more memory, and a limit on locked memory would
     // let other threads fail.
     let locked = mlockall(MlockAllFlags::CURRENT);
-    let of_priority =
-        if priority.is_ok() { "the loop has a real-time priority" } else { "no real-time priority permitted" };
+    let of_priority = if is_raised { "the loop has a real-time priority" } else { "no real-time priority permitted" };
     let of_memory = if locked.is_ok() { "memory is locked" } else { "no memory lock permitted" };
     format!("real time: {of_priority}, {of_memory}")
 }
@@ -74,6 +94,23 @@ pub fn keep_on(_: usize) -> Result<()> {
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
     use super::*;
+
+    #[test]
+    fn threads_below_the_loop_are_raised_where_the_loop_is() {
+        let stat = || std::fs::read_to_string("/proc/thread-self/stat").unwrap();
+        // Fields 18 and 41 of proc(5): the priority, and the policy, 1 for SCHED_FIFO.
+        let policy = |stat: &str| stat.rsplit(')').next().unwrap().split_whitespace().nth(38).unwrap().to_owned();
+        let priority = |stat: &str| stat.rsplit(')').next().unwrap().split_whitespace().nth(15).unwrap().parse::<i32>();
+        let of_loop = std::thread::spawn(move || (raise(OF_LOOP), stat())).join().unwrap();
+        let below = std::thread::spawn(move || {
+            claim_below();
+            stat()
+        });
+        let below = below.join().unwrap();
+        assert_eq!(policy(&below) == "1", of_loop.0);
+        // Real-time priorities are below -1 there: the lower, the more urgent.
+        assert!(!of_loop.0 || priority(&of_loop.1).unwrap() < priority(&below).unwrap());
+    }
 
     #[test]
     fn a_thread_stays_on_its_core() {

@@ -11,12 +11,14 @@ use moris_live::{Event, STEP, Session, State};
 use rtrb::{Consumer, Producer};
 
 use super::Shared;
-use super::frames::Frames;
+use super::frames::{Frames, Loss};
 use super::journal::Note;
 use super::lateness::Lateness;
 use super::pace;
 use super::page::{EVERY, Order, Shown};
+use super::signals::Interrupts;
 use super::telemetry::Received;
+use super::watch::Part;
 
 /// Lateness from which on steps are not made up for: their motion would come at once \[s\].
 const LATEST: f64 = 0.02;
@@ -28,8 +30,15 @@ pub struct Steps<'a> {
     pub session: &'a mut Session,
     pub shared: &'a Shared,
     pub received: Consumer<Received>,
-    /// From standard input, from the page, and from the device.
-    pub orders: [Consumer<Order>; 3],
+    /// From standard input, from the page, its stop and park, and from the device.
+    pub orders: [Consumer<Order>; 4],
+    pub interrupts: Interrupts,
+    /// Copies of the session that begins to park.
+    pub parking: Producer<Session>,
+    /// The controller does not follow any more.
+    pub is_lost: bool,
+    /// Threads whose failure is known.
+    pub known: [bool; Part::ALL.len()],
     pub frames: Frames,
     pub journal: Producer<Note>,
     /// For the page; what it does not take is dropped.
@@ -49,6 +58,8 @@ pub struct Summary {
     lost_notes: u64,
     /// Frames for which the ring had no room.
     pub lost_frames: u64,
+    /// The last reason for which the controller did not follow.
+    pub loss: Option<Loss>,
 }
 
 impl Display for Summary {
@@ -111,9 +122,12 @@ impl Steps<'_> {
                     self.obey(order, &mut summary);
                 }
             }
-            ending |= self.ends_at.is_some_and(|end| self.session.time() >= end)
+            self.interrupts.look(pace::now());
+            ending |= self.fails(&mut summary)
+                || self.ends_at.is_some_and(|end| self.session.time() >= end)
                 || self.shared.played.load(Ordering::Relaxed)
-                || self.shared.interrupts.load(Ordering::Relaxed) > 0;
+                || self.interrupts.ends();
+            self.frames.ends = ending;
             if ending {
                 self.end(&mut summary);
             } else if self.engages {
@@ -126,6 +140,10 @@ impl Steps<'_> {
             self.shared.state.store(commands.state as u8, Ordering::Relaxed);
             if commands.state != state {
                 state = commands.state;
+                if state == State::Parking {
+                    // Its one allocation, of a list of numbers.
+                    let _ = self.parking.push(self.session.clone());
+                }
                 self.note(Note::State(commands.time, state), &mut summary);
             }
             if self.session.source().health() != health {
@@ -138,7 +156,7 @@ impl Steps<'_> {
             if let Some(shown) = &mut self.shown
                 && summary.steps.is_multiple_of(EVERY)
             {
-                let _ = shown.push(Shown::of(self.session, &summary.lateness));
+                let _ = shown.push(Shown::of(self.session, &summary.lateness, self.is_lost));
             }
             if ending && state == State::Off {
                 self.record(Happening::End(digest.0), &mut summary);
@@ -161,7 +179,9 @@ impl Steps<'_> {
     fn end(&mut self, summary: &mut Summary) {
         let event = match self.session.state() {
             State::Off => return,
-            _ if self.shared.interrupts.load(Ordering::Relaxed) > 1 => Event::Stop,
+            _ if self.interrupts.ends_at_once() => Event::Stop,
+            // There is nobody who would follow to the lowest pose.
+            _ if self.is_lost => Event::Stop,
             State::Settled => Event::Stop,
             // Where the legs are is unknown: frames would move them.
             State::Fault if !self.session.is_located() => Event::Stop,
@@ -172,11 +192,29 @@ impl Steps<'_> {
         self.ask(event, summary);
     }
 
+    /// True once a thread has failed: a fault, and then the way down.
+    fn fails(&mut self, summary: &mut Summary) -> bool {
+        for part in Part::ALL {
+            if self.shared.failed.has(part) && !std::mem::replace(&mut self.known[part as usize], true) {
+                self.note(Note::Failed(self.session.time(), part), summary);
+                self.ask(Event::Fault, summary);
+            }
+        }
+        self.known.contains(&true)
+    }
+
     fn obey(&mut self, order: Order, summary: &mut Summary) {
         match order {
             Order::Event(event) => {
                 self.engages &= matches!(event, Event::Engage | Event::Start);
+                self.is_lost &= !matches!(event, Event::Clear | Event::Start);
                 self.ask(event, summary);
+            }
+            Order::Lost(loss) => {
+                self.is_lost = !matches!(loss, Loss::Gap(_));
+                summary.loss = Some(loss);
+                self.note(Note::Lost(self.session.time(), loss), summary);
+                self.ask(Event::Fault, summary);
             }
             Order::Choose(slot, value) => {
                 self.record(Happening::Choice(slot, value), summary);

@@ -16,8 +16,11 @@ use moris_washout::motion::orientation::Orientation;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
+use super::journal::say;
+use super::page::Desk;
 #[cfg(feature = "ros2")]
 use super::ros2::Subscription;
+use super::sender::{Dropped, Followed};
 use super::vehicle::{self, Fmu, Motorcycle, Vehicle};
 use super::{Shared, pace, tables};
 use crate::recording::formats::Format as Logger;
@@ -111,9 +114,9 @@ impl Input {
     }
 
     /// Passes samples on until all has ended. `controls` are those of [`Input::handling`].
-    pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared) {
+    pub fn run(self, controls: Option<&Controls>, samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
         match self {
-            Input::Udp(socket, format) => receive(&socket, &format, samples, shared),
+            Input::Udp(socket, format) => receive(&socket, &format, samples, shared, page),
             #[cfg(feature = "ros2")]
             Input::Ros2(subscription) => subscription.run(samples, shared),
             Input::Played(recording) => play(&recording, samples, shared),
@@ -122,12 +125,15 @@ impl Input {
     }
 }
 
-fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared) {
+fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>, shared: &Shared, page: Option<&Desk>) {
     let mut packet = vec![0; LARGEST];
     let mut quiet = 0;
     let requests = format.subscriptions();
+    let port = socket.local_addr().map_or(0, |address| address.port());
+    let mut followed = Followed::default();
+    let mut dropped = Dropped::default();
     while !shared.done.load(Ordering::Relaxed) {
-        let Ok(length) = socket.recv(&mut packet) else {
+        let Ok((length, from)) = socket.recv_from(&mut packet) else {
             // At first, and about once a second while nothing comes.
             if let Some(subscribe) = format.subscribe.as_ref().filter(|_| quiet % 10 == 0) {
                 for request in &requests {
@@ -139,11 +145,15 @@ fn receive(socket: &UdpSocket, format: &Format, mut samples: Producer<Received>,
         };
         let arrival = pace::now();
         quiet = 0;
-        match format.decode(&packet[..length]) {
+        match format.decode(&packet[..length]).map(|sample| (sample, followed.accepts(from, arrival))) {
             // A loop that is so late that the ring is full has no use for it.
-            Ok(sample) => drop(samples.push(Received { arrival, sample })),
+            Ok((sample, Ok(()))) => drop(samples.push(Received { arrival, sample })),
+            Ok((_, Err(another))) => drop(another.inspect(|line| say(line, page))),
             Err(_) => {
                 shared.dropped.fetch_add(1, Ordering::Relaxed);
+                if let Some(count) = dropped.take(arrival) {
+                    say(&format!("dropped: {count}; {}", format.explain(&packet[..length], port)), page);
+                }
             }
         }
     }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 use std::fs::File;
+use std::sync::atomic::Ordering;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -17,6 +18,7 @@ use serde::Deserialize;
 use super::pair::{Pair, Which};
 use super::shown::{self, NAMES, Shown};
 use crate::live::controls::Controls;
+use crate::live::frames::Loss;
 use crate::live::{Shared, pace};
 
 /// Time between messages.
@@ -33,7 +35,12 @@ pub enum Order {
     Choose(u16, f64),
     /// The chosen parameters come into force.
     Retune,
+    /// The controller does not follow any more.
+    Lost(Loss),
 }
+
+/// Most browsers that are known.
+const MOST_BROWSERS: usize = 64;
 
 /// An order of a browser.
 #[derive(Clone, Debug, Deserialize)]
@@ -66,6 +73,10 @@ struct Asked {
 /// All that the threads of the page share. The loop has no part in it.
 pub struct Desk {
     inner: Mutex<Inner>,
+    /// Stop and park, which wait for nothing else.
+    urgent: Mutex<Producer<Order>>,
+    /// Lines of the journal.
+    lines: Mutex<VecDeque<String>>,
     /// A new message, or the end.
     news: Condvar,
     controls: Option<Arc<Controls>>,
@@ -80,8 +91,11 @@ struct Inner {
     start: Vec<f64>,
     state: State,
     /// The browser that controls.
-    controller: Option<String>,
-    lines: VecDeque<String>,
+    controller: Option<Browser>,
+    /// Browsers that are here, the latest last.
+    browsers: Vec<Browser>,
+    /// Browsers that have come.
+    count: u64,
     pair: Pair,
     /// Members of a JSON object: parameters that differ from their start, and the pair.
     told: String,
@@ -90,13 +104,26 @@ struct Inner {
     ended: bool,
 }
 
+/// A browser: its secret number, and the one that all may know.
+#[derive(Clone, Debug, PartialEq)]
+struct Browser {
+    client: String,
+    number: u64,
+}
+
 /// The first message to a browser.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Welcome {
     client: String,
+    /// Its number among those that have come.
+    number: u64,
     pub controls: bool,
+    /// All browsers command.
+    shared: bool,
     /// It holds the vehicle's controls.
     pub drives: bool,
+    /// The vehicle has controls.
+    can_drive: bool,
     names: [&'static str; NAMES.len()],
 }
 
@@ -108,7 +135,7 @@ impl Desk {
     pub fn new(
         setup: &Setup,
         votes: Option<File>,
-        orders: Producer<Order>,
+        [orders, urgent]: [Producer<Order>; 2],
         controls: Option<Arc<Controls>>,
         shared_control: bool,
     ) -> Result<Self, moris_washout::ParameterError> {
@@ -120,13 +147,21 @@ impl Desk {
             trial,
             state: State::Off,
             controller: None,
-            lines: VecDeque::new(),
+            browsers: Vec::new(),
+            count: 0,
             told: String::new(),
             message: (0, String::new()),
             ended: false,
         };
         inner.tell();
-        Ok(Desk { inner: Mutex::new(inner), news: Condvar::new(), controls, shared_control })
+        Ok(Desk {
+            inner: Mutex::new(inner),
+            urgent: Mutex::new(urgent),
+            lines: Mutex::default(),
+            news: Condvar::new(),
+            controls,
+            shared_control,
+        })
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
@@ -136,10 +171,10 @@ impl Desk {
 
     /// A line for the page's journal.
     pub fn say(&self, line: &str) {
-        let mut inner = self.lock();
-        inner.lines.push_back(line.trim().to_owned());
-        if inner.lines.len() > MOST_LINES {
-            inner.lines.pop_front();
+        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+        lines.push_back(line.trim().to_owned());
+        if lines.len() > MOST_LINES {
+            lines.pop_front();
         }
     }
 
@@ -147,14 +182,18 @@ impl Desk {
     pub fn show(&self, mut moments: Consumer<Shown>, shared: &Shared) {
         let mut taken = Vec::new();
         loop {
-            let ended = moments.is_abandoned() || shared.done.load(std::sync::atomic::Ordering::Relaxed);
+            let ended = moments.is_abandoned() || shared.done.load(Ordering::Relaxed);
             taken.clear();
             while let Ok(moment) = moments.pop() {
                 taken.push(moment);
             }
+            let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
+            let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
             let mut inner = self.lock();
             inner.go_on(pace::now());
-            if let Some(text) = shown::message(&taken, &inner.lines, &inner.told) {
+            let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
+            let told = format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}]", inner.told);
+            if let Some(text) = shown::message(&taken, &lines, &told) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, |shown| shown.state);
             }
@@ -185,22 +224,43 @@ impl Desk {
         }
     }
 
-    /// A browser with this number has come. The first one controls.
+    /// A browser with this secret number has come. The first one controls.
     pub fn enter(&self, client: &str) -> Welcome {
         let mut inner = self.lock();
-        let holder = inner.controller.get_or_insert_with(|| client.to_owned());
-        let is_first = holder == client;
-        let drives = is_first && self.controls.is_some();
-        Welcome { client: client.to_owned(), controls: self.shared_control || is_first, drives, names: NAMES }
+        inner.count += 1;
+        let browser = Browser { client: client.to_owned(), number: inner.count };
+        inner.browsers.push(browser.clone());
+        if inner.browsers.len() > MOST_BROWSERS {
+            inner.browsers.remove(0);
+        }
+        let is_first = *inner.controller.get_or_insert_with(|| browser.clone()) == browser;
+        let can_drive = self.controls.is_some();
+        Welcome {
+            client: browser.client,
+            number: browser.number,
+            controls: self.shared_control || is_first,
+            shared: self.shared_control,
+            drives: is_first && can_drive,
+            can_drive,
+            names: NAMES,
+        }
     }
 
-    /// A browser has gone.
+    /// A browser has gone. The next that asks controls.
     pub fn leave(&self, client: &str) {
         let mut inner = self.lock();
-        if inner.controller.as_deref() == Some(client) {
+        inner.browsers.retain(|browser| browser.client != client);
+        if inner.controller.as_ref().is_some_and(|holder| holder.client == client) {
             inner.controller = None;
             self.controls.as_ref().inspect(|controls| controls.release());
         }
+    }
+
+    /// Passes a stop or a park on, from whichever page it comes.
+    fn ask_at_once(&self, event: Event) -> Result<(), (u16, String)> {
+        let mut urgent = self.urgent.lock().unwrap_or_else(PoisonError::into_inner);
+        let refused = |_| (503, "the loop has not taken the last orders yet".to_owned());
+        urgent.push(Order::Event(event)).map_err(refused)
     }
 
     /// Passes on what a browser asks for.
@@ -209,10 +269,19 @@ impl Desk {
     /// The number of the answer, and the reason for which it is refused.
     pub fn ask(&self, body: &[u8]) -> Result<(), (u16, String)> {
         let asked: Asked = serde_json::from_slice(body).map_err(|error| (400, error.to_string()))?;
+        if let Ask::Event(name) = &asked.ask
+            && let Some(event @ (Event::Stop | Event::Park)) = Event::of_person(name)
+        {
+            return self.ask_at_once(event);
+        }
         let mut inner = self.lock();
+        if inner.controller.is_none() {
+            inner.controller = inner.browsers.iter().find(|browser| browser.client == asked.client).cloned();
+        }
         let drives = matches!(asked.ask, Ask::Drive(_) | Ask::BeginAgain);
-        if (drives || !self.shared_control) && inner.controller.as_ref() != Some(&asked.client) {
-            return Err((403, "another page controls".to_owned()));
+        let holds = inner.controller.as_ref().is_some_and(|holder| holder.client == asked.client);
+        if (drives || !self.shared_control) && !holds {
+            return Err((403, "another page controls; Stop and Park work here, too".to_owned()));
         }
         match asked.ask {
             Ask::Drive(command) => self.drive(|controls| controls.hold(&command, pace::now())),
@@ -322,7 +391,7 @@ mod tests {
 
     fn desk(shared_control: bool) -> (Desk, Consumer<Order>) {
         let (orders, asked) = RingBuffer::new(64);
-        (Desk::new(&setup(), None, orders, None, shared_control).unwrap(), asked)
+        (Desk::new(&setup(), None, [orders, RingBuffer::new(8).0], None, shared_control).unwrap(), asked)
     }
 
     fn taken(orders: &mut Consumer<Order>) -> Vec<Order> {
@@ -330,21 +399,41 @@ mod tests {
     }
 
     #[test]
-    fn the_first_browser_controls_until_it_leaves() {
+    fn control_passes_to_the_next_browser_that_asks() {
         let (desk, mut orders) = desk(false);
-        let park =
-            |client: &str| desk.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"park\"}}}}").as_bytes());
-        assert_eq!(park("one").unwrap_err().0, 403);
-        assert!(desk.enter("one").controls && !desk.enter("two").controls);
-        assert_eq!(park("two").unwrap_err().0, 403);
-        park("one").unwrap();
-        desk.leave("two");
-        park("one").unwrap();
+        let start =
+            |client: &str| desk.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"start\"}}}}").as_bytes());
+        // Somebody who has not come.
+        assert_eq!(start("one").unwrap_err().0, 403);
+        assert!(desk.enter("one").controls && !desk.enter("two").controls && !desk.enter("three").controls);
+        assert_eq!(start("two").unwrap_err().0, 403);
+        start("one").unwrap();
+        desk.leave("three");
+        assert_eq!(start("two").unwrap_err().0, 403);
         desk.leave("one");
-        assert_eq!(park("one").unwrap_err().0, 403);
-        assert_eq!(park("two").unwrap_err().0, 403);
-        assert!(desk.enter("three").controls);
-        assert_eq!(taken(&mut orders), [Order::Event(Event::Park); 2]);
+        assert_eq!(start("one").unwrap_err().0, 403);
+        assert_eq!(start("three").unwrap_err().0, 403);
+        start("two").unwrap();
+        assert!(!desk.enter("four").controls);
+        assert_eq!(start("four").unwrap_err().0, 403);
+        assert_eq!(taken(&mut orders), [Order::Event(Event::Start); 2]);
+    }
+
+    #[test]
+    fn stop_and_park_work_from_every_page_while_the_desk_is_busy_or_its_orders_are_not_taken() {
+        let ([orders, urgent], [_asked, mut at_once]) = {
+            let ((orders, asked), (urgent, at_once)) = (RingBuffer::new(1), RingBuffer::new(8));
+            ([orders, urgent], [asked, at_once])
+        };
+        let desk = Desk::new(&setup(), None, [orders, urgent], None, false).unwrap();
+        desk.enter("one");
+        desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
+        assert_eq!(desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().0, 503);
+        let busy = desk.lock();
+        desk.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"stop\"}}").unwrap();
+        desk.ask(b"{\"client\":\"\",\"ask\":{\"event\":\"park\"}}").unwrap();
+        drop(busy);
+        assert_eq!(taken(&mut at_once), [Event::Stop, Event::Park].map(Order::Event));
     }
 
     #[test]
@@ -390,7 +479,7 @@ mod tests {
     #[test]
     fn orders_that_the_loop_does_not_take_are_refused_as_a_whole() {
         let (orders, mut asked) = RingBuffer::new(4);
-        let desk = Desk::new(&setup(), None, orders, None, true).unwrap();
+        let desk = Desk::new(&setup(), None, [orders, RingBuffer::new(8).0], None, true).unwrap();
         let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
         desk.ask(set).unwrap();
         assert_eq!(desk.ask(set).unwrap_err().0, 503);
@@ -402,7 +491,8 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let file = directory.path().join("votes");
         let (orders, mut asked) = RingBuffer::new(64);
-        let desk = Desk::new(&setup(), Some(File::create(&file).unwrap()), orders, None, true).unwrap();
+        let desk = Desk::new(&setup(), Some(File::create(&file).unwrap()), [orders, RingBuffer::new(8).0], None, true)
+            .unwrap();
         let ask = |order: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{order}}}").as_bytes());
         let number = |order: &str| ask(order).unwrap_err().0;
         let scale = log::slot_of("scale.specificForce.x").unwrap() as u16;

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 const MOST_HEAD: usize = 16_384;
 const MOST_BODY: usize = 16_384;
 /// Time in which a request must be complete.
-const PATIENCE: Duration = Duration::from_secs(5);
+const PATIENCE: Duration = Duration::from_secs(1);
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 

@@ -1,8 +1,9 @@
 //! The server of the page: a thread for each connection, of which there are few.
 
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener, TcpStream};
-use std::sync::Arc;
+use std::collections::VecDeque;
+use std::net::{IpAddr, Ipv4Addr, Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -16,6 +17,7 @@ use super::desk::Desk;
 use super::http::{self, Access, Request};
 use crate::live::Shared;
 use crate::live::controls::Handling;
+use crate::live::watch::{Part, watch};
 use crate::simulate::simulator::{parameters, sets};
 
 const TEMPLATE: &str = include_str!("../../../page/live.html");
@@ -26,8 +28,11 @@ const SCRIPTS: [&str; 4] = [
     include_str!("../../../page/pair.js"),
     include_str!("../../../page/live.js"),
 ];
-/// Most connections at once.
-const MOST: usize = 16;
+/// Most connections at once that have not shown the token yet: a new one closes the oldest.
+const MOST_STRANGERS: usize = 16;
+/// Most pages, and most of their other requests at once.
+const MOST_PAGES: usize = 12;
+const MOST_REQUESTS: usize = 24;
 /// Time between looks for a new connection.
 const LOOK: Duration = Duration::from_millis(20);
 
@@ -75,7 +80,10 @@ struct Site {
     page: String,
     access: Access,
     desk: Arc<Desk>,
-    connections: AtomicUsize,
+    strangers: Mutex<Strangers>,
+    pages: AtomicUsize,
+    requests: AtomicUsize,
+    shared: Arc<Shared>,
 }
 
 impl Server {
@@ -83,13 +91,15 @@ impl Server {
     ///
     /// # Errors
     /// The port is taken.
-    pub fn open(port: u16, listen: bool, start: &Start, desk: Arc<Desk>) -> Result<Self> {
+    pub fn open(port: u16, listen: bool, start: &Start, desk: Arc<Desk>, shared: Arc<Shared>) -> Result<Self> {
         let address = if listen { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST };
         let listener = TcpListener::bind(SocketAddr::new(IpAddr::V4(address), port))
             .with_context(|| format!("cannot serve the page at {address}:{port}"))?;
         listener.set_nonblocking(true)?;
         let access = Access { token: secret()?, port: listener.local_addr()?.port() };
-        let site = Site { page: start.html(), access, desk, connections: AtomicUsize::new(0) };
+        let [pages, requests] = [0, 0].map(AtomicUsize::new);
+        let strangers = Mutex::default();
+        let site = Site { page: start.html(), access, desk, strangers, pages, requests, shared };
         Ok(Server { listener, site: Arc::new(site) })
     }
 
@@ -106,36 +116,73 @@ impl Server {
                 thread::sleep(LOOK);
                 continue;
             };
-            let place = Place(Arc::clone(&self.site));
-            if self.site.connections.fetch_add(1, Ordering::Relaxed) < MOST {
-                // Without a thread the connection is closed.
-                let _ = thread::Builder::new().name("page".to_owned()).spawn(move || {
-                    let place = place;
-                    place.0.serve(stream);
-                });
-            }
+            let site = Arc::clone(&self.site);
+            let Some(number) = site.strangers().take(&stream) else { continue };
+            // Without a thread the connection is closed.
+            let _ = thread::Builder::new()
+                .name("page".to_owned())
+                .spawn(move || watch(&site.shared.failed, Part::Page, || site.serve(stream, number)));
         }
     }
 }
 
-/// A connection's place, which it leaves at its end.
-struct Place(Arc<Site>);
+/// Connections that have not shown the token yet, the oldest first.
+#[derive(Debug, Default)]
+struct Strangers {
+    count: u64,
+    streams: VecDeque<(u64, TcpStream)>,
+}
 
-impl Drop for Place {
+impl Strangers {
+    /// Takes a new connection, and closes the oldest if there are too many.
+    fn take(&mut self, stream: &TcpStream) -> Option<u64> {
+        let copy = stream.try_clone().ok()?;
+        if self.streams.len() >= MOST_STRANGERS
+            && let Some((_, oldest)) = self.streams.pop_front()
+        {
+            let _ = oldest.shutdown(Shutdown::Both);
+        }
+        self.count += 1;
+        self.streams.push_back((self.count, copy));
+        Some(self.count)
+    }
+
+    /// A connection is none of them any more.
+    fn forget(&mut self, number: u64) {
+        self.streams.retain(|(of, _)| *of != number);
+    }
+}
+
+/// A place among a few, which is left at its end.
+struct Place<'a>(&'a AtomicUsize);
+
+impl<'a> Place<'a> {
+    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, http::Refusal> {
+        let place = Place(places);
+        let taken = places.fetch_add(1, Ordering::Relaxed);
+        if taken < most { Ok(place) } else { Err((503, "too many pages or requests at once".to_owned())) }
+    }
+}
+
+impl Drop for Place<'_> {
     fn drop(&mut self) {
-        self.0.connections.fetch_sub(1, Ordering::Relaxed);
+        self.0.fetch_sub(1, Ordering::Relaxed);
     }
 }
 
 impl Site {
-    fn serve(&self, mut stream: TcpStream) {
+    fn strangers(&self) -> MutexGuard<'_, Strangers> {
+        self.strangers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn serve(&self, mut stream: TcpStream, number: u64) {
         let is_ready = stream.set_nonblocking(false).is_ok()
             && stream.set_nodelay(true).is_ok()
             && stream.set_write_timeout(Some(http::WRITE_TIME)).is_ok();
-        if !is_ready {
-            return;
-        }
-        let answered = http::read(&mut stream).and_then(|request| self.answer(&request, &mut stream));
+        let request = if is_ready { http::read(&mut stream) } else { Err((500, String::new())) };
+        // From here on the token decides.
+        self.strangers().forget(number);
+        let answered = request.and_then(|request| self.answer(&request, &mut stream));
         if let Err((number, why)) = answered {
             http::answer(&mut stream, number, "text/plain", &why);
         }
@@ -143,6 +190,9 @@ impl Site {
 
     fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), http::Refusal> {
         self.access.check(request)?;
+        let (places, most) =
+            if request.path == "/events" { (&self.pages, MOST_PAGES) } else { (&self.requests, MOST_REQUESTS) };
+        let _place = Place::among(places, most)?;
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => http::answer(stream, 200, "text/html", &self.page),
             ("GET", "/events") => self.send_events(stream)?,

@@ -58,11 +58,13 @@ pub struct Shown {
     health: Health,
     delay: f64,
     late: Classes,
+    /// The controller does not follow any more.
+    is_lost: bool,
 }
 
 impl Shown {
     /// The session now.
-    pub fn of(session: &Session, lateness: &Lateness) -> Self {
+    pub fn of(session: &Session, lateness: &Lateness, is_lost: bool) -> Self {
         let Values { time, length, pose, force, .. } = Values::from(session.commands());
         let lamps = lamps::lit(session.washout()).map(f64::from);
         let mut parts = [time].into_iter().chain(session.passed().0.iter().copied());
@@ -73,6 +75,7 @@ impl Shown {
             health: session.source().health(),
             delay: session.delay(),
             late: lateness.classes(),
+            is_lost,
         }
     }
 }
@@ -86,10 +89,10 @@ pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Optio
     let rows = moments.iter().map(row).collect::<Vec<_>>().join(",");
     let lines: Vec<&String> = lines.iter().rev().take(LINES).collect();
     let lines = serde_json::to_string(&lines).unwrap_or_default();
-    let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
+    let (state, health, delay, is_lost) = (last.state.name(), last.health.name(), last.delay, last.is_lost);
     let late = serde_json::to_string(&last.late).unwrap_or_default();
     Some(format!(
-        "{{\"rows\":[{rows}],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\
+        "{{\"rows\":[{rows}],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"is_lost\":{is_lost},\
          \"lines\":{lines},{told}}}"
     ))
 }
@@ -105,7 +108,7 @@ mod tests {
     fn a_message_is_json_with_a_number_for_each_name() {
         let mut session = Session::new(&Parameters::default(), &Settings::default()).unwrap();
         session.step();
-        let moment = Shown::of(&session, &Lateness::default());
+        let moment = Shown::of(&session, &Lateness::default(), true);
         let lines = VecDeque::from(["said \"so\"\n".to_owned()]);
         let text = message(&[moment, moment], &lines, "\"changed\":{\"tilt.angleLimit\":0.3}").unwrap();
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -123,6 +126,7 @@ mod tests {
             assert!((of(name) - expected).abs() <= 5e-6, "{name}");
         }
         assert_eq!(value["lines"][0], "said \"so\"\n");
+        assert_eq!(value["is_lost"], true);
         assert_eq!((&value["state"], &value["health"]), (&"off".into(), &"waiting".into()));
         assert!(!text.contains('\n'));
         assert!(message(&[], &lines, "\"changed\":{}").is_none());

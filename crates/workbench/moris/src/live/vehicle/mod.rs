@@ -13,7 +13,7 @@ use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
 use super::telemetry::{Received, engages};
-use super::{Shared, pace};
+use super::{Shared, console, pace};
 pub use fmu::Fmu;
 pub use motorcycle::Motorcycle;
 
@@ -64,7 +64,7 @@ pub fn drive(
         let command = controls.map(|controls| controls.at(pace::now())).unwrap_or_default();
         let advanced = if drives { vehicle.advance(&command) } else { Ok(()) };
         let sample = advanced.and_then(|()| vehicle.sample());
-        let Ok(sample) = sample.inspect_err(|error| eprintln!("the vehicle has ended: {error:#}")) else {
+        let Ok(sample) = sample.inspect_err(|error| console::line(&format!("the vehicle has ended: {error:#}"))) else {
             shared.played.store(true, Ordering::Relaxed);
             return;
         };

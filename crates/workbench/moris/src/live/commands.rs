@@ -1,0 +1,83 @@
+//! Commands of a person: lines on standard input.
+
+use std::io::{ErrorKind, Read};
+
+use moris_live::Event;
+use rtrb::Producer;
+
+use super::console;
+use super::page::Order;
+
+/// Names of the commands.
+pub const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
+/// Longest line that may be a command \[bytes\].
+const LONGEST: usize = 256;
+
+/// Passes lines on as commands until the input ends.
+pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
+    let mut bytes = [0; 4096];
+    let mut line = Vec::with_capacity(LONGEST);
+    loop {
+        let count = match input.read(&mut bytes) {
+            Ok(0) => return,
+            Ok(count) => count,
+            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+            Err(error) => {
+                console::line(&format!("commands cannot be read any more: {error}; a signal parks and ends"));
+                return;
+            }
+        };
+        for byte in &bytes[..count] {
+            if *byte == b'\n' {
+                take(&line, &mut commands);
+                line.clear();
+            } else if line.len() <= LONGEST {
+                line.push(*byte);
+            }
+        }
+    }
+}
+
+/// Takes a line, which may be anything.
+fn take(line: &[u8], commands: &mut Producer<Order>) {
+    let text = String::from_utf8_lossy(line);
+    match Event::of_person(text.trim()) {
+        Some(event) => {
+            if commands.push(Order::Event(event)).is_err() {
+                console::line("the loop has not taken the last commands yet");
+            }
+        }
+        None if text.trim().is_empty() => (),
+        None => console::line(&format!("commands: {COMMANDS}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io;
+
+    use rtrb::RingBuffer;
+
+    use super::*;
+
+    /// Input that a signal interrupts before each read.
+    struct Interrupted<'a>(&'a [u8], bool);
+
+    impl Read for Interrupted<'_> {
+        fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+            self.1 = !self.1;
+            if self.1 { Err(ErrorKind::Interrupted.into()) } else { self.0.read(out) }
+        }
+    }
+
+    #[test]
+    fn lines_are_commands_whatever_stands_between_them() {
+        let (commands, mut taken) = RingBuffer::new(8);
+        let long = [b'x'; 10_000];
+        let input = [b"start\n\xFF\xFE\n", &long[..], b"stop\n park \r\n\0\nfault\nstop\nclear"].concat();
+        read(Interrupted(&input, false), commands);
+        let found: Vec<Order> = std::iter::from_fn(|| taken.pop().ok()).collect();
+        // The end of a line that is too long is no command, and neither is a line without an end.
+        assert_eq!(found, [Event::Start, Event::Park, Event::Stop].map(Order::Event));
+    }
+}

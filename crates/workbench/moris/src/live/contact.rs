@@ -1,0 +1,83 @@
+//! Contact with the controller: it is lost when it refuses frames, or the line is gone.
+
+use std::io::{self, ErrorKind};
+use std::time::Duration;
+
+/// Failures in a row that are no loss yet: a system reports each refused packet once, with a later
+/// one, which may be sent.
+const FEW: u32 = 2;
+/// Time without a failure after which a failure begins a new row.
+const QUIET: Duration = Duration::from_secs(1);
+
+/// Failures of sending.
+#[derive(Clone, Copy, Debug)]
+pub struct Contact {
+    /// Failures with which it is lost.
+    most: u32,
+    failures: u32,
+    last: Duration,
+    is_lost: bool,
+}
+
+impl Contact {
+    /// Contact with a controller that gets frames at this interval \[s\].
+    pub fn new(interval: f64) -> Self {
+        // Within 0.5 s, of which every other frame is refused.
+        let most = if interval > 0.05 { 1 } else { FEW + 1 };
+        Contact { most, failures: 0, last: Duration::ZERO, is_lost: false }
+    }
+
+    /// A person has started the controller again.
+    pub fn renew(&mut self) {
+        (self.failures, self.is_lost) = (0, false);
+    }
+
+    /// True while it is lost.
+    pub fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
+    /// Takes what has become of a frame. The reason, if the controller is lost with it.
+    pub fn take(&mut self, sent: &io::Result<()>, now: Duration) -> Option<ErrorKind> {
+        let kind = sent.as_ref().err()?.kind();
+        if now.saturating_sub(self.last) > QUIET {
+            self.failures = 0;
+        }
+        self.last = now;
+        self.failures += 1;
+        let loses = !self.is_lost && self.failures >= self.most;
+        self.is_lost |= loses;
+        loses.then_some(kind)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The time of the loss \[ms\], with frames at this interval \[ms\], of which those are refused.
+    fn lost(interval: u64, is_refused: impl Fn(u64) -> bool) -> Option<u64> {
+        let mut contact = Contact::new(interval as f64 * 1e-3);
+        (0..5000).step_by(interval as usize).find(|time| {
+            let refused = is_refused(time / interval);
+            let sent = if refused { Err(ErrorKind::ConnectionRefused.into()) } else { Ok(()) };
+            contact.take(&sent, Duration::from_millis(10_000 + time)).is_some()
+        })
+    }
+
+    #[test]
+    fn a_controller_that_refuses_frames_is_lost_within_half_a_second() {
+        for interval in [1, 2, 10, 17, 50, 100, 200] {
+            for every in [1, 2] {
+                let time = lost(interval, |frame| frame % every == 0).unwrap();
+                assert!(time < 500, "{interval} ms: lost after {time} ms");
+            }
+        }
+    }
+
+    #[test]
+    fn few_failures_are_no_loss() {
+        assert_eq!(lost(10, |frame| frame == 7 || frame == 9), None);
+        assert_eq!(lost(10, |frame| frame % 150 == 0), None);
+    }
+}

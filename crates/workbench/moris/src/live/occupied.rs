@@ -1,0 +1,110 @@
+//! A controller that a session has: a second session is refused by a lock file.
+//!
+//! The system releases the lock with the process, also with one that is killed. Sessions on other
+//! machines, and other addresses of the same controller, are not noticed.
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::ErrorKind;
+use std::net::ToSocketAddrs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Result, bail};
+
+use super::console;
+
+/// The lock of a controller, until it is dropped.
+#[derive(Debug)]
+pub struct Occupied {
+    _file: Option<File>,
+}
+
+impl Occupied {
+    /// Takes the controller that `--to` names.
+    ///
+    /// # Errors
+    /// Another session has it.
+    pub fn take(target: &str) -> Result<Self> {
+        Self::take_in(&std::env::temp_dir(), target)
+    }
+
+    fn take_in(directory: &Path, target: &str) -> Result<Self> {
+        let path = directory.join(name(target));
+        let locked = open(&path).map_err(TryLockError::Error).and_then(|file| file.try_lock().map(|()| file));
+        match locked {
+            Ok(file) => Ok(Occupied { _file: Some(file) }),
+            Err(TryLockError::WouldBlock) => {
+                bail!("another session of moris live sends to {target}; end it first (its lock is {})", path.display())
+            }
+            Err(TryLockError::Error(error)) => {
+                let file = path.display();
+                console::line(&format!("no lock of the controller: {file}: {error}; a second session is not noticed"));
+                Ok(Occupied { _file: None })
+            }
+        }
+    }
+}
+
+/// Opens a file of any user, or makes it. A link in its place is not followed to make one.
+fn open(path: &Path) -> std::io::Result<File> {
+    match File::open(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            match OpenOptions::new().write(true).create_new(true).open(path) {
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => File::open(path),
+                made => made,
+            }
+        }
+        opened => opened,
+    }
+}
+
+/// Name of the lock file: one for all names of a host or a line.
+fn name(target: &str) -> PathBuf {
+    let plain = match target.split_once(':') {
+        Some(("udp", address)) => {
+            let found = address.to_socket_addrs().ok().and_then(|mut all| all.next());
+            found.map_or_else(|| target.to_owned(), |address| format!("udp:{address}"))
+        }
+        Some(("serial", line)) => {
+            let line = line.rsplit_once(':').map_or(line, |(line, _)| line);
+            let path = fs::canonicalize(line).unwrap_or_else(|_| line.into());
+            format!("serial:{}", path.display())
+        }
+        _ => target.to_owned(),
+    };
+    let plain: String = plain.chars().map(|c| if c.is_ascii_alphanumeric() || c == '.' { c } else { '-' }).collect();
+    format!("moris-live-{plain}.lock").into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_session_with_one_controller_is_refused() {
+        let directory = tempfile::tempdir().unwrap();
+        let take = |target: &str| Occupied::take_in(directory.path(), target);
+        let first = take("udp:127.0.0.1:5000").unwrap();
+        for same in ["udp:127.0.0.1:5000", "udp:localhost:5000"] {
+            if name(same) == name("udp:127.0.0.1:5000") {
+                let refused = take(same).unwrap_err().to_string();
+                assert!(refused.contains("another session") && refused.contains(".lock"), "{refused}");
+            }
+        }
+        take("udp:127.0.0.1:5001").unwrap();
+        drop(first);
+        take("udp:127.0.0.1:5000").unwrap();
+        // Without a place for the lock the session goes on.
+        assert!(Occupied::take_in(Path::new("/nowhere"), "udp:127.0.0.1:5000").is_ok());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_line_has_one_lock_under_all_of_its_names() {
+        let directory = tempfile::tempdir().unwrap();
+        let [line, link] = ["line", "by-id"].map(|name| directory.path().join(name));
+        fs::write(&line, "").unwrap();
+        std::os::unix::fs::symlink(&line, &link).unwrap();
+        let of = |path: &Path, baud: u32| name(&format!("serial:{}:{baud}", path.display()));
+        assert_eq!(of(&line, 250_000), of(&link, 115_200));
+    }
+}

@@ -1,0 +1,203 @@
+//! Frames as they leave: the actuators' change from one frame to the next stays within their speed.
+//!
+//! The loop's commands change within the limits from step to step. Frames may be left out or
+//! delayed on their way, so that the next one is far from the last that left. Then the difference
+//! goes to zero: a glide, whose speed comes on top of the commands' own.
+
+use std::time::Duration;
+
+use moris_live::frame::Values;
+
+/// Change between two frames, in terms of the largest speed, from which on a frame begins a glide.
+const LARGEST: f64 = 1.15;
+/// Speed of a glide in terms of the actuators' largest.
+const GLIDE_SPEED: f64 = 0.1;
+/// Speed of a glide to a controller that was lost \[m/s\].
+const LOST_SPEED: f64 = 0.05;
+/// Largest slope of the glide's profile, and its shortest time \[s\].
+const STEEPEST: f64 = 1.5;
+const SHORTEST: f64 = 0.2;
+
+/// Numbers of a frame that a glide changes.
+const NUMBERS: usize = 17;
+
+/// The way of frames to the controller.
+#[derive(Clone, Debug)]
+pub struct Wire {
+    /// Time between frames \[s\].
+    interval: f64,
+    /// Largest speed of an actuator \[m/s\].
+    speed: f64,
+    last: Option<(Duration, Values)>,
+    glide: Option<Glide>,
+    /// Frames do not arrive.
+    is_lost: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Glide {
+    difference: [f64; NUMBERS],
+    /// Its beginning in the session's time, and its length \[s\].
+    begin: f64,
+    duration: f64,
+}
+
+impl Glide {
+    /// The part of the difference that is left.
+    fn left(&self, time: f64) -> f64 {
+        let part = ((time - self.begin) / self.duration).clamp(0.0, 1.0);
+        1.0 - part * part * (3.0 - 2.0 * part)
+    }
+}
+
+impl Wire {
+    /// A way with frames at this interval \[s\], for actuators of this largest speed \[m/s\].
+    pub fn new(interval: f64, speed: f64) -> Self {
+        Wire { interval, speed, last: None, glide: None, is_lost: false }
+    }
+
+    /// The controller is started: it follows from the session's first frame on, or, if it was lost,
+    /// from where it was then.
+    pub fn start(&mut self) {
+        if !std::mem::take(&mut self.is_lost) {
+            self.last = None;
+        }
+        self.glide = None;
+    }
+
+    /// The controller does not receive frames: from this time on \[s\] they are as if not sent.
+    pub fn lose(&mut self) {
+        self.is_lost = true;
+    }
+
+    /// Time since the last frame, until now.
+    pub fn gap(&self, now: Duration) -> Option<Duration> {
+        self.last.map(|(at, _)| now.saturating_sub(at))
+    }
+
+    /// The frame that leaves now for these commands.
+    pub fn pass(&mut self, now: Duration, commanded: &Values) -> Values {
+        let mut values = self.with_glide(commanded);
+        if let Some((_, last)) = self.last {
+            let change =
+                |values: &Values| (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
+            if change(&values) > LARGEST * self.speed * self.interval {
+                self.begin(&last, commanded);
+                values = self.with_glide(commanded);
+            }
+        }
+        self.last = Some((now, values));
+        values
+    }
+
+    /// Begins a glide from the last frame, which goes on at the commands' speed.
+    fn begin(&mut self, last: &Values, commanded: &Values) {
+        // Whoever was lost stands still.
+        let (goes_on, speed) = match self.was_long_ago(last, commanded) {
+            true => (0.0, LOST_SPEED.min(GLIDE_SPEED * self.speed)),
+            false => (self.interval, GLIDE_SPEED * self.speed),
+        };
+        let mut from = *last;
+        for (length, velocity) in from.length.iter_mut().zip(commanded.velocity) {
+            *length += goes_on * velocity.clamp(-self.speed, self.speed);
+        }
+        let [from, to] = [&from, commanded].map(numbers);
+        let difference: [f64; NUMBERS] = std::array::from_fn(|k| from[k] - to[k]);
+        let farthest = difference[..6].iter().fold(0.0, |most: f64, one| most.max(one.abs()));
+        let duration = (STEEPEST * farthest / speed).max(SHORTEST);
+        self.glide = Some(Glide { difference, begin: commanded.time, duration });
+    }
+
+    /// True if the actuators have come to rest since the last frame.
+    fn was_long_ago(&self, last: &Values, commanded: &Values) -> bool {
+        commanded.time - last.time > 0.5
+    }
+
+    fn with_glide(&mut self, commanded: &Values) -> Values {
+        let Some(glide) = self.glide else { return *commanded };
+        let left = glide.left(commanded.time);
+        if left <= 0.0 {
+            self.glide = None;
+        }
+        let mut numbers = numbers(commanded);
+        numbers.iter_mut().zip(glide.difference).for_each(|(number, difference)| *number += left * difference);
+        let velocity = (left - glide.left(commanded.time - self.interval)) / self.interval;
+        let mut values = *commanded;
+        for (k, speed) in values.velocity.iter_mut().enumerate() {
+            *speed += velocity * glide.difference[k];
+        }
+        set(&mut values, &numbers);
+        values
+    }
+}
+
+fn numbers(values: &Values) -> [f64; NUMBERS] {
+    let all = values.length.iter().chain(&values.pose).chain(&values.own).chain([&values.heave, &values.heave_above]);
+    let mut all = all.copied();
+    std::array::from_fn(|_| all.next().unwrap_or_default())
+}
+
+fn set(values: &mut Values, numbers: &[f64; NUMBERS]) {
+    let places = values.length.iter_mut().chain(&mut values.pose).chain(&mut values.own);
+    let places = places.chain([&mut values.heave, &mut values.heave_above]);
+    places.zip(numbers).for_each(|(place, number)| *place = *number);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INTERVAL: f64 = 0.01;
+    const SPEED: f64 = 1.0;
+
+    /// A command at a time \[s\]: a sine of 0.1 m and 0.9 m/s at most.
+    fn commanded(time: f64) -> Values {
+        let length = [1.3 + 0.1 * (9.0 * time).sin(); 6];
+        Values { time, length, velocity: [0.9 * (9.0 * time).cos(); 6], ..Values::default() }
+    }
+
+    /// Frames that leave at these times \[ms\].
+    fn passed(wire: &mut Wire, times: impl IntoIterator<Item = u32>) -> Vec<Values> {
+        times
+            .into_iter()
+            .map(|time| wire.pass(Duration::from_millis(time.into()), &commanded(f64::from(time) * 1e-3)))
+            .collect()
+    }
+
+    #[test]
+    fn frames_on_time_pass_as_they_are() {
+        let mut wire = Wire::new(INTERVAL, SPEED);
+        for (k, values) in passed(&mut wire, (0..3000).step_by(10)).iter().enumerate() {
+            assert_eq!(*values, commanded(k as f64 * 10.0 * 1e-3));
+        }
+    }
+
+    #[test]
+    fn the_change_between_frames_stays_within_the_limits_after_any_gap() {
+        for gap in [20, 30, 106, 219, 700, 1670, 5000] {
+            let mut wire = Wire::new(INTERVAL, SPEED);
+            let times = (0..500).step_by(10).chain((490 + gap..12_000).step_by(10));
+            let frames = passed(&mut wire, times);
+            let steps = frames.windows(2).map(|pair| (pair[1].length[0] - pair[0].length[0]).abs());
+            let most = steps.fold(0.0, f64::max);
+            assert!(most <= 1.2 * SPEED * INTERVAL, "gap of {gap} ms: {most} m in a frame");
+            // It comes back to the commands.
+            let last = frames.last().unwrap();
+            assert_eq!(last.length, commanded(last.time).length, "gap of {gap} ms");
+        }
+    }
+
+    #[test]
+    fn a_controller_that_was_lost_is_followed_from_where_it_was() {
+        let mut wire = Wire::new(INTERVAL, SPEED);
+        passed(&mut wire, (0..500).step_by(10));
+        let before = wire.last.unwrap().1.length[0];
+        wire.lose();
+        wire.start();
+        let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.6; 6], ..Values::default() });
+        assert!((first.length[0] - before).abs() < 1e-9);
+        // Without a loss the session knows where the platform is.
+        wire.start();
+        assert_eq!(wire.pass(Duration::from_secs(10), &commanded(10.0)).length, commanded(10.0).length);
+    }
+}
