@@ -160,7 +160,7 @@ impl Ahead {
 
     /// Poses ahead by this time \[s\]; none at 0.
     fn by(time: f64) -> Option<Self> {
-        (time > 0.0).then(|| Ahead { time, before: [None; 2 * Self::STEPS] })
+        (time > 0.0).then_some(Ahead { time, before: [None; 2 * Self::STEPS] })
     }
 
     fn apply(&mut self, values: &mut Values) {

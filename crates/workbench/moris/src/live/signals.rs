@@ -96,7 +96,7 @@ impl Interrupts {
 mod tests {
     use super::*;
 
-    /// What follows from Ctrl-C and other signals at these times \[ms\]: parks, and ends at once.
+    /// Effect of Ctrl-C and other signals at these times \[ms\]: parks, and ends at once.
     fn after(interrupts: &[u64], terminations: &[u64]) -> (bool, bool) {
         let signals = Signals::default();
         let mut wish = Interrupts::new(signals.clone());
