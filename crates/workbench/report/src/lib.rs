@@ -28,7 +28,7 @@ pub use check::{ReportError, check};
 pub use data::{Better, Chart, Cues, Finding, LimitHistory, Limits, Line, Measure, Report, Rig, Run, Vehicle, Weight};
 pub use events::{Event, Kind, events};
 pub use index::{IndexRow, index_html};
-pub use page::html;
+pub use page::{escaped, html};
 pub use simulator::{Parameter, ParameterKind, Simulator};
 pub use thinning::Thinning;
 pub use tilt_limits::{TiltFlags, TiltLimit, tilt_limits};

@@ -6,6 +6,7 @@
 //! - [`Simulation`] steps the washout, [`Unfinished`] part by part; [`preview`] gives it
 //!   the recording's future.
 //! - [`advice`] is what another scale would give.
+//! - [`fit`](mod@fit) finds the largest scale with the right sign and proportion.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
 //! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
@@ -17,6 +18,7 @@ pub mod capabilities;
 pub mod clearance;
 mod evaluated;
 pub mod findings;
+pub mod fit;
 pub mod frequency_response;
 mod headline;
 mod measured;

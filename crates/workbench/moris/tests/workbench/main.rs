@@ -2,6 +2,7 @@
 
 mod commands;
 mod consistency;
+mod fit;
 mod forms;
 mod frequency_response;
 mod import;

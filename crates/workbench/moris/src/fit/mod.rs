@@ -1,0 +1,276 @@
+//! `moris fit`: the largest scale at which the cues have the right sign and proportion.
+//!
+//! [`source`] reads the recordings, [`fitted`] fits them, and [`picture`] draws size against shape.
+
+pub mod fitted;
+pub mod picture;
+pub mod source;
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use moris_interface::Group;
+use moris_setup::{changed, parameter_file};
+use moris_simulation::fit::{Aims, Fit};
+use moris_simulation::preview::parse_seconds;
+use moris_washout::Parameters;
+use moris_washout::interface::StrategyKind;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::measure::recordings;
+use crate::option_values::number_in;
+use crate::recording::{ConventionOptions, Recording};
+use crate::setup_options::{SetupOptions, strategies};
+use crate::status::DOES_NOT_FIT;
+use crate::text_table::TextTable;
+use fitted::{Fitted, Strategy, fitted, means};
+use source::{Usual, Vehicle};
+
+/// Find the largest scale at which the cues have the right sign and proportion
+///
+/// Prints a table of strategies by recordings: scale, shape, inverted time and size. The winner is
+/// felt largest of those that reach --error and --inverted. Writes NAME.fit.toml with the winner's
+/// parameters for each recording, for `moris simulate --parameters`, and fit.svg with the curves of
+/// size against shape. One factor scales surge, sway and all rates; heave has its own. The classical
+/// strategy gets a second factor on its break frequencies of surge and sway.
+///
+/// A second line says what a tilt of 6 degrees a second would give. It is never chosen.
+///
+/// The exit status is 3 if no scale fits a recording; then the nearest one is shown.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    /// Recordings (CSV) or folders of them, each with conventions of its own after @: a file, as in
+    /// ride.csv@carsim.toml, or a logger's format, as in ride.csv@racechrono
+    #[arg(value_name = "RECORDING[@CONVENTIONS]")]
+    recordings: Vec<PathBuf>,
+
+    /// A computed drive of these accelerations in place of a recording, as in "2 g sideways, 1 g
+    /// braking"
+    #[arg(long, value_name = "ACCELERATIONS", value_parser = Usual::parse)]
+    usual: Option<Usual>,
+
+    /// A computed drive of such a vehicle in place of a recording
+    #[arg(long, value_enum, value_name = "VEHICLE")]
+    vehicle: Option<Vehicle>,
+
+    /// Rig file [default: the default rig]
+    #[arg(long, value_name = "FILE")]
+    rig: Option<PathBuf>,
+
+    /// Parameter file or preset over those of each strategy. May be given several times
+    #[arg(long, value_name = "FILE|NAME")]
+    parameters: Vec<String>,
+
+    /// Strategies to fit [default: all]
+    #[arg(long, value_parser = strategies())]
+    strategy: Vec<StrategyKind>,
+
+    /// Preview of the recording's force for the predictive strategy, in s, at most 4
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_seconds)]
+    preview: f64,
+
+    /// Largest shape error of surge and sway together, in %
+    #[arg(long, value_name = "PERCENT", default_value_t = 50.0, value_parser = percent)]
+    error: f64,
+
+    /// Largest inverted time of an axis, in %
+    #[arg(long, value_name = "PERCENT", default_value_t = 2.0, value_parser = percent)]
+    inverted: f64,
+
+    /// Directory for the parameter files and the picture
+    #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
+    report: PathBuf,
+
+    /// Print the results as JSON
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    conventions: ConventionOptions,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A recording, the rig or the parameters cannot be used, or a file cannot be written.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    let recordings = read(options)?;
+    let strategies = all_strategies(options)?;
+    let aims = Aims { error: options.error / 100.0, inverted: options.inverted / 100.0 };
+    let fitted = fitted(&recordings, &strategies, options.preview, aims)?;
+    let files = write_files(&options.report, &recordings, &fitted, &strategies)?;
+    if options.json {
+        let results: Vec<Value> =
+            fitted.iter().zip(&files).map(|(one, file)| json_of(one, file, &strategies)).collect();
+        writeln!(out, "{:#}", Value::from(results))?;
+    } else {
+        write!(out, "{}", text(&fitted, &strategies, aims))?;
+        for file in files {
+            writeln!(out, "wrote {}", file.display())?;
+        }
+    }
+    let all_fit = fitted.iter().all(|one| one.fits[one.winner].fits);
+    Ok(if all_fit { ExitCode::SUCCESS } else { ExitCode::from(DOES_NOT_FIT) })
+}
+
+fn read(options: &Options) -> Result<Vec<Recording>> {
+    let files = recordings(&options.recordings)?;
+    let mut read: Vec<Recording> =
+        files.par_iter().map(|file| source::recording(file, &options.conventions)).collect::<Result<_>>()?;
+    read.extend(options.usual.map(|usual| usual.recording("usual accelerations")));
+    read.extend(options.vehicle.map(|vehicle| {
+        let name =
+            clap::ValueEnum::to_possible_value(&vehicle).map_or_else(String::new, |value| value.get_name().to_owned());
+        vehicle.usual().recording(&name)
+    }));
+    if read.is_empty() {
+        bail!("nothing to fit; name a recording, or give --usual \"2 g sideways, 1 g braking\" or --vehicle town-car");
+    }
+    Ok(read)
+}
+
+fn all_strategies(options: &Options) -> Result<Vec<Strategy>> {
+    let kinds = if options.strategy.is_empty() { StrategyKind::ALL } else { &options.strategy[..] };
+    let load = |kind: &StrategyKind| {
+        let setup =
+            SetupOptions { rig: options.rig.clone(), parameters: options.parameters.clone(), strategy: Some(*kind) }
+                .load()?;
+        Ok(Strategy { name: kind.name().to_owned(), setup })
+    };
+    kinds.iter().map(load).collect()
+}
+
+/// Writes the winner's parameters for each recording, and the picture; returns the files in this
+/// order.
+fn write_files(
+    directory: &Path,
+    recordings: &[Recording],
+    fitted: &[Fitted],
+    strategies: &[Strategy],
+) -> Result<Vec<PathBuf>> {
+    fs::create_dir_all(directory).with_context(|| format!("cannot make {}", directory.display()))?;
+    let mut files = Vec::new();
+    let mut write = |name: String, text: String| {
+        let file = directory.join(name);
+        fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+        files.push(file);
+        Ok::<(), anyhow::Error>(())
+    };
+    for (recording, one) in recordings.iter().zip(fitted) {
+        let Strategy { name, setup } = &strategies[one.winner];
+        let fit = &one.fits[one.winner];
+        let heading = format!("Fitted to {}: {name}, {}", recording.name, cell(fit));
+        let parameters = fit.best.factors.applied(&setup.parameters);
+        // The rig has a file of its own.
+        let own = Parameters { rig: Parameters::default().rig, ..parameters };
+        write(
+            format!("{}.fit.toml", recording.name.replace(' ', "-")),
+            parameter_file::write(&heading, &changed(&own), Parameters::ROWS),
+        )?;
+    }
+    write("fit.svg".to_owned(), picture::svg(fitted, strategies))?;
+    Ok(files)
+}
+
+fn text(fitted: &[Fitted], strategies: &[Strategy], aims: Aims) -> String {
+    let heads =
+        ["scale: shape, inverted, size"].into_iter().chain(strategies.iter().map(|strategy| strategy.name.as_str()));
+    let mut table = TextTable::new(heads.chain(["winner"]));
+    for one in fitted {
+        let cells = one.fits.iter().map(cell);
+        table.push([one.name.clone()].into_iter().chain(cells).chain([strategies[one.winner].name.clone()]).collect());
+    }
+    let mut text = format!("{table}\n");
+    for (index, strategy) in strategies.iter().enumerate() {
+        let means = means(fitted.iter().map(|one| &one.fits[index]));
+        text += &format!(
+            "{}: shape {:.2} in the mean, inverted {:.1} % in the mean and {:.1} % at worst, size {:.2}, scale {:.2}{}\n",
+            strategy.name,
+            means.shape,
+            100.0 * means.inverted[0],
+            100.0 * means.inverted[1],
+            means.size,
+            means.scale,
+            match means.misfits {
+                0 => String::new(),
+                count => format!("; no scale fits {count} of {}", fitted.len()),
+            }
+        );
+    }
+    text += "\n";
+    for one in fitted {
+        let fit = &one.fits[one.winner];
+        let name = &strategies[one.winner].name;
+        let misfit = format!(
+            " No scale has a shape error of at most {:.0} % and at most {:.0} % inverted; this is the nearest.",
+            100.0 * aims.error,
+            100.0 * aims.inverted
+        );
+        text += &format!("{}: {name}, {}.{}\n", one.name, words(fit), if fit.fits { "" } else { &misfit });
+        if let Some(faster) = &one.faster_tilt {
+            text += &format!("  With a tilt of 6 °/s (tilt.rateLimit, your choice): {}.\n", words(faster));
+        }
+    }
+    text
+}
+
+/// Scale, shape, inverted time and size in a cell; in brackets where no scale fits.
+fn cell(fit: &Fit) -> String {
+    let shape = &fit.best.shape;
+    let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
+    else {
+        return "nothing asked".to_owned();
+    };
+    let text = format!("{:.2}: {least:.2}, {:.1} %, {size:.2}", fit.best.factors.scale, 100.0 * inverted);
+    if fit.fits { text } else { format!("({text})") }
+}
+
+fn words(fit: &Fit) -> String {
+    let factors = &fit.best.factors;
+    let breaks =
+        if factors.breaks < 1.0 { format!(", break frequencies times {:.2}", factors.breaks) } else { String::new() };
+    let heave = if factors.heave < 1.0 { format!(", heave times {:.2}", factors.heave) } else { String::new() };
+    let shape = &fit.best.shape;
+    let (Some(least), Some((_, inverted)), Some(size)) = (shape.least_shape(), shape.most_inverted(), shape.size())
+    else {
+        return format!("scale {:.2}: hardly any surge or sway is asked{heave}", factors.scale);
+    };
+    format!(
+        "scale {:.2}{breaks}{heave}: shape {least:.2}, felt the wrong way round for {:.1} % of the time, size {size:.2}",
+        factors.scale,
+        100.0 * inverted
+    )
+}
+
+fn json_of(one: &Fitted, file: &Path, strategies: &[Strategy]) -> Value {
+    let fit = |(fit, strategy): (&Fit, &Strategy)| {
+        let channel = |axis: usize| {
+            fit.best.shape.axes[axis]
+                .map(|axis| json!({ "shape": axis.shape, "size": axis.size, "inverted": 100.0 * axis.inverted }))
+        };
+        json!({
+            "strategy": strategy.name,
+            "fits": fit.fits,
+            "scale": fit.best.factors.scale,
+            "breakFrequencies": fit.best.factors.breaks,
+            "heave": fit.best.factors.heave,
+            "shapeError": fit.best.shape.error.map(|error| 100.0 * error),
+            "surge": channel(0),
+            "sway": channel(1),
+        })
+    };
+    json!({
+        "recording": one.name,
+        "winner": strategies[one.winner].name,
+        "fits": one.fits.iter().zip(strategies).map(fit).collect::<Vec<_>>(),
+        "parameters": file.display().to_string(),
+    })
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    number_in(text, 0.1..=100.0, "a percentage from 0.1 to 100 is needed, such as 50")
+}
