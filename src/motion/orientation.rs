@@ -102,7 +102,7 @@ impl Orientation {
     /// The angles' rates from an angular velocity in the reference frame: the inverse of eq. (10).
     ///
     /// Eq. (10) is singular at a pitch of 90 degrees; short of it the cosine is
-    /// kept [`away_from_zero`].
+    /// kept `away_from_zero`.
     pub fn rates(&self, angular_velocity: Vector3<f64>) -> RollPitchYaw {
         let pitch = (self.sin_pitch, away_from_zero(self.cos_pitch));
         rates_from_reference(angular_velocity, (self.sin_yaw, self.cos_yaw), pitch)
@@ -143,7 +143,7 @@ impl RotationalMotion {
 }
 
 /// The inverse of eq. (10), from sine and cosine of yaw and of pitch. It divides by the cosine of
-/// pitch: see [`away_from_zero`].
+/// pitch: see `away_from_zero`.
 pub fn rates_from_reference(
     omega: Vector3<f64>,
     (sin_yaw, cos_yaw): (f64, f64),

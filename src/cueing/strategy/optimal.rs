@@ -59,16 +59,16 @@ fn unsolvable(parameters: &Parameters) -> Unsolvable {
 }
 
 /// Travel above which its weight no longer falls with the square of its limit \[m\].
-const WEIGHED_TRAVEL: f64 = 0.37;
+const WEIGHED_TRAVEL: f64 = 0.45;
 
 /// The model whose limit of travel the weights refer to.
 ///
 /// A long travel is used up before the tilt, whose rate is the same on every rig, can give it
 /// back. Beyond [`WEIGHED_TRAVEL`] D the weights of the travel L therefore grow: L counts as
-/// D (D/L)^(1/2).
+/// D^2/L.
 fn weighed(model: &AxisModel) -> AxisModel {
     let longer = (model.position_limit / WEIGHED_TRAVEL).max(1.0);
-    AxisModel { position_limit: model.position_limit.min(WEIGHED_TRAVEL) / longer.sqrt(), ..*model }
+    AxisModel { position_limit: model.position_limit.min(WEIGHED_TRAVEL) / longer, ..*model }
 }
 
 impl Optimal {
