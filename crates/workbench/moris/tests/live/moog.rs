@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use crate::rig::{Live, free_port, vehicle};
+use crate::rig::{APART, Live, free_port, vehicle};
 
 /// Packets for which the base moves between its home and neutral.
 const MOVING: u32 = 40;
@@ -133,7 +133,7 @@ fn a_base_that_fails_is_engaged_again_by_a_person_only() {
     live.command("start");
     live.wait_for("neutral");
     fails.store(true, Ordering::Relaxed);
-    live.wait_for("device: a fault, or no answer");
+    live.wait_for("Repair it, then clear");
     live.wait_for("fault");
     fails.store(false, Ordering::Relaxed);
     live.command("engage");
@@ -146,7 +146,7 @@ fn a_base_that_fails_is_engaged_again_by_a_person_only() {
     live.command("stop");
     live.wait_for("off");
     live.interrupt();
-    assert!(live.end().0.success());
+    assert!(!live.end().0.success(), "the session was in a fault");
     let packets = base.join().unwrap();
     let runs = runs(&packets);
     // The stop may come before the next position.
@@ -162,9 +162,10 @@ fn a_base_that_does_not_answer_is_a_fault() {
     let arguments = ["--format", "csv", "--frames", "moog-6dof2000e", "--engage"];
     let from = format!("udp:{}", free_port());
     let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
-    live.wait_for("device: a fault, or no answer");
+    live.wait_for("Repair it, then clear");
     live.wait_for("fault");
     live.interrupt();
+    thread::sleep(APART);
     live.interrupt();
-    assert!(live.end().0.success());
+    assert!(!live.end().0.success(), "the session was in a fault");
 }

@@ -100,6 +100,9 @@ pub fn vehicle(port: u16, runs: &AtomicBool) {
     }
 }
 
+/// A time after which a second interrupt is one of its own.
+pub const APART: Duration = Duration::from_millis(700);
+
 /// The six lengths in a frame.
 pub fn lengths(frame: &str) -> Vec<f64> {
     frame.split(',').skip(1).take(6).map(|field| field.parse().unwrap()).collect()
