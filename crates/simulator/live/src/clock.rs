@@ -1,23 +1,41 @@
 //! Time of a sample: from its packet's clock, or else its arrival.
+//!
+//! The packet's clock times its rate, which is estimated, runs with the session's. A sample's time
+//! is its corrected clock plus the least lag of the arrivals behind it. A sample that was held up
+//! is late, with the time at which it was true; a lag that lasts is the clock's own.
 
-/// Packets that come so much later than the clock says show that the clock has been stopped or runs
-/// slowly. A packet that comes so much earlier shows that the clock has leapt \[s\].
-const LATEST: f64 = 0.25;
+/// Packets whose clock leaps ahead of their arrivals by more show a clock that was set \[s\].
+const LEAP: f64 = 0.25;
 /// A clock that goes back by less has two packets in the wrong order; by more, it has been started
 /// again \[s\].
 const REORDERED: f64 = 0.5;
-/// Rate at which the least lag may grow: a source's clock may be slower than this one's.
-const DRIFT: f64 = 1e-3;
-
 /// A sample that would have to be so much later than its arrival, to be later than the one before
 /// it, is one of too many \[s\].
 const AHEAD: f64 = 0.005;
+/// Time of a window in which the least lag is taken, and number of windows \[s\].
+const WINDOW: f64 = 0.1;
+const WINDOWS: usize = 10;
+/// A lag that has been longer by this for [`LASTING`] windows is the clock's own \[s\].
+const STOPPED: f64 = 0.05;
+const LASTING: usize = 3;
+/// Largest speed at which the lag follows a longer one.
+const FOLLOWS: f64 = 0.05;
+/// Longest time after a packet for which the lag follows \[s\].
+const LONGEST_STEP: f64 = 0.05;
+/// Gain of the rate on the slope of the least lag, for each window.
+const GAIN: f64 = 0.08;
+/// Slowest and fastest clocks, as seconds of the session in one of theirs.
+const RATES: [f64; 2] = [0.2, 20.0];
+/// Part of the usual interval of arrivals below which packets come in a burst.
+const CROWDED: f64 = 0.3;
 
 /// Time of a sample as the clock sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stamp {
     /// The sample's time \[s\].
     At(f64),
+    /// The sample takes the place of the one before it.
+    Instead,
     /// The time of an earlier sample, or one of too many at once: the sample is dropped.
     Repeated,
     /// The clock has been started again, or has jumped; the sample's time \[s\].
@@ -35,9 +53,77 @@ pub struct Clock {
 struct Last {
     arrival: f64,
     clock: Option<f64>,
-    /// Least lag of the arrival behind the packet's clock \[s\].
-    lag: f64,
     stamp: f64,
+    /// Usual time between arrivals \[s\].
+    interval: f64,
+    lag: Lag,
+}
+
+/// Lag of the arrivals behind the corrected clock.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lag {
+    /// Seconds of the session in one of the clock's.
+    rate: f64,
+    /// The corrected clock \[s\].
+    clock: f64,
+    /// The lag \[s\].
+    lag: f64,
+    /// Least lags of the last windows, the newest last; those not yet known are infinite.
+    least: [f64; WINDOWS],
+    /// Arrival at which the newest window began \[s\].
+    since: f64,
+}
+
+impl Lag {
+    fn new(arrival: f64, rate: f64) -> Lag {
+        let mut least = [f64::INFINITY; WINDOWS];
+        least[WINDOWS - 1] = 0.0;
+        Lag { rate, clock: arrival, lag: 0.0, least, since: arrival }
+    }
+
+    /// Takes a packet whose clock has advanced by `advance` within `passed`.
+    fn take(&mut self, arrival: f64, advance: f64, passed: f64) {
+        self.clock += self.rate * advance;
+        let behind = arrival - self.clock;
+        if passed > WINDOW * WINDOWS as f64 {
+            self.least = [f64::INFINITY; WINDOWS];
+        }
+        if arrival - self.since >= WINDOW {
+            self.since = arrival;
+            self.adjust();
+            self.least.rotate_left(1);
+            self.least[WINDOWS - 1] = behind;
+        }
+        let newest = &mut self.least[WINDOWS - 1];
+        *newest = newest.min(behind);
+        if behind <= self.lag {
+            self.lag = behind;
+            return;
+        }
+        let lasting = least(&self.least[WINDOWS - LASTING..]);
+        let is_known = self.least[WINDOWS - LASTING].is_finite();
+        if is_known && lasting > self.lag + STOPPED {
+            self.lag = lasting;
+            return;
+        }
+        let longer = least(&self.least) - self.lag;
+        self.lag += longer.clamp(0.0, FOLLOWS * passed.clamp(0.0, LONGEST_STEP));
+    }
+
+    /// Adjusts the rate to the slope of the least lags.
+    fn adjust(&mut self) {
+        let half = WINDOWS / 2;
+        let [old, new] = [least(&self.least[..half]), least(&self.least[half..])];
+        if old.is_finite() && new.is_finite() {
+            let slope = (new - old) / (half as f64 * WINDOW);
+            let rate = (self.rate * (1.0 + GAIN * slope.clamp(-0.5, 2.0))).clamp(RATES[0], RATES[1]);
+            self.rate = rate;
+        }
+    }
+}
+
+fn least(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 impl Clock {
@@ -45,37 +131,61 @@ impl Clock {
     pub fn slip(&mut self, time: f64) {
         if let Some(last) = &mut self.last {
             last.arrival -= time;
-            last.lag -= time;
             last.stamp -= time;
+            last.lag.clock -= time;
+            last.lag.since -= time;
         }
+    }
+
+    /// Seconds of the session in one of the source's clock, as estimated.
+    pub fn rate(&self) -> f64 {
+        self.last.map_or(1.0, |last| last.lag.rate)
     }
 
     /// The time of a sample with this packet's clock that arrived then.
     pub fn stamp(&mut self, arrival: f64, clock: Option<f64>) -> Stamp {
-        let behind = clock.map_or(0.0, |clock| arrival - clock);
         let Some(last) = self.last else {
-            self.last = Some(Last { arrival, clock, lag: behind, stamp: arrival });
+            self.last = Some(Last { arrival, clock, stamp: arrival, interval: 0.0, lag: Lag::new(arrival, 1.0) });
             return Stamp::At(arrival);
         };
-        let anew = arrival.max(last.stamp + 1e-3);
-        let (stamp, lag, restarted) = match [clock, last.clock] {
+        let passed = arrival - last.arrival;
+        let mut next = Last { arrival, clock, ..last };
+        let stamp = match [clock, last.clock] {
             [Some(now), Some(before)] if now <= before && now > before - REORDERED => return Stamp::Repeated,
-            [Some(now), Some(before)] => {
-                let lag = behind.min(last.lag + DRIFT * (arrival - last.arrival));
-                let leaps = now - before - (arrival - last.arrival) > LATEST;
-                match now < before || leaps || behind - lag > LATEST {
-                    true => (anew, behind, true),
-                    false => ((now + lag).max(last.stamp + 1e-4), lag, false),
-                }
+            [Some(now), Some(before)]
+                if now < before || last.lag.rate * (now - before) - passed > LEAP + behind(&last) =>
+            {
+                next.lag = Lag::new(arrival, last.lag.rate);
+                Stamp::Restarted(arrival.max(last.stamp + 1e-3))
             }
-            _ => (anew, behind, false),
+            [Some(now), Some(before)] => {
+                next.lag.take(arrival, now - before, passed);
+                Stamp::At((next.lag.clock + next.lag.lag).max(last.stamp + 1e-4))
+            }
+            [_, before] => {
+                next.lag = Lag::new(arrival, 1.0);
+                let is_crowded = before.is_none() && passed < CROWDED * last.interval;
+                let gain = if is_crowded { 0.005 } else { 0.1 };
+                next.interval += if passed < 0.5 { gain * (passed - last.interval) } else { 0.0 };
+                // Of a burst the newest counts: when the others were true is unknown.
+                if is_crowded { Stamp::Instead } else { Stamp::At(arrival.max(last.stamp + 1e-3)) }
+            }
         };
-        if stamp > arrival + AHEAD {
-            return Stamp::Repeated;
+        match stamp {
+            Stamp::Instead => (),
+            Stamp::At(stamp) | Stamp::Restarted(stamp) if stamp <= arrival + AHEAD => {
+                next.stamp = stamp;
+            }
+            _ => return Stamp::Repeated,
         }
-        self.last = Some(Last { arrival, clock, lag, stamp });
-        if restarted { Stamp::Restarted(stamp) } else { Stamp::At(stamp) }
+        self.last = Some(next);
+        stamp
     }
+}
+
+/// Lag of the last sample behind its arrival: what a burst catches up with \[s\].
+fn behind(last: &Last) -> f64 {
+    (last.arrival - last.stamp).max(0.0)
 }
 
 #[cfg(test)]
@@ -114,17 +224,62 @@ mod tests {
         assert_eq!(clock.stamp(1.1, Some(50.0)), Stamp::Repeated);
         assert_eq!(clock.stamp(1.1, Some(49.9)), Stamp::Repeated);
         assert_eq!(clock.stamp(1.2, Some(0.0)), Stamp::Restarted(1.2));
-        assert_eq!(clock.stamp(1.3, Some(0.1)), Stamp::At(1.3));
-        // A clock that stood still for a second.
-        assert_eq!(clock.stamp(2.4, Some(0.2)), Stamp::Restarted(2.4));
+        assert!(matches!(clock.stamp(1.3, Some(0.1)), Stamp::At(stamp) if (stamp - 1.3).abs() < 1e-9));
     }
 
     #[test]
-    fn without_a_clock_the_arrival_is_the_time() {
+    fn packets_that_were_held_up_have_the_times_at_which_they_were_true() {
+        for held in [0.3, 0.45, 0.6, 0.9, 3.0] {
+            let mut clock = Clock::default();
+            for k in 0..1000 {
+                let time = f64::from(k) * 0.01;
+                let arrival = if time > 4.0 && time < 4.0 + held { 4.0 + held } else { time };
+                let Stamp::At(stamp) = clock.stamp(7.0 + arrival, Some(time)) else { panic!("sample {k}") };
+                assert!((stamp - 7.0 - time).abs() < 5e-3, "held for {held} s, sample {k}: {}", stamp - 7.0 - time);
+            }
+        }
+    }
+
+    #[test]
+    fn a_clock_that_stood_still_is_followed_after_a_moment() {
         let mut clock = Clock::default();
-        assert_eq!(clock.stamp(1.0, None), Stamp::At(1.0));
-        assert_eq!(clock.stamp(1.5, None), Stamp::At(1.5));
-        assert_eq!(clock.stamp(1.5, None), Stamp::At(1.501));
+        for k in 0..1000 {
+            let time = f64::from(k) * 0.01;
+            let arrival = if time > 4.0 { time + 0.8 } else { time };
+            let Stamp::At(stamp) = clock.stamp(7.0 + arrival, Some(time)) else { panic!("sample {k}") };
+            let behind = 7.0 + arrival - stamp;
+            assert!(time < 4.5 || behind < 0.02, "sample {k}: {behind} s behind");
+        }
+    }
+
+    #[test]
+    fn clocks_of_any_rate_are_followed() {
+        for rate in [0.5, 0.9, 0.95, 0.99, 0.995, 0.999, 1.0, 1.001, 1.005, 1.1] {
+            let mut clock = Clock::default();
+            let mut worst = 0.0_f64;
+            for k in 0..6000 {
+                let time = f64::from(k) * 0.01;
+                let arrival = 7.0 + time + 0.004 * f64::from(k * 7919 % 100) / 99.0;
+                let Stamp::At(stamp) = clock.stamp(arrival, Some(rate * time)) else { panic!("{rate}: sample {k}") };
+                if time > 8.0 {
+                    worst = worst.max(7.0 + time - stamp);
+                }
+            }
+            assert!(worst < 0.008, "{rate}: {worst} s behind");
+            assert!((clock.rate() * rate - 1.0).abs() < 5e-3, "{rate}: {}", clock.rate());
+        }
+    }
+
+    #[test]
+    fn without_a_clock_the_arrival_is_the_time_and_the_newest_of_a_burst_counts() {
+        let mut clock = Clock::default();
+        for k in 0..50 {
+            let arrival = 1.0 + f64::from(k) * 0.01;
+            assert_eq!(clock.stamp(arrival, None), Stamp::At(arrival));
+        }
+        assert_eq!(clock.stamp(2.0, None), Stamp::At(2.0));
+        assert!((0..80).all(|_| clock.stamp(2.0, None) == Stamp::Instead));
+        assert_eq!(clock.stamp(2.01, None), Stamp::At(2.01));
     }
 
     #[test]
@@ -139,10 +294,10 @@ mod tests {
                         assert!(stamp <= arrival + 0.005 + 1e-9);
                         taken += 1;
                     }
-                    Stamp::Repeated => (),
+                    Stamp::Instead | Stamp::Repeated => (),
                 }
             }
-            assert!((1000..=10_100).contains(&taken), "{taken}");
+            assert!(taken <= 10_100, "{taken}");
         }
     }
 }

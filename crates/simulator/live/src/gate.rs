@@ -10,6 +10,8 @@ use crate::motion::{ANGLES, CHANNELS, Channels, FELT, Motion, turns};
 pub const GLIDE: [f64; 2] = [1.0, 5.0];
 /// Time for which a felt difference takes to glide \[s\].
 const PER_FELT: f64 = 0.5;
+/// The same after a gap, at least.
+const PER_GAP: f64 = 0.1;
 /// Longest time for which the slope before a change goes on to fade \[s\].
 const SLOPE_TIME: f64 = 0.2;
 /// Largest change that a slope may still cause, in felt sizes; a steeper one fades earlier.
@@ -22,7 +24,7 @@ pub enum Change {
     None,
     /// Another source, or another place: a glide of 1 to 5 s, the longer the more it changes.
     Source,
-    /// The same source after a gap: a glide of this time \[s\].
+    /// The same source after a gap: a glide of this time \[s\], or longer for a large change.
     Gap(f64),
 }
 
@@ -103,7 +105,7 @@ impl Gate {
         let left = self.glide.map_or(0.0, |glide| glide.duration - glide.elapsed);
         let duration = match change {
             Change::None | Change::Source => (PER_FELT * felt).clamp(GLIDE[0], GLIDE[1]),
-            Change::Gap(time) => time.max(left),
+            Change::Gap(time) => time.max(PER_GAP * felt).max(left).min(GLIDE[1]),
         };
         self.glide = Some(Glide { difference, slope: self.slope - slope, elapsed: 0.0, duration });
     }

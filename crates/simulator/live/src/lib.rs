@@ -10,10 +10,14 @@
 //! | [`session`] | the whole: events in, commands out, one step |
 //! | [`source`] | health of the telemetry: pause, silence, bad samples, teleports |
 //! | [`clock`] | time of a sample from its packet's clock or its arrival |
+//! | [`attitude`] | attitudes compared as rotations |
+//! | [`spikes`] | samples that no vehicle causes |
+//! | [`gaps`] | times between samples, from which the delay follows |
 //! | [`resampler`] | linear interpolation of irregular samples, with a delay |
 //! | [`gate`] | change of the washout's source without a jump |
 //! | [`legs`] | where the legs are before they follow commands |
 //! | [`travel`] | the way between the settled pose and neutral |
+//! | [`tuning`] | parameters that glide to chosen values |
 //! | [`blend`] | the way from one parameter set to another |
 //! | [`signs`] | test of the telemetry's signs |
 //! | [`format`](mod@format) | packets of telemetry, described by tables |
@@ -42,10 +46,12 @@
 
 #![forbid(unsafe_code)]
 
+pub mod attitude;
 pub mod blend;
 pub mod clock;
 pub mod format;
 pub mod frame;
+pub mod gaps;
 pub mod gate;
 pub mod legs;
 pub mod log;
@@ -55,8 +61,10 @@ pub mod resampler;
 pub mod session;
 pub mod signs;
 pub mod source;
+pub mod spikes;
 pub mod transitions;
 pub mod travel;
+pub mod tuning;
 
 pub use legs::Legs;
 pub use motion::{Motion, Sample};

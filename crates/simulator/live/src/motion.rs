@@ -60,6 +60,11 @@ impl Motion {
         RollPitchYaw::new(self.0[6], self.0[7], self.0[8])
     }
 
+    /// Changes roll, pitch and yaw \[rad\].
+    pub fn set_angles(&mut self, angles: RollPitchYaw) {
+        self.0.fixed_rows_mut::<3>(6).copy_from(&angles.to_vector());
+    }
+
     /// The forward speed \[m/s\].
     pub fn speed(&self) -> f64 {
         self.0[9]
@@ -102,8 +107,9 @@ pub struct Sample {
 impl Sample {
     /// True if all of it is finite and none of it absurd.
     pub fn is_plausible(&self) -> bool {
-        const LARGEST_FORCE: f64 = 1e3;
-        const LARGEST_RATE: f64 = 100.0;
+        // 10 g, and 2000 degrees a second, as for recordings.
+        const LARGEST_FORCE: f64 = 98.0665;
+        const LARGEST_RATE: f64 = 35.0;
         const LARGEST: f64 = 1e4;
         let finite = |mut values: std::slice::Iter<f64>| values.all(|value| value.is_finite());
         finite(self.motion.0.as_slice().iter())

@@ -3,16 +3,20 @@
 //! The delay must be as long as the time from a sample to the arrival of the next. Where it is not,
 //! the last sample is held until the next one arrives.
 
-use crate::motion::{ANGLES, Channels, Motion, turns};
+use crate::attitude::{between, nearest_angles};
+use crate::gaps::Gaps;
+use crate::motion::{ANGLES, Channels, Motion};
 
 /// Samples that are kept: 0.6 s at 400 Hz.
 const KEPT: usize = 256;
-/// Shortest and longest delay that is chosen by itself \[s\].
-pub const DELAY: [f64; 2] = [0.002, 0.25];
-/// Reserve of the delay beyond the longest time between samples.
-const RESERVE: f64 = 1.1;
-/// Time constant with which a long time between samples is forgotten \[s\].
-const MEMORY: f64 = 20.0;
+/// Longest delay \[s\].
+pub const LONGEST: f64 = 0.25;
+/// Delay from which on a person is warned \[s\].
+pub const LONG: f64 = 0.06;
+/// Packets that arrive within this time after another came with it \[s\].
+const TOGETHER: f64 = 1e-3;
+/// A change of an angle within a sample that may be one of its description alone \[rad\].
+const WIDE: f64 = 0.5;
 
 /// The samples of the last moments.
 #[derive(Clone, Debug)]
@@ -21,8 +25,9 @@ pub struct Resampler {
     /// Place of the newest.
     newest: usize,
     count: usize,
-    /// Longest time from a sample to the next one's arrival, lately \[s\].
-    longest: f64,
+    /// Arrival of the newest \[s\].
+    arrival: f64,
+    gaps: Gaps,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,30 +49,44 @@ pub struct At {
 
 impl Default for Resampler {
     fn default() -> Self {
-        Resampler { samples: [Stamped::default(); KEPT], newest: 0, count: 0, longest: 0.0 }
+        Resampler { samples: [Stamped::default(); KEPT], newest: 0, count: 0, arrival: 0.0, gaps: Gaps::default() }
     }
 }
 
 impl Resampler {
     /// Adds a sample of this time, later than the last one's.
-    pub fn push(&mut self, arrival: f64, time: f64, mut motion: Motion) {
+    pub fn push(&mut self, arrival: f64, time: f64, motion: Motion) {
+        let motion = self.continued(motion);
         if self.count > 0 {
-            let last = self.samples[self.newest];
-            for k in ANGLES {
-                motion.0[k] -= turns(motion.0[k] - last.motion.0[k]);
-            }
-            let gap = (arrival - last.time).max(0.0);
-            if gap < DELAY[1] {
-                self.longest = gap.max(self.longest * libm::exp(-gap / MEMORY));
+            let passed = arrival - self.arrival;
+            if passed >= TOGETHER {
+                self.gaps.take(arrival - self.sample(0).time, passed);
             }
         }
+        self.arrival = arrival;
         self.newest = (self.newest + 1) % KEPT;
         self.samples[self.newest] = Stamped { time, motion };
         self.count = (self.count + 1).min(KEPT);
     }
 
+    /// Puts a motion in the place of the newest sample's.
+    pub fn replace(&mut self, motion: Motion) {
+        let motion = self.continued(motion);
+        self.samples[self.newest].motion = motion;
+    }
+
+    /// The motion with the description of its attitude that is nearest to the newest sample's: an
+    /// attitude has two, and each angle any number of turns.
+    fn continued(&self, mut motion: Motion) -> Motion {
+        if self.count > 0 {
+            motion.set_angles(nearest_angles(&motion.angles(), &self.sample(0).motion.angles()));
+        }
+        motion
+    }
+
     /// All times until now are earlier by this time \[s\].
     pub fn slip(&mut self, time: f64) {
+        self.arrival -= time;
         self.samples.iter_mut().for_each(|sample| sample.time -= time);
     }
 
@@ -76,9 +95,9 @@ impl Resampler {
         self.count = 0;
     }
 
-    /// The shortest delay with which no sample of late would have come too late \[s\].
-    pub fn delay(&self) -> f64 {
-        (RESERVE * self.longest).clamp(DELAY[0], DELAY[1])
+    /// The delay with which this part of the samples of late would not have come too late \[s\].
+    pub fn delay(&self, part: f64) -> f64 {
+        self.gaps.delay(part)
     }
 
     /// The motion at a time; none without a sample.
@@ -95,7 +114,11 @@ impl Resampler {
             let before = self.sample(age);
             if before.time <= time {
                 let slope = (after.motion.0 - before.motion.0) / (after.time - before.time);
-                let motion = Motion(before.motion.0 + slope * (time - before.time));
+                let mut motion = Motion(before.motion.0 + slope * (time - before.time));
+                if ANGLES.take(3).any(|k| (after.motion.0[k] - before.motion.0[k]).abs() > WIDE) {
+                    let part = (time - before.time) / (after.time - before.time);
+                    motion.set_angles(between(&before.motion.angles(), &after.motion.angles(), part));
+                }
                 return Some(At { motion, slope, held_from: None });
             }
             after = before;
@@ -132,11 +155,11 @@ mod tests {
                     next += if sent % 3 == 0 { 1.5 } else { 0.75 } / rate;
                 }
                 if now > 2.0 {
-                    let delay = resampler.delay();
+                    let delay = resampler.delay(1.0);
                     let at = resampler.at(now - delay).unwrap();
                     assert!((at.motion.0[0] - 0.5 * (now - delay)).abs() < 1e-9 && at.held_from.is_none(), "{rate} Hz");
                     assert!((at.slope[0] - 0.5).abs() < 1e-9);
-                    assert!(delay <= 1.7 / rate + 1.3e-3, "{rate} Hz: {delay} s");
+                    assert!(delay <= 1.7 / rate + 2.5e-3, "{rate} Hz: {delay} s");
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! The whole: telemetry and events in, commands to the actuators out.
 
-use moris_interface::{Group, Reader, Writer, slots_of};
+use moris_interface::{Group, Reader, slots_of};
 use moris_washout::interface::{AngularVelocityFrame, Output};
 use moris_washout::motion::orientation::Orientation;
 use moris_washout::platform::{Geometry, Pose, forward_kinematics};
@@ -15,6 +15,7 @@ use crate::signs::{Check, Signs};
 use crate::source::{Health, Source};
 use crate::transitions::{Event, State};
 use crate::travel::Travel;
+use crate::tuning::{self, Tuning};
 
 /// Length of a step \[s\].
 pub const STEP: f64 = 0.001;
@@ -32,6 +33,12 @@ const LEAST_ENGAGING: f64 = 4.0;
 const NO_WAY: f64 = 1e-9;
 /// Glide after a gap: twice its length, within these \[s\].
 const GAP_GLIDE: [f64; 2] = [0.1, 1.0];
+/// Part of the gaps between samples that the delay covers; of those of a source inside the program.
+const COVERED: [f64; 2] = [0.99, 0.5];
+/// Speed at which the delay changes while the vehicle is cued.
+const DELAY_CHANGE: f64 = 0.02;
+/// Part by which a source may change faster within a step than its slope says.
+const PASSES: f64 = 0.1;
 
 /// Largest speed and acceleration of the legs on the way home, in those of the actuators.
 const TRAVEL: f64 = 0.25;
@@ -44,6 +51,9 @@ pub struct Settings {
     pub delay: Option<f64>,
     /// Part of the stroke that the legs keep from their ends at the settled pose.
     pub settled: f64,
+    /// True if the source of telemetry runs inside the program: the delay does not follow from the
+    /// gaps that a computer causes, and is zero if its samples come before their time.
+    pub is_inside: bool,
     /// True if the legs are at the settled pose at first. Otherwise their place is unknown until
     /// [`Session::locate`].
     pub starts_settled: bool,
@@ -60,6 +70,7 @@ impl Default for Settings {
         Settings {
             delay: None,
             settled: 0.02,
+            is_inside: false,
             starts_settled: true,
             slow_speed: 0.02,
             travel_speed: 0.15,
@@ -126,16 +137,24 @@ pub struct Commands {
     pub washout: Output,
 }
 
-/// Puts parameters in force, as [`Session::retune`] in this state.
+/// True if parameters may change at once: the platform does not follow the washout.
+fn is_down(state: State) -> bool {
+    matches!(state, State::Off | State::Settled)
+}
+
+/// Puts parameters in force, as [`Session::retune`] in this state, but at once.
 ///
 /// # Errors
 /// As there.
 pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> Result<(), ParameterError> {
+    if !is_down(state) {
+        tuning::check_in_motion(&slots_of(washout.parameters()), &slots_of(parameters))?;
+    }
     washout.retune(parameters).or_else(|reason| {
         let before = washout.parameters();
         let is_fitting = parameters.rig == before.rig
             && parameters.conditioning.angular_velocity_frame == before.conditioning.angular_velocity_frame;
-        if !is_fitting || !matches!(state, State::Off | State::Settled) {
+        if !is_fitting || !is_down(state) {
             return Err(reason);
         }
         *washout = Washout::new(parameters)?.starting_with(&Motion::at_rest().input(false));
@@ -154,6 +173,13 @@ fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f
     found.or_else(|| forward_kinematics(geometry, length, &above).ok()).unwrap_or(above)
 }
 
+/// True if the source has gone on from its motion a step ago as its slopes say.
+fn passes((motion, slope): &(Motion, Channels), at: &At) -> bool {
+    let change = at.motion.0 - motion.0;
+    let most = (slope.abs()).sup(&at.slope.abs()) * (1.0 + PASSES) * STEP;
+    change.iter().zip(&most).all(|(change, most)| change.abs() <= most + 1e-9)
+}
+
 /// The washout beside a running vehicle. A step allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Session {
@@ -162,6 +188,7 @@ pub struct Session {
     geometry: Geometry,
     /// The parameters' values, with those that [`Session::retune`] will put in force.
     slots: Vec<f64>,
+    tuning: Tuning,
     state: State,
     steps: u64,
     /// Step at which the state began.
@@ -173,6 +200,8 @@ pub struct Session {
     delay: f64,
     /// Time from which on the last step's telemetry was held \[s\].
     held_from: Option<f64>,
+    /// The source's motion and slope at the last step.
+    last: Option<(Motion, Channels)>,
     gate: Gate,
     /// The source has changed since the last step.
     changed: bool,
@@ -225,6 +254,7 @@ impl Session {
             geometry,
             settings: *settings,
             slots: slots_of(&parameters),
+            tuning: Tuning::new(&slots_of(&parameters)),
             state: State::Off,
             steps: 0,
             since: 0,
@@ -233,6 +263,7 @@ impl Session {
             signs: Signs::default(),
             delay: settings.delay.unwrap_or_default(),
             held_from: None,
+            last: None,
             gate: Gate::default(),
             changed: false,
             slipped: 0.0,
@@ -301,6 +332,11 @@ impl Session {
         self.delay
     }
 
+    /// True if the delay is long enough to be noticed: [`LONG`](crate::resampler::LONG).
+    pub fn is_delay_long(&self) -> bool {
+        self.delay >= crate::resampler::LONG
+    }
+
     /// The vehicle's motion that the washout has received last.
     pub fn passed(&self) -> &Motion {
         self.gate.output()
@@ -318,19 +354,31 @@ impl Session {
         }
     }
 
-    /// Puts the chosen parameters in force. Tunable ones change at any time, without a jump. Fixed
-    /// ones, such as the strategy, change while the platform is at its lowest pose; those of the
-    /// rig never.
+    /// Puts the chosen parameters in force. Tunable ones change at any time, within 2 s in motion. A
+    /// scale keeps its sign there, and a pace is not switched on or off. Fixed ones, such as the
+    /// strategy, change while the platform is at its lowest pose; those of the rig never.
     ///
     /// # Errors
     /// The first parameter that cannot be used, and why. Nothing has changed then.
     pub fn retune(&mut self) -> Result<(), ParameterError> {
         let parameters = Parameters::read(&mut Reader::new(&self.slots));
-        let retuned = retune(&mut self.washout, &parameters, self.state);
+        let retuned = self.retune_to(&parameters);
         if retuned.is_err() {
-            self.washout.parameters().write(&mut Writer::new(&mut self.slots));
+            self.slots.copy_from_slice(self.tuning.target());
         }
         retuned
+    }
+
+    fn retune_to(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
+        if is_down(self.state) {
+            retune(&mut self.washout, parameters, self.state)?;
+            self.tuning.set(&self.slots);
+            return Ok(());
+        }
+        tuning::check_in_motion(self.tuning.target(), &self.slots)?;
+        self.washout.clone().retune(parameters)?;
+        self.tuning.glide_to(&self.slots);
+        Ok(())
     }
 
     /// The commands of the last step.
@@ -437,8 +485,15 @@ impl Session {
             self.changed = true;
         }
         if let Some(time) = accepted.time {
-            self.resampler.push(arrival, time, sample.motion);
-            self.signs.take(time, sample);
+            let arrival = if self.settings.is_inside { self.time() } else { arrival };
+            for (time, sample) in accepted.confirmed.iter().chain([&(time, *sample)]) {
+                if accepted.instead {
+                    self.resampler.replace(sample.motion);
+                } else {
+                    self.resampler.push(arrival, *time, sample.motion);
+                    self.signs.take(*time, sample);
+                }
+            }
         }
         for event in accepted.events.into_iter().flatten() {
             self.follow(event);
@@ -466,8 +521,10 @@ impl Session {
         if !self.settings.ignore_signs && self.state.is_engaged() && self.signs.contradiction().is_some() {
             self.follow(Event::Disengage);
         }
-        if !self.state.is_engaged() {
-            self.delay = self.settings.delay.unwrap_or_else(|| self.resampler.delay());
+        self.adjust_delay();
+        if let Some(parameters) = self.tuning.advance(self.steps) {
+            // Values on the way may be refused where both ends are not: the next ones follow.
+            let _ = self.washout.retune(&parameters);
         }
         let (at, change) = self.input(now);
         let [start, end] = self.gate.advance(&at.motion, &at.slope, change, STEP);
@@ -480,6 +537,14 @@ impl Session {
         &self.commands
     }
 
+    /// The delay that is given, or that covers most gaps; slowly while the vehicle is cued.
+    fn adjust_delay(&mut self) {
+        let part = COVERED[usize::from(self.settings.is_inside)];
+        let target = self.settings.delay.unwrap_or_else(|| self.resampler.delay(part));
+        let most = if self.state.is_engaged() { DELAY_CHANGE * STEP } else { f64::INFINITY };
+        self.delay += (target - self.delay).clamp(-most, most);
+    }
+
     /// The washout's source at the step's end.
     fn input(&mut self, now: f64) -> (At, Change) {
         let rest = At { motion: Motion::at_rest(), slope: Channels::zeros(), held_from: None };
@@ -487,13 +552,15 @@ impl Session {
         let at = self.resampler.at(now - self.delay).filter(|_| follows).unwrap_or(rest);
         let slipped = std::mem::take(&mut self.slipped);
         let gap = self.held_from.filter(|from| at.held_from != Some(*from));
+        let before = self.last.replace((at.motion, at.slope));
+        let passes = before.is_some_and(|before| passes(&before, &at));
         let change = if std::mem::take(&mut self.changed) {
             Change::Source
-        } else if slipped > 0.0 || gap.is_some() {
+        } else if passes {
+            Change::None
+        } else {
             let lasted = gap.map_or(0.0, |from| now - self.delay - from).max(slipped);
             Change::Gap((2.0 * lasted).clamp(GAP_GLIDE[0], GAP_GLIDE[1]))
-        } else {
-            Change::None
         };
         self.held_from = at.held_from;
         (at, change)

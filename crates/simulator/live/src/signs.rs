@@ -1,7 +1,9 @@
 //! Test of the telemetry's signs over the first minute of motion.
 //!
 //! Each check compares two quantities that must have the same sign: what the vehicle does, by two
-//! different channels. It decides by their correlation, once there is motion enough.
+//! different channels. It decides by their correlation, once there is motion enough. What gravity
+//! has in a force follows from the attitude. Without one, a contradiction must exceed what a slope
+//! explains. A slow vehicle whose speed has no sign may be reversing.
 
 use moris_washout::interface::STANDARD_GRAVITY;
 
@@ -19,6 +21,17 @@ const ENOUGH: f64 = 40.0;
 const LEANING: f64 = 0.5;
 /// Angles up to which a body's rates are those of its angles, about \[rad\].
 const LEVEL: f64 = 0.3;
+
+/// What a slope may add to a force \[m/s2\], without an attitude and with one.
+const SLOPES: [f64; 2] = [2.5, 0.5];
+/// Time over which a change of speed is compared with the force \[s\].
+const WINDOW: f64 = 0.1;
+/// Part of [`ENOUGH`] from which on the change of speed decides.
+const BRAKING: f64 = 0.5;
+/// Speed below which a vehicle may be reversing, if its speed has no sign \[m/s\].
+const REVERSING: f64 = 8.0;
+/// Speed from which on a negative one is a sign \[m/s\].
+const REVERSES: f64 = 0.3;
 
 /// A check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,9 +86,28 @@ impl Check {
 /// The sums of all checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Signs {
-    sums: [Sums; 5],
+    all: [Sums; 5],
+    /// Those in which the two differ by more than a slope explains.
+    apart: [Sums; 5],
+    /// Those of a speed that may be a reversing vehicle's.
+    slow: [Sums; 5],
+    agrees: [bool; 5],
     last: Option<(f64, Sample)>,
+    window: Window,
+    /// The speed has been negative: it has a sign.
+    has_sign: bool,
     time: f64,
+}
+
+/// Sums over a moment, so that a speed of few digits or samples has a slope.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Window {
+    time: f64,
+    /// Surge, and what gravity has in it, times the time.
+    surge: f64,
+    gravity: f64,
+    gained: f64,
+    has_attitude: bool,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -84,6 +116,21 @@ struct Sums {
     xx: f64,
     yy: f64,
     xy: f64,
+}
+
+impl Sums {
+    fn add(&mut self, x: f64, y: f64) {
+        self.count += 1.0;
+        self.xx += x * x;
+        self.yy += y * y;
+        self.xy += x * y;
+    }
+
+    /// Correlation, if there are values enough.
+    fn correlation(&self, enough: f64, [x, y]: [f64; 2]) -> Option<f64> {
+        let Sums { count, xx, yy, xy } = *self;
+        (count >= enough && xx >= x * count && yy >= y * count).then(|| xy / (xx * yy).sqrt())
+    }
 }
 
 impl Signs {
@@ -96,49 +143,82 @@ impl Signs {
         let Some((earlier, before)) = before else { return };
         let interval = time - earlier;
         if !(INTERVAL[0]..=INTERVAL[1]).contains(&interval) {
+            self.window = Window::default();
             return;
         }
         self.time += interval;
         let (now, then) = (&sample.motion, &before.motion);
         let mean = 0.5 * (now.0 + then.0);
         let slope = (now.0 - then.0) / interval;
-        self.add(Check::Braking, mean[0], slope[9]);
+        self.has_sign |= now.speed() < -REVERSES;
+        let is_slow = !self.has_sign && mean[9].abs() < REVERSING;
+        // Columns of zeros are no attitude.
+        let has_attitude = sample.has_angles && (mean[6] != 0.0 || mean[7] != 0.0);
+        let gravity = if has_attitude { STANDARD_GRAVITY } else { 0.0 };
+        let window = &mut self.window;
+        window.has_attitude = has_attitude && (window.time == 0.0 || window.has_attitude);
+        window.time += interval;
+        window.surge += mean[0] * interval;
+        // Nose up, gravity's reaction is forward.
+        window.gravity -= gravity * libm::sin(mean[7]) * interval;
+        window.gained += now.speed() - then.speed();
+        if window.time >= WINDOW {
+            let Window { time, surge, gravity, gained, has_attitude } = std::mem::take(window);
+            let [most, gravity] = if has_attitude { [SLOPES[1], gravity] } else { [SLOPES[0], 0.0] };
+            self.add(Check::Braking, surge / time, (gained + gravity) / time, most, is_slow);
+        }
         let turn = mean[9] * mean[5];
         // A motorcycle leans until nothing pushes; what is left says nothing of the turn.
         let leans = sample.has_angles && STANDARD_GRAVITY * libm::sin(mean[6]).abs() > LEANING * turn.abs();
         if !leans {
-            self.add(Check::LeftTurn, mean[1], turn);
+            let banked = gravity * libm::sin(mean[6]) * libm::cos(mean[7]);
+            let most = if has_attitude { SLOPES[1] } else { SLOPES[0] };
+            self.add(Check::LeftTurn, mean[1], turn + banked, most, is_slow);
         }
         let level = mean[6].abs() < LEVEL && mean[7].abs() < LEVEL;
         if sample.has_angles && level {
-            self.add(Check::Roll, mean[3], slope[6]);
-            self.add(Check::Pitch, mean[4], slope[7]);
+            self.add(Check::Roll, mean[3], slope[6], 0.0, false);
+            self.add(Check::Pitch, mean[4], slope[7], 0.0, false);
             // At half a turn the yaw jumps.
             if slope[8].abs() * interval < 1.0 {
-                self.add(Check::Yaw, mean[5], slope[8]);
+                self.add(Check::Yaw, mean[5], slope[8], 0.0, false);
             }
+        }
+        for check in Check::ALL {
+            self.agrees[check as usize] |= self.decided(check) == Verdict::Agrees;
         }
     }
 
-    fn add(&mut self, check: Check, x: f64, y: f64) {
-        let sums = &mut self.sums[check as usize];
-        sums.count += 1.0;
-        sums.xx += x * x;
-        sums.yy += y * y;
-        sums.xy += x * y;
+    fn add(&mut self, check: Check, x: f64, y: f64, slope: f64, is_slow: bool) {
+        let place = check as usize;
+        if is_slow {
+            self.slow[place].add(x, y);
+            return;
+        }
+        self.all[place].add(x, y);
+        if (x - y).abs() > slope {
+            self.apart[place].add(x, y);
+        }
     }
 
-    /// The result of a check so far.
+    /// The result of a check so far. Once it agrees, it does so.
     pub fn verdict(&self, check: Check) -> Verdict {
-        let Sums { count, xx, yy, xy } = self.sums[check as usize];
-        let [x, y] = check.least();
-        let correlation = xy / (xx * yy).sqrt();
-        if count < ENOUGH || xx < x * count || yy < y * count || correlation.abs() < DECIDES {
-            Verdict::Unknown
-        } else if correlation > 0.0 {
+        if self.agrees[check as usize] { Verdict::Agrees } else { self.decided(check) }
+    }
+
+    fn decided(&self, check: Check) -> Verdict {
+        let [all, apart, slow] = [&self.all, &self.apart, &self.slow].map(|sums| sums[check as usize]);
+        let least = check.least();
+        let enough = if check == Check::Braking { ENOUGH * BRAKING } else { ENOUGH };
+        let agrees = |sums: &Sums| sums.correlation(enough, least).is_some_and(|found| found > DECIDES);
+        let contradicts =
+            |sums: &Sums, enough: f64| sums.correlation(enough, least).is_some_and(|found| found < -DECIDES);
+        if agrees(&all) || agrees(&slow) && !contradicts(&all, enough) {
             Verdict::Agrees
-        } else {
+        } else if contradicts(&all, enough) && contradicts(&apart, enough) {
             Verdict::Contradicts
+        } else {
+            Verdict::Unknown
         }
     }
 

@@ -1,7 +1,9 @@
 //! Health of the telemetry: which samples count, and what their absence means.
 
+use crate::attitude::angle_between;
 use crate::clock::{Clock, Stamp};
-use crate::motion::{ANGLES, Sample, turns};
+use crate::motion::Sample;
+use crate::spikes::{Judgement, Spikes};
 use crate::transitions::Event;
 
 /// Time without a good sample after which the source is silent \[s\].
@@ -10,7 +12,8 @@ pub const SILENT: f64 = 0.5;
 pub const STALE: f64 = 1.5;
 /// A place that differs from the expected one by more than this is another place \[m\].
 const JUMP: f64 = 10.0;
-/// An angle that changes by more within a sample is that of another place \[rad\].
+/// An attitude that turns by more within a sample than its rates say is that of another place
+/// \[rad\].
 const TURN: f64 = 0.7;
 
 /// Health of the source.
@@ -53,6 +56,8 @@ pub struct Counts {
     pub repeated: u64,
     /// Changes of the place.
     pub teleports: u64,
+    /// Spikes that no vehicle causes: dropped, and counted among the bad ones.
+    pub spikes: u64,
 }
 
 /// Effect of a sample.
@@ -60,6 +65,10 @@ pub struct Counts {
 pub struct Accepted {
     /// Its time \[s\]; none if it is not to be used.
     pub time: Option<f64>,
+    /// True if it takes the place of the sample before it.
+    pub instead: bool,
+    /// A sample that was held back until this one confirmed it, with its time \[s\].
+    pub confirmed: Option<(f64, Sample)>,
     /// Events that follow.
     pub events: [Option<Event>; 2],
     /// True if it has nothing to do with the samples before it.
@@ -74,6 +83,9 @@ pub struct Source {
     counts: Counts,
     last_good: f64,
     last: Option<Sample>,
+    /// Time of the last sample \[s\].
+    stamp: f64,
+    spikes: Spikes,
 }
 
 impl Source {
@@ -89,7 +101,7 @@ impl Source {
 
     /// Judges a sample that arrived then.
     pub fn receive(&mut self, arrival: f64, sample: &Sample) -> Accepted {
-        let mut accepted = Accepted { time: None, events: [None; 2], is_new: false };
+        let mut accepted = Accepted { time: None, instead: false, confirmed: None, events: [None; 2], is_new: false };
         self.counts.received += 1;
         // In a menu a program's clock stands still, and its numbers may be anything.
         if sample.paused && arrival.is_finite() {
@@ -107,14 +119,27 @@ impl Source {
                 self.counts.repeated += 1;
                 return accepted;
             }
+            Stamp::Instead => {
+                accepted.instead = true;
+                (self.stamp, false)
+            }
             Stamp::At(time) => (time, false),
             Stamp::Restarted(time) => (time, true),
         };
-        let since = arrival - self.last_good;
-        self.last_good = arrival;
+        let elsewhere = restarted || self.last.is_some_and(|last| is_elsewhere(&last, sample, time - self.stamp));
         let before = std::mem::replace(&mut self.health, Health::Running);
-        accepted.time = Some(time);
-        let elsewhere = restarted || self.last.is_some_and(|last| is_elsewhere(&last, sample, since));
+        (self.last_good, self.stamp, self.last) = (arrival, time, Some(*sample));
+        accepted.is_new = elsewhere || before != Health::Running;
+        if accepted.is_new {
+            self.spikes.clear();
+        }
+        let (judgement, was_spike) = self.spikes.judge(time, sample);
+        self.counts.spikes += u64::from(was_spike);
+        self.counts.bad += u64::from(was_spike);
+        if let Judgement::Used(confirmed) = judgement {
+            accepted.confirmed = confirmed;
+            accepted.time = Some(time);
+        }
         if before != Health::Running {
             accepted.events[0] = Some(Event::Resume);
         }
@@ -122,15 +147,20 @@ impl Source {
             self.counts.teleports += 1;
             accepted.events[1] = Some(Event::Teleport);
         }
-        accepted.is_new = elsewhere || before != Health::Running;
-        self.last = Some(*sample);
         accepted
+    }
+
+    /// Seconds of the session in one of the source's clock, as estimated.
+    pub fn clock_rate(&self) -> f64 {
+        self.clock.rate()
     }
 
     /// All times until now are earlier by this time \[s\].
     pub fn slip(&mut self, time: f64) {
         self.clock.slip(time);
+        self.spikes.slip(time);
         self.last_good -= time;
+        self.stamp -= time;
     }
 
     /// The event that follows from silence until now.
@@ -150,11 +180,9 @@ impl Source {
 fn is_elsewhere(before: &Sample, after: &Sample, time: f64) -> bool {
     let speed = before.motion.speed().abs().max(after.motion.speed().abs());
     let moved = before.position.zip(after.position).map_or(0.0, |(before, after)| (after - before).norm());
-    let turned = |k: usize| {
-        let change = after.motion.0[k] - before.motion.0[k];
-        (change - turns(change)).abs()
-    };
-    moved > JUMP + 2.0 * speed * time || time < 0.1 && ANGLES.take(2).any(|k| turned(k) > TURN)
+    let rate = before.motion.rates().norm().max(after.motion.rates().norm());
+    let turned = || angle_between(&before.motion.angles(), &after.motion.angles());
+    moved > JUMP + 2.0 * speed * time || time < 0.1 && turned() > TURN + 2.0 * rate * time
 }
 
 #[cfg(test)]

@@ -1,0 +1,85 @@
+//! Times from a sample to the arrival of the next: what the delay must be.
+
+use crate::resampler::LONGEST;
+
+/// Width of a class \[s\].
+const WIDTH: f64 = 1e-3;
+/// Number of classes: up to [`LONGEST`].
+const CLASSES: usize = 250;
+/// Reserve of the delay beyond the time between samples.
+const RESERVE: f64 = 1.1;
+/// Time constant with which gaps are forgotten \[s\].
+const MEMORY: f64 = 5.0;
+/// Gaps from which on the longest alone does not count.
+const FEW: f64 = 20.0;
+/// Weight from which on all are made smaller.
+const HEAVY: f64 = 1e9;
+
+/// Numbers of gaps, by their length, older ones with less weight. Gaps from 0.25 s on are holes
+/// that no delay covers, and are left out.
+#[derive(Clone, Debug)]
+pub struct Gaps {
+    weights: [f64; CLASSES],
+    /// Weight of the next gap.
+    weight: f64,
+}
+
+impl Default for Gaps {
+    fn default() -> Self {
+        Gaps { weights: [0.0; CLASSES], weight: 1.0 }
+    }
+}
+
+impl Gaps {
+    /// Takes a gap, so long after the one before it.
+    pub fn take(&mut self, gap: f64, passed: f64) {
+        self.weight *= libm::exp(passed.clamp(0.0, MEMORY) / MEMORY);
+        if self.weight > HEAVY {
+            self.weights.iter_mut().for_each(|weight| *weight /= self.weight);
+            self.weight = 1.0;
+        }
+        if gap < LONGEST {
+            self.weights[((gap.max(0.0) / WIDTH) as usize).min(CLASSES - 1)] += self.weight;
+        }
+    }
+
+    /// The delay with which this part of the gaps is covered, with a reserve \[s\].
+    pub fn delay(&self, part: f64) -> f64 {
+        let all = self.weights.iter().sum::<f64>();
+        let mut wanted = part.clamp(0.0, 1.0) * all;
+        // A loading screen at the beginning is one gap of few.
+        if part < 1.0 && all > FEW * self.weight {
+            wanted = wanted.min(all - 1.01 * self.weight);
+        }
+        let mut sum = 0.0;
+        for (class, weight) in self.weights.iter().enumerate() {
+            sum += weight;
+            if sum > 0.0 && sum >= wanted * (1.0 - 1e-12) {
+                // Samples that come before their time need none.
+                return if class == 0 { 0.0 } else { (RESERVE * (class + 1) as f64 * WIDTH).min(LONGEST) };
+            }
+        }
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_long_gap_does_not_count_and_every_twentieth_does() {
+        let mut gaps = Gaps::default();
+        for k in 0..2000 {
+            gaps.take(if k == 1500 { 0.2 } else { 0.0105 }, 0.01);
+        }
+        assert!((gaps.delay(0.99) - 0.0121).abs() < 1e-9 && gaps.delay(1.0) > 0.2);
+        for k in 0..2000 {
+            gaps.take(if k % 20 == 0 { 0.0405 } else { 0.0105 }, 0.01);
+        }
+        assert!((gaps.delay(0.99) - 0.0451).abs() < 1e-9);
+        // Forgotten within a minute.
+        (0..10_000).for_each(|_| gaps.take(0.0105, 0.01));
+        assert!((gaps.delay(0.99) - 0.0121).abs() < 1e-9);
+    }
+}

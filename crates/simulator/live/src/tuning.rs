@@ -1,0 +1,114 @@
+//! Parameters that glide to chosen values within about 2 s.
+
+use moris_interface::{Group as _, Kind, Reader, refuse};
+use moris_washout::{ParameterError, Parameters};
+
+use crate::log::name_of;
+
+/// Steps from one change to the next.
+const INTERVAL: u64 = 40;
+/// Part of the way that each of two lags goes in an interval: 98 % are gone after 2 s.
+const PART: f64 = 0.108;
+/// Part of a value by which it may still differ when it becomes the chosen one.
+const NEAR: f64 = 1e-3;
+
+/// The parameters in force, and those to which they glide. Each value follows through two equal
+/// lags, positive ones by factors.
+#[derive(Clone, Debug)]
+pub struct Tuning {
+    target: Vec<f64>,
+    middle: Vec<f64>,
+    value: Vec<f64>,
+    glides: bool,
+}
+
+impl Tuning {
+    /// At these values of all slots.
+    pub fn new(slots: &[f64]) -> Tuning {
+        Tuning { target: slots.to_vec(), middle: slots.to_vec(), value: slots.to_vec(), glides: false }
+    }
+
+    /// The chosen values.
+    pub fn target(&self) -> &[f64] {
+        &self.target
+    }
+
+    /// At these values at once.
+    pub fn set(&mut self, slots: &[f64]) {
+        for values in [&mut self.target, &mut self.middle, &mut self.value] {
+            values.copy_from_slice(slots);
+        }
+        self.glides = false;
+    }
+
+    /// Glides to these values.
+    pub fn glide_to(&mut self, slots: &[f64]) {
+        self.target.copy_from_slice(slots);
+        self.glides = true;
+    }
+
+    /// The parameters after this step, if they change then.
+    pub fn advance(&mut self, step: u64) -> Option<Parameters> {
+        if !self.glides || !step.is_multiple_of(INTERVAL) {
+            return None;
+        }
+        let mut arrived = true;
+        for slot in 0..self.target.len() {
+            let target = self.target[slot];
+            let is_real = matches!(Parameters::ROWS[usize::from(Parameters::SLOTS[slot].row)].kind, Kind::Real(_));
+            let [middle, value] = if is_real {
+                let middle = nearer(self.middle[slot], target);
+                [middle, nearer(self.value[slot], middle)]
+            } else {
+                [target; 2]
+            };
+            (self.middle[slot], self.value[slot]) = (middle, value);
+            let least = NEAR * target.abs().max(1e-3);
+            arrived &= (middle - target).abs() <= least && (value - target).abs() <= least;
+        }
+        if arrived {
+            self.middle.copy_from_slice(&self.target);
+            self.value.copy_from_slice(&self.target);
+            self.glides = false;
+        }
+        Some(Parameters::read(&mut Reader::new(&self.value)))
+    }
+}
+
+/// A value that has gone a part of the way to another.
+fn nearer(from: f64, to: f64) -> f64 {
+    match () {
+        () if from == to => to,
+        () if from > 0.0 && to > 0.0 => from * libm::pow(to / from, PART),
+        () => from + PART * (to - from),
+    }
+}
+
+/// Checks that values may change in this way while the platform moves: a scale keeps its sign, and
+/// a pace is not switched on or off.
+///
+/// # Errors
+/// The first that may not.
+pub fn check_in_motion(from: &[f64], to: &[f64]) -> Result<(), ParameterError> {
+    for (slot, (before, after)) in from.iter().zip(to).enumerate() {
+        let name = || name_of(slot);
+        if before == after {
+            continue;
+        }
+        if before * after < 0.0 && name().starts_with("scale.") {
+            return refuse(
+                name(),
+                format!(
+                    "is {before}, and {after} has the other sign, which would turn the cue round in motion; park first"
+                ),
+            );
+        }
+        if (*before == 0.0) != (*after == 0.0) && name().ends_with(".pace") {
+            return refuse(
+                name(),
+                format!("is {before}, and {after} would switch the soft limits in motion; park first"),
+            );
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,93 @@
+//! Parameters that are changed in motion.
+
+use moris_live::log::slot_of;
+use moris_live::{Motion, STEP, Sample, Settings};
+use moris_washout::{Parameters, presets};
+use nalgebra::Vector3;
+
+use crate::feed::{Course, Packet, course, packets};
+
+fn car(t: f64) -> Motion {
+    let force = Vector3::new(2.0 * (0.6 * t).cos(), 1.5 * (0.7 * t).sin(), 9.80665);
+    Motion::new(force, Vector3::zeros(), Default::default(), 15.0 + 3.3 * (0.6 * t).sin())
+}
+
+/// A ride with a value of a parameter for each time, chosen at 25 Hz.
+fn tuned(parameters: &Parameters, name: &str, value: impl Fn(f64) -> Option<f64>) -> Course {
+    let all = packets(40.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    });
+    let slot = slot_of(name).unwrap();
+    let (session, course) = course(parameters, &Settings::default(), &all, 39.0, |session| {
+        let step = (session.time() / STEP).round() as u64;
+        if let Some(value) = value(session.time()).filter(|_| step.is_multiple_of(40)) {
+            session.choose(slot, value);
+            session.retune().unwrap();
+        }
+    });
+    if let Some(last) = value(30.0) {
+        let mut slots = moris_interface::slots_of(session.washout().parameters());
+        assert_eq!(slots.swap_remove(slot), last, "{name}");
+    }
+    course
+}
+
+#[test]
+fn scales_and_paces_glide_and_sliders_are_no_jolt() {
+    for set in [&[][..], presets::CAR, presets::OPTIMAL] {
+        let parameters = presets::parameters(set);
+        for (name, low, high) in
+            [("scale.specificForce.x", 0.1, 1.2), ("scale.specificForce.y", 0.1, 1.0), ("softLimit.pace", 3.0, 8.0)]
+        {
+            let at_once = tuned(&parameters, name, |t| (t > 18.0).then_some(if t < 24.0 { high } else { low }));
+            let slider = tuned(&parameters, name, |t| {
+                (t > 18.0).then(|| low + (high - low) * (0.5 + 0.5 * (7.0 * t.min(28.0)).sin()))
+            });
+            let jolts = [at_once.jolt(17.0, 38.0), slider.jolt(17.0, 38.0)];
+            println!("{name}: {jolts:.2?} m/s2");
+            assert!(jolts.iter().all(|jolt| *jolt <= 1.0), "{name}: {jolts:?}");
+        }
+    }
+}
+
+#[test]
+fn a_scale_glides_over_two_seconds() {
+    let all = packets(20.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    });
+    let slot = slot_of("scale.specificForce.x").unwrap();
+    let mut scales = Vec::new();
+    course(&Parameters::default(), &Settings::default(), &all, 19.0, |session| {
+        if (session.time() - 12.0).abs() < 0.5 * STEP {
+            session.choose(slot, 0.1);
+            session.retune().unwrap();
+        }
+        scales.push(session.washout().parameters().conditioning.force_scale.x);
+    });
+    let at = |t: f64| scales[(t / STEP).round() as usize];
+    assert_eq!(at(12.0), 1.0);
+    assert!(at(12.2) > 0.7 && (0.15..0.6).contains(&at(12.8)), "{} {}", at(12.2), at(12.8));
+    assert!((at(14.0) - 0.1).abs() < 0.02 && at(16.0) == 0.1, "{} {}", at(14.0), at(16.0));
+    assert!(scales.windows(2).all(|pair| pair[1] <= pair[0] && pair[1] >= 0.8 * pair[0]));
+}
+
+#[test]
+fn other_signs_and_switches_are_refused_in_motion_with_the_reason() {
+    let all = packets(20.0, |t| {
+        Some(Packet { arrival: t, sample: Sample { time: Some(t), motion: car(t), ..Sample::default() } })
+    });
+    let (mut session, _) = course(&Parameters::default(), &Settings::default(), &all, 15.0, |_| ());
+    for (name, value, reason) in [
+        (
+            "scale.specificForce.x",
+            -10.0,
+            "is 1, and -10 has the other sign, which would turn the cue round in motion; park first",
+        ),
+        ("softLimit.pace", 0.0, "is 5, and 0 would switch the soft limits in motion; park first"),
+    ] {
+        session.choose(slot_of(name).unwrap(), value);
+        let error = session.retune().unwrap_err();
+        assert_eq!((error.variable.as_str(), error.reason.as_str()), (name, reason));
+        session.retune().unwrap();
+    }
+}
