@@ -95,8 +95,8 @@ const UPRIGHT: [f64; 2] = [0.1, 0.4];
 /// Sine and cosine of an angle.
 type SinCos = (f64, f64);
 
-/// Rates of roll, pitch and yaw: those of the angles by the inverse of eq. (10) where the vehicle
-/// is upright, else the angular velocity in body axes, between them a mean of both.
+/// Rates of roll, pitch and yaw. Where the vehicle is upright they are those of the angles by the
+/// inverse of eq. (10). Else they are the angular velocity in body axes; between, a mean of both.
 ///
 /// They depend on the rotation alone, not on the angles that describe it.
 fn rates(input: &Input, frame: AngularVelocityFrame, roll: SinCos, pitch: SinCos) -> Vector3<f64> {

@@ -51,7 +51,7 @@ pub struct Settings {
     pub delay: Option<f64>,
     /// Part of the stroke that the legs keep from their ends at the settled pose.
     pub settled: f64,
-    /// True if the source of telemetry runs inside the program: the delay does not follow from the
+    /// True if the source of telemetry runs inside the program. The delay does not follow from the
     /// gaps that a computer causes, and is zero if its samples come before their time.
     pub is_inside: bool,
     /// True if the legs are at the settled pose at first. Otherwise their place is unknown until
@@ -162,8 +162,8 @@ pub fn retune(washout: &mut Washout, parameters: &Parameters, state: State) -> R
     })
 }
 
-/// The pose with these lengths of the legs, at this part of the way to the washout's pose; that
-/// pose if no other is found from there or from the one before.
+/// The pose with these lengths of the legs, at this part of the way to the washout's pose. It is
+/// that pose if no other is found from there or from the one before.
 fn pose_between(geometry: &Geometry, output: &Output, length: &[f64; 6], part: f64, before: Option<&Pose>) -> Pose {
     let above = Pose { position: output.position, orientation: Orientation::new(output.orientation) };
     if 1.0 - part < NO_WAY {
@@ -354,8 +354,8 @@ impl Session {
         }
     }
 
-    /// Puts the chosen parameters in force. Tunable ones change at any time, within 2 s in motion. A
-    /// scale keeps its sign there, and a pace is not switched on or off. Fixed ones, such as the
+    /// Puts the chosen parameters in force. Tunable ones change at any time, within 2 s in motion.
+    /// A scale keeps its sign there, and a pace is not switched on or off. Fixed ones, such as the
     /// strategy, change while the platform is at its lowest pose; those of the rig never.
     ///
     /// # Errors

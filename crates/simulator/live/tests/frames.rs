@@ -8,7 +8,7 @@ use moris_washout::motion::orientation::Orientation;
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use proptest::prelude::*;
 
-/// Legs at 0, 1/4, 1/2, 3/4 and 1 of a stroke of 1.0 to 1.6 m, and one beyond it.
+/// Legs at 0, 1/4, 1/2, 3/4 and 1 of a stroke. One is beyond it.
 const LENGTH: [f64; 6] = [1.0, 1.15, 1.3, 1.45, 1.6, 9.0];
 
 fn frame(text: &str) -> Vec<u8> {
@@ -46,8 +46,8 @@ fn simtools() {
     assert_eq!(frame(shipped("simtools").unwrap()), b"0,16384,32768,49151,65535,65535X");
 }
 
-/// The pose that OpenXR-MotionCompensation makes of a frame, in the axes x forward, y left, z up:
-/// the displacement is turned by yaw, pitch and roll, in this order.
+/// The pose that OpenXR-MotionCompensation makes of a frame, in the axes x forward, y left, z up.
+/// The displacement is turned by yaw, pitch and roll, in this order.
 fn seen(frame: &[u8]) -> Isometry3<f64> {
     let numbers: Vec<f64> = frame.chunks(8).map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap())).collect();
     let [sway, surge, heave, yaw, roll, pitch] = numbers[..] else { panic!("{numbers:?}") };

@@ -1,8 +1,8 @@
 //! Shape: sign, time and proportion of the felt force of surge and sway, whatever its size.
 //!
-//! Both forces are taken below [`CUE_FREQUENCY`], by a Butterworth low-pass of second order, forward
-//! and backward, so that it shifts nothing in time. An axis counts where the desired force exceeds
-//! [`LEAST_DESIRED`].
+//! Both forces are taken below [`CUE_FREQUENCY`], by a Butterworth low-pass of second order,
+//! forward and backward, so that it shifts nothing in time. An axis counts where the desired force
+//! exceeds [`LEAST_DESIRED`].
 
 use std::array::from_fn;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};

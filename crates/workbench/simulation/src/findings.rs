@@ -49,8 +49,8 @@ const AXES: [&str; 3] = ["Surge", "Sway", "Heave"];
 const RATES: [&str; 3] = ["Roll rate", "Pitch rate", "Yaw rate"];
 
 impl Evaluated<'_> {
-    /// The findings, the most important first: fit, comfort, shape, channels worse than at rest, limits of
-    /// the tilt, other channels, motion sickness.
+    /// The findings, the most important first: fit, comfort, shape, channels worse than at rest,
+    /// limits of the tilt, other channels, motion sickness.
     pub fn findings(&self) -> Vec<Finding> {
         let mut findings = vec![fits(self)];
         findings.extend((0..3).flat_map(|axis| comfort(self, axis)));

@@ -2,8 +2,8 @@
 //!
 //! One factor scales the specific force of surge and sway and all rates. A further one lowers the
 //! break frequencies of surge and sway of the classical strategy, whose own phase a smaller scale
-//! does not change. Heave has a factor of its own. The search simulates with longer internal steps than
-//! the set, as the cues are below 2 Hz, and confirms its result with the set's own.
+//! does not change. Heave has a factor of its own. The search simulates with longer internal steps
+//! than the set, as the cues are below 2 Hz, and confirms its result with the set's own.
 
 use moris_batch::{Manoeuvre, Replay};
 use moris_measures::shape::{Desired, Shape, below_cue_frequency};
@@ -15,7 +15,8 @@ use crate::preview::Previewer;
 /// Internal step of the search with the predictive strategy, whose plan has longer steps; with the
 /// adaptive one, whose gains follow at every step; with the others \[s\].
 const SEARCH_STEPS: [f64; 3] = [0.01, 0.002, 0.005];
-/// Factor on a scale that misses the aims by the set's own internal step, and how often it is tried.
+/// Factor on a scale that misses the aims by the set's own internal step, and
+/// how often it is tried.
 const SMALLER: f64 = 0.94;
 const TRIALS: usize = 6;
 /// Factors that are tried first, the largest first.
@@ -95,7 +96,8 @@ pub struct Candidate {
 /// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
-    /// The largest scale that reaches the aims, or the nearest to them; with the set's internal step.
+    /// The largest scale that reaches the aims, or the nearest to them; with the set's internal
+    /// step.
     pub best: Candidate,
     /// True if it reaches them.
     pub fits: bool,
@@ -170,8 +172,8 @@ impl<'a> Search<'a> {
         Ok(Candidate { factors, shape: self.shape(&quick(&factors.applied(parameters)))? })
     }
 
-    /// Candidates from the largest scale to the first that reaches the aims, with bisections between
-    /// it and the one before; all of the grid where none reaches them.
+    /// Candidates from the largest scale to the first that reaches the aims, with bisections
+    /// between it and the one before; all of the grid where none reaches them.
     fn curve(&self, parameters: &Parameters, breaks: f64) -> Result<Vec<Candidate>, ParameterError> {
         let at = |scale: f64| self.candidate(parameters, Factors { scale, breaks, heave: 1.0 });
         let mut curve = Vec::new();

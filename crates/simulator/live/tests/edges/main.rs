@@ -1,4 +1,4 @@
-//! The edges of a session: what it does when a plug is pulled, with computed clocks and states.
+//! The edges of a session, where a plug is pulled. Clocks and states are computed.
 
 mod feed;
 mod legs;

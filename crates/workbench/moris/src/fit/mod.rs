@@ -35,8 +35,8 @@ use source::{Usual, Vehicle};
 /// Prints a table of strategies by recordings: scale, shape, inverted time and size. The winner is
 /// felt largest of those that reach --error and --inverted. Writes NAME.fit.toml with the winner's
 /// parameters for each recording, for `moris simulate --parameters`, and fit.svg with the curves of
-/// size against shape. One factor scales surge, sway and all rates; heave has its own. The classical
-/// strategy gets a second factor on its break frequencies of surge and sway.
+/// size against shape. One factor scales surge, sway and all rates; heave has its own. The
+/// classical strategy gets a second factor on its break frequencies of surge and sway.
 ///
 /// A second line says what a tilt of 6 degrees a second would give. It is never chosen.
 ///

@@ -1,4 +1,5 @@
-//! Recordings with conventions of their own, and drives computed from a vehicle's usual accelerations.
+//! Recordings with conventions of their own, and drives computed from a
+//! vehicle's usual accelerations.
 
 use std::path::{Path, PathBuf};
 
@@ -88,9 +89,9 @@ impl Usual {
         Ok(usual)
     }
 
-    /// Drive of a minute: accelerate, bends to both sides, brake before each, and stop. Every change
-    /// takes its time as the driver's hands and feet do: half a second for the pedals, one for the
-    /// wheel. The car turns at the rate of its lateral acceleration at 15 m/s.
+    /// Drive of a minute: accelerate, bends to both sides, brake before each, and stop. Every
+    /// change takes its time as the driver's hands and feet do: half a second for the pedals, one
+    /// for the wheel. The car turns at the rate of its lateral acceleration at 15 m/s.
     pub fn drive(&self) -> Manoeuvre {
         let Usual { sideways, braking, accelerating } = *self;
         let accelerating = if accelerating > 0.0 { accelerating } else { 0.5 * braking };

@@ -55,7 +55,8 @@ impl Contact {
 mod tests {
     use super::*;
 
-    /// The time of the loss \[ms\], with frames at this interval \[ms\], of which those are refused.
+    /// The time of the loss \[ms\], with frames at this interval \[ms\], of
+    /// which those are refused.
     fn lost(interval: u64, is_refused: impl Fn(u64) -> bool) -> Option<u64> {
         let mut contact = Contact::new(interval as f64 * 1e-3);
         (0..5000).step_by(interval as usize).find(|time| {

@@ -12,7 +12,8 @@
 //! - `steps` is the loop of 1 kHz; `pace` its clock.
 //! - `frames` sends frames; `wire` keeps them within the speed of actuators, `contact` sees a
 //!   controller that is gone, `occupied` one that another session has.
-//! - `sender` follows one sender of telemetry and explains what it sends; `journal` prints what happens and records the session.
+//! - `sender` follows one sender of telemetry and explains what it sends; `journal` prints what
+//!   happens and records the session.
 //! - `page` serves the page in a browser.
 //! - `tables` lists formats and templates.
 //!

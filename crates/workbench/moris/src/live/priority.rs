@@ -31,8 +31,8 @@ pub fn claim_below() {
 #[cfg(not(target_os = "linux"))]
 pub fn claim_below() {}
 
-/// Gives the calling thread, the loop's, a real-time priority, and keeps the program's memory from being swapped
-/// out. Says what is permitted.
+/// Gives the calling thread, the loop's, a real-time priority, and keeps the program's memory from
+/// being swapped out. Says what is permitted.
 #[cfg(target_os = "linux")]
 pub fn claim() -> String {
     use rustix::mm::{MlockAllFlags, mlockall};

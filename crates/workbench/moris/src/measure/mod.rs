@@ -32,10 +32,10 @@ use targets::Targets;
 /// Prints a line for each recording and channel. The columns are the error of a platform at rest,
 /// the bound (with --bound), the RMS error and the RMS error as sensed. Then come the fractions of
 /// the time with a cue in the vehicle, with a false cue and with a missing cue on the platform. The
-/// next is comfort: shake, jolt and peak of the felt force beyond the desired one, in m/s². The last
-/// are shape, size and inverted time of surge and sway below 2 Hz.
-/// Below the table are the limits that were active on each recording, and the targets. Recordings
-/// fade in from rest over 1 s; --fade-in changes it.
+/// next is comfort: shake, jolt and peak of the felt force beyond the desired one, in m/s². The
+/// last are shape, size and inverted time of surge and sway below 2 Hz. Below the table are the
+/// limits that were active on each recording, and the targets. Recordings fade in from rest over 1
+/// s; --fade-in changes it.
 #[derive(Clone, Debug, clap::Args)]
 pub struct Options {
     /// Recordings (CSV), or folders of them; see `moris simulate --help` for their columns

@@ -28,8 +28,8 @@ fn swinging(t: f64) -> [f64; 2] {
     [(1.5 * (0.9 * t).sin() + 0.8 * (2.3 * t).sin()) * fade, 0.8 * (1.3 * t).sin() * fade]
 }
 
-/// Error of the felt force relative to that of a platform at rest, largest change within 20 ms beyond that
-/// of the desired force, and largest magnitude beyond the desired one's \[m/s2\].
+/// Error of the felt force relative to that of a platform at rest. Largest change within 20 ms
+/// beyond that of the desired force, and largest magnitude beyond the desired one's \[m/s2\].
 struct Felt {
     error: f64,
     jolt: f64,

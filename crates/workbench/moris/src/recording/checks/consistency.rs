@@ -175,8 +175,8 @@ fn cause(table: &Table, conventions: &Conventions, surge: f64, sway: Option<f64>
     nearest.map(|(_, cause)| cause).or_else(scale)
 }
 
-/// Judges the ratio of the lateral force of bends and speed times yaw rate. Where the speed fits the
-/// force along x, its unit is right.
+/// Judges the ratio of the lateral force of bends and speed times yaw rate. Where the speed fits
+/// the force along x, its unit is right.
 fn bends(table: &Table, conventions: &Conventions, sway: f64, is_explained: bool) -> Option<String> {
     if sway < OPPOSITE {
         let rate = turned(conventions, Quantity::Rate(2));

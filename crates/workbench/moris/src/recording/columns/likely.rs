@@ -45,7 +45,8 @@ fn parts(quantity: Quantity) -> &'static [&'static str] {
 }
 
 impl Header {
-    /// The columns that are likely to be a quantity's, of those that are not in use, by name and unit.
+    /// The columns that are likely to be a quantity's, of those that are not in
+    /// use, by name and unit.
     pub fn likely(&self, quantity: Quantity, layout: &[Column]) -> Vec<usize> {
         let is_free = |place: usize| !layout.iter().flat_map(|column| &column.terms).any(|term| term.place == place);
         let is_likely = |place: &usize| {

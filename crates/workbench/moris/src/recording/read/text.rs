@@ -59,8 +59,8 @@ pub fn text(file: &Path) -> Result<Text, RecordingError> {
     Ok(Text { text, is_cut: end.is_some() })
 }
 
-/// Reads to the end, or to the first zero byte of what is text before it. So a source without an end
-/// fails.
+/// Reads to the end, or to the first zero byte of what is text before it. So a source
+/// without an end fails.
 fn read_up_to(mut source: impl Read, largest: u64) -> io::Result<Bytes> {
     let mut bytes = Vec::new();
     source.by_ref().take(foreign::HEAD as u64).read_to_end(&mut bytes)?;

@@ -18,8 +18,8 @@ pub fn is_written_out(field: &str) -> bool {
     parse(field).is_ok()
 }
 
-/// The time in seconds: since 1970 for a date in ISO 8601, otherwise since midnight, or since the hour
-/// for minutes and seconds.
+/// The time in seconds: since 1970 for a date in ISO 8601, otherwise since midnight, or since the
+/// hour for minutes and seconds.
 ///
 /// # Errors
 /// The field is neither.

@@ -85,8 +85,8 @@ fn is_serial_days(time: &[f64]) -> bool {
     time.iter().all(|time| (SERIAL[0]..SERIAL[1]).contains(time)) && (STEPS[0]..=STEPS[1]).contains(&step)
 }
 
-/// The seconds of times of day HHMMSS, also with a date before or milliseconds behind; none where they
-/// may be plain numbers, as those that leave out nothing.
+/// The seconds of times of day HHMMSS, also with a date before or milliseconds behind; none where
+/// they may be plain numbers, as those that leave out nothing.
 fn of_digits(time: &[f64], unit: f64) -> Option<Vec<f64>> {
     if unit != 1.0 && unit != 1e-3 {
         return None;
