@@ -138,9 +138,16 @@ def examples():
         os.environ[f"MORIS_{example.upper()}"] = str(TARGET / "debug" / "examples" / (example + PROGRAM))
 
 
+def program(options):
+    """Compiles the command for tests that start it, so that none waits for cargo while others compile."""
+    run("cargo", "build", "--bin", "moris", *features(options))
+    os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
+
+
 def python_tests(options):
     """tests of the FMUs by FMPy, of their libraries and of the prose"""
     examples()
+    program(options)
     pytest(options, 2, "--dist", "loadfile", "tests/python", "--ignore", "tests/python/test_docs.py")
 
 
@@ -184,8 +191,7 @@ def pages(options):
     examples()
     if options.install:
         run("rustup", "target", "add", "wasm32-unknown-unknown")
-    run("cargo", "build", "--bin", "moris", *features(options))
-    os.environ["MORIS"] = str(TARGET / "debug" / ("moris" + PROGRAM))
+    program(options)
     run(sys.executable, "tests/report/run.py", *passed_on(options, "install", "require"))
 
 

@@ -1,6 +1,7 @@
 //! `moris fit`: the largest scale at which the cues have the right sign and proportion.
 //!
-//! [`source`] reads the recordings, [`mod@fitted`] fits them, and [`picture`] draws size against shape.
+//! [`source`] reads the recordings, [`mod@fitted`] fits them, and [`picture`] draws size against
+//! shape.
 
 pub mod fitted;
 pub mod picture;
