@@ -24,9 +24,10 @@ use random::Random;
 use ride::smooth;
 
 fn main() -> Result<(), ParameterError> {
-    let count: usize = std::env::args().nth(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
+    let argument = |place: usize| std::env::args_os().nth(place).and_then(|text| text.into_string().ok());
+    let count: usize = argument(1).and_then(|count| count.parse().ok()).unwrap_or(1_000_000);
     let mut parameters = Parameters::default();
-    let ride = match std::env::args().nth(2).as_deref() {
+    let ride = match argument(2).as_deref() {
         Some("jumps") => {
             (parameters.rig.velocity_limit, parameters.rig.acceleration_limit) = (0.3, 5.0);
             jumps(count.div_ceil(HELD))

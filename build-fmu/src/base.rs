@@ -1,18 +1,18 @@
 //! An FMU as the base of another with other start values: its libraries are taken as they are but
 //! for these values. Nothing is compiled.
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::io::{Cursor, Read};
 use std::path::Path;
 
 use clap::ValueEnum;
+use moris_bounded_files::unpack;
 use moris_fmi::{SectionError, embedded};
 use quick_xml::de::from_str;
 use serde::Deserialize;
-use zip::ZipArchive;
 
 use crate::{Error, FmiVersion, FmuModel, MODELS, Platform, Sources, Start, archive, code_signature, contents};
+
+/// Largest FMU as a base, packed or unpacked \[bytes\].
+const LARGEST: u64 = 256_000_000;
 
 /// A model's libraries, by platform, and its sources, without start values in
 /// place of the model's own.
@@ -43,12 +43,13 @@ impl Base {
     /// The file is no FMU of this program's models, of another version, damaged, or put
     /// together from several FMUs.
     pub fn open(file: &Path) -> Result<Self, Error> {
-        let bytes = fs::read(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
-        Self::read(bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })
+        let bytes = moris_bounded_files::bytes(file, LARGEST)
+            .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+        Self::read(&bytes).map_err(|reason| Error::Base { file: file.to_owned(), reason })
     }
 
-    fn read(bytes: Vec<u8>) -> Result<Self, String> {
-        let files = unpack(bytes).map_err(|error| format!("cannot be unpacked: {error}"))?;
+    fn read(bytes: &[u8]) -> Result<Self, String> {
+        let files = unpack(bytes, LARGEST).map_err(|error| format!("cannot be unpacked: {error}"))?;
         let text = files.get("modelDescription.xml").ok_or("has no modelDescription.xml")?;
         let root: Root = from_str(&String::from_utf8_lossy(text))
             .map_err(|error| format!("has a modelDescription.xml that cannot be read: {error}"))?;
@@ -135,16 +136,4 @@ pub fn pack(
         sources.embed(model, start).map_err(|_| Error::Sources { reason: "no place for start values".to_owned() })?;
     }
     archive::pack(&contents::contents(model, start, fmi, libraries, sources.as_ref()))
-}
-
-fn unpack(bytes: Vec<u8>) -> zip::result::ZipResult<BTreeMap<String, Vec<u8>>> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes))?;
-    let mut files = BTreeMap::new();
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index)?;
-        let mut bytes = Vec::new();
-        file.read_to_end(&mut bytes)?;
-        files.insert(file.name().to_owned(), bytes);
-    }
-    Ok(files)
 }

@@ -1,6 +1,5 @@
 //! The motorcycle with its rider.
 
-use std::fs;
 use std::path::Path;
 
 use moris_motorcycle::Motorcycle;
@@ -37,7 +36,8 @@ pub const MOTORCYCLE: FmuModel = FmuModel {
 /// # Errors
 /// The file cannot be read, or is no path. Its values are checked with all start values.
 pub fn path_values(file: &Path) -> Result<NamedValues, Error> {
-    let text = fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
+    let text = moris_bounded_files::text(file, moris_bounded_files::TEXT)
+        .map_err(|reason| Error::Read { file: file.to_owned(), reason })?;
     let path = from_csv(&text).map_err(|reason| Error::Path { file: file.to_owned(), reason })?;
     Ok(changed(&path))
 }

@@ -1,26 +1,32 @@
 //! An FMU's files.
 
-use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
+use moris_bounded_files::{ArchiveError, TEXT, check_unpacked, open_archive};
 use tempfile::TempDir;
-use zip::ZipArchive;
 
 use crate::HostError;
+
+/// Largest FMU, packed or unpacked \[bytes\].
+const LARGEST: u64 = 1_000_000_000;
 
 /// Unpacks an FMU into a new temporary directory.
 pub(crate) fn unpack(path: &Path) -> Result<TempDir, HostError> {
     let file_error = |source| HostError::File { path: path.into(), source };
-    let archive_error = |source| HostError::Archive { path: path.into(), source };
-    let file = File::open(path).map_err(file_error)?;
+    let archive_error = |source| match source {
+        ArchiveError::Read(source) => file_error(source),
+        source => HostError::Archive { path: path.into(), source },
+    };
+    let mut archive = open_archive(path, LARGEST).map_err(archive_error)?;
+    check_unpacked(&mut archive, LARGEST).map_err(archive_error)?;
     let directory = TempDir::with_prefix("fmu-").map_err(file_error)?;
-    ZipArchive::new(file).and_then(|mut archive| archive.extract(&directory)).map_err(archive_error)?;
+    archive.extract(&directory).map_err(|error| archive_error(error.into()))?;
     Ok(directory)
 }
 
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, HostError> {
-    fs::read_to_string(path).map_err(|source| HostError::File { path: path.into(), source })
+    moris_bounded_files::text(path, TEXT).map_err(|source| HostError::File { path: path.into(), source })
 }
 
 /// Where the shared library for this platform lies in an unpacked FMU.

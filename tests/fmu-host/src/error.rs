@@ -9,8 +9,8 @@ use crate::api::Status;
 pub enum HostError {
     #[error("cannot read {path}", path = path.display())]
     File { path: PathBuf, source: std::io::Error },
-    #[error("{path} is no FMU", path = path.display())]
-    Archive { path: PathBuf, source: zip::result::ZipError },
+    #[error("cannot unpack {path}: {source}", path = path.display())]
+    Archive { path: PathBuf, source: moris_bounded_files::ArchiveError },
     #[error("modelDescription.xml: {0}")]
     Description(String),
     #[error("the FMU has no shared library for this platform, {0}")]

@@ -179,7 +179,8 @@ fn report(arguments: &Arguments, number: usize, found: &FoundEpisode) -> Result<
 
 /// Repeats an episode. True without a breach.
 fn replay(arguments: &Arguments, file: &Path) -> Result<bool> {
-    let text = std::fs::read_to_string(file).with_context(|| format!("reading {}", file.display()))?;
+    let text = moris_bounded_files::text(file, moris_bounded_files::TEXT)
+        .with_context(|| format!("reading {}", file.display()))?;
     let episode = Episode::from_toml(&text)?;
     match arguments.through {
         Through::Crate => replay_on(arguments, &episode, CrateTarget::default()),

@@ -26,7 +26,7 @@ struct Panel {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let directory = std::env::args().nth(1).map_or_else(|| PathBuf::from("docs"), PathBuf::from);
+    let directory = std::env::args_os().nth(1).map_or_else(|| PathBuf::from("docs"), PathBuf::from);
     for (name, panels) in [("motorcycle-ride.svg", ride()?), ("motorcycle-modes.svg", modes()?)] {
         let path = directory.join(name);
         draw(&path, &panels)?;

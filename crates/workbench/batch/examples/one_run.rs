@@ -14,7 +14,7 @@ use moris_washout::{Input, Parameters, Washout};
 const RUNS: usize = 200;
 
 fn main() {
-    let steps = std::env::args().nth(1).and_then(|steps| steps.parse().ok()).unwrap_or(5_000);
+    let steps = std::env::args_os().nth(1).and_then(|steps| steps.to_str()?.parse().ok()).unwrap_or(5_000);
     let sample = |k: usize| {
         let time = 0.001 * k as f64;
         let mut input = Input::default();

@@ -9,7 +9,8 @@ use std::io::{Read, stdin};
 use moris_measures::bound::{AxisLimits, TiltLimits, bound};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let numbers: Vec<f64> = std::env::args().skip(1).map(|number| number.parse()).collect::<Result<_, _>>()?;
+    let numbers: Vec<f64> =
+        std::env::args_os().skip(1).map(|number| number.to_string_lossy().parse()).collect::<Result<_, _>>()?;
     let [step, interval] = numbers[..] else { return Err("two numbers are needed: step and interval".into()) };
     let mut text = String::new();
     stdin().read_to_string(&mut text)?;

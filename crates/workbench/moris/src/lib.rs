@@ -38,7 +38,6 @@ pub mod schema;
 pub mod setup_options;
 pub mod simulate;
 mod status;
-mod text_file;
 pub mod text_table;
 pub mod tune;
 pub mod votes;

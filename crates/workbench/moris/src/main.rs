@@ -60,10 +60,20 @@ fn main() -> ExitCode {
         Err(error) if nobody_reads_on(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // The reader may be gone.
-            let _ = writeln!(stderr(), "error: {error:#}");
+            let _ = writeln!(stderr(), "error: {}", shortened(&format!("{error:#}")));
             ExitCode::FAILURE
         }
     }
+}
+
+/// The text with its lines cut at a length: some errors quote a line of a file.
+fn shortened(text: &str) -> String {
+    const LONGEST: usize = 2000;
+    let cut = |line: &str| match line.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} ...", &line[..end]),
+        None => line.to_owned(),
+    };
+    text.lines().map(cut).collect::<Vec<_>>().join("\n")
 }
 
 /// True if the reader of the output, such as `head`, has closed it.

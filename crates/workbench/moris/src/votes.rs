@@ -12,8 +12,6 @@ use moris_live::log::slot_of;
 use moris_setup::NamedValues;
 use serde::{Deserialize, Serialize};
 
-use crate::text_file;
-
 /// Values of a set by their names.
 pub type Set = BTreeMap<String, f64>;
 
@@ -30,7 +28,8 @@ pub struct Vote {
 /// # Errors
 /// It cannot be read, has no vote, or a line is none.
 pub fn read(file: &Path) -> Result<Vec<Vote>> {
-    let text = text_file::read(file).with_context(|| file.display().to_string())?;
+    let text =
+        moris_bounded_files::text(file, moris_bounded_files::TEXT).with_context(|| file.display().to_string())?;
     let vote = |(place, line): (usize, &str)| -> Result<Vote> {
         let here = || format!("{}, line {}", file.display(), place + 1);
         let vote: Vote = serde_json::from_str(line)

@@ -18,7 +18,7 @@ const GRAVITY: f64 = 9.80665;
 const HOSTILE: &str = "</script><script>alert(1)</script><img src=x onerror=alert(2)> \"&lt;' {{data}} \u{2028} ?";
 
 fn main() {
-    let Some(directory) = std::env::args().nth(1) else {
+    let Some(directory) = std::env::args_os().nth(1) else {
         eprintln!("error: say into which directory: pages DIRECTORY");
         exit(2);
     };

@@ -1,8 +1,8 @@
 //! A rig and parameters put together.
 
-use std::fs;
 use std::path::Path;
 
+use moris_bounded_files::TEXT;
 use moris_interface::{Group, Row};
 use moris_washout::{Parameters, check};
 
@@ -81,7 +81,7 @@ pub fn load_set(name: &str, rows: &[Row]) -> Result<NamedValues, Error> {
 }
 
 fn text(file: &Path) -> Result<String, Error> {
-    fs::read_to_string(file).map_err(|reason| Error::Read { file: file.to_owned(), reason })
+    moris_bounded_files::text(file, TEXT).map_err(|reason| Error::Read { file: file.to_owned(), reason })
 }
 
 /// The name of a set; of a file that without directory and extension.

@@ -14,7 +14,7 @@ use fmu_runner::model_description::ScalarVariable;
 use fmu_runner::{Fmu, FmuInstance, FmuLibrary, fmi2Type};
 
 fn main() -> Result<()> {
-    let path = std::env::args().nth(1).context("which FMU?")?;
+    let path = std::env::args_os().nth(1).context("which FMU?")?;
     let library = Fmu::unpack(Path::new(&path))?.load(fmi2Type::fmi2CoSimulation)?;
     let text = read_to_string(std::io::stdin())?;
     let ride = Ride::read(&text, &library)?;

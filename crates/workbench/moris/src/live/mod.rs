@@ -66,6 +66,9 @@ use page::{Desk, Server, Start};
 use signals::{Interrupts, Signals};
 use watch::{Failed, Part, watch};
 
+/// Largest recording of a session \[bytes\]. One of a day is smaller.
+const LARGEST_SESSION: u64 = 200_000_000;
+
 /// Step the washout beside a running vehicle, and command a platform
 ///
 /// Receives telemetry, steps the washout at 1 kHz and sends frames to the actuators. Lines on
@@ -219,7 +222,11 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
         return tables::main(list, out);
     }
     if let Some(file) = &options.replay {
-        return replay(options, &crate::text_file::read(file).with_context(|| file.display().to_string())?, out);
+        return replay(
+            options,
+            &moris_bounded_files::text(file, LARGEST_SESSION).with_context(|| file.display().to_string())?,
+            out,
+        );
     }
     options.core.map_or(Ok(()), priority::check_core)?;
     if options.empty_loop {

@@ -1,10 +1,11 @@
 //! Tables of formats and templates, shipped ones and a user's own.
 
-use std::fs;
 use std::io::Write;
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
+use moris_bounded_files::TEXT;
 use moris_live::{format, frame, moog};
 
 /// Lists of tables.
@@ -65,7 +66,9 @@ pub fn frames(name: &str) -> Result<frame::Frames> {
 fn text(option: &str, name: &str, tables: &[(&str, &'static str)]) -> Result<String> {
     match shipped(option, name, tables) {
         Ok(text) => Ok(text.to_owned()),
-        Err(_) if name.ends_with(".toml") => fs::read_to_string(name).with_context(|| name.to_owned()),
+        Err(_) if name.ends_with(".toml") => {
+            moris_bounded_files::text(Path::new(name), TEXT).with_context(|| name.to_owned())
+        }
         Err(error) => Err(error),
     }
 }

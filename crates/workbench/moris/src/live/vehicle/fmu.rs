@@ -1,10 +1,10 @@
 //! A vehicle FMU, with a map of its variables.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
+use moris_bounded_files::TEXT;
 use moris_fmu_host::Running;
 use moris_live::Sample;
 use moris_live::format::{Format, Place};
@@ -59,7 +59,7 @@ impl Fmu {
     /// # Errors
     /// The map or the FMU cannot be used, or the FMU lacks a variable of the map.
     pub fn open(file: &Path, map: &Path) -> Result<Self> {
-        let text = fs::read_to_string(map).with_context(|| map.display().to_string())?;
+        let text = moris_bounded_files::text(map, TEXT).with_context(|| map.display().to_string())?;
         let mut table: toml::Table = text.parse().with_context(|| map.display().to_string())?;
         let [start, step, controls] = OWN.map(|word| table.remove(word));
         for (word, value) in DEFAULTS {

@@ -12,7 +12,6 @@ use super::{
     RateFrame, RateUnit, SpeedUnit, TimeUnit,
 };
 use crate::recording::message::{Dialect, RecordingError};
-use crate::text_file;
 
 /// Options that describe a recording.
 #[derive(Clone, Debug, Default, PartialEq, clap::Args, Deserialize, JsonSchema)]
@@ -130,7 +129,8 @@ impl ConventionOptions {
     /// The options over the file's, if there is one.
     fn with_file(&self) -> Result<ConventionOptions, RecordingError> {
         let Some(file) = &self.conventions else { return Ok(self.clone()) };
-        let text = text_file::read(file).map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
+        let text = moris_bounded_files::text(file, moris_bounded_files::TEXT)
+            .map_err(|reason| RecordingError::Read { file: file.clone(), reason })?;
         let given = toml::from_str(&text).map_err(|error| RecordingError::whole(file, error.to_string()))?;
         Ok(self.over(given))
     }
