@@ -1,7 +1,7 @@
 //! Files and archives that others made, read up to a bound.
 //!
-//! A device without an end, a sparse file and a small archive that unpacks to many gigabytes are
-//! refused with the reason, before they fill the memory or the disk.
+//! Some files would fill the memory or the disk: devices without an end, sparse files, and small
+//! archives that unpack to many gigabytes. They are refused with the reason.
 
 #![forbid(unsafe_code)]
 
