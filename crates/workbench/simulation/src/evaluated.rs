@@ -31,7 +31,11 @@ impl Evaluated<'_> {
             let felt = self.measures.force[axis]?.rms_error;
             Some(bound_rows(["x", "y", "z"][axis], self.desired_rms(axis), felt, self.bounds[axis]?))
         };
-        self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten()).collect()
+        let rows = self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten());
+        match &self.simulation.foreign {
+            Some(foreign) => rows.map(|row| foreign.known(row)).collect(),
+            None => rows.collect(),
+        }
     }
 
     /// RMS of the desired specific force as a deviation from rest \[m/s2\]: the error

@@ -52,11 +52,17 @@ impl Evaluated<'_> {
     /// The findings, the most important first: fit, comfort, shape, channels worse than at rest,
     /// limits of the tilt, other channels, motion sickness.
     pub fn findings(&self) -> Vec<Finding> {
-        let mut findings = vec![fits(self)];
+        let foreign = self.simulation.foreign.as_ref();
+        let mut findings = match foreign {
+            Some(foreign) => foreign.findings(self, is_better_than_rest(self)),
+            None => vec![fits(self)],
+        };
         findings.extend((0..3).flat_map(|axis| comfort(self, axis)));
         findings.extend(shape(self));
-        let warnings = moris_washout::warnings(&self.simulation.parameters);
-        findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
+        if foreign.is_none() {
+            let warnings = moris_washout::warnings(&self.simulation.parameters);
+            findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
+        }
         let (worse, others): (Vec<Finding>, Vec<Finding>) =
             channels(self).iter().filter_map(Channel::finding).partition(|finding| finding.weight == Weight::Warning);
         findings.extend(worse);
@@ -80,7 +86,10 @@ impl Evaluated<'_> {
             .filter(|channel| channel.is_worse_than_rest())
             .map(|channel| channel.name.to_lowercase())
             .collect();
-        let fit = if fits_freely(self.measures) {
+        let is_judged = self.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_legs);
+        let fit = if !is_judged {
+            "limits not judged"
+        } else if fits_freely(self.measures) {
             "fits"
         } else if fits_the_rig(self.measures) {
             "within the rig by soft limits alone"
@@ -130,6 +139,12 @@ fn fits(outcome: &Evaluated) -> Finding {
             finding(Weight::Warning, format!("The recording does not fit the rig. {}{soft} ({used}.)", hard.join(" ")))
         }
     }
+}
+
+/// As [`fits_the_rig`]; none where the legs are not known.
+pub fn fit(outcome: &Evaluated) -> Option<bool> {
+    let is_judged = outcome.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_legs);
+    is_judged.then(|| fits_the_rig(outcome.measures))
 }
 
 /// True if neither a safety unit nor an actuator's limit was active.
@@ -300,7 +315,9 @@ fn channels(outcome: &Evaluated) -> Vec<Channel> {
             bound: None,
         })
     };
-    (0..3).filter_map(force).chain((0..3).filter_map(rate)).collect()
+    let has_rate = outcome.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_rate);
+    let rates = (0..3).filter(|_| has_rate).filter_map(rate);
+    (0..3).filter_map(force).chain(rates).collect()
 }
 
 /// The limits that the bound of an axis was computed with.

@@ -16,7 +16,11 @@ impl Evaluated<'_> {
         let inverted = measures.shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
         let worst = |k: usize| measures.comfort.iter().flatten().map(|comfort| comfort.values()[k]).fold(0.0, f64::max);
         let (weight, text) = if !fits_the_rig(measures) {
-            (Weight::Warning, format!("Too much for the rig: its limits stop the platform. {}", self.smaller_scale()))
+            let text = match &self.simulation.foreign {
+                Some(_) => "Too much for the rig: the motion exceeds its actuators' limits.".to_owned(),
+                None => format!("Too much for the rig: its limits stop the platform. {}", self.smaller_scale()),
+            };
+            (Weight::Warning, text)
         } else if inverted >= INVERTED {
             let percent = 100.0 * inverted;
             (
@@ -39,6 +43,7 @@ impl Evaluated<'_> {
     /// What to change where the scale asks too much.
     fn smaller_scale(&self) -> String {
         match self.advice.and_then(|advice| advice.scaled) {
+            _ if self.simulation.foreign.is_some() => "A smaller scale of force and rates helps.".to_owned(),
             Some(found) => format!("Scale force and rates by {:.2}.", found.factor),
             None => "A smaller scale of force and rates, a better strategy or a faster tilt helps; moris fit finds the scale."
                 .to_owned(),
@@ -56,8 +61,12 @@ impl Evaluated<'_> {
             (Some(_), Some(size)) => (
                 Weight::Note,
                 format!(
-                    "Felt the right way round in part, at {:.0} % of the size.{soft} moris fit finds a scale with a better shape.",
-                    100.0 * size
+                    "Felt the right way round in part, at {:.0} % of the size.{soft}{}",
+                    100.0 * size,
+                    match &self.simulation.foreign {
+                        Some(_) => "",
+                        None => " moris fit finds a scale with a better shape.",
+                    }
                 ),
             ),
             _ => (Weight::Good, format!("Nothing is wrong; surge and sway are hardly asked for.{soft}")),

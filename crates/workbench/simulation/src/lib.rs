@@ -7,6 +7,7 @@
 //!   the recording's future.
 //! - [`advice`] is what another scale would give.
 //! - [`fit`](mod@fit) finds the largest scale with the right sign and proportion.
+//! - [`foreign`] makes the same of the motion that another washout computed.
 //! - [`capabilities`] is what a rig can do; [`clearance`] is how close its legs come.
 //! - [`frequency_response`] is that of the washout with a set of parameters.
 //! - [`Evaluated`] has the measures and the sentences about them, and the curves of a report.
@@ -19,6 +20,7 @@ pub mod clearance;
 mod evaluated;
 pub mod findings;
 pub mod fit;
+pub mod foreign;
 pub mod frequency_response;
 mod headline;
 mod measured;

@@ -9,6 +9,7 @@ use moris_washout::platform::LocationFrame;
 use moris_washout::platform::Pose;
 use moris_washout::{Input, Output, ParameterError, Parameters, Washout};
 
+use crate::foreign::Foreign;
 use crate::preview::Previewer;
 
 /// Every input and output of a simulation.
@@ -24,6 +25,8 @@ pub struct Simulation {
     pub outputs: Vec<Output>,
     /// The felt specific force at the first sample and after each internal step \[m/s2\].
     pub felt_within_steps: Vec<Vector3<f64>>,
+    /// Where another washout computed the outputs: what is known of them.
+    pub foreign: Option<Foreign>,
 }
 
 /// A simulation that is made part by part.
@@ -44,8 +47,14 @@ impl Unfinished {
         let washout = Washout::new(parameters)?.starting_with(&inputs[0]);
         let outputs = vec![washout.output()];
         let felt_within_steps = vec![outputs[0].felt_specific_force];
-        let simulation =
-            Simulation { step: replay.step(), parameters: *parameters, inputs, outputs, felt_within_steps };
+        let simulation = Simulation {
+            step: replay.step(),
+            parameters: *parameters,
+            inputs,
+            outputs,
+            felt_within_steps,
+            foreign: None,
+        };
         Ok(Unfinished { washout, simulation })
     }
 
@@ -88,6 +97,7 @@ impl Simulation {
             inputs,
             outputs: Vec::new(),
             felt_within_steps: Vec::new(),
+            foreign: None,
         }
     }
 

@@ -71,6 +71,7 @@ mod tests {
             inputs: vec![Input::default(); outputs.len()],
             outputs,
             felt_within_steps: Vec::new(),
+            foreign: None,
         };
         let spans = Spans::of(&simulation, |output| output.soft_limited);
         // 5 and 9 have 60 ms between them. The first output belongs to no step.

@@ -11,6 +11,8 @@
 //! - `checks` finds samples that no vehicle causes, wrong units and axes, and channels that
 //!   contradict each other.
 //!
+//! [`felt`] reads the motion that another washout computed for a recording.
+//!
 //! [`conventions`] are the names, units and axes given by options, or by one of the
 //! [`formats`]. `message` names these options in errors and warnings, and `signal` has the
 //! statistics of all steps.
@@ -32,6 +34,7 @@ mod axes;
 mod checks;
 mod columns;
 pub mod conventions;
+pub mod felt;
 mod message;
 mod read;
 mod signal;

@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{Outcome, fits_the_rig, is_better_than_rest};
+use super::{Outcome, fit, is_better_than_rest};
 use crate::recording::Recording;
 
 /// A recording, simulated with one or several sets of parameters.
@@ -38,8 +38,8 @@ struct SetResult {
     /// Name of the parameters.
     parameters: String,
     /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
-    /// the time.
-    fits: bool,
+    /// the time; null for another washout's motion without poses and legs.
+    fits: Option<bool>,
     /// False if a channel has a larger error than a platform at rest.
     better_than_rest: bool,
     /// The verdict with what to change.
@@ -94,7 +94,7 @@ fn result(outcome: &Outcome) -> SetResult {
     SetResult {
         rig: outcome.setup.rig_name.clone(),
         parameters: outcome.setup.parameters_name.clone(),
-        fits: fits_the_rig(&outcome.measures),
+        fits: fit(&outcome.evaluated()),
         better_than_rest: is_better_than_rest(&outcome.evaluated()),
         verdict: outcome.evaluated().headline().text,
         findings: outcome.evaluated().findings().into_iter().map(|finding| finding.text).collect(),

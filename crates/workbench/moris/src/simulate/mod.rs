@@ -30,15 +30,17 @@ use moris_measures::{Axes, Measures};
 use moris_setup::Setup;
 use moris_simulation::Evaluated;
 use moris_simulation::advice::Advice;
+use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::preview::{Previewer, parse_seconds};
 use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
+use crate::recording::felt::FeltTable;
 use crate::recording::{ConventionOptions, Conventions, FADE_IN, Recording, source, table};
 use crate::setup_options::SetupOptions;
 use crate::status::DOES_NOT_FIT;
 pub use bounds::AxisBound;
-pub use moris_simulation::findings::{fits_the_rig, is_better_than_rest};
+pub use moris_simulation::findings::{fit, fits_the_rig, is_better_than_rest};
 pub use moris_simulation::{Simulation, measures};
 
 /// Simulate recordings on a rig and report how well they are felt
@@ -72,6 +74,13 @@ pub struct Options {
     /// force, in s, at most 4
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     preview: Option<f64>,
+
+    /// Motion that another washout computed for the recording, compared with these parameters: CSV
+    /// with felt forces, poses of the platform or lengths of the legs. docs/your-washout.md lists the
+    /// columns. It is judged at the washout location, at the scale and on the rig of the first
+    /// parameters
+    #[arg(long, value_name = "FILE")]
+    felt: Vec<PathBuf>,
 
     /// Directory for the reports and the tables of outputs
     #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
@@ -125,6 +134,22 @@ impl Outcome {
         Outcome::measured(Simulation::previewed(&recording.replay(), &parameters, previewer, progress)?, setup)
     }
 
+    /// Judges motion that another washout computed, under its name.
+    ///
+    /// # Errors
+    /// The motion does not fit the recording, or cannot be meant.
+    pub fn foreign(
+        recording: &Recording,
+        setup: &Setup,
+        name: &str,
+        motion: &ForeignMotion,
+        notes: Vec<String>,
+    ) -> Result<Self> {
+        let parameters = recording.parameters(&setup.parameters);
+        let simulation = motion.simulation(recording.inputs(), recording.step(), &parameters, notes)?;
+        Outcome::measured(simulation, &Setup { parameters_name: name.to_owned(), ..setup.clone() })
+    }
+
     /// Measures a simulation with this setup's rig.
     ///
     /// # Errors
@@ -158,6 +183,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
     let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
     let recordings = table::recordings(&options.recordings, &conventions);
+    if recordings.len() > 1 && !options.felt.is_empty() {
+        bail!("--felt is the motion for one recording, but there are {}; simulate each with its own", recordings.len());
+    }
     check_names(&recordings, &cases)?;
     if !simulator::is_compiled() {
         eprintln!(
@@ -213,31 +241,63 @@ struct Case {
     setup: Setup,
     /// \[s\]; 0: none.
     preview: f64,
+    /// The file of another washout's motion; none: the parameters are simulated.
+    felt: Option<PathBuf>,
 }
 
-/// The parameters, the ones to compare, and again those of the predictive
-/// strategy with the preview.
+impl Case {
+    fn of(setup: Setup) -> Self {
+        Case { setup, preview: 0.0, felt: None }
+    }
+
+    fn outcome(&self, recording: &Recording, progress: impl FnMut()) -> Result<Outcome> {
+        let Some(file) = &self.felt else {
+            return Outcome::previewed(recording, &self.setup, self.preview, progress);
+        };
+        let table = FeltTable::read(file)?;
+        let motion = table.motion(recording).map_err(anyhow::Error::msg);
+        let judged = motion.and_then(|(motion, notes)| {
+            Outcome::foreign(recording, &self.setup, &self.setup.parameters_name, &motion, notes)
+        });
+        judged.with_context(|| file.display().to_string())
+    }
+}
+
+/// The parameters, the ones to compare, again those of the predictive strategy with the preview, and
+/// the motions of other washouts.
 fn cases(options: &Options) -> Result<Vec<Case>> {
-    let mut cases = vec![Case { setup: options.setup.load()?, preview: 0.0 }];
+    let first = options.setup.load()?;
+    let judged = |file: &PathBuf| Case {
+        felt: Some(file.clone()),
+        ..Case::of(Setup { parameters_name: source::name(file), ..first.clone() })
+    };
+    let judged: Vec<Case> = options.felt.iter().map(judged).collect();
+    let mut cases = vec![Case::of(first)];
     for other in &options.compare {
         let setup = Setup::load(options.setup.rig.as_deref(), std::slice::from_ref(other))?;
-        cases.push(Case { setup, preview: 0.0 });
+        cases.push(Case::of(setup));
     }
-    let Some(preview) = options.preview.filter(|&seconds| seconds > 0.0) else { return Ok(cases) };
+    cases.extend(previewed(options, &cases)?);
+    cases.extend(judged);
+    Ok(cases)
+}
+
+/// The parameters of the predictive strategy with the preview, if one is asked for.
+fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
+    let Some(preview) = options.preview.filter(|&seconds| seconds > 0.0) else { return Ok(Vec::new()) };
     let is_predictive = |case: &&Case| case.setup.parameters.structure.strategy == StrategyKind::Predictive;
     let previewed: Vec<Case> = cases
         .iter()
         .filter(is_predictive)
         .map(|case| {
             let parameters_name = format!("{}, preview of {preview} s", case.setup.parameters_name);
-            Case { setup: Setup { parameters_name, ..case.setup.clone() }, preview }
+            Case { preview, ..Case::of(Setup { parameters_name, ..case.setup.clone() }) }
         })
         .collect();
     if previewed.is_empty() {
         bail!("--preview is for the predictive strategy alone; add --strategy predictive");
     }
-    cases.extend(previewed);
-    Ok(cases)
+    Ok(previewed)
 }
 
 /// A recording's results, ready to be printed.
@@ -274,10 +334,8 @@ fn simulate(options: &Options, file: &Path, cases: &[Case], conventions: &Conven
 
 fn outcomes(recording: &Recording, cases: &[Case], with_bounds: bool, progress: &mut Progress) -> Result<Vec<Outcome>> {
     progress.phase("simulating", (recording.inputs().len() * cases.len()) as u64);
-    let mut outcomes: Vec<Outcome> = cases
-        .iter()
-        .map(|case| Outcome::previewed(recording, &case.setup, case.preview, || progress.step()))
-        .collect::<Result<_>>()?;
+    let mut outcomes: Vec<Outcome> =
+        cases.iter().map(|case| case.outcome(recording, || progress.step())).collect::<Result<_>>()?;
     if with_bounds {
         progress.phase("computing the bound", 0);
         for index in 0..outcomes.len() {
@@ -328,8 +386,8 @@ fn check_names(recordings: &[PathBuf], cases: &[Case]) -> Result<()> {
             }
             match tables.insert(name.clone(), recording) {
                 Some(other) if other == recording => bail!(
-                    "{} would be simulated twice, or with two --compare of the same name, and both written into {name}; name each once, \
-                     and rename one of two parameter files of the same name",
+                    "{} would be simulated twice, or with two --compare or --felt of the same name, and both written into {name}; name \
+                     each once, and rename one of two files of the same name",
                     recording.display()
                 ),
                 Some(other) => bail!(

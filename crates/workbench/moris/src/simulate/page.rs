@@ -29,7 +29,9 @@ pub fn html(recording: &Recording, outcomes: &[Outcome], command: Option<String>
         let report = report(recording, outcomes, most / outcomes.len());
         let page = moris_report::html(&report)?;
         if page.len() <= LARGEST || most <= LEAST_SAMPLES {
-            let Some(simulator) = simulator::of(recording, &outcomes[0], command) else { return Ok(page) };
+            let is_foreign = outcomes[0].simulation.foreign.is_some();
+            let simulator = simulator::of(recording, &outcomes[0], command).filter(|_| !is_foreign);
+            let Some(simulator) = simulator else { return Ok(page) };
             return with_simulation(report, simulator, page);
         }
         let fitting = 0.95 * most as f64 * LARGEST as f64 / page.len() as f64;

@@ -34,6 +34,11 @@ impl Header {
         self.titles.get(place).map_or_else(String::new, |title| quoted(&title.qualified(&title.full)))
     }
 
+    /// The unit of a column, as its title has it.
+    pub fn unit_text(&self, place: usize) -> Option<&str> {
+        self.titles.get(place)?.unit.as_deref()
+    }
+
     /// Reads a line of units below the names. In it no field is a number, and at least one is a
     /// unit. Returns false and does not change the header if the line is not a line of units.
     pub fn take_units<'a>(&mut self, fields: impl Iterator<Item = &'a str> + Clone) -> bool {

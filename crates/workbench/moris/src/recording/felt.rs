@@ -1,0 +1,311 @@
+//! Tables of the motion that another washout computed: felt forces and rates, poses, legs.
+
+use std::array;
+use std::path::Path;
+
+use moris_simulation::foreign::{ForeignMotion, on_samples};
+
+use super::Recording;
+use super::columns::Header;
+use super::columns::units::Dimension;
+use super::conventions::Conventions;
+use super::message::RecordingError;
+use super::read::{Sheet, source};
+
+/// Names of the columns of a quantity, each as this project's outputs have it, then shorter.
+struct Names<const N: usize> {
+    argument: &'static str,
+    sets: &'static [[&'static str; N]],
+    dimensions: [Kind; N],
+}
+
+/// Dimension of a column.
+#[derive(Clone, Copy)]
+enum Kind {
+    Of(Dimension),
+    Length,
+}
+
+const FORCE: Names<3> = Names {
+    argument: "felt_force",
+    sets: &[
+        ["rider.specificForce.x", "rider.specificForce.y", "rider.specificForce.z"],
+        ["ax", "ay", "az"],
+        ["fx", "fy", "fz"],
+    ],
+    dimensions: [Kind::Of(Dimension::Force); 3],
+};
+const RATE: Names<3> = Names {
+    argument: "felt_rate",
+    sets: &[["rider.angularVelocity.x", "rider.angularVelocity.y", "rider.angularVelocity.z"], ["wx", "wy", "wz"]],
+    dimensions: [Kind::Of(Dimension::Rate); 3],
+};
+const POSE: Names<6> = Names {
+    argument: "pose",
+    sets: &[
+        [
+            "platform.position.x",
+            "platform.position.y",
+            "platform.position.z",
+            "platform.orientation.roll",
+            "platform.orientation.pitch",
+            "platform.orientation.yaw",
+        ],
+        ["x", "y", "z", "roll", "pitch", "yaw"],
+    ],
+    dimensions: [
+        Kind::Length,
+        Kind::Length,
+        Kind::Length,
+        Kind::Of(Dimension::Angle),
+        Kind::Of(Dimension::Angle),
+        Kind::Of(Dimension::Angle),
+    ],
+};
+const LEGS: Names<6> = Names {
+    argument: "legs",
+    sets: &[
+        [
+            "actuator[1].length",
+            "actuator[2].length",
+            "actuator[3].length",
+            "actuator[4].length",
+            "actuator[5].length",
+            "actuator[6].length",
+        ],
+        ["leg1", "leg2", "leg3", "leg4", "leg5", "leg6"],
+    ],
+    dimensions: [Kind::Length; 6],
+};
+
+/// Spellings of units of length, and their factors to SI.
+const LENGTHS: [(&str, f64); 4] = [("m", 1.0), ("dm", 0.1), ("cm", 0.01), ("mm", 1e-3)];
+
+/// A part of a motion, by the argument that gives it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// `felt_force`
+    Force,
+    /// `felt_rate`
+    Rate,
+    /// `pose`
+    Pose,
+    /// `legs`
+    Legs,
+}
+
+/// The columns of such a table, in SI units.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FeltTable {
+    /// The file's name without directory and extension.
+    pub name: String,
+    /// \[s\]; none if the table has no times.
+    pub time: Option<Vec<f64>>,
+    /// Felt specific force.
+    pub force: Option<Vec<[f64; 3]>>,
+    /// Felt angular velocity.
+    pub rate: Option<Vec<[f64; 3]>>,
+    /// Position, then roll, pitch, yaw.
+    pub pose: Option<Vec<[f64; 6]>>,
+    /// Lengths of the actuators.
+    pub legs: Option<Vec<[f64; 6]>>,
+    /// Titles of all columns.
+    pub titles: Vec<String>,
+}
+
+impl FeltTable {
+    /// Reads a CSV file with the columns `time` and those of at least one quantity:
+    ///
+    /// - `rider.specificForce.x` to `.z`, or `ax ay az`, or `fx fy fz`;
+    /// - `rider.angularVelocity.x` to `.z`, or `wx wy wz`;
+    /// - `platform.position.x` to `.z` and `platform.orientation.roll` to `.yaw`, or
+    ///   `x y z roll pitch yaw`;
+    /// - `actuator[1].length` to `actuator[6].length`, or `leg1` to `leg6`.
+    ///
+    /// # Errors
+    /// The file cannot be read, a value is no number, or a unit is unknown.
+    pub fn read(file: &Path) -> Result<Self, RecordingError> {
+        let conventions = Conventions::default();
+        let sheet = Sheet::open(file, &conventions)?;
+        let places = used_places(&sheet.header);
+        let samples = sheet.samples(&places, &conventions)?;
+        let column = |place: usize| {
+            let found = samples.columns.iter().find(|(other, _)| *other == place);
+            found.map(|(_, values)| values.clone()).unwrap_or_default()
+        };
+        let time = match (&sheet.time, sheet.has_written_times) {
+            (None, _) => None,
+            (Some(_), true) => Some(samples.time.clone()),
+            (Some(terms), false) => {
+                let (unit, _) = sheet.header.time_unit(terms, &conventions).map_err(|reason| sheet.refused(reason))?;
+                Some(samples.time.iter().map(|time| time * unit.in_si).collect())
+            }
+        };
+        let table = Self::of(&sheet.header, time, column).map_err(|reason| sheet.refused(reason))?;
+        Ok(FeltTable { name: source::name(file), ..table })
+    }
+
+    /// The table of columns in memory, each a title and its values.
+    ///
+    /// # Errors
+    /// Columns differ in length, or a unit is unknown.
+    pub fn of_columns(name: &str, columns: &[(String, Vec<f64>)]) -> Result<Self, RecordingError> {
+        let refused = |reason: String| RecordingError::whole(Path::new(name), reason);
+        let header = Header::new(columns.iter().map(|(title, _)| title.as_str()));
+        let conventions = Conventions::default();
+        let time = match header.terms("time").map_err(refused)? {
+            Some(terms) => {
+                let (unit, _) = header.time_unit(&terms, &conventions).map_err(refused)?;
+                let place = terms.first().map_or(0, |term| term.place);
+                Some(columns[place].1.iter().map(|time| time * unit.in_si).collect())
+            }
+            None => None,
+        };
+        let table = Self::of(&header, time, |place| columns[place].1.clone()).map_err(refused)?;
+        Ok(FeltTable { name: name.to_owned(), ..table })
+    }
+
+    fn of(header: &Header, time: Option<Vec<f64>>, column: impl Fn(usize) -> Vec<f64>) -> Result<Self, String> {
+        Ok(FeltTable {
+            name: String::new(),
+            time,
+            force: FORCE.rows(header, &column)?,
+            rate: RATE.rows(header, &column)?,
+            pose: POSE.rows(header, &column)?,
+            legs: LEGS.rows(header, &column)?,
+            titles: (0..header.width()).map(|place| header.shown(place)).collect(),
+        })
+    }
+
+    /// The motion at the samples of a recording, and sentences about interpolations. A table
+    /// without times has a row for each sample, or for each of equal parts of a step.
+    ///
+    /// # Errors
+    /// There is nothing to judge, or the times do not cover the recording.
+    pub fn motion(&self, recording: &Recording) -> Result<(ForeignMotion, Vec<String>), String> {
+        if self.force.is_none() && self.pose.is_none() && self.legs.is_none() {
+            return Err(format!(
+                "there are no columns {}, {} or {}; there are {}",
+                FORCE.shown(),
+                POSE.shown(),
+                LEGS.shown(),
+                self.titles.join(", ")
+            ));
+        }
+        let mut notes = Vec::new();
+        let motion = ForeignMotion {
+            force: self.placed(FORCE.argument, &self.force, recording, &mut notes)?,
+            rate: self.placed(RATE.argument, &self.rate, recording, &mut notes)?,
+            pose: self.placed(POSE.argument, &self.pose, recording, &mut notes)?,
+            legs: self.placed(LEGS.argument, &self.legs, recording, &mut notes)?,
+        };
+        Ok((motion, notes))
+    }
+
+    /// One part of the motion alone, and sentences about interpolations.
+    ///
+    /// # Errors
+    /// The table has no such columns, or as [`FeltTable::motion`].
+    pub fn part(&self, part: Part, recording: &Recording) -> Result<(ForeignMotion, Vec<String>), String> {
+        let mut notes = Vec::new();
+        let none = ForeignMotion::default();
+        let motion = match part {
+            Part::Force => {
+                let force = self.placed(FORCE.argument, &self.force, recording, &mut notes)?;
+                ForeignMotion { force: Some(force.ok_or_else(|| self.without(&FORCE))?), ..none }
+            }
+            Part::Rate => {
+                let rate = self.placed(RATE.argument, &self.rate, recording, &mut notes)?;
+                ForeignMotion { rate: Some(rate.ok_or_else(|| self.without(&RATE))?), ..none }
+            }
+            Part::Pose => {
+                let pose = self.placed(POSE.argument, &self.pose, recording, &mut notes)?;
+                ForeignMotion { pose: Some(pose.ok_or_else(|| self.without(&POSE))?), ..none }
+            }
+            Part::Legs => {
+                let legs = self.placed(LEGS.argument, &self.legs, recording, &mut notes)?;
+                ForeignMotion { legs: Some(legs.ok_or_else(|| self.without(&LEGS))?), ..none }
+            }
+        };
+        Ok((motion, notes))
+    }
+
+    fn without<const N: usize>(&self, names: &Names<N>) -> String {
+        let titles = self.titles.join(", ");
+        format!("{}: there are no columns {}; there are {titles}", names.argument, names.shown())
+    }
+
+    fn placed<const N: usize>(
+        &self,
+        argument: &'static str,
+        series: &Option<Vec<[f64; N]>>,
+        recording: &Recording,
+        notes: &mut Vec<String>,
+    ) -> Result<Option<Vec<[f64; N]>>, String> {
+        let (Some(series), Some(time)) = (series, &self.time) else { return Ok(series.clone()) };
+        let samples = recording.inputs().len();
+        let placed = on_samples(argument, time, series, recording.start, recording.step(), samples);
+        let (series, note) = placed.map_err(|reason| reason.to_string())?;
+        notes.extend(note);
+        Ok(Some(series))
+    }
+}
+
+/// The places of all columns that are used, each once.
+fn used_places(header: &Header) -> Vec<usize> {
+    let mut places: Vec<usize> = [FORCE.places(header), RATE.places(header)].into_iter().flatten().flatten().collect();
+    places.extend([POSE.places(header), LEGS.places(header)].into_iter().flatten().flatten());
+    places.sort_unstable();
+    places.dedup();
+    places
+}
+
+impl<const N: usize> Names<N> {
+    /// The places of the columns, of the first names that are all there.
+    fn places(&self, header: &Header) -> Option<[usize; N]> {
+        let place = |name: &str| header.place(name).ok().flatten();
+        self.sets.iter().find_map(|names| {
+            let found: Vec<usize> = names.iter().filter_map(|name| place(name)).collect();
+            <[usize; N]>::try_from(found).ok()
+        })
+    }
+
+    fn rows(&self, header: &Header, column: impl Fn(usize) -> Vec<f64>) -> Result<Option<Vec<[f64; N]>>, String> {
+        let Some(places) = self.places(header) else { return Ok(None) };
+        let mut columns = Vec::with_capacity(N);
+        for (&place, kind) in places.iter().zip(self.dimensions) {
+            let factor = factor(header, place, kind)?;
+            columns.push(column(place).into_iter().map(|value| value * factor).collect::<Vec<f64>>());
+        }
+        let count = columns[0].len();
+        if let Some(k) = columns.iter().position(|column| column.len() != count) {
+            let [first, other] = [places[0], places[k]].map(|place| header.shown(place));
+            return Err(format!("column {other} has {} values, but {first} {count}", columns[k].len()));
+        }
+        Ok(Some((0..count).map(|row| array::from_fn(|k| columns[k][row])).collect()))
+    }
+
+    /// The names, as messages list them.
+    pub fn shown(&self) -> String {
+        let sets = self.sets.iter().map(|names| format!("{} to {}", names[0], names[N - 1]));
+        sets.collect::<Vec<_>>().join(" (or ") + &")".repeat(self.sets.len() - 1)
+    }
+}
+
+/// The factor of a column to SI, by the unit in its title.
+fn factor(header: &Header, place: usize, kind: Kind) -> Result<f64, String> {
+    let Some(unit) = header.unit_text(place) else { return Ok(1.0) };
+    let unknown = |units: &[&str]| {
+        format!("column {} has the unit {unit}; write one of {}", header.shown(place), units.join(", "))
+    };
+    match kind {
+        Kind::Length => {
+            let found = LENGTHS.iter().find(|(spelling, _)| *spelling == unit);
+            found.map(|(_, factor)| *factor).ok_or_else(|| unknown(&LENGTHS.map(|(spelling, _)| spelling)))
+        }
+        Kind::Of(dimension) => dimension
+            .spelled(unit)
+            .map(|unit| unit.in_si)
+            .ok_or_else(|| unknown(&dimension.units().map(|unit| unit.word).collect::<Vec<_>>())),
+    }
+}

@@ -1,0 +1,72 @@
+//! Findings on a foreign motion: its limits, and what is wrong with what was given.
+
+use moris_measures::Row;
+use moris_report::{Finding, Weight};
+
+use super::limits::{Excess, Limit};
+use super::{Foreign, Suspicion};
+use crate::Evaluated;
+use crate::spans::Spans;
+
+/// Measures that need the washout itself: what of a tilt is coordination, and which of its own
+/// limits acted.
+const OF_THE_WASHOUT: [&str; 4] = ["largest tilt rate", "tilt limited", "soft limits active", "safety units active"];
+
+impl Foreign {
+    /// Fit to the rig, and what was given.
+    pub(crate) fn findings(&self, outcome: &Evaluated, is_good: bool) -> Vec<Finding> {
+        let finding = |weight, text: String| Finding { weight, text };
+        let mut findings = vec![self.fit(outcome, is_good)];
+        findings.extend(self.suspicions.iter().map(|Suspicion(text)| finding(Weight::Warning, text.clone())));
+        findings.extend(self.notes.iter().map(|text| finding(Weight::Note, text.clone())));
+        if !self.has_rate {
+            let text = "No felt rate is given: rates are not judged, and count as none for motion sickness.";
+            findings.push(finding(Weight::Note, text.to_owned()));
+        }
+        findings
+    }
+
+    fn fit(&self, outcome: &Evaluated, is_good: bool) -> Finding {
+        if !self.has_legs {
+            let text = "The rig's limits are not judged: no pose and no legs are given.";
+            return Finding { weight: Weight::Note, text: text.to_owned() };
+        }
+        let effort = &outcome.measures.effort;
+        let spans = Spans::of(outcome.simulation, |output| output.actuator_limited);
+        if let Some(first) = spans.first() {
+            let worst = self.excesses.iter().map(excess).collect::<Vec<_>>().join(", ");
+            let text = format!(
+                "The motion exceeds the rig for {:.2} s in all, first at {:.2} s: {worst}.",
+                spans.total, first[0]
+            );
+            return Finding { weight: Weight::Warning, text };
+        }
+        let text = format!(
+            "The motion stays within the rig: {:.0} % of the stroke is used, with at least {:.0} mm to spare.",
+            100.0 * effort.stroke_used,
+            1000.0 * effort.smallest_margin
+        );
+        Finding { weight: if is_good { Weight::Good } else { Weight::Note }, text }
+    }
+
+    /// The rows without values that are not known.
+    pub(crate) fn known(&self, row: Row) -> Row {
+        let is_of_rates = row.subject.contains("angular velocity");
+        let is_of_platform = row.subject == "platform";
+        let is_unknown =
+            is_of_rates && !self.has_rate || is_of_platform && (!self.has_legs || OF_THE_WASHOUT.contains(&row.name));
+        if is_unknown { Row { value: None, ..row } } else { row }
+    }
+}
+
+/// An excess as a clause.
+fn excess(excess: &Excess) -> String {
+    let Excess { limit, leg, value, allowed, time } = excess;
+    let leg = leg + 1;
+    match limit {
+        Limit::Shortest => format!("leg {leg} is {value:.3} m short at {time:.2} s, and must have {allowed:.3} m"),
+        Limit::Longest => format!("leg {leg} is {value:.3} m long at {time:.2} s, of at most {allowed:.3} m"),
+        Limit::Speed => format!("leg {leg} has {value:.2} m/s at {time:.2} s, of at most {allowed:.2} m/s"),
+        Limit::Acceleration => format!("leg {leg} has {value:.1} m/s² at {time:.2} s, of at most {allowed:.1} m/s²"),
+    }
+}

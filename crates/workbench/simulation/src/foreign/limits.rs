@@ -1,0 +1,89 @@
+//! The actuators' limits, judged on the legs of a foreign motion.
+
+use moris_washout::{Output, Rig};
+
+use super::differences::means;
+
+/// Excesses up to these count as none: of a length \[m\], and relative of speed and acceleration.
+const LENGTH_TOLERANCE: f64 = 1e-6;
+const TOLERANCE: f64 = 1e-3;
+
+/// The greatest excess of one of the actuators' limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excess {
+    /// Name of the limit.
+    pub limit: Limit,
+    /// The leg, from 0.
+    pub leg: usize,
+    /// The value, in SI units.
+    pub value: f64,
+    /// The limit's value.
+    pub allowed: f64,
+    /// \[s\]
+    pub time: f64,
+}
+
+/// A limit of an actuator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// Shortest length.
+    Shortest,
+    /// Longest length.
+    Longest,
+    /// Speed.
+    Speed,
+    /// Acceleration.
+    Acceleration,
+}
+
+/// Distance of the legs from either end of their stroke, the least \[m\].
+pub fn margin(lengths: &[f64; 6], rig: &Rig) -> f64 {
+    let of = |length: &f64| (length - rig.min_length).min(rig.max_length - length);
+    lengths.iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
+/// Writes lengths and margins of the recording's samples, and whether a limit was exceeded since
+/// the sample before. Returns the greatest excess of each limit.
+///
+/// Speed and acceleration are central differences over three samples.
+pub fn judge(legs: &[[f64; 6]], step: f64, rig: &Rig, outputs: &mut [Output]) -> Vec<Excess> {
+    let parts = (legs.len() - 1) / (outputs.len() - 1);
+    let step = step / parts as f64;
+    let mut exceeds = vec![false; legs.len()];
+    let mut worst: Vec<(f64, Excess)> = Vec::new();
+    for leg in 0..6 {
+        let lengths: Vec<f64> = legs.iter().map(|lengths| lengths[leg]).collect();
+        let rates = means(&lengths, step);
+        for (k, (&length, [speed, acceleration])) in lengths.iter().zip(rates).enumerate() {
+            let beyond = [
+                (Limit::Shortest, length, rig.min_length, rig.min_length - length - LENGTH_TOLERANCE),
+                (Limit::Longest, length, rig.max_length, length - rig.max_length - LENGTH_TOLERANCE),
+                (Limit::Speed, speed.abs(), rig.velocity_limit, speed.abs() - (1.0 + TOLERANCE) * rig.velocity_limit),
+                (
+                    Limit::Acceleration,
+                    acceleration.abs(),
+                    rig.acceleration_limit,
+                    acceleration.abs() - (1.0 + TOLERANCE) * rig.acceleration_limit,
+                ),
+            ];
+            for (limit, value, allowed, beyond) in beyond.into_iter().filter(|(.., beyond)| *beyond > 0.0) {
+                exceeds[k] = true;
+                let excess = Excess { limit, leg, value, allowed, time: k as f64 * step };
+                match worst.iter_mut().find(|(_, other)| other.limit == limit) {
+                    Some((least, _)) if *least >= beyond => (),
+                    Some(entry) => *entry = (beyond, excess),
+                    None => worst.push((beyond, excess)),
+                }
+            }
+        }
+    }
+    for (k, output) in outputs.iter_mut().enumerate() {
+        let at = k * parts;
+        output.length = legs[at];
+        output.stroke_margin = margin(&legs[at], rig);
+        let since = if k == 0 { 0 } else { at - parts + 1 };
+        output.actuator_limited = exceeds[since..=at].iter().any(|exceeds| *exceeds);
+    }
+    worst.sort_by_key(|(_, excess)| excess.limit as usize);
+    worst.into_iter().map(|(_, excess)| excess).collect()
+}

@@ -1,0 +1,254 @@
+//! Wrong units, signs and frames of a foreign motion.
+
+use moris_washout::Parameters;
+use moris_washout::interface::STANDARD_GRAVITY;
+
+use super::ForeignError;
+use super::differences::rounding_error;
+use crate::Simulation;
+
+/// Largest pitch, roll or yaw that a platform on six legs can have \[rad\].
+const LARGEST_ANGLE: f64 = 1.6;
+/// Lengths and heights beyond this multiple of the rig's cannot be meant.
+const FAR: f64 = 5.0;
+/// Ranges of a ratio to gravity: near it, and in units of it.
+const NEAR: std::ops::Range<f64> = 0.7..1.3;
+/// Magnitude of z without gravity's reaction \[m/s2\].
+const WITHOUT_GRAVITY: f64 = 0.5;
+/// Correlation below which a sign is suspected, and above which a size is.
+const OPPOSED: f64 = -0.5;
+const ALIKE: f64 = 0.9;
+/// Relative tolerance of a size that is suspected to be in another unit.
+const SIZE_TOLERANCE: f64 = 0.05;
+/// RMS of a signal that is enough for a suspicion, of forces \[m/s2\] and of rates \[rad/s\].
+const ENOUGH: [f64; 2] = [0.05, 0.01];
+/// RMS of the difference of given forces from those of the poses that is worth a sentence, as a
+/// fraction of the latter, and at least \[m/s2\].
+const DIFFERENT: f64 = 0.1;
+const LEAST_DIFFERENT: f64 = 0.1;
+/// Error by rounding, as a multiple of its RMS, that is no difference.
+const MOST_ROUNDING: f64 = 3.0;
+/// Difference of legs from those of the poses that is worth a sentence \[m\].
+const DIFFERENT_LEGS: f64 = 1e-3;
+/// Error by rounding that is worth a sentence \[m/s2\].
+const LEAST_ROUNDING: f64 = 0.02;
+/// Decimals that are looked for in poses.
+const DECIMALS: std::ops::RangeInclusive<i32> = 2..=9;
+
+/// An observation that lets a wrong unit, sign or frame be suspected, as a sentence.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Suspicion(pub String);
+
+/// Checks that poses and legs can be meant on this rig.
+///
+/// # Errors
+/// They are in other units or relative to another frame.
+pub fn check(
+    pose: &Option<Vec<[f64; 6]>>,
+    legs: &Option<Vec<[f64; 6]>>,
+    parameters: &Parameters,
+) -> Result<(), ForeignError> {
+    let rig = &parameters.rig;
+    if let Some(pose) = pose {
+        let refused = |reason: String| Err(ForeignError::Implausible { argument: "pose", reason });
+        let neutral = rig.neutral_height;
+        let height = median(pose.iter().map(|pose| pose[2]));
+        if height.abs() > FAR * neutral {
+            return refused(format!("z is {height:.3} m at the median, as in mm; divide x, y, z by 1000"));
+        }
+        if height < 0.3 * neutral {
+            return refused(format!(
+                "z is {height:.3} m at the median, but the platform's origin is {neutral:.3} m above the base at neutral; poses are in \
+                 the base frame with z up: add {neutral} to a z that counts from neutral"
+            ));
+        }
+        for (k, name) in ["roll", "pitch", "yaw"].into_iter().enumerate() {
+            let largest = pose.iter().map(|pose| pose[3 + k].abs()).fold(0.0, f64::max);
+            if largest > LARGEST_ANGLE && largest < std::f64::consts::TAU - LARGEST_ANGLE || largest > 7.0 {
+                return refused(format!(
+                    "{name} reaches {largest:.2} rad, as in degrees; multiply roll, pitch, yaw by pi/180"
+                ));
+            }
+        }
+    }
+    if let Some(legs) = legs {
+        let length = median(legs.iter().flatten().copied());
+        if !(rig.min_length / FAR..rig.max_length * FAR).contains(&length) {
+            return Err(ForeignError::Implausible {
+                argument: "legs",
+                reason: format!(
+                    "the lengths are {length:.3} m at the median, but an actuator has {} to {} m from joint to joint; check the unit \
+                     (m), and add the shortest length to strokes",
+                    rig.min_length, rig.max_length
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Decimals of poses, and the RMS error of force that their rounding causes \[m/s2\]; none where
+/// they are not rounded.
+fn rounded(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<(i32, f64)> {
+    let is_multiple = |value: f64, decimals: i32| {
+        let scaled = value * 10f64.powi(decimals);
+        (scaled - scaled.round()).abs() < 1e-4
+    };
+    let all = |decimals: &i32| poses.iter().all(|pose| pose[..3].iter().all(|value| is_multiple(*value, *decimals)));
+    let moves = poses.iter().any(|pose| pose[..3] != poses[0][..3]);
+    let decimals = DECIMALS.into_iter().find(all).filter(|_| moves)?;
+    let parts = (poses.len() - 1) / (samples - 1);
+    Some((decimals, rounding_error(10f64.powi(-decimals), step / parts as f64)))
+}
+
+/// The error of forces that rounded poses cause, where it is worth a sentence.
+pub fn rounding(poses: &[[f64; 6]], samples: usize, step: f64) -> Option<Suspicion> {
+    let (decimals, error) = rounded(poses, samples, step)?;
+    let rate = ((poses.len() - 1) / (samples - 1)) as f64 / step;
+    (error >= LEAST_ROUNDING).then(|| {
+        Suspicion(format!(
+            "The poses have {decimals} decimals: at {rate:.0} a second, rounding alone makes an RMS of {error:.2} m/s² of felt force. \
+             Write more decimals, or give felt forces."
+        ))
+    })
+}
+
+/// Legs that are not those of the poses.
+pub fn other_legs(legs: &[[f64; 6]], of_poses: &[[f64; 6]]) -> Option<Suspicion> {
+    let pairs = legs.iter().flatten().zip(of_poses.iter().flatten());
+    let difference = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    (legs.len() == of_poses.len() && difference > DIFFERENT_LEGS).then(|| {
+        Suspicion(format!(
+            "The legs are not those of the poses on this rig: they differ by up to {:.0} mm. Check the rig, and the order of its legs.",
+            1000.0 * difference
+        ))
+    })
+}
+
+/// A difference of felt forces from those of the poses.
+pub fn contradiction(
+    force: &[[f64; 3]],
+    poses: &[[f64; 6]],
+    of_poses: &[[f64; 3]],
+    samples: usize,
+    step: f64,
+) -> Option<Suspicion> {
+    let parts = |series: &[[f64; 3]]| (series.len() - 1) / (samples - 1);
+    let pairs = || force.iter().step_by(parts(force)).zip(of_poses.iter().step_by(parts(of_poses)));
+    let rest = [0.0, 0.0, STANDARD_GRAVITY];
+    let mean = |of: &dyn Fn(&[f64; 3], &[f64; 3], usize) -> f64| {
+        let sum: f64 = pairs().map(|(a, b)| (0..3).map(|k| of(a, b, k).powi(2)).sum::<f64>()).sum();
+        (sum / samples as f64).sqrt()
+    };
+    let difference = mean(&|a, b, k| a[k] - b[k]);
+    let size = mean(&|_, b, k| b[k] - rest[k]);
+    let rounding = rounded(poses, samples, step).map_or(0.0, |(_, error)| error);
+    let allowed = LEAST_DIFFERENT.max(DIFFERENT * size) + MOST_ROUNDING * rounding;
+    (difference > allowed).then(|| {
+        Suspicion(format!(
+            "The felt force is not that of the poses: they differ by an RMS of {difference:.2} m/s². Check head.height, the axes (head \
+             axes: x forward, y left, z up) and the sign of pitch (positive is nose down)."
+        ))
+    })
+}
+
+/// Suspicions about units and signs of what is felt, against what is desired.
+pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
+    let gravity = simulation.parameters.structure.gravity;
+    let vertical = median(simulation.outputs.iter().map(|output| output.felt_specific_force.z));
+    let mut found = Vec::new();
+    if let Some(sentence) = of_vertical(vertical, gravity) {
+        found.push(Suspicion(sentence));
+        return found;
+    }
+    for (axis, name) in ["Surge", "Sway"].into_iter().enumerate() {
+        let pairs = || {
+            simulation
+                .inputs
+                .iter()
+                .zip(&simulation.outputs)
+                .map(move |(input, output)| [input.specific_force[axis], output.felt_specific_force[axis]])
+        };
+        let Some(Likeness { correlation, size }) = likeness(pairs, ENOUGH[0]) else { continue };
+        if correlation < OPPOSED {
+            found.push(Suspicion(format!(
+                "{name} is felt with the wrong sign: its correlation with the desired force is {correlation:.2}. If the washout is not \
+                 to blame, its {} points the other way; axes are x forward, y left, z up, and positive pitch is nose down.",
+                ["x", "y"][axis]
+            )));
+        } else if correlation > ALIKE && (size * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE {
+            found.push(Suspicion(format!(
+                "{name} is felt 9.8 times too small, as in units of g. If it is, multiply it by 9.80665."
+            )));
+        }
+    }
+    let rates = has_rate.then(|| simulation.desired_rates()).unwrap_or_default();
+    for (axis, name) in ["Roll rate", "Pitch rate", "Yaw rate"].into_iter().enumerate() {
+        let pairs = || {
+            rates
+                .iter()
+                .zip(&simulation.outputs)
+                .map(move |(rate, output)| [rate[axis], output.felt_angular_velocity[axis]])
+        };
+        let Some(Likeness { correlation, size }) = likeness(pairs, ENOUGH[1]) else { continue };
+        if correlation > -OPPOSED && size > 10.0 {
+            found.push(Suspicion(format!(
+                "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
+            )));
+        } else if correlation < OPPOSED {
+            found.push(Suspicion(format!(
+                "{name} is felt with the wrong sign: its correlation with the desired rate is {correlation:.2}. Positive is roll to the \
+                 right, pitch nose down, yaw to the left."
+            )));
+        }
+    }
+    found
+}
+
+/// A wrong vertical force \[m/s2\] at the median.
+fn of_vertical(vertical: f64, gravity: f64) -> Option<String> {
+    let rest = format!("a rider at rest feels (0, 0, {gravity:.2})");
+    if NEAR.contains(&(vertical / gravity)) {
+        None
+    } else if NEAR.contains(&vertical) {
+        Some(format!(
+            "The felt force is 9.8 times too small: its z is {vertical:.2} at the median, as in units of g. Multiply it by 9.80665; {rest}."
+        ))
+    } else if vertical.abs() < WITHOUT_GRAVITY {
+        Some(format!(
+            "The felt force lacks gravity's reaction: its z is {vertical:.2} m/s² at the median, but {rest}. Add {gravity:.5} to z, and to \
+             x and y what the platform's tilt makes of it."
+        ))
+    } else if NEAR.contains(&(-vertical / gravity)) || NEAR.contains(&-vertical) {
+        Some(format!(
+            "The felt force has the wrong sign: its z is {vertical:.2} m/s² at the median, but {rest} in axes x forward, y left, z up."
+        ))
+    } else {
+        Some(format!(
+            "The felt force has a z of {vertical:.2} m/s² at the median, but {rest}. Check its unit and axes."
+        ))
+    }
+}
+
+/// Correlation of two signals, and the size of the second relative to the first.
+struct Likeness {
+    correlation: f64,
+    size: f64,
+}
+
+/// Of pairs whose first signal is at least so large (RMS about its mean).
+fn likeness<I: Iterator<Item = [f64; 2]>>(pairs: impl Fn() -> I, least: f64) -> Option<Likeness> {
+    let count = pairs().count() as f64;
+    let mean = |k: usize| pairs().map(|pair| pair[k]).sum::<f64>() / count;
+    let means = [mean(0), mean(1)];
+    let product = |i: usize, j: usize| pairs().map(|pair| (pair[i] - means[i]) * (pair[j] - means[j])).sum::<f64>();
+    let [desired, felt, both] = [product(0, 0), product(1, 1), product(0, 1)];
+    let is_enough = count > 1.0 && (desired / count).sqrt() >= least && felt > 0.0;
+    is_enough.then(|| Likeness { correlation: both / (desired * felt).sqrt(), size: both / desired })
+}
+
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
