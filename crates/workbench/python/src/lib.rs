@@ -1,12 +1,13 @@
 //! The compiled half of the Python package `moris`; the other half is in `python/moris`.
 //!
 //! `washout` is the class `Washout`, `output` what its step returns. `setup` reads rigs and
-//! parameters, `arrays` and `preview` numpy's arrays, `variables` finds variables by name,
+//! parameters, `judged` another washout's motion, `arrays` and `preview` numpy's arrays, `variables` finds variables by name,
 //! `table` lists them. `fmu` packs an FMU. `error` makes the exceptions.
 
 mod arrays;
 mod error;
 mod fmu;
+mod judged;
 mod output;
 mod preview;
 mod recording;

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use moris::measure::host::Host;
 use moris::recording::Recording;
 use moris::recording::preview::LONGEST_PREVIEW;
-use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fits_the_rig, page};
+use moris::simulate::{AxisBound, Outcome, Simulation, bounds, fit, page};
 use moris_interface::{Group, guid, slots_of};
 use moris_measures::{Axes, Row};
 use moris_setup::{Setup, all};
+use moris_simulation::foreign::ForeignMotion;
 use moris_washout::interface::StrategyKind;
 use moris_washout::{Input, Output, Parameters, Washout};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -18,6 +19,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::arrays::{Series, series};
 use crate::error;
+use crate::judged;
 use crate::recording::PyRecording;
 use crate::setup::{self, Given};
 use crate::variables::Variables;
@@ -30,14 +32,29 @@ type Measure = (String, &'static str, Option<f64>, &'static str, &'static str, &
 ///
 /// - names of rig and parameters; the parameters, and those of the rig alone;
 /// - step, inputs, outputs, and felt force within steps;
-/// - whether the bound was computed.
-type State = ([String; 2], [Parameters; 2], f64, Vec<Input>, Vec<Output>, Vec<[f64; 3]>, bool);
+/// - whether the bound was computed;
+/// - the motion of another washout, and the sentences about its reading.
+type State = (
+    [String; 2],
+    [Parameters; 2],
+    f64,
+    Vec<Input>,
+    Vec<Output>,
+    Vec<[f64; 3]>,
+    bool,
+    Option<(MotionState, Vec<String>)>,
+);
+
+/// The parts of a motion.
+type MotionState = (Option<Vec<[f64; 3]>>, Option<Vec<[f64; 3]>>, Option<Vec<[f64; 6]>>, Option<Vec<[f64; 6]>>);
 
 /// A simulated recording.
 #[pyclass(frozen, module = "moris._moris", name = "Simulation")]
 pub struct PySimulation {
     recording: Arc<Recording>,
     outcome: Outcome,
+    /// Motion of another washout in place of a simulation, and sentences about its reading.
+    judged: Option<(ForeignMotion, Vec<String>)>,
 }
 
 #[pymethods]
@@ -67,7 +84,31 @@ impl PySimulation {
             outcome.bounds =
                 py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
         }
-        Ok(PySimulation { recording, outcome })
+        Ok(PySimulation { recording, outcome, judged: None })
+    }
+
+    /// Judges the motion that another washout computed, with the bound if it is asked for.
+    #[staticmethod]
+    #[allow(clippy::too_many_arguments)]
+    fn judged(
+        py: Python,
+        recording: &PyRecording,
+        rig: Given,
+        parameters: Given,
+        name: &str,
+        bound: bool,
+        parts: [Option<Bound<PyAny>>; 4],
+    ) -> PyResult<Self> {
+        let setup = setup::load(py, rig, parameters, None)?;
+        let recording = Arc::clone(&recording.inner);
+        let (motion, notes) = judged::motion(py, &parts, &recording)?;
+        let outcome = py.detach(|| Outcome::foreign(&recording, &setup, name, &motion, notes.clone()));
+        let mut outcome = outcome.map_err(|reason| error::recording(py, reason.to_string()))?;
+        if bound {
+            outcome.bounds =
+                py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
+        }
+        Ok(PySimulation { recording, outcome, judged: Some((motion, notes)) })
     }
 
     #[getter]
@@ -86,8 +127,8 @@ impl PySimulation {
     }
 
     #[getter]
-    fn fits(&self) -> bool {
-        fits_the_rig(&self.outcome.measures)
+    fn fits(&self) -> Option<bool> {
+        fit(&self.outcome.evaluated())
     }
 
     #[getter]
@@ -133,6 +174,10 @@ impl PySimulation {
             simulation.outputs.clone(),
             simulation.felt_within_steps.iter().map(|felt| (*felt).into()).collect(),
             bounds.iter().any(Option::is_some),
+            self.judged.as_ref().map(|(motion, notes)| {
+                let ForeignMotion { force, rate, pose, legs } = motion.clone();
+                ((force, rate, pose, legs), notes.clone())
+            }),
         );
         let bytes = postcard::to_allocvec(&(guid::<Washout>(), state))
             .map_err(|reason| PyValueError::new_err(reason.to_string()))?;
@@ -147,19 +192,29 @@ impl PySimulation {
         if version != guid::<Washout>() {
             return Err(refused());
         }
-        let (names, parameters, step, inputs, outputs, felt, has_bounds): State =
+        let (names, parameters, step, inputs, outputs, felt, has_bounds, judged): State =
             postcard::from_bytes(body).map_err(|_| refused())?;
         let [rig_name, parameters_name] = names;
         let [parameters, rig_alone] = parameters;
         let felt_within_steps = felt.into_iter().map(Into::into).collect();
-        let simulation = Simulation { step, parameters, inputs, outputs, felt_within_steps };
         let setup = Setup { rig_name, parameters_name, parameters, rig_alone, actuator_diameter: None };
-        let mut outcome = Outcome::measured(simulation, &setup).map_err(|_| refused())?;
+        let judged =
+            judged.map(|((force, rate, pose, legs), notes)| (ForeignMotion { force, rate, pose, legs }, notes));
+        let outcome = match &judged {
+            Some((motion, notes)) => {
+                Outcome::foreign(&recording.inner, &setup, &setup.parameters_name, motion, notes.clone())
+            }
+            None => {
+                let simulation = Simulation { step, parameters, inputs, outputs, felt_within_steps, foreign: None };
+                Outcome::measured(simulation, &setup)
+            }
+        };
+        let mut outcome = outcome.map_err(|_| refused())?;
         if has_bounds {
             outcome.bounds =
                 py.detach(|| bounds::bounds(&outcome.simulation)).map_err(|reason| error::bound(py, &reason))?;
         }
-        Ok(PySimulation { recording: Arc::clone(&recording.inner), outcome })
+        Ok(PySimulation { recording: Arc::clone(&recording.inner), outcome, judged })
     }
 
     /// The report's page, with other simulations of the same recording for comparison.

@@ -286,9 +286,9 @@ impl<const N: usize> Names<N> {
     }
 
     /// The names, as messages list them.
-    pub fn shown(&self) -> String {
+    fn shown(&self) -> String {
         let sets = self.sets.iter().map(|names| format!("{} to {}", names[0], names[N - 1]));
-        sets.collect::<Vec<_>>().join(" (or ") + &")".repeat(self.sets.len() - 1)
+        sets.collect::<Vec<_>>().join(" or ")
     }
 }
 

@@ -7,6 +7,7 @@ mod fit;
 mod forms;
 mod frequency_response;
 mod import;
+mod judged;
 mod loggers;
 mod measure;
 mod mounting;

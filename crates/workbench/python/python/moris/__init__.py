@@ -7,6 +7,7 @@ are in SI units. Variables have the names that they have in the FMU.
 from ._errors import BoundError, BuildError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
 from ._fmu import build_fmu
 from ._measures import Measure, Measures
+from ._judged import measure
 from ._moris import VERSION as __version__
 from ._moris import Output, Washout
 from ._outputs import Outputs
@@ -47,6 +48,7 @@ __all__ = [
     "bound",
     "build_fmu",
     "frequency_response",
+    "measure",
     "parameters",
     "simulate",
     "survey",

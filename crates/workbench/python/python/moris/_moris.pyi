@@ -112,6 +112,15 @@ class Simulation:
         bound: bool,
         preview: float,
     ) -> Simulation: ...
+    @staticmethod
+    def judged(
+        recording: Recording,
+        rig: Rig | None,
+        parameters: ParameterSet | None,
+        name: str,
+        bound: bool,
+        parts: Sequence[Any],
+    ) -> Simulation: ...
     @property
     def rig_name(self) -> str: ...
     @property
@@ -119,7 +128,7 @@ class Simulation:
     @property
     def parameters(self) -> dict[str, Value]: ...
     @property
-    def fits(self) -> bool: ...
+    def fits(self) -> bool | None: ...
     @property
     def findings(self) -> list[str]: ...
     @property

@@ -20,7 +20,7 @@ class Outputs(Mapping[str, NDArray[Any]]):
     each element, under the name without index or component: `outputs["actuator.length"]` has the shape (N, 6),
     `outputs["platform.position"]` the shape (N, 3). Flags are arrays of bool. Units are SI.
 
-    time: (N,) [s]. array: (N, number of variables), all columns as floats. names: of the columns.
+    time: (N,) [s], also `outputs["time"]`. array: (N, number of variables), all columns as floats. names: of the columns.
     """
 
     time: Floats
@@ -39,6 +39,8 @@ class Outputs(Mapping[str, NDArray[Any]]):
                 self._columns.setdefault(vector, []).append(column)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
+        if name == "time":
+            return self.time
         if name not in self._columns:
             raise KeyError(f"there is no variable {name}; {near_misses(name, self._columns)}")
         columns = self._columns[name]

@@ -120,6 +120,21 @@ def _read(source: Any, name: str | None, options: dict[str, Any]) -> _moris.Reco
     return _of_columns(name or "recording", source, options)
 
 
+def columns_of(source: Any) -> list[tuple[str, np.ndarray[Any, Any]]] | Path | None:
+    """The columns of a table, a dict or a file with a reader; the path of any other file; None of what is no such source."""
+    if isinstance(source, (str, PathLike)):
+        path = Path(source)
+        reader = READERS.get(path.suffix.lower())
+        if reader is None or not path.exists():
+            return path
+        source = reader(path)
+    elif _is_table(source):
+        source = _columns_of_table(source)
+    if not hasattr(source, "items"):
+        return None
+    return [(str(key), _numbers(values)) for key, values in source.items()]
+
+
 def _is_table(source: Any) -> bool:
     if isinstance(source, np.ndarray):
         return source.dtype.names is not None

@@ -40,7 +40,8 @@ class Simulation(Outputs):
     time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
     recording: the Recording. measures: Measures. verdict: with what to change. findings: sentences, the most important first.
     preview: time of the recording that was previewed [s]. parameters: dict of all parameters. fits: False where
-        a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time.
+        a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time; None where no
+        limits were judged.
     """
 
     recording: Recording
@@ -49,7 +50,7 @@ class Simulation(Outputs):
     findings: list[str]
     parameters: dict[str, Value]
     preview: float
-    fits: bool
+    fits: bool | None
     name: str
 
     def __init__(self, native: _moris.Simulation, recording: Recording, preview: float = 0.0) -> None:
@@ -91,7 +92,8 @@ class Simulation(Outputs):
         return Simulation, (self._native, self.recording, self.preview)
 
     def __repr__(self) -> str:
-        return f"Simulation({self.name!r}: {len(self.time)} samples, {'fits' if self.fits else 'does not fit'} the rig)"
+        fits = {True: "fits the rig", False: "does not fit the rig", None: "limits not judged"}[self.fits]
+        return f"Simulation({self.name!r}: {len(self.time)} samples, {fits})"
 
     def _repr_html_(self) -> str:
         findings = "".join(f"<li>{escape(finding)}</li>" for finding in self.findings)

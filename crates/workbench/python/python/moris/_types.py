@@ -20,6 +20,8 @@ Rig = Union[Path, Mapping[str, Any]]
 ParameterSet = Union[Path, Mapping[str, Any], Sequence["ParameterSet"]]
 # A table of any library is a source, too.
 Source = Union["Recording", Path, Mapping[str, ArrayLike], Any]
+# Samples of vectors: an array, or a table or file with named columns.
+Series = Union[ArrayLike, Path, Mapping[str, ArrayLike], Any]
 Sources = Union[Source, Iterable[Source]]
 Show = Union[bool, None, Callable[[int, Union[int, None], str], Any]]
 

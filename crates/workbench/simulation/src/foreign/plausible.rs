@@ -19,7 +19,9 @@ const WITHOUT_GRAVITY: f64 = 0.5;
 const OPPOSED: f64 = -0.5;
 const ALIKE: f64 = 0.9;
 /// Relative tolerance of a size that is suspected to be in another unit.
-const SIZE_TOLERANCE: f64 = 0.05;
+const SIZE_TOLERANCE: f64 = 0.15;
+/// The axis that no tilt coordination turns about.
+const YAW: usize = 2;
 /// RMS of a signal that is enough for a suspicion, of forces \[m/s2\] and of rates \[rad/s\].
 const ENOUGH: [f64; 2] = [0.05, 0.01];
 /// RMS of the difference of given forces from those of the poses that is worth a sentence, as a
@@ -155,6 +157,7 @@ pub fn contradiction(
 /// Suspicions about units and signs of what is felt, against what is desired.
 pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
     let gravity = simulation.parameters.structure.gravity;
+    let scale = &simulation.parameters.conditioning.force_scale;
     let vertical = median(simulation.outputs.iter().map(|output| output.felt_specific_force.z));
     let mut found = Vec::new();
     if let Some(sentence) = of_vertical(vertical, gravity) {
@@ -176,7 +179,7 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
                  to blame, its {} points the other way; axes are x forward, y left, z up, and positive pitch is nose down.",
                 ["x", "y"][axis]
             )));
-        } else if correlation > ALIKE && (size * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE {
+        } else if correlation > ALIKE && (size / scale[axis] * STANDARD_GRAVITY - 1.0).abs() < SIZE_TOLERANCE {
             found.push(Suspicion(format!(
                 "{name} is felt 9.8 times too small, as in units of g. If it is, multiply it by 9.80665."
             )));
@@ -195,10 +198,9 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
             found.push(Suspicion(format!(
                 "{name} is felt {size:.1} times too large, as in degrees. If it is, multiply it by pi/180."
             )));
-        } else if correlation < OPPOSED {
+        } else if axis == YAW && correlation < -ALIKE {
             found.push(Suspicion(format!(
-                "{name} is felt with the wrong sign: its correlation with the desired rate is {correlation:.2}. Positive is roll to the \
-                 right, pitch nose down, yaw to the left."
+                "{name} is felt with the wrong sign: its correlation with the desired rate is {correlation:.2}. Positive is to the left."
             )));
         }
     }
