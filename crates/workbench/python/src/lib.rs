@@ -1,8 +1,9 @@
 //! The compiled half of the Python package `moris`; the other half is in `python/moris`.
 //!
 //! `washout` is the class `Washout`, `output` what its step returns. `setup` reads rigs and
-//! parameters, `judged` another washout's motion, `arrays` and `preview` numpy's arrays, `variables` finds variables by name,
-//! `table` lists them. `fmu` packs an FMU. `error` makes the exceptions.
+//! parameters, `judged` another washout's motion, `arrays` and `preview` numpy's arrays,
+//! `variables` finds variables by name, `table` lists them. `fmu` packs an FMU. `error`
+//! makes the exceptions.
 
 mod arrays;
 mod error;

@@ -75,10 +75,10 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     preview: Option<f64>,
 
-    /// Motion that another washout computed for the recording, compared with these parameters: CSV
-    /// with felt forces, poses of the platform or lengths of the legs. docs/your-washout.md lists the
-    /// columns. It is judged at the washout location, at the scale and on the rig of the first
-    /// parameters
+    /// Motion that another washout computed for the recording, compared with these parameters:
+    /// CSV with felt forces, poses of the platform or lengths of the legs.
+    /// docs/your-washout.md lists the columns. It is judged at the washout location, at the
+    /// scale and on the rig of the first parameters
     #[arg(long, value_name = "FILE")]
     felt: Vec<PathBuf>,
 
@@ -263,8 +263,8 @@ impl Case {
     }
 }
 
-/// The parameters, the ones to compare, again those of the predictive strategy with the preview, and
-/// the motions of other washouts.
+/// The parameters, the ones to compare, again those of the predictive strategy with the preview,
+/// and the motions of other washouts.
 fn cases(options: &Options) -> Result<Vec<Case>> {
     let first = options.setup.load()?;
     let judged = |file: &PathBuf| Case {

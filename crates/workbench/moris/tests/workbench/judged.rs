@@ -52,8 +52,8 @@ fn judged(recording: &Recording, setup: &Setup, file: &Path) -> Outcome {
     Outcome::foreign(recording, setup, "other", &motion, notes).unwrap()
 }
 
-/// The largest difference of the measures, each relative to its size where that is above 1. Measures
-/// that only the washout itself knows are left out.
+/// The largest difference of the measures, each relative to its size where that is above 1.
+/// Measures that only the washout itself knows are left out.
 fn difference(own: &Outcome, other: &Outcome) -> f64 {
     let (own, other) = (own.evaluated().rows(), other.evaluated().rows());
     assert_eq!(own.len(), other.len());

@@ -32,10 +32,10 @@ def measure(
 
     recording: as for simulate; it is faded in over 1 s unless fade_in says otherwise, and is what the rider should feel.
     felt_force: specific force in head axes, gravity's reaction included, (N, 3) [m/s2]. felt_rate: angular velocity in head
-        axes, (N, 3) [rad/s]. pose: x, y, z of the platform's origin in the base frame and roll, pitch, yaw, (N, 6) [m], [rad].
-        legs: the six lengths from joint to joint, (N, 6) [m].
-    Each is an array with a row for each sample of the recording, or n rows a step; or a table, a dict or a file with a column
-        time and the names that docs/your-washout.md lists. Other times are interpolated, which a finding says.
+        axes, (N, 3) [rad/s]. legs: the six lengths from joint to joint, (N, 6) [m].
+    pose: the platform's origin in the base frame and its roll, pitch and yaw, (N, 6) [m], [rad].
+    Each is an array with a row for each sample of the recording, or n rows a step. Each may be a table, a dict or a file, too,
+        with the columns that docs/your-washout.md lists. Other times are interpolated, which a finding says.
     rig, parameters: as for Washout; of the parameters, the head, the washout location and the scale count.
     name: in the report; by default the file's. bound: compute the least error that any controller could reach, too.
 

@@ -19,8 +19,8 @@ const SECOND: [[f64; 5]; 5] = [
 /// Samples of a difference.
 const WIDTH: usize = 5;
 
-/// RMS of the second derivative's error that the rounding of values to multiples of a quantum
-/// causes: the root of the sum of the squared weights, and a uniform error within the quantum.
+/// RMS of the second derivative's error if values are rounded to multiples of a quantum. The errors
+/// of rounding are uniform within the quantum, and add by the weights' squares.
 pub fn rounding_error(quantum: f64, step: f64) -> f64 {
     let weights = SECOND[WIDTH / 2].iter().map(|weight| (weight / 12.0).powi(2)).sum::<f64>().sqrt();
     weights * quantum / 12f64.sqrt() / (step * step)
