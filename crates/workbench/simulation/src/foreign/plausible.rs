@@ -136,14 +136,15 @@ pub fn contradiction(
     step: f64,
 ) -> Option<Suspicion> {
     let parts = |series: &[[f64; 3]]| (series.len() - 1) / (samples - 1);
-    let pairs = || force.iter().step_by(parts(force)).zip(of_poses.iter().step_by(parts(of_poses)));
     let rest = [0.0, 0.0, STANDARD_GRAVITY];
-    let mean = |of: &dyn Fn(&[f64; 3], &[f64; 3], usize) -> f64| {
-        let sum: f64 = pairs().map(|(a, b)| (0..3).map(|k| of(a, b, k).powi(2)).sum::<f64>()).sum();
-        (sum / samples as f64).sqrt()
-    };
-    let difference = mean(&|a, b, k| a[k] - b[k]);
-    let size = mean(&|_, b, k| b[k] - rest[k]);
+    let [mut difference, mut size] = [0.0; 2];
+    for (given, evaluated) in force.iter().step_by(parts(force)).zip(of_poses.iter().step_by(parts(of_poses))) {
+        for axis in 0..3 {
+            difference += (given[axis] - evaluated[axis]).powi(2);
+            size += (evaluated[axis] - rest[axis]).powi(2);
+        }
+    }
+    let [difference, size] = [difference, size].map(|sum: f64| (sum / samples as f64).sqrt());
     let rounding = rounded(poses, samples, step).map_or(0.0, |(_, error)| error);
     let allowed = LEAST_DIFFERENT.max(DIFFERENT * size) + MOST_ROUNDING * rounding;
     (difference > allowed).then(|| {
@@ -185,7 +186,7 @@ pub fn suspicions(simulation: &Simulation, has_rate: bool) -> Vec<Suspicion> {
             )));
         }
     }
-    let rates = has_rate.then(|| simulation.desired_rates()).unwrap_or_default();
+    let rates = if has_rate { simulation.desired_rates() } else { Vec::new() };
     for (axis, name) in ["Roll rate", "Pitch rate", "Yaw rate"].into_iter().enumerate() {
         let pairs = || {
             rates

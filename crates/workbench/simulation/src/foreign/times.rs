@@ -32,7 +32,7 @@ pub fn on_samples<const N: usize>(
             values.len()
         )));
     }
-    if let Some(k) = times.windows(2).position(|pair| !(pair[1] > pair[0])) {
+    if let Some(k) = times.windows(2).position(|pair| pair[1].is_nan() || pair[1] <= pair[0]) {
         return Err(refused(format!(
             "time {} s of row {} follows {} s; time must increase",
             times[k + 1],
