@@ -83,7 +83,7 @@ fn rows<const N: usize>(given: &Bound<PyAny>, name: &str, samples: usize) -> PyR
     let array = numbers(given, name)?;
     let shape = array.shape();
     let steps = samples - 1;
-    let is_whole = |count: usize| count >= samples && (count - 1) % steps == 0;
+    let is_whole = |count: usize| count >= samples && (count - 1).is_multiple_of(steps);
     if shape.len() != 2 || shape[1] != N || !is_whole(shape[0]) {
         let transposed =
             if shape.len() == 2 && shape[0] == N && shape[1] != N { "; transpose it: a row a sample" } else { "" };

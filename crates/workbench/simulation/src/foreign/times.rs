@@ -40,6 +40,9 @@ pub fn on_samples<const N: usize>(
             times[k]
         )));
     }
+    if let Some(k) = times.iter().position(|time| !time.is_finite()) {
+        return Err(refused(format!("time of row {k} is {}; every time must be a finite number", times[k])));
+    }
     let steps = samples.saturating_sub(1);
     let end = steps as f64 * step;
     let is_shifted = start != 0.0 && (times[0] - start).abs() <= 0.5 * step + times[0].abs() * ROUNDING;
@@ -110,5 +113,6 @@ mod tests {
         let error = |times: &[f64]| on_samples("pose", times, &ramp(times), 0.0, 0.01, 101).unwrap_err().to_string();
         assert!(error(&[0.0, 0.1, 0.2]).contains("covers 0 to 0.2 s, but the recording 0 to 1 s"));
         assert!(error(&[0.0, 0.5, 0.5, 1.0]).contains("time must increase"));
+        assert!(error(&[f64::NAN, 0.5, 1.0]).contains("must be a finite number"));
     }
 }
