@@ -31,10 +31,16 @@ impl Evaluated<'_> {
             let felt = self.measures.force[axis]?.rms_error;
             Some(bound_rows(["x", "y", "z"][axis], self.desired_rms(axis), felt, self.bounds[axis]?))
         };
-        let rows = self.measures.rows().into_iter().chain((0..3).filter_map(on_axis).flatten());
+        self.measured_rows().into_iter().chain((0..3).filter_map(on_axis).flatten()).collect()
+    }
+
+    /// The rows of the measures alone; of another washout's motion, without values that are not
+    /// known.
+    pub fn measured_rows(&self) -> Vec<Row> {
+        let rows = self.measures.rows();
         match &self.simulation.foreign {
-            Some(foreign) => rows.map(|row| foreign.known(row)).collect(),
-            None => rows.collect(),
+            Some(foreign) => rows.into_iter().map(|row| foreign.known(row)).collect(),
+            None => rows,
         }
     }
 

@@ -46,7 +46,8 @@ impl Channel {
     }
 }
 
-/// The channels of a recording on which something is desired or felt.
+/// The channels of a recording on which something is desired or felt; without rates where another
+/// washout's are not known.
 pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
     let Evaluated { measures, bounds, .. } = evaluated;
     let channel = |&axis: &Axis| {
@@ -68,5 +69,6 @@ pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
             cues,
         })
     };
-    Axis::ALL.iter().filter_map(channel).collect()
+    let has_rate = evaluated.simulation.foreign.as_ref().is_none_or(|foreign| foreign.has_rate);
+    Axis::ALL.iter().filter(|axis| has_rate || !axis.is_rotation()).filter_map(channel).collect()
 }

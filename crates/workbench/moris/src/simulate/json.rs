@@ -39,6 +39,7 @@ struct SetResult {
     parameters: String,
     /// False if a safety unit or the actuator guard was active, or soft limits for more than 1 % of
     /// the time; null for another washout's motion without poses and legs.
+    #[schemars(required, schema_with = "fits_schema")]
     fits: Option<bool>,
     /// False if a channel has a larger error than a platform at rest.
     better_than_rest: bool,
@@ -52,6 +53,11 @@ struct SetResult {
     /// Measures; those of axes on which nothing is desired and nothing felt are left out.
     #[schemars(schema_with = "measures_schema")]
     measures: Vec<Value>,
+}
+
+/// True, false or null.
+fn fits_schema(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "type": ["boolean", "null"] })
 }
 
 /// Each measure with its unit and definition.
@@ -89,7 +95,7 @@ pub fn recording(recording: &Recording, outcomes: &[Outcome], files: &[PathBuf])
 }
 
 fn result(outcome: &Outcome) -> SetResult {
-    let measures = outcome.measures.rows().into_iter();
+    let measures = outcome.evaluated().measured_rows().into_iter();
     let measure = |row: moris_measures::Row| json!({ "subject": row.subject, "name": row.name, "value": row.value, "unit": row.unit });
     SetResult {
         rig: outcome.setup.rig_name.clone(),

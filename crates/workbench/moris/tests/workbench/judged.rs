@@ -207,9 +207,11 @@ fn a_motion_stands_beside_our_strategies_in_one_report() {
     assert!(printed.contains("parameters theirs:") && printed.contains("The motion stays within the rig"), "{printed}");
     let tables: Vec<&str> = printed.split("felt against desired").collect();
     // Six decimals: the same but for the comfort within steps, which samples do not have.
-    let errors =
-        |table: &str| table.lines().skip(2).map(|line| line.split("  ").nth(1).map(str::to_owned)).collect::<Vec<_>>();
-    assert_eq!(tables.len(), 4);
+    let errors = |table: &str| {
+        let rows = table.lines().skip(1).take_while(|line| line.starts_with("  "));
+        rows.map(|line| line.split_whitespace().take(4).map(str::to_owned).collect::<Vec<_>>()).collect::<Vec<_>>()
+    };
+    assert_eq!((tables.len(), errors(tables[1]).len()), (4, 6), "{printed}");
     assert_eq!(errors(tables[1]), errors(tables[3]));
     let page = fs::read_to_string(directory.path().join("two/ride.html")).unwrap();
     assert!(page.contains("default, optimal, theirs"));
