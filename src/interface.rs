@@ -352,8 +352,8 @@ interface! {
 interface! {
     /// The Stewart platform: joints and actuator limits.
     pub struct Rig: Parameter, Fixed {
-        /// Height of the platform frame's origin above the base frame's at neutral.
-        "rig.neutralHeight" neutral_height: f64 [M] { 1e-3 ..= 100.0 } = 1.091;
+        /// Height of the platform frame's origin above the base frame's at neutral; negative for a platform that hangs.
+        "rig.neutralHeight" neutral_height: f64 [M] { -100.0 ..= 100.0 } = 1.091;
         /// Shortest length of an actuator.
         "actuator.minLength" min_length: f64 [M] { 1e-3 ..= 100.0 } = 1.0;
         /// Longest length of an actuator.

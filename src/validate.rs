@@ -4,7 +4,7 @@ use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::reach::{Axis, single_axis_range};
-use crate::platform::{Geometry, Pose, check_torso, leg_lengths, stroke_reserve, survey};
+use crate::platform::{Geometry, Pose, check_torso, leg_lengths, numbering, stroke_reserve, survey};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
@@ -92,7 +92,8 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
                 "rig.neutralHeight",
                 format!(
                     "is {height}, and there actuator {leg} would be {length:.4} m long, outside its stroke from {min_length} to \
-                     {max_length} m; correct it, or rig.base[{leg}], rig.platform[{leg}], actuator.minLength or .maxLength",
+                     {max_length} m; correct it, or rig.base[{leg}], rig.platform[{leg}], actuator.minLength or .maxLength{numbering}",
+                    numbering = numbering_advice(rig),
                     height = rig.neutral_height,
                     leg = i + 1
                 ),
@@ -109,11 +110,17 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
             "rig.base, rig.platform",
             format!(
                 "make the platform singular inside the stroke of its actuators, at or near lengths of {:.3?} m; choose other \
-                 joints, or a shorter stroke",
-                failed.lengths
+                 joints, or a shorter stroke{}",
+                failed.lengths,
+                numbering_advice(rig)
             ),
         ),
     }
+}
+
+/// Advice as the end of a message, for joints whose lists go opposite ways round.
+fn numbering_advice(rig: &Rig) -> String {
+    if numbering::is_opposite(rig) { format!(". {}", numbering::ADVICE) } else { String::new() }
 }
 
 /// Rest at neutral is certified only if no leg can leave its stroke from there

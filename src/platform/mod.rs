@@ -26,6 +26,7 @@ mod inverse;
 mod jacobian;
 mod joints;
 mod location;
+pub mod numbering;
 pub mod reach;
 mod stop_plan;
 mod survey;

@@ -67,6 +67,11 @@ pub fn survey(rig: &Rig) -> Result<Survey, SurveyFailed> {
         lengths = target;
         let mut jacobian = jacobian(&geometry, &pose);
         jacobian.fixed_columns_mut::<3>(3).apply(|entry| *entry /= radius);
+        // A decomposition of what is no number does not end: joints at one point have no radius.
+        if !jacobian.iter().all(|entry| entry.is_finite()) {
+            failed = true;
+            return false;
+        }
         let singular_values = jacobian.svd(false, false).singular_values;
         let condition = singular_values.max() / singular_values.min();
         let regular = (1.0..=WORST_CONDITION).contains(&condition);
@@ -225,6 +230,15 @@ mod tests {
         let condition = good.expect("not singular").worst_condition;
         assert!((20.0..50.0).contains(&condition), "{condition}");
         assert!(bad.is_err(), "{bad:?}");
+    }
+
+    #[test]
+    fn joints_at_one_point_are_refused_at_once() {
+        let rig = Rig::default();
+        for point in [Vector3::zeros(), Vector3::new(0.1, 0.2, 0.0)] {
+            assert!(survey(&Rig { platform: [point; 6], ..rig }).is_err());
+            assert!(survey(&Rig { base: [point; 6], ..rig }).is_err());
+        }
     }
 
     #[test]

@@ -16,6 +16,7 @@ mod derivatives;
 mod errata;
 mod evaluator;
 mod gravitational;
+mod hanging;
 mod hostile;
 mod kinematics;
 mod limits_in_flight;

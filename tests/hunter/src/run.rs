@@ -209,7 +209,7 @@ impl Runner {
             velocity: slots[self.leg_velocity],
             acceleration: slots[self.leg_acceleration],
             radius,
-            size: base + radius + slots[self.neutral_height],
+            size: base + radius + slots[self.neutral_height].abs(),
             longest_step: slots[self.longest_step],
         }
     }

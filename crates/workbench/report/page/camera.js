@@ -7,9 +7,11 @@ class Camera {
   /** `rig` says what has to be in the picture. */
   constructor(rig) {
     const reach = Math.max(...rig.base.map((joint) => Math.hypot(joint[0], joint[1])));
-    const top = rig.neutral_height + rig.head_height + 0.25;
-    this.target = [0, 0, 0.48 * top];
-    this.radius = Math.hypot(0.52 * top, reach) + 0.05;
+    // A platform that hangs is below its base.
+    const top = Math.max(0, rig.neutral_height + rig.head_height + 0.25);
+    const bottom = Math.min(0, rig.neutral_height - 0.25);
+    this.target = [0, 0, bottom + 0.48 * (top - bottom)];
+    this.radius = Math.hypot(0.52 * (top - bottom), reach) + 0.05;
     this.azimuth = -0.95;
     this.elevation = 0.24;
   }

@@ -2,7 +2,7 @@
 //!
 //! ```toml
 //! name = "MORIS, default rig"
-//! neutralHeight = 1.091              # m: the platform's origin above the base's, level and ready
+//! neutralHeight = 1.091              # m: the platform's origin above the base's; negative where it hangs
 //!
 //! [base]                             # joints on the base, in the base frame, legs 1 to 6 in order
 //! radius = 1.0                       # m: on a circle ...
@@ -37,6 +37,7 @@ use moris_interface::shown;
 use moris_washout::interface::{Parameters, SafetyParameters, StructureParameters};
 use moris_washout::nalgebra::Vector3;
 use moris_washout::platform::reach::{Axis, displaced, single_axis_range, stroke_margin};
+use moris_washout::platform::{Geometry, Pose, leg_lengths};
 use moris_washout::{ParameterError, Rig, check};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -54,7 +55,7 @@ pub const SAFETY_FRACTION: f64 = 0.95;
 pub struct RigFile {
     /// Name of the rig.
     pub name: String,
-    /// Height of the platform's origin over the base's at neutral \[m\].
+    /// Height of the platform's origin over the base's at neutral \[m\]; negative where it hangs.
     pub neutral_height: f64,
     /// Joints on the base.
     pub base: Joints,
@@ -107,7 +108,7 @@ pub struct Actuator {
 pub struct Head {
     /// Above the platform \[m\].
     pub height: Option<f64>,
-    /// From seat to head \[m\].
+    /// From seat to head \[m\]; the default's where none is given, or the height if that is less.
     pub torso_length: Option<f64>,
 }
 
@@ -148,6 +149,12 @@ const KEYS: &[&str] = &[
 
 /// A platform larger than this, in metres, has been given in other units.
 const LARGEST: f64 = 30.0;
+/// Joints closer than this to each other are one \[m\].
+const APART: f64 = 1e-3;
+/// A leg faster than this, in m/s, has been given in other units.
+const FASTEST: f64 = 20.0;
+/// A leg with more than this, in m/s2, has been given in other units.
+const LARGEST_ACCELERATION: f64 = 500.0;
 /// A leg thicker than this, in metres, has been given in other units.
 const LARGEST_DIAMETER: f64 = 1.0;
 
@@ -163,17 +170,32 @@ pub fn read(text: &str, source_name: &str) -> Result<RigFile, Error> {
         return Err(Error::UnknownName {
             source_name: source_name.to_owned(),
             what: "key",
-            nearest: nearest(&name, KEYS.iter().copied()),
+            nearest: if is_other_kind(&name) { Vec::new() } else { nearest(&name, KEYS.iter().copied()) },
+            otherwise: if is_other_kind(&name) { OTHER_KIND } else { "docs/workbench.md lists the keys of a rig file" },
             name,
-            otherwise: "docs/workbench.md lists the keys of a rig file",
         });
     }
     if let Some((name, value)) = not_finite(&table) {
         return Err(Error::wrong_value(source_name, &name, format!("is {value}, but must be a finite number")));
     }
-    let file: RigFile = toml::from_str(text).map_err(toml_error)?;
+    // Lists of joints of a rig with fewer legs.
+    let remedy = |error: toml::de::Error| match error.message().contains("invalid length") {
+        true => Error::toml(source_name, &error, OTHER_KIND),
+        false => toml_error(error),
+    };
+    let file: RigFile = toml::from_str(text).map_err(remedy)?;
     file.check_joints(source_name)?;
     Ok(file)
+}
+
+/// Remedy for a rig of another kind.
+const OTHER_KIND: &str = "rigs with six legs that change their lengths are supported, not cranks, cables or fewer legs; \
+                          docs/platforms.md says how the pose serves other rigs";
+
+/// True for a key of cranks, cables or other mechanisms than legs.
+fn is_other_kind(key: &str) -> bool {
+    const WORDS: [&str; 8] = ["servo", "crank", "arm", "rod", "horn", "rotary", "cable", "winch"];
+    key.to_lowercase().split('.').any(|part| WORDS.iter().any(|word| part.starts_with(word)))
 }
 
 /// The keys of a table, those of tables within it after its name.
@@ -227,14 +249,53 @@ impl RigFile {
                 .coordinates()
                 .ok_or_else(|| wrong("needs either radius and degrees, or joints; not both".to_owned()))?;
             let farthest = joints.iter().map(Vector3::amax).fold(0.0, f64::max);
+            if joints.iter().all(|joint| (joint - joints[0]).norm() < APART) {
+                return Err(wrong("has all its joints at one point; a platform needs at least three".to_owned()));
+            }
             if farthest > LARGEST {
                 let farthest = shown(farthest);
                 return Err(wrong(format!("has a joint {farthest} m away; are these millimetres? Write metres")));
             }
         }
+        self.check_actuators(source_name)?;
         if let Some(diameter) = self.actuator.diameter.filter(|diameter| !(0.0..LARGEST_DIAMETER).contains(diameter)) {
             let reason = format!("is {} m, but must be from 0 to {LARGEST_DIAMETER} m", shown(diameter));
             return Err(Error::wrong_value(source_name, "actuator.diameter", reason));
+        }
+        Ok(())
+    }
+
+    /// Checks that the legs' lengths are in metres from joint to joint, and their limits in m/s and
+    /// m/s2.
+    fn check_actuators(&self, source_name: &str) -> Result<(), Error> {
+        let Actuator { min_length, max_length, velocity_limit, acceleration_limit, .. } = self.actuator;
+        for (name, value, largest, [unit, other]) in [
+            ("neutralHeight", self.neutral_height.abs(), LARGEST, ["m", "millimetres"]),
+            ("actuator.minLength", min_length, LARGEST, ["m", "millimetres"]),
+            ("actuator.maxLength", max_length, LARGEST, ["m", "millimetres"]),
+            ("actuator.velocityLimit", velocity_limit, FASTEST, ["m/s", "mm/s"]),
+            ("actuator.accelerationLimit", acceleration_limit, LARGEST_ACCELERATION, ["m/s2", "mm/s2"]),
+        ] {
+            // Numbers that are beyond any unit have the parameter's range as their error.
+            if value > largest && value < 1e6 {
+                let reason = format!("is {}; is this in {other}? Write {unit}", shown(value));
+                return Err(Error::wrong_value(source_name, name, reason));
+            }
+        }
+        let rig = self.rig();
+        let neutral = leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig));
+        let mean = neutral.iter().sum::<f64>() / 6.0;
+        let is_travel = min_length <= 0.0 && max_length > min_length && max_length < mean;
+        if is_travel {
+            // From neutral, or from the retracted leg.
+            let shortest = if min_length < 0.0 { mean + min_length } else { mean - 0.5 * max_length };
+            let longest = shortest + max_length - min_length;
+            let reason = format!(
+                "is {}, but lengths are from joint to joint, not travel; with neutral in the middle of this stroke minLength \
+                 would be {shortest:.3} and maxLength {longest:.3}",
+                shown(min_length)
+            );
+            return Err(Error::wrong_value(source_name, "actuator.minLength", reason));
         }
         Ok(())
     }
@@ -257,6 +318,7 @@ impl RigFile {
     pub fn parameters(&self) -> Parameters {
         let defaults = Parameters::default();
         let rig = self.rig();
+        let head_height = self.head.height.unwrap_or(defaults.structure.head_height);
         let vector = |given: Option<[f64; 3]>, default| given.map_or(default, Vector3::from);
         // Legs that do not reach neutral reach nothing, and a limit of nothing would be refused before they are.
         let reaches_neutral = stroke_margin(&rig, &displaced(&rig, Axis::Heave, 0.0)) >= 0.0;
@@ -274,8 +336,8 @@ impl RigFile {
                 acceleration_limit: vector(self.safety.acceleration_limit, defaults.safety.acceleration_limit),
             },
             structure: StructureParameters {
-                head_height: self.head.height.unwrap_or(defaults.structure.head_height),
-                torso_length: self.head.torso_length.unwrap_or(defaults.structure.torso_length),
+                head_height,
+                torso_length: self.head.torso_length.unwrap_or(defaults.structure.torso_length.min(head_height)),
                 ..defaults.structure
             },
             rig,

@@ -3,12 +3,16 @@
 //! A leg is the straight segment between its joints. The distance of two segments is exact at each
 //! pose. The poses are those of a grid of leg lengths, and from the closest of them a pattern
 //! search goes on to a smallest distance.
+//!
+//! Two legs may share a joint. They meet there, so that their closest approach is taken beyond a
+//! few diameters from it: legs at a wide angle pass, and legs that fold onto each other touch.
 
 use std::array;
 use std::fmt;
 
 use moris_washout::Rig;
 use moris_washout::nalgebra::Vector3;
+use moris_washout::platform::numbering::{ADVICE, is_opposite};
 use moris_washout::platform::{Geometry, Pose, forward_kinematics, jacobian};
 
 /// Lengths tried for each leg, evenly from the shortest to the longest.
@@ -32,6 +36,11 @@ pub struct Approach {
 /// Diameter of a leg of which none is given \[m\]: thinner than actuators of this size are.
 const ASSUMED_DIAMETER: f64 = 0.05;
 
+/// Two joints closer than this are one that two legs share \[m\].
+const SHARED: f64 = 1e-3;
+/// Part of a leg next to a shared joint that may be within the other leg \[diameters\].
+const FREE: f64 = 3.0;
+
 /// Least distances between the legs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Clearance {
@@ -41,16 +50,16 @@ pub struct Clearance {
     pub diameter: f64,
     /// True if the rig file gives the diameter.
     is_given: bool,
+    /// True if the joints of the base and the platform are numbered in opposite directions.
+    is_opposite: bool,
 }
 
 impl Clearance {
     /// Of a rig with legs of this diameter \[m\].
     pub fn of(rig: &Rig, diameter: Option<f64>) -> Self {
-        Clearance {
-            approaches: approaches(rig),
-            diameter: diameter.unwrap_or(ASSUMED_DIAMETER),
-            is_given: diameter.is_some(),
-        }
+        let is_given = diameter.is_some();
+        let diameter = diameter.unwrap_or(ASSUMED_DIAMETER);
+        Clearance { approaches: approaches(rig, diameter), diameter, is_given, is_opposite: is_opposite(rig) }
     }
 
     /// True if legs whose axes are this close touch each other \[m\].
@@ -82,15 +91,17 @@ impl fmt::Display for Clearance {
         writeln!(f, "LEGS COLLIDE within their stroke, axis to axis:")?;
         self.collisions().try_for_each(|approach| writeln!(f, "  {}", line(approach)))?;
         writeln!(f, "  Legs are {diameter}.")?;
-        writeln!(f, "  Choose other joints: those of two legs may be exchanged, or too close together.")
+        writeln!(f, "  Choose other joints: those of two legs may be exchanged, or too close together.")?;
+        if self.is_opposite { writeln!(f, "  {ADVICE}.") } else { Ok(()) }
     }
 }
 
-/// The closest approach of each pair of legs, the closest pair first.
-pub fn approaches(rig: &Rig) -> Vec<Approach> {
+/// The closest approach of each pair of legs of this diameter \[m\], the closest pair first.
+pub fn approaches(rig: &Rig, diameter: f64) -> Vec<Approach> {
     let geometry = Geometry::from(rig);
     let neutral = Pose::neutral(rig);
-    let reach = Reach { rig, geometry: &geometry, neutral, sign: jacobian(&geometry, &neutral).determinant().signum() };
+    let sign = jacobian(&geometry, &neutral).determinant().signum();
+    let reach = Reach { rig, geometry: &geometry, neutral, sign, free: FREE * diameter };
     let grid: Vec<([f64; 6], Pose)> = (0..LEVELS.pow(6))
         .filter_map(|index| {
             let lengths = array::from_fn(|leg| reach.level_length(index / LEVELS.pow(leg as u32) % LEVELS));
@@ -110,6 +121,8 @@ struct Reach<'a> {
     neutral: Pose,
     /// Sign of the Jacobian's determinant at neutral. The other sign is that of a mirror image.
     sign: f64,
+    /// Length of a leg next to a shared joint that is left out \[m\].
+    free: f64,
 }
 
 impl Reach<'_> {
@@ -132,7 +145,15 @@ impl Reach<'_> {
             let end = pose.position + pose.orientation.rotation * self.rig.platform[leg];
             [self.rig.base[leg], end]
         };
-        let points = closest_points(&segment(legs[0]), &segment(legs[1]));
+        let [a, b] = legs.map(segment);
+        // A leg has its free parts at most up to its middle.
+        let is_shared = |joints: &[Vector3<f64>; 6]| (joints[legs[0]] - joints[legs[1]]).norm() < SHARED;
+        let [at_base, at_platform] = [&self.rig.base, &self.rig.platform].map(is_shared);
+        let beyond = |[from, to]: [Vector3<f64>; 2]| {
+            let free = (to - from) * (self.free / (to - from).norm().max(2.0 * self.free));
+            [if at_base { from + free } else { from }, if at_platform { to - free } else { to }]
+        };
+        let points = closest_points(&beyond(a), &beyond(b));
         Approach { legs, distance: (points[0] - points[1]).norm(), points, pose: *pose }
     }
 
@@ -237,13 +258,14 @@ mod tests {
         let rig = Rig::default();
         let geometry = Geometry::from(&rig);
         let neutral = Pose::neutral(&rig);
-        let found = approaches(&rig);
+        let found = approaches(&rig, 0.05);
         assert_eq!(found.len(), 15);
         let reach = Reach {
             rig: &rig,
             geometry: &geometry,
             neutral,
             sign: jacobian(&geometry, &neutral).determinant().signum(),
+            free: 0.15,
         };
         let mut random = ChaCha8Rng::seed_from_u64(3);
         let mut poses = 0;
@@ -265,7 +287,51 @@ mod tests {
     fn two_joints_exchanged_let_their_legs_cross() {
         let mut rig = Rig::default();
         rig.platform.swap(0, 1);
-        let closest = approaches(&rig)[0];
+        let closest = approaches(&rig, 0.05)[0];
         assert_eq!((closest.legs, closest.distance < 1e-3), ([0, 1], true), "{closest:?}");
+    }
+
+    /// Joints in pairs: six on the base and three on the platform, or three and three.
+    fn on_shared_joints(base: bool) -> Rig {
+        let around = |radius: f64, degrees: [f64; 6]| {
+            degrees.map(|angle: f64| radius * Vector3::new(angle.to_radians().cos(), angle.to_radians().sin(), 0.0))
+        };
+        let platform = around(0.6, [-60.0, 60.0, 60.0, 180.0, 180.0, 300.0]);
+        let base = around(
+            1.0,
+            if base { [0.0, 0.0, 120.0, 120.0, 240.0, 240.0] } else { [-8.0, 8.0, 112.0, 128.0, 232.0, 248.0] },
+        );
+        let rig = Rig { base, platform, ..Rig::default() };
+        let lengths = moris_washout::platform::leg_lengths(&Geometry::from(&rig), &Pose::neutral(&rig));
+        Rig { min_length: lengths[0] - 0.15, max_length: lengths[0] + 0.15, ..rig }
+    }
+
+    #[test]
+    fn legs_on_one_joint_do_not_collide_where_they_meet() {
+        for rig in [on_shared_joints(true), on_shared_joints(false)] {
+            let clearance = Clearance::of(&rig, None);
+            assert_eq!(clearance.collisions().next(), None, "{clearance}");
+        }
+        // Legs that fold onto each other touch beyond the joint, too.
+        let mut narrow = on_shared_joints(false);
+        narrow.base[1] = narrow.base[2] + Vector3::new(0.04, 0.0, 0.0);
+        let clearance = Clearance::of(&narrow, None);
+        assert_eq!(clearance.collisions().next().map(|approach| approach.legs), Some([1, 2]), "{clearance}");
+    }
+
+    #[test]
+    fn legs_that_share_both_joints_collide() {
+        let mut rig = on_shared_joints(true);
+        rig.platform[1] = rig.platform[0];
+        let clearance = Clearance::of(&rig, None);
+        assert!(clearance.collisions().any(|approach| approach.legs == [0, 1]), "{clearance}");
+    }
+
+    #[test]
+    fn joints_numbered_in_opposite_directions_are_named() {
+        let rig = Rig::default();
+        let reversed = Rig { platform: array::from_fn(|leg| rig.platform[(7 - leg) % 6]), ..rig };
+        let text = Clearance::of(&reversed, None).to_string();
+        assert!(text.contains("LEGS COLLIDE") && text.contains("numbered one way round"), "{text}");
     }
 }

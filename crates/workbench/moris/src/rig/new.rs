@@ -67,7 +67,9 @@ fn ask(answers: &mut dyn BufRead, out: &mut dyn Write) -> Result<String> {
     let height = height_at(middle, (base, &base_angles), (platform, &platform_angles)).with_context(|| {
         format!("with these joints no leg is as short as {middle:.3} m, the middle of its stroke; choose longer legs")
     })?;
-    let height = dialog.positive("height of the platform at neutral (legs in the middle of their stroke)", height)?;
+    let question = "height of the platform at neutral (legs in the middle of their stroke), negative where it hangs";
+    let height =
+        dialog.value(question, height, |height: &f64| height.is_finite().then_some(()).ok_or("it must be a number"))?;
     let velocity = dialog.positive("velocity limit of a leg, m/s", 1.0)?;
     let acceleration = dialog.positive("acceleration limit of a leg, m/s²", 15.0)?;
     let head = dialog.positive("height of the rider's head above the platform", 1.2)?;
