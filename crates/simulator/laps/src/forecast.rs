@@ -1,0 +1,165 @@
+//! Forecasts of an axis, and their errors once their times have come.
+//!
+//! A forecast is M + b D. M is the force of the earlier passes at the place to come, and D how far
+//! the present force is from theirs. For each time ahead, b is the least-squares fit to what came
+//! in the last minute, with a prior of 0.
+
+use serde::{Deserialize, Serialize};
+
+use crate::smooth::{LAG, LATEST_LAG};
+use crate::ticks::TICK;
+
+/// Times ahead: the preview's elements, and one more to interpolate.
+pub const AHEAD: usize = 21;
+/// Ticks from one to the next.
+pub const SPACING: usize = 4;
+/// Forecasts that are kept.
+const KEPT: usize = AHEAD * SPACING + LAG + 1;
+/// Time constant of the fit \[s\].
+const FIT_TIME: f64 = 60.0;
+/// Weight of the prior of b: squared force, summed over ticks \[(m/s2)^2\].
+const PRIOR: f64 = 50.0;
+/// Time constant with which a trend fades \[s\].
+const TREND_TIME: f64 = 1.5;
+/// Range of b.
+const CARRIED: [f64; 2] = [0.0, 1.0];
+/// Time constants with which a mean squared error follows larger and smaller ones \[s\].
+const ERROR_TIMES: [f64; 2] = [2.0, 8.0];
+/// Elements whose errors count: 0.4, 1 and 2 s ahead.
+const COMPARED: [usize; 3] = [1, 4, 9];
+/// Squared error added to the least one without memory \[(m/s2)^2\].
+const FLOOR: f64 = 0.01;
+/// Ratio of the squared errors at which the forecast has half of the trust.
+const HALF: f64 = 0.8;
+
+/// A forecast, kept until its times have come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Made {
+    /// False after an interruption.
+    is_known: bool,
+    is_made: bool,
+    /// Force of the earlier passes at the times to come \[m/s2\].
+    passes: [f64; AHEAD],
+    /// Present force less that of the earlier passes \[m/s2\].
+    difference: f64,
+    /// The forecast at the compared times \[m/s2\].
+    forces: [f64; COMPARED.len()],
+    /// Force at the time of the forecast \[m/s2\], and its slope \[m/s3\].
+    held: f64,
+    slope: f64,
+}
+
+/// Growth of a trend up to an element; it fades \[s\].
+fn trend(element: usize) -> f64 {
+    let time = TICK * ((element + 1) * SPACING) as f64 + LATEST_LAG;
+    TREND_TIME * (1.0 - libm::exp(-time / TREND_TIME))
+}
+
+/// Sums of D^2 and of D times the error of M.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Fit {
+    squares: f64,
+    products: f64,
+}
+
+impl Fit {
+    fn carried(&self) -> f64 {
+        (self.products / (self.squares + PRIOR)).clamp(CARRIED[0], CARRIED[1])
+    }
+}
+
+/// The forecasts of an axis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// A ring, with the latest forecast at `latest`.
+    made: Vec<Made>,
+    latest: usize,
+    fits: [Fit; AHEAD],
+    /// Mean squared error of the forecasts \[(m/s2)^2\].
+    error: f64,
+    /// Those without memory, at each of the compared times: of the present force held, of no force,
+    /// and of a trend.
+    plain: [[f64; 3]; COMPARED.len()],
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Record {
+            made: vec![Made::default(); KEPT],
+            latest: 0,
+            fits: [Fit::default(); AHEAD],
+            error: 0.0,
+            plain: [[0.0; 3]; COMPARED.len()],
+        }
+    }
+}
+
+impl Record {
+    /// Forgets the forecasts whose times have not come.
+    pub fn interrupt(&mut self) {
+        self.made.fill(Made::default());
+    }
+
+    /// Goes on to the next tick with the force [`LAG`] ticks ago, the present one and its slope, and those of the
+    /// earlier passes to come and at present, if there are any. Returns the forecast.
+    pub fn tick(
+        &mut self,
+        truth: f64,
+        [held, slope]: [f64; 2],
+        passes: Option<(&[f64; AHEAD], f64)>,
+    ) -> Option<[f64; AHEAD]> {
+        self.latest = (self.latest + 1) % KEPT;
+        self.compare(truth);
+        self.made[self.latest] = Made { is_known: true, held, slope, ..Made::default() };
+        let (passes, now) = passes?;
+        let difference = held - now;
+        let forecast: [f64; AHEAD] = std::array::from_fn(|k| passes[k] + self.fits[k].carried() * difference);
+        let forces = COMPARED.map(|k| forecast[k]);
+        self.made[self.latest] =
+            Made { is_known: true, is_made: true, passes: *passes, difference, forces, held, slope };
+        Some(forecast)
+    }
+
+    fn compare(&mut self, truth: f64) {
+        let [rising, falling] = ERROR_TIMES.map(|time| TICK / time);
+        let keep = 1.0 - TICK / FIT_TIME;
+        for (k, fit) in self.fits.iter_mut().enumerate() {
+            let made = &self.made[(self.latest + KEPT - LAG - (k + 1) * SPACING) % KEPT];
+            if made.is_made {
+                fit.squares = keep * fit.squares + made.difference * made.difference;
+                fit.products = keep * fit.products + made.difference * (truth - made.passes[k]);
+            }
+        }
+        let (mut square, mut count) = (0.0, 0.0);
+        for (k, element) in COMPARED.into_iter().enumerate() {
+            let made = &self.made[(self.latest + KEPT - LAG - (element + 1) * SPACING) % KEPT];
+            for (error, forecast) in
+                self.plain[k].iter_mut().zip([made.held, 0.0, made.held + made.slope * trend(element)])
+            {
+                *error += falling * ((forecast - truth) * (forecast - truth) - *error);
+            }
+            if made.is_made {
+                square += (made.forces[k] - truth) * (made.forces[k] - truth);
+                count += 1.0;
+            }
+        }
+        if count > 0.0 {
+            let mean = square / count;
+            self.error += if mean > self.error { rising } else { falling } * (mean - self.error);
+        } else {
+            self.error = self.error_without_memory() + FLOOR;
+        }
+    }
+
+    /// The weight that the forecast deserves against those without memory, from 0 to 1.
+    pub fn trust(&self) -> f64 {
+        let ratio = self.error / (HALF * (self.error_without_memory() + FLOOR));
+        1.0 / (1.0 + ratio * ratio * ratio * ratio)
+    }
+
+    /// Mean squared error of the best forecast without memory: the present force held, no force, or a
+    /// trend \[(m/s2)^2\].
+    pub fn error_without_memory(&self) -> f64 {
+        self.plain.iter().map(|[held, none, trend]| held.min(*none).min(*trend)).sum::<f64>() / COMPARED.len() as f64
+    }
+}

@@ -1,0 +1,264 @@
+//! The whole: samples in, preview out.
+
+use moris_washout::Preview;
+use serde::{Deserialize, Serialize};
+
+use crate::forecast::{AHEAD, Record, SPACING};
+use crate::line::{CAPACITY, Line};
+use crate::pass::{NEAR, Pass, SAME_DIRECTION, UNKNOWN, dot};
+use crate::smooth::{LAG, LATEST_LAG, Smooth};
+use crate::ticks::{Sample, TICK, Ticks, distance};
+
+/// Passes that are followed at once.
+const PASSES: usize = 6;
+/// Points by which a pass is older than the vehicle, at least: 8 s.
+const LEAST_AGE: u64 = 160;
+/// Points by which two passes are apart, at least.
+const APART: f64 = 100.0;
+/// Ticks from one search for passes to the next.
+const SEARCH_EVERY: u32 = 10;
+/// Ticks of the vehicle's way with which a found pass is compared.
+const COMPARED: u64 = 80;
+/// Below this speed there is no line to follow \[m/s\].
+const LEAST_SPEED: f64 = 1.0;
+/// Squared error added to those of passes before they are weighed \[(m/s2)^2\].
+const WEIGHT_FLOOR: f64 = 0.02;
+/// Difference of the pace from 1 at which a pass has half of its weight.
+const ALIKE: f64 = 0.05;
+/// Trust from which on there is a preview, and below which there is none any more.
+const GIVEN: [f64; 2] = [0.4, 0.1];
+
+/// A memory of the road, and the preview by it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Laps {
+    ticks: Ticks,
+    smooth: Smooth,
+    line: Line,
+    passes: [Option<Pass>; PASSES],
+    /// Force of surge and sway to come by the passes \[m/s2\].
+    forecast: Option<[[f64; AHEAD]; 2]>,
+    records: [Record; 2],
+    until_search: u32,
+    is_given: bool,
+}
+
+impl Laps {
+    /// Nothing is remembered.
+    pub fn new() -> Self {
+        Laps::default()
+    }
+
+    /// Takes a sample.
+    pub fn step(&mut self, sample: &Sample) {
+        let Laps { ticks, smooth, line, passes, forecast, records, until_search, is_given } = self;
+        let mut whole = Whole { smooth, line, passes, forecast, records, until_search, is_given };
+        if !ticks.push(sample, |tick| {
+            whole.smooth.push(tick);
+            whole.tick();
+        }) {
+            whole.interrupt();
+        }
+    }
+
+    /// How far the preview is to be trusted, from 0 to 1; 0 without one.
+    pub fn trust(&self) -> f64 {
+        if self.is_given { overall_trust(&self.records) } else { 0.0 }
+    }
+
+    /// The force of the next 4 s; without elements where nothing is known.
+    pub fn preview(&self) -> Preview {
+        let mut preview = Preview::default();
+        let Some([surge, sway]) = &self.forecast else { return preview };
+        if !self.is_given {
+            return preview;
+        }
+        let elements = preview.surge.len();
+        preview.count = elements as i32;
+        let fraction = self.ticks.since() / (SPACING as f64 * TICK);
+        for k in 0..elements {
+            let at = |forecast: &[f64; AHEAD]| forecast[k] + fraction * (forecast[k + 1] - forecast[k]);
+            (preview.surge[k], preview.sway[k]) = (at(surge), at(sway));
+        }
+        preview
+    }
+}
+
+/// Trust of both axes, weighted by the squared errors without memory.
+fn overall_trust(records: &[Record; 2]) -> f64 {
+    let sum = records.iter().fold([0.0; 2], |[sum, weights], record| {
+        let weight = record.error_without_memory() + 1e-6;
+        [sum + weight * record.trust(), weights + weight]
+    });
+    sum[0] / sum[1]
+}
+
+/// All but the ticks.
+struct Whole<'a> {
+    smooth: &'a mut Smooth,
+    line: &'a mut Line,
+    passes: &'a mut [Option<Pass>; PASSES],
+    forecast: &'a mut Option<[[f64; AHEAD]; 2]>,
+    records: &'a mut [Record; 2],
+    until_search: &'a mut u32,
+    is_given: &'a mut bool,
+}
+
+impl Whole<'_> {
+    fn interrupt(&mut self) {
+        *self.smooth = Smooth::default();
+        self.line.interrupt();
+        *self.passes = [None; PASSES];
+        *self.until_search = 0;
+        *self.is_given = false;
+        *self.forecast = None;
+        for record in self.records.iter_mut() {
+            record.interrupt();
+        }
+    }
+
+    fn tick(&mut self) {
+        if !self.smooth.is_full() {
+            return;
+        }
+        let point = self.smooth.point();
+        let place = *self.smooth.place();
+        let is_moving = place.speed >= LEAST_SPEED && point.speed >= LEAST_SPEED;
+        if is_moving {
+            self.line.push(&point);
+        } else {
+            self.line.interrupt();
+        }
+        for slot in self.passes.iter_mut() {
+            if slot.as_mut().is_some_and(|pass| !is_moving || !pass.advance(self.line, &place)) {
+                *slot = None;
+            }
+        }
+        self.drop_doubles();
+        for pass in self.passes.iter_mut().flatten() {
+            pass.compare(self.line, point.force);
+        }
+        *self.until_search = self.until_search.saturating_sub(1);
+        if is_moving && *self.until_search == 0 {
+            *self.until_search = SEARCH_EVERY;
+            self.search();
+        }
+        let held = self.smooth.latest();
+        let known = self.by_passes();
+        let of_axis = |axis: usize| known.as_ref().map(|(ahead, now)| (&ahead[axis], now[axis]));
+        let [surge, sway] = &mut *self.records;
+        let surge = surge.tick(point.force[0], held[0], of_axis(0));
+        let sway = sway.tick(point.force[1], held[1], of_axis(1));
+        *self.forecast = surge.zip(sway).map(|(surge, sway)| [surge, sway]);
+        let trust = overall_trust(self.records);
+        *self.is_given = self.forecast.is_some() && trust > GIVEN[usize::from(*self.is_given)];
+    }
+
+    /// Keeps the latest of passes that have come together, and gives up those that are not past.
+    fn drop_doubles(&mut self) {
+        let newest = self.line.next() as f64 - LEAST_AGE as f64;
+        for k in 0..PASSES {
+            let Some(pass) = self.passes[k] else { continue };
+            let doubles = self.passes[..k].iter().flatten().any(|other| (other.number - pass.number).abs() < APART);
+            if doubles || pass.number > newest {
+                self.passes[k] = None;
+            }
+        }
+    }
+
+    /// Looks for passes that are not followed yet; the latest ones are preferred.
+    fn search(&mut self) {
+        let place = *self.smooth.place();
+        let next = self.line.next();
+        let mut found: [Option<(u64, f64)>; PASSES] = [None; PASSES];
+        let passes = &*self.passes;
+        self.line.visit_around(&place.position, |number, point| {
+            let apart = distance(&point.position, &place.position);
+            if apart > NEAR || number + LEAST_AGE > next || dot(&point.direction, &place.direction) < SAME_DIRECTION {
+                return;
+            }
+            if passes.iter().flatten().any(|pass| (pass.number - number as f64).abs() < APART) {
+                return;
+            }
+            let same = found.iter_mut().flatten().find(|(other, _)| other.abs_diff(number) < APART as u64);
+            if let Some(same) = same {
+                if apart < same.1 {
+                    *same = (number, apart);
+                }
+                return;
+            }
+            // The oldest of those found gives way.
+            let age = |slot: &Option<(u64, f64)>| slot.map_or(0, |(number, _)| number + 1);
+            if let Some(oldest) = found.iter_mut().min_by_key(|slot| age(slot))
+                && age(oldest) <= number
+            {
+                *oldest = Some((number, apart));
+            }
+        });
+        for (number, _) in found.into_iter().flatten() {
+            let mut pass = Pass::new(number);
+            pass.errors = self.errors_so_far(number);
+            let oldest = |slot: &Option<Pass>| slot.map_or(-1.0, |pass| pass.number);
+            let slot = self.passes.iter_mut().min_by(|a, b| oldest(a).total_cmp(&oldest(b)));
+            if let Some(slot) = slot
+                && oldest(slot) < number as f64
+            {
+                *slot = Some(pass);
+            }
+        }
+    }
+
+    /// Mean squared errors of a pass over the vehicle's way so far.
+    fn errors_so_far(&self, number: u64) -> [f64; 2] {
+        let now = self.line.next() - 1;
+        // As if ten points of an unknown pass had been compared.
+        let mut count = 10.0;
+        let mut sums = [UNKNOWN * count; 2];
+        let run = self.line.point(now).map(|point| point.run);
+        for back in 0..COMPARED.min(number).min(now) {
+            // The vehicle's last point is older than its place.
+            let (Some(own), Some(then)) =
+                (self.line.point(now - back), self.line.point(number.saturating_sub(back + LAG as u64)))
+            else {
+                break;
+            };
+            if Some(own.run) != run {
+                break;
+            }
+            for (sum, (own, then)) in sums.iter_mut().zip(own.force.iter().zip(&then.force)) {
+                *sum += (own - then) * (own - then);
+            }
+            count += 1.0;
+        }
+        sums.map(|sum| sum / count)
+    }
+
+    /// Forces to come and present forces by the passes, weighted by their errors.
+    fn by_passes(&self) -> Option<([[f64; AHEAD]; 2], [f64; 2])> {
+        let mut ahead = [[0.0; AHEAD]; 2];
+        let mut now = [0.0; 2];
+        let mut weights = [0.0; 2];
+        for pass in self.passes.iter().flatten() {
+            let mut forces = [[0.0; 2]; AHEAD];
+            let is_known = forces.iter_mut().enumerate().all(|(k, force)| {
+                let there = pass.force(self.line, ((k + 1) * SPACING) as f64 * TICK);
+                *force = there.unwrap_or_default();
+                there.is_some()
+            });
+            let Some(present) = pass.force(self.line, -LATEST_LAG).filter(|_| is_known) else { continue };
+            let difference = (pass.pace - 1.0) / ALIKE;
+            let alike = 1.0 / (1.0 + difference * difference);
+            for axis in 0..2 {
+                let weight = alike / (pass.errors[axis] + WEIGHT_FLOOR);
+                weights[axis] += weight;
+                now[axis] += weight * present[axis];
+                for (sum, force) in ahead[axis].iter_mut().zip(&forces) {
+                    *sum += weight * force[axis];
+                }
+            }
+        }
+        let mean = |axis: usize| ahead[axis].map(|sum| sum / weights[axis]);
+        (weights[0] > 0.0).then(|| ([mean(0), mean(1)], [now[0] / weights[0], now[1] / weights[1]]))
+    }
+}
+
+const _: () = assert!(CAPACITY as u64 > LEAST_AGE);

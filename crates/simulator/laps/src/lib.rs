@@ -1,0 +1,47 @@
+//! A preview that is learned by driving the same road again.
+//!
+//! [`Laps`] remembers the specific force of surge and sway along the line that a vehicle drives.
+//! Where the vehicle comes by again in the same direction, the force of the earlier passes is a
+//! forecast of the next 4 s. The washout's predictive strategy takes it as its [`Preview`]
+//! (`vehicle.preview.*`).
+//!
+//! ```
+//! use moris_laps::{Laps, Sample};
+//!
+//! let mut laps = Laps::new();
+//! // Four rounds of 60 s on a circle, with braking and accelerating.
+//! for k in 0..24_000 {
+//!     let angle = std::f64::consts::TAU * 0.01 * f64::from(k) / 60.0;
+//!     laps.step(&Sample {
+//!         step: 0.01,
+//!         position: [100.0 * angle.cos(), 100.0 * angle.sin(), 0.0],
+//!         speed: None,
+//!         force: [2.0 * (5.0 * angle).sin(), 1.1],
+//!     });
+//! }
+//! let preview = laps.preview();
+//! assert_eq!(preview.count, 20);
+//! // 1 s from now, at the beginning of the fifth round.
+//! let angle = std::f64::consts::TAU / 60.0;
+//! assert!((preview.surge[4] - 2.0 * (5.0 * angle).sin()).abs() < 0.1);
+//! assert!(laps.trust() > 0.9);
+//! ```
+//!
+//! The modules follow a sample on its way:
+//!
+//! - `ticks` makes equal ticks of 50 ms of it, and `smooth` the force and the position that are
+//!   remembered.
+//! - `line` is the memory: a ring of points, found by place.
+//! - `pass` follows an earlier pass beside the vehicle.
+//! - `forecast` makes the forecast of an axis of them, and compares it with what came.
+
+mod forecast;
+mod laps;
+mod line;
+mod pass;
+mod smooth;
+mod ticks;
+
+pub use laps::Laps;
+pub use moris_washout::Preview;
+pub use ticks::Sample;

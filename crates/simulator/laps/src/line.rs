@@ -1,0 +1,151 @@
+//! The remembered line: a ring of points, one a tick, found by place.
+
+use serde::{Deserialize, Serialize};
+
+use crate::ticks::distance;
+
+/// Points that are kept: 27 minutes.
+pub const CAPACITY: usize = 1 << 15;
+/// Lists of points by cell.
+const LISTS: usize = 1 << 13;
+/// Side of a cell \[m\].
+const CELL: f64 = 10.0;
+/// Least distance of listed points \[m\].
+const LISTED: f64 = 2.0;
+/// Points visited in a cell, at most.
+const VISITS: usize = 256;
+/// Number that is no point's.
+const NONE: u64 = u64::MAX;
+
+/// A point of the line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Point {
+    /// \[m\]
+    pub position: [f64; 3],
+    /// Unit vector of the motion.
+    pub direction: [f64; 3],
+    /// \[m/s\]
+    pub speed: f64,
+    /// Smoothed force of surge and sway \[m/s2\].
+    pub force: [f64; 2],
+    /// Number of the stretch without interruption.
+    pub run: u32,
+}
+
+/// The points, numbered from 0 on; the latest [`CAPACITY`] are kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    points: Vec<Point>,
+    /// Of each point the one that was listed before it in its list.
+    before: Vec<u64>,
+    /// The latest point of each list.
+    lists: Vec<u64>,
+    /// Number of the next point.
+    next: u64,
+    run: u32,
+    /// Position of the point that was listed last.
+    listed: Option<[f64; 3]>,
+}
+
+impl Default for Line {
+    fn default() -> Self {
+        Line {
+            points: vec![Point::default(); CAPACITY],
+            before: vec![NONE; CAPACITY],
+            lists: vec![NONE; LISTS],
+            next: 0,
+            run: 0,
+            listed: None,
+        }
+    }
+}
+
+impl Line {
+    /// Number of the next point.
+    pub fn next(&self) -> u64 {
+        self.next
+    }
+
+    /// Adds a point to the present stretch.
+    pub fn push(&mut self, point: &Point) {
+        let slot = self.next as usize % CAPACITY;
+        self.points[slot] = Point { run: self.run, ..*point };
+        self.before[slot] = NONE;
+        if self.listed.is_none_or(|listed| distance(&listed, &point.position) >= LISTED) {
+            let list = list(cell(&point.position));
+            self.before[slot] = self.lists[list];
+            self.lists[list] = self.next;
+            self.listed = Some(point.position);
+        }
+        self.next += 1;
+    }
+
+    /// Ends the present stretch.
+    pub fn interrupt(&mut self) {
+        self.run = self.run.wrapping_add(1);
+        self.listed = None;
+    }
+
+    /// A point that is kept.
+    pub fn point(&self, number: u64) -> Option<&Point> {
+        let is_kept = number < self.next && self.next - number <= CAPACITY as u64;
+        is_kept.then(|| &self.points[number as usize % CAPACITY])
+    }
+
+    /// The line at a number with a fraction; none where it is interrupted.
+    pub fn at(&self, number: f64) -> Option<Between<'_>> {
+        let whole = number.floor();
+        let from = self.point(if whole >= 0.0 { whole as u64 } else { return None })?;
+        let to = self.point(whole as u64 + 1).filter(|to| to.run == from.run)?;
+        Some(Between { from, to, fraction: number - whole })
+    }
+
+    /// Calls `visit` with listed points around a position.
+    pub fn visit_around(&self, position: &[f64; 3], mut visit: impl FnMut(u64, &Point)) {
+        let [x, y] = cell(position);
+        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+            let cell_visited = [x.wrapping_add(dx), y.wrapping_add(dy)];
+            let mut number = self.lists[list(cell_visited)];
+            for _ in 0..VISITS {
+                let Some(point) = self.point(number) else { break };
+                if cell(&point.position) == cell_visited {
+                    visit(number, point);
+                }
+                let before = self.before[number as usize % CAPACITY];
+                if before >= number {
+                    break;
+                }
+                number = before;
+            }
+        }
+    }
+}
+
+/// The line between two points.
+#[derive(Clone, Copy, Debug)]
+pub struct Between<'a> {
+    from: &'a Point,
+    to: &'a Point,
+    fraction: f64,
+}
+
+impl Between<'_> {
+    /// \[m/s2\]
+    pub fn force(&self, axis: usize) -> f64 {
+        self.from.force[axis] + self.fraction * (self.to.force[axis] - self.from.force[axis])
+    }
+
+    /// \[m/s\]
+    pub fn speed(&self) -> f64 {
+        self.from.speed + self.fraction * (self.to.speed - self.from.speed)
+    }
+}
+
+fn cell(position: &[f64; 3]) -> [i64; 2] {
+    [0, 1].map(|axis| (position[axis] / CELL).floor() as i64)
+}
+
+fn list([x, y]: [i64; 2]) -> usize {
+    let mixed = (x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (y as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
+    (mixed >> 32) as usize % LISTS
+}

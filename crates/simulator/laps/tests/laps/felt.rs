@@ -1,0 +1,89 @@
+//! The felt force with and without the memory.
+
+use moris_batch::{Manoeuvre, Replay};
+use moris_laps::{Laps, Preview, Sample};
+use moris_washout::{Input, Washout, presets};
+
+use crate::track::{LAP, STEP, busy_laps, laps, mirrored};
+
+/// The previews beside a ride.
+fn previews(samples: &[Sample]) -> Vec<Preview> {
+    let mut memory = Laps::new();
+    let step = |sample: &Sample| {
+        memory.step(sample);
+        memory.preview()
+    };
+    samples.iter().map(step).collect()
+}
+
+/// RMS error of surge and sway together in each lap, with these previews.
+fn errors(samples: &[Sample], previews: Option<&[Preview]>) -> Vec<f64> {
+    let input = |sample: &Sample| {
+        let mut input = Input::default();
+        [input.specific_force.x, input.specific_force.y] = sample.force;
+        input
+    };
+    let inputs: Vec<Input> = samples.iter().map(input).collect();
+    let mut washout = Washout::new(&presets::parameters(presets::PREVIEW)).unwrap().starting_with(&inputs[0]);
+    let mut squares = Vec::new();
+    Replay::new(&Manoeuvre::new(STEP, inputs)).run_part(
+        0..usize::MAX,
+        &mut washout,
+        |washout, time| {
+            if let Some(previews) = previews {
+                washout.preview(&previews[(time / STEP).round() as usize]);
+            }
+        },
+        |_| (),
+        |input, output| {
+            let error = output.felt_specific_force - input.specific_force;
+            squares.push(error.x * error.x + error.y * error.y);
+        },
+    );
+    let rms = |lap: &[f64]| (lap.iter().sum::<f64>() / lap.len() as f64).sqrt();
+    squares.chunks((LAP / STEP) as usize).map(rms).collect()
+}
+
+/// Forces in stretches of 9 s in another order, at the same positions.
+fn shuffled(samples: &[Sample]) -> Vec<Sample> {
+    let stretch = (9.0 / STEP) as usize;
+    let count = samples.len() / stretch;
+    let force = |k: usize| samples[(k / stretch * 7 % count * stretch + k % stretch) % samples.len()].force;
+    samples.iter().enumerate().map(|(k, sample)| Sample { force: force(k), ..*sample }).collect()
+}
+
+#[test]
+fn the_second_lap_is_felt_with_at_most_six_tenths_of_the_first_one_s_error() {
+    let samples = busy_laps(3.0);
+    let plain = errors(&samples, None);
+    let learned = errors(&samples, Some(&previews(&samples)));
+    assert_eq!(plain[0], learned[0], "nothing is known in the first lap");
+    assert!(learned[1] <= 0.6 * learned[0], "{learned:?} {plain:?}");
+    assert!(learned[2] <= 0.55 * learned[0], "{learned:?} {plain:?}");
+}
+
+#[test]
+fn forces_that_do_not_belong_to_their_places_are_felt_no_worse_than_without_memory() {
+    let whole = laps(4.0, 1.0);
+    let mirror_from = |lap: f64| {
+        let from = (lap * LAP / STEP) as usize;
+        move |(k, sample): (usize, &Sample)| if k < from { *sample } else { mirrored(*sample) }
+    };
+    let alternating = |(k, sample): (usize, &Sample)| {
+        let is_odd = (k as f64 * STEP / LAP) as usize % 2 == 1;
+        let sign = if is_odd { -1.0 } else { 1.0 };
+        Sample { force: sample.force.map(|force| sign * force), ..*sample }
+    };
+    let rides: [(&str, Vec<Sample>); 4] = [
+        ("as it is", whole.clone()),
+        ("shuffled", shuffled(&whole)),
+        ("mirrored", whole.iter().enumerate().map(mirror_from(1.0)).collect()),
+        ("alternating", whole.iter().enumerate().map(alternating).collect()),
+    ];
+    for (name, samples) in rides {
+        let rms = |laps: Vec<f64>| laps.iter().map(|error| error * error).sum::<f64>().sqrt();
+        let plain = rms(errors(&samples, None));
+        let learned = rms(errors(&samples, Some(&previews(&samples))));
+        assert!(learned <= 1.02 * plain, "{name}: {learned} {plain}");
+    }
+}

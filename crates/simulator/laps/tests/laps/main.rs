@@ -1,0 +1,5 @@
+//! Previews by earlier passes, through the washout and alone.
+
+mod felt;
+mod memory;
+mod track;
