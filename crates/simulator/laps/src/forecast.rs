@@ -100,8 +100,9 @@ impl Record {
         self.made.fill(Made::default());
     }
 
-    /// Goes on to the next tick with the force [`LAG`] ticks ago, the present one and its slope, and those of the
-    /// earlier passes to come and at present, if there are any. Returns the forecast.
+    /// Goes on to the next tick with the force [`LAG`] ticks ago, and the present one with its
+    /// slope. `passes` are the forces of the earlier passes to come and at present, if there are
+    /// any. Returns the forecast.
     pub fn tick(
         &mut self,
         truth: f64,
@@ -157,8 +158,8 @@ impl Record {
         1.0 / (1.0 + ratio * ratio * ratio * ratio)
     }
 
-    /// Mean squared error of the best forecast without memory: the present force held, no force, or a
-    /// trend \[(m/s2)^2\].
+    /// Mean squared error of the best forecast without memory: the present force held, no force,
+    /// or a trend \[(m/s2)^2\].
     pub fn error_without_memory(&self) -> f64 {
         self.plain.iter().map(|[held, none, trend]| held.min(*none).min(*trend)).sum::<f64>() / COMPARED.len() as f64
     }

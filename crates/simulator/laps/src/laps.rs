@@ -60,7 +60,7 @@ impl Laps {
         }
     }
 
-    /// How far the preview is to be trusted, from 0 to 1; 0 without one.
+    /// Trust in the preview, from 0 to 1; 0 without one.
     pub fn trust(&self) -> f64 {
         if self.is_given { overall_trust(&self.records) } else { 0.0 }
     }
