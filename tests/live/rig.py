@@ -114,7 +114,7 @@ class Live:
     def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE):
         self.port = free_port()
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
-        command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", *options]
+        command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", "--settled", *options]
         self.process = subprocess.Popen(
             command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stderr
         )

@@ -33,6 +33,11 @@ impl Legs {
         }
     }
 
+    /// The place that a person may give by this name.
+    pub fn of_person(name: &str) -> Option<Legs> {
+        Self::named(name).filter(|legs| *legs != Legs::Unknown)
+    }
+
     /// The one of this name that has no lengths.
     pub fn named(name: &str) -> Option<Legs> {
         [Legs::Unknown, Legs::Settled, Legs::Slow].into_iter().find(|legs| legs.name() == name)

@@ -116,7 +116,7 @@ impl Moog {
         self.unanswered = self.unanswered.saturating_add(1);
         let silent = self.unanswered == PATIENCE;
         if silent {
-            (self.base, self.engaged, self.waits) = (None, 0, true);
+            (self.base, self.waits) = (None, true);
         }
         let (command, moves) = match (self.base, is_up) {
             (Some(Base::PowerUp), _) => (Command::DofMode, false),
@@ -125,7 +125,12 @@ impl Moog {
             (Some(Base::Engaged), true) => (Command::NewPosition, true),
             _ => (Command::NewPosition, false),
         };
-        self.engaged = if moves { (self.engaged + 1).min(FADE) } else { 0 };
+        self.engaged = match self.base {
+            _ if moves => (self.engaged + 1).min(FADE),
+            // It may receive, and follow, although its answers are lost.
+            None => self.engaged.saturating_sub(1),
+            Some(_) => 0,
+        };
         let part = f64::from(self.engaged) / f64::from(FADE);
         let part = part * part * (3.0 - 2.0 * part);
         (packet(command, part, values), silent.then_some(Event::Fault))
@@ -223,6 +228,28 @@ mod tests {
             before = heave;
         }
         assert_eq!(before, -0.3);
+    }
+
+    #[test]
+    fn a_base_whose_answers_are_lost_gets_no_jump() {
+        let mut moog = Moog::default();
+        for _ in 0..200 {
+            moog.receive(&answer(0x3));
+            moog.send(true, &values());
+        }
+        let mut before = -0.3;
+        let mut heaves = Vec::new();
+        for k in 0..400 {
+            // They come back after 2 s.
+            if k > 120 {
+                moog.receive(&answer(0x3));
+            }
+            let heave = numbers(&moog.send(true, &values()).0)[2];
+            assert!((heave - before).abs() < 0.0026, "{before} {heave}");
+            before = heave;
+            heaves.push(heave);
+        }
+        assert!(heaves[120] > -0.2 && before == -0.3, "{heaves:?}");
     }
 
     #[test]

@@ -140,12 +140,29 @@ fn templates_that_make_no_sense_are_refused() {
         ("frame = ''\nstop = 'rest:1'", "rest:1"),
         ("frame = ''\ninterval = 0", "interval"),
         ("frame = ''\ntime-out = 11", "time-out"),
+        ("frame = ''\nslow-start = 2", "slow-start"),
+        ("frame = ''\nask = 'legs:1'", "legs:1"),
         ("frame = ''\nreversed = [0]", "reversed"),
         ("frame = ''\nrange = [0, 9000000000000]", "range"),
     ] {
         let error = format!("{TEMPLATE}{rest}").parse::<Frames>().unwrap_err().to_string();
         assert!(error.contains(reason), "{error}");
     }
+}
+
+#[test]
+fn a_template_says_whether_it_moves_actuators_and_how_a_controller_is_asked() {
+    for (name, text) in SHIPPED {
+        let frames: Frames = text.parse().unwrap();
+        let encoder = Encoder::new(&frames, [1.0, 1.6]).unwrap();
+        assert_eq!(encoder.moves_actuators(), name != "vr-pose", "{name}");
+        assert_eq!(encoder.asks(), ["csv", "json"].contains(&name), "{name}");
+        assert_eq!(frames.slow_start.is_some(), ["csv", "json"].contains(&name), "{name}");
+    }
+    let encoder = Encoder::new(&shipped("csv").unwrap().parse().unwrap(), [1.0, 1.6]).unwrap();
+    let mut out = Vec::new();
+    encoder.ask(&mut out);
+    assert_eq!(out, b"legs?\n");
 }
 
 proptest! {

@@ -11,6 +11,8 @@ use crate::session::Commands;
 /// Quantities of a frame besides the actuators' positions, in SI units.
 pub const QUANTITIES: &str = "time length1 length2 length3 length4 length5 length6 \
     velocity1 velocity2 velocity3 velocity4 velocity5 velocity6 x y z roll pitch yaw fx fy fz heave own_x own_y own_z";
+/// Places of the lengths and velocities among them.
+const LENGTHS: Range<usize> = 1..13;
 /// Most bytes of a template.
 const MOST: usize = 4096;
 /// Most decimals of a quantity.
@@ -93,6 +95,7 @@ enum Token {
 /// A template, ready to be filled in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoder {
+    ask: Vec<Token>,
     start: Vec<Token>,
     frame: Vec<Token>,
     park: Vec<Token>,
@@ -109,6 +112,7 @@ impl Encoder {
     /// A token is unknown.
     pub fn new(frames: &Frames, stroke: [f64; 2]) -> Result<Self, FramesError> {
         Ok(Encoder {
+            ask: tokens(&frames.ask)?,
             start: tokens(&frames.start)?,
             frame: tokens(&frames.frame)?,
             park: tokens(&frames.park)?,
@@ -117,6 +121,25 @@ impl Encoder {
             reversed: std::array::from_fn(|leg| frames.reversed.contains(&(leg + 1))),
             stroke,
         })
+    }
+
+    /// True if its frames have positions of actuators.
+    pub fn moves_actuators(&self) -> bool {
+        self.frame.iter().any(|token| match token {
+            Token::Binary { .. } | Token::Decimal { .. } => true,
+            Token::Quantity { place, .. } | Token::Float { place, .. } => LENGTHS.contains(place),
+            Token::Bytes(_) => false,
+        })
+    }
+
+    /// True if it can ask for the legs' lengths.
+    pub fn asks(&self) -> bool {
+        !self.ask.is_empty()
+    }
+
+    /// Replaces `out` by the question for the legs' lengths.
+    pub fn ask(&self, out: &mut Vec<u8>) {
+        self.fill(&self.ask, &Values::default(), out);
     }
 
     /// Replaces `out` by the start string.

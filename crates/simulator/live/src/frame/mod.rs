@@ -32,12 +32,14 @@
 //! ```
 
 mod encode;
+mod report;
 
 use std::str::FromStr;
 
 use serde::Deserialize;
 
 pub use encode::{Encoder, QUANTITIES, Values};
+pub use report::reported;
 
 /// A template of frames.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -60,6 +62,12 @@ pub struct Frames {
     pub interval: f64,
     /// Time without frames after which the controller stops by itself \[s\].
     pub time_out: Option<f64>,
+    /// Speed of a leg with which the controller goes from anywhere to its first length \[m/s\], if
+    /// it limits that by itself.
+    pub slow_start: Option<f64>,
+    /// Sent before a start: asks for the legs' lengths, which [`reported`] reads from the answer.
+    #[serde(default)]
+    pub ask: String,
     /// Sent when the platform starts.
     #[serde(default)]
     pub start: String,
@@ -105,6 +113,9 @@ impl FromStr for Frames {
         }
         if frames.time_out.is_some_and(|time| !(frames.interval..=10.0).contains(&time)) {
             return Err(FramesError::Range("time-out must be from the interval to 10 s"));
+        }
+        if frames.slow_start.is_some_and(|speed| !(0.001..=1.0).contains(&speed)) {
+            return Err(FramesError::Range("slow-start must be from 0.001 to 1 m/s"));
         }
         if frames.reversed.iter().any(|leg| !(1..=6).contains(leg)) {
             return Err(FramesError::Range("reversed has actuators from 1 to 6"));

@@ -2,11 +2,12 @@
 
 use std::io::{ErrorKind, Read};
 
-use moris_live::Event;
+use moris_live::{Event, Legs};
 use rtrb::Producer;
 
 use super::console;
 use super::page::Order;
+use super::place::WORDS;
 
 /// Names of the commands.
 pub const COMMANDS: &str = "start, engage, disengage, park, stop, clear";
@@ -41,14 +42,16 @@ pub fn read(mut input: impl Read, mut commands: Producer<Order>) {
 /// Takes a line, which may be anything.
 fn take(line: &[u8], commands: &mut Producer<Order>) {
     let text = String::from_utf8_lossy(line);
-    match Event::of_person(text.trim()) {
-        Some(event) => {
-            if commands.push(Order::Event(event)).is_err() {
+    let word = text.trim();
+    let order = Event::of_person(word).map(Order::Event).or_else(|| Legs::of_person(word).map(Order::Legs));
+    match order {
+        Some(order) => {
+            if commands.push(order).is_err() {
                 console::line("the loop has not taken the last commands yet");
             }
         }
-        None if text.trim().is_empty() => (),
-        None => console::line(&format!("commands: {COMMANDS}")),
+        None if word.is_empty() => (),
+        None => console::line(&format!("commands: {COMMANDS}; for the legs' place: {WORDS}")),
     }
 }
 

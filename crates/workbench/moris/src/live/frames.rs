@@ -6,11 +6,12 @@ use std::fmt::{self, Display, Formatter};
 use std::io::{self, ErrorKind, Write, stdout};
 use std::net::UdpSocket;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::Ordering;
 use std::thread::Thread;
 use std::time::Duration;
 
 use anyhow::{Context, Result, bail};
-use moris_live::frame::{Encoder, Values};
+use moris_live::frame::{Encoder, Values, reported};
 use moris_live::moog::Moog;
 use moris_live::motion::turns;
 use moris_live::{Commands, Event, STEP, State};
@@ -249,6 +250,17 @@ impl Sink {
         }
     }
 
+    /// As [`Sink::listen`], on a way that has answers.
+    ///
+    /// # Errors
+    /// The device cannot be asked.
+    pub fn listen_if_it_can(&self) -> Result<()> {
+        match self {
+            Sink::Udp(_) => self.listen(),
+            _ => Ok(()),
+        }
+    }
+
     fn send(&self, bytes: &[u8]) -> io::Result<()> {
         match self {
             _ if bytes.is_empty() => Ok(()),
@@ -342,6 +354,14 @@ impl Device {
         }
     }
 
+    /// Replaces `out` by the question for the legs' lengths; nothing if it has none.
+    fn ask(&self, out: &mut Vec<u8>) {
+        out.clear();
+        if let Device::Template(encoder) = self {
+            encoder.ask(out);
+        }
+    }
+
     /// True for a device that answers.
     fn answers(&self) -> bool {
         matches!(self, Device::Moog { .. })
@@ -372,7 +392,12 @@ pub struct Sender<'a> {
     running: bool,
     last: Values,
     sent: Sent,
+    /// Time of the last question for the legs' lengths.
+    asked: Option<Duration>,
 }
+
+/// Time between questions for the legs' lengths.
+const ASKS: Duration = Duration::from_millis(200);
 
 /// Errors of this program after which the sending thread ends.
 const MOST_ERRORS: u32 = 10;
@@ -400,6 +425,7 @@ impl<'a> Sender<'a> {
             running: false,
             last: Values::default(),
             sent: Sent::default(),
+            asked: None,
         }
     }
 
@@ -438,6 +464,9 @@ impl<'a> Sender<'a> {
             }
             if ended {
                 return self.end();
+            }
+            if self.shared.asks.load(Ordering::Relaxed) {
+                self.ask(&mut packet);
             }
             std::thread::park_timeout(Duration::from_millis(20));
         }
@@ -487,6 +516,20 @@ impl<'a> Sender<'a> {
             self.report(Loss::Refused(kind));
         }
         fault
+    }
+
+    /// Asks for the legs' lengths now and then, and passes answers on.
+    fn ask(&mut self, packet: &mut [u8]) {
+        let now = pace::now();
+        if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= ASKS) {
+            self.asked = Some(now);
+            self.device.ask(&mut self.bytes);
+            // A controller that is not there is seen by its frames.
+            let _ = self.sink.send(&self.bytes);
+        }
+        while let Some(lengths) = self.sink.receive(packet).and_then(reported) {
+            let _ = self.orders.push(Order::Report(lengths));
+        }
     }
 
     /// Takes what the device answers.
@@ -626,6 +669,78 @@ mod tests {
         let (sent, reported) = sent_to(sink, csv(), 40, &Shared::default());
         assert_eq!(reported, [Order::Lost(Loss::Refused(ErrorKind::ConnectionRefused))]);
         assert!(sent.sent < 10, "frames go on to a controller that is lost: {}", sent.sent);
+    }
+
+    #[test]
+    fn a_gap_on_the_wire_is_reported_from_the_time_out_of_the_controller_on() {
+        for (pause, is_fault) in [(20, false), (250, true)] {
+            let device = UdpSocket::bind("127.0.0.1:0").unwrap();
+            let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
+            let (mut ring, messages) = RingBuffer::new(256);
+            let (orders, mut reported) = RingBuffer::new(64);
+            let shared = Shared::default();
+            let mut sender = Sender::new(messages, csv(), sink, orders, (0.01, 1.0), &shared);
+            sender.time_out = Some(Duration::from_millis(200));
+            let sent = std::thread::scope(|scope| {
+                let sender = scope.spawn(move || sender.run());
+                for (message, wait) in [(Message::Start, 1), (Message::Frame, pause), (Message::Frame, 1)] {
+                    let made = pace::now();
+                    ring.push(Sending { message, values: Values::default(), arrival: None, made }).unwrap();
+                    sender.thread().unpark();
+                    std::thread::sleep(Duration::from_millis(wait));
+                }
+                ring.push(Sending {
+                    message: Message::Stop,
+                    values: Values::default(),
+                    arrival: None,
+                    made: pace::now(),
+                })
+                .unwrap();
+                drop(ring);
+                sender.join().unwrap()
+            });
+            let orders: Vec<Order> = std::iter::from_fn(|| reported.pop().ok()).collect();
+            if is_fault {
+                assert!(matches!(orders[..], [Order::Lost(Loss::Gap(gap))] if gap >= 0.2), "{orders:?}");
+                assert!(sent.gap >= Duration::from_millis(200));
+            } else if sent.gap < Duration::from_millis(200) {
+                // Unless the computer itself made the gap.
+                assert!(orders.is_empty(), "{orders:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_controller_is_asked_where_the_legs_are_while_that_is_unknown() {
+        let device = UdpSocket::bind("127.0.0.1:0").unwrap();
+        device.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+        let sink = Sink::open(&format!("udp:{}", device.local_addr().unwrap())).unwrap();
+        sink.listen().unwrap();
+        let (ring, messages) = RingBuffer::new(256);
+        let (orders, mut reported) = RingBuffer::new(64);
+        let shared = Shared::default();
+        shared.asks.store(true, Ordering::Relaxed);
+        std::thread::scope(|scope| {
+            let shared = &shared;
+            let sender = scope.spawn(move || Sender::new(messages, csv(), sink, orders, (0.01, 1.0), shared).run());
+            let mut packet = [0; 100];
+            let (length, from) = device.recv_from(&mut packet).unwrap();
+            assert_eq!(&packet[..length], b"legs?\n");
+            device.send_to(b"what?\n", from).unwrap();
+            device.send_to(b"legs,1.1,1.2,1.3,1.4,1.5,1.6\n", from).unwrap();
+            let begin = pace::now();
+            let order = loop {
+                if let Ok(order) = reported.pop() {
+                    break order;
+                }
+                assert!(pace::now() - begin < Duration::from_secs(10));
+                std::thread::sleep(Duration::from_millis(5));
+            };
+            assert_eq!(order, Order::Report([1.1, 1.2, 1.3, 1.4, 1.5, 1.6]));
+            shared.asks.store(false, Ordering::Relaxed);
+            drop(ring);
+            sender.join().unwrap();
+        });
     }
 
     #[test]

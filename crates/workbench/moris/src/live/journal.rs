@@ -7,7 +7,7 @@ use std::time::Duration;
 use moris_live::log::Entry;
 use moris_live::signs::{Check, Verdict};
 use moris_live::source::Health;
-use moris_live::{Refusal, State};
+use moris_live::{Legs, Refusal, State};
 use rtrb::Consumer;
 
 use super::console;
@@ -34,6 +34,10 @@ pub enum Note {
     Slipped(f64, f64),
     /// The controller does not follow any more.
     Lost(f64, Loss),
+    /// The place of the legs at a start, and the time for which the first lengths are held \[s\].
+    Located(f64, Legs, f64),
+    /// The telemetry's delay is long \[s\].
+    Delayed(f64, f64),
     /// A thread has ended by an error of this program.
     Failed(f64, Part),
 }
@@ -58,6 +62,14 @@ fn line(note: &Note) -> Option<String> {
         Note::Retuned(time, false) => format!("{time:9.3} s  refused: these parameters cannot change now"),
         Note::Slipped(time, late) => format!("{time:9.3} s  the computer was late by {late:.3} s"),
         Note::Lost(time, loss) => format!("{time:9.3} s  {loss}"),
+        Note::Located(time, Legs::Reported(_), _) => format!("{time:9.3} s  legs: as the controller reports"),
+        Note::Located(time, Legs::Slow, hold) => {
+            format!("{time:9.3} s  legs: a slow start; the first lengths are held for {hold:.0} s")
+        }
+        Note::Located(time, legs, _) => format!("{time:9.3} s  legs: {}", legs.name()),
+        Note::Delayed(time, delay) => {
+            format!("{time:9.3} s  the telemetry's delay is {:.0} ms: packets come with gaps", 1e3 * delay)
+        }
         Note::Failed(time, part) => {
             format!("{time:9.3} s  the thread that {} has failed: the session parks and ends", part.name())
         }

@@ -6,6 +6,7 @@
 //! - `console` prints without waiting, `watch` sees the ends of threads, `signals` those of the
 //!   system.
 //! - `commands` reads lines; `parking` says how long it takes.
+//! - `place` has where the legs are at a start.
 //! - `telemetry` receives packets, or plays a recording; `ros2` subscribes to a topic; `vehicle`
 //!   steps an FMU or a motorcycle.
 //! - `controls` has what the page holds of a vehicle's controls.
@@ -30,6 +31,7 @@ mod occupied;
 mod pace;
 mod page;
 mod parking;
+mod place;
 mod priority;
 #[cfg(feature = "ros2")]
 mod ros2;
@@ -63,6 +65,7 @@ use controls::{Controls, Handling};
 use frames::{Device, Sender, Sent, Sink};
 use occupied::Occupied;
 use page::{Desk, Server, Start};
+use place::Place;
 use signals::{Interrupts, Signals};
 use watch::{Failed, Part, watch};
 
@@ -153,6 +156,16 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", value_parser = time_out)]
     time_out: Option<f64>,
 
+    /// The platform is at its lowest pose now: checked by looking. Otherwise the controller is asked
+    /// where the legs are, if its frames can, or starts slowly
+    #[arg(long, conflicts_with_all = ["slow_start", "dry"])]
+    settled: bool,
+
+    /// The controller itself goes from anywhere to the first lengths, at this speed or faster
+    /// [default: that of the template, if it has one; without a number 0.02]
+    #[arg(long, value_name = "M/S", num_args = 0..=1, default_missing_value = "0.02", value_parser = slow_start, conflicts_with = "dry")]
+    slow_start: Option<f64>,
+
     /// Send poses that are ahead of now by this time, such as a headset's latency; lengths stay
     #[arg(long, value_name = "SECONDS", default_value = "0", value_parser = pose_ahead)]
     pose_ahead: f64,
@@ -182,6 +195,10 @@ fn time_out(text: &str) -> Result<f64, String> {
     number_in(text, 0.001..=10.0, "a number of seconds from 0.001 to 10")
 }
 
+fn slow_start(text: &str) -> Result<f64, String> {
+    number_in(text, 0.001..=1.0, "a number of m/s from 0.001 to 1")
+}
+
 fn pose_ahead(text: &str) -> Result<f64, String> {
     number_in(text, 0.0..=0.1, "a number of seconds from 0 to 0.1")
 }
@@ -195,6 +212,8 @@ struct Shared {
     played: AtomicBool,
     /// The loop has ended.
     done: AtomicBool,
+    /// The controller is to be asked where the legs are.
+    asks: AtomicBool,
     /// Packets that are not of the format.
     dropped: AtomicU32,
     /// Threads that have failed.
@@ -237,20 +256,41 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
     // The motorcycle's signs are known, and its falls are like nothing that the test knows.
     let ignore_signs = options.ignore_signs || input.handling() == Some(Handling::Rider);
-    let settings = Settings { delay: options.delay, ignore_signs, ..Settings::default() };
-    let mut session = Session::new(&setup.parameters, &settings)?;
     // Until the end: another session has no part in this controller.
     let _occupied = options.to.as_deref().map(Occupied::take).transpose()?;
     let sink = options.to.as_deref().map_or(Ok(Sink::Dry), Sink::open)?;
-    let (device, interval, time_out) = if options.frames == moog::NAME {
+    let rig = &setup.parameters.rig;
+    let (device, interval, time_out, place) = if options.frames == moog::NAME {
         sink.listen()?;
-        (Device::moog(), moog::INTERVAL, None)
+        // The base itself goes from its home to neutral.
+        (Device::moog(), moog::INTERVAL, None, Place::own())
     } else {
         let template = tables::frames(&options.frames)?;
-        let rig = &setup.parameters.rig;
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
-        (Device::Template(Box::new(encoder)), template.interval, template.time_out)
+        let place = match options.dry {
+            true => Place::own(),
+            false => Place::of(&template, &encoder, options.settled, options.slow_start),
+        };
+        if place.wants_report() {
+            sink.listen_if_it_can()?;
+        }
+        (Device::Template(Box::new(encoder)), template.interval, template.time_out, place)
     };
+    if options.engage && !place.can_start() {
+        bail!(
+            "--engage starts the platform, but nobody has said where its legs are: add --settled if it is at its \
+             lowest pose, or --slow-start if the controller limits its own speed"
+        );
+    }
+    let settings = Settings {
+        delay: options.delay,
+        ignore_signs,
+        is_inside: input.is_inside(),
+        starts_settled: place.starts_settled(),
+        slow_speed: place.slow_speed(),
+        ..Settings::default()
+    };
+    let mut session = Session::new(&setup.parameters, &settings)?;
     let time_out = options.time_out.or(time_out).map(Duration::from_secs_f64);
     let mut record = options.record.as_ref().map(File::create).transpose().context("cannot record the session")?;
     if let Some(file) = &mut record {
@@ -278,6 +318,9 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (to_journal, journal) = RingBuffer::new(8192);
     let (to_forecast, parking) = RingBuffer::new(1);
     console::line(&format!("commands: {COMMANDS}; Ctrl-C parks and ends"));
+    if let Some(advice) = place.advice(rig.max_length - rig.min_length) {
+        console::line(&advice);
+    }
     if let Some(server) = &server {
         console::line(&format!("page: {}", server.address()));
     }
@@ -315,10 +358,12 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             interrupts,
             parking: to_forecast,
             is_lost: false,
+            place,
             known: [false; Part::ALL.len()],
             frames: frames::Frames::new(to_device, sender.thread().clone(), interval, options.pose_ahead),
             journal: to_journal,
             shown: server.as_ref().map(|_| shown),
+            starts: options.engage,
             engages: options.engage,
             ends_at: options.duration,
         };

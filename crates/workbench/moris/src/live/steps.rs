@@ -7,7 +7,7 @@ use std::time::Duration;
 use moris_live::log::{Digest, Entry, Happening};
 use moris_live::signs::{Check, Verdict};
 use moris_live::source::Health;
-use moris_live::{Event, STEP, Session, State};
+use moris_live::{Event, Legs, STEP, Session, State};
 use rtrb::{Consumer, Producer};
 
 use super::Shared;
@@ -16,6 +16,7 @@ use super::journal::Note;
 use super::lateness::Lateness;
 use super::pace;
 use super::page::{EVERY, Order, Shown};
+use super::place::Place;
 use super::signals::Interrupts;
 use super::telemetry::Received;
 use super::watch::Part;
@@ -37,12 +38,15 @@ pub struct Steps<'a> {
     pub parking: Producer<Session>,
     /// The controller does not follow any more.
     pub is_lost: bool,
+    pub place: Place,
     /// Threads whose failure is known.
     pub known: [bool; Part::ALL.len()],
     pub frames: Frames,
     pub journal: Producer<Note>,
     /// For the page; what it does not take is dropped.
     pub shown: Option<Producer<Shown>>,
+    /// Starts by itself, once.
+    pub starts: bool,
     /// Engages by itself.
     pub engages: bool,
     /// Time after which it ends \[s\].
@@ -96,9 +100,7 @@ impl Steps<'_> {
         // The time of the clock at the session's time 0.
         let mut zero = pace::now();
         let mut ending = false;
-        if self.engages {
-            self.ask(Event::Start, &mut summary);
-        }
+        let mut warned = None;
         loop {
             let deadline = zero + Duration::from_secs_f64((summary.steps + 1) as f64 * STEP);
             pace::wait_until(deadline);
@@ -112,7 +114,8 @@ impl Steps<'_> {
                 self.note(Note::Slipped(self.session.time(), late.as_secs_f64()), &mut summary);
             }
             while let Ok(Received { arrival, sample }) = self.received.pop() {
-                self.frames.newest = Some(arrival);
+                // Samples of a source inside come before their time.
+                self.frames.newest = Some(arrival.min(pace::now()));
                 let arrival = arrival.as_secs_f64() - zero.as_secs_f64();
                 self.record(Happening::Sample(arrival, sample), &mut summary);
                 self.session.receive(arrival, &sample);
@@ -131,8 +134,10 @@ impl Steps<'_> {
             if ending {
                 self.end(&mut summary);
             } else if self.engages {
+                self.start(&mut summary);
                 self.engage(&mut summary);
             }
+            self.shared.asks.store(!self.session.is_located() && self.place.wants_report(), Ordering::Relaxed);
             let commands = *self.session.step();
             summary.steps += 1;
             digest.take(&commands);
@@ -152,6 +157,7 @@ impl Steps<'_> {
             }
             if summary.steps.is_multiple_of(LOOK) {
                 self.look_at_signs(&mut signs, &mut summary);
+                self.look_at_delay(&mut warned, &mut summary);
             }
             if let Some(shown) = &mut self.shown
                 && summary.steps.is_multiple_of(EVERY)
@@ -163,6 +169,15 @@ impl Steps<'_> {
                 summary.lost_frames = self.frames.lost;
                 return summary;
             }
+        }
+    }
+
+    /// Starts by itself, once the controller may have reported the legs' place.
+    fn start(&mut self, summary: &mut Summary) {
+        let is_ready = self.session.is_located() || self.place.is_ready(self.session.time());
+        if self.starts && is_ready {
+            self.starts = false;
+            self.ask(Event::Start, summary);
         }
     }
 
@@ -207,15 +222,20 @@ impl Steps<'_> {
         match order {
             Order::Event(event) => {
                 self.engages &= matches!(event, Event::Engage | Event::Start);
-                self.is_lost &= !matches!(event, Event::Clear | Event::Start);
-                self.ask(event, summary);
+                self.starts &= event == Event::Engage;
+                let is_obeyed = self.ask(event, summary);
+                self.is_lost &= !(is_obeyed && matches!(event, Event::Clear | Event::Start));
             }
             Order::Lost(loss) => {
                 self.is_lost = !matches!(loss, Loss::Gap(_));
                 summary.loss = Some(loss);
                 self.note(Note::Lost(self.session.time(), loss), summary);
-                self.ask(Event::Fault, summary);
+                self.place.forget();
+                // After a gap the frames go on from the last one.
+                self.ask(if self.is_lost { Event::Lost } else { Event::Fault }, summary);
             }
+            Order::Report(lengths) => self.place.report(self.session.time(), lengths),
+            Order::Legs(legs) => self.place.say(legs),
             Order::Choose(slot, value) => {
                 self.record(Happening::Choice(slot, value), summary);
                 self.session.choose(usize::from(slot), value);
@@ -228,10 +248,41 @@ impl Steps<'_> {
         }
     }
 
-    fn ask(&mut self, event: Event, summary: &mut Summary) {
+    /// Asks for an event. True if it has an effect.
+    fn ask(&mut self, event: Event, summary: &mut Summary) -> bool {
+        let state = self.session.state();
+        let moves = matches!(event, Event::Start | Event::Clear) && state.after(event) != state;
+        if moves && !self.session.is_located() {
+            self.locate(summary);
+        }
         self.record(Happening::Event(event), summary);
-        if let Err(refusal) = self.session.handle(event) {
-            self.note(Note::Refused(self.session.time(), refusal), summary);
+        let refused = self.session.handle(event).err();
+        refused.map(|refusal| self.note(Note::Refused(self.session.time(), refusal), summary)).is_none()
+    }
+
+    /// Gives the session the legs' place, if it is known.
+    fn locate(&mut self, summary: &mut Summary) {
+        let now = self.session.time();
+        let legs = self.place.take(now);
+        if legs == Legs::Unknown {
+            return;
+        }
+        self.record(Happening::Legs(legs), summary);
+        let rig = &self.session.washout().parameters().rig;
+        let hold = (rig.max_length - rig.min_length) / self.place.slow_speed();
+        let note = match self.session.locate(legs) {
+            Ok(()) => Note::Located(now, legs, hold),
+            Err(refusal) => Note::Refused(now, refusal),
+        };
+        self.note(note, summary);
+    }
+
+    /// Warns of a delay that a person notices, and again if it has grown by half.
+    fn look_at_delay(&mut self, warned: &mut Option<f64>, summary: &mut Summary) {
+        let delay = self.session.delay();
+        if self.session.is_delay_long() && warned.is_none_or(|warned| delay > 1.5 * warned) {
+            *warned = Some(delay);
+            self.note(Note::Delayed(self.session.time(), delay), summary);
         }
     }
 
@@ -251,5 +302,265 @@ impl Steps<'_> {
 
     fn note(&mut self, note: Note, summary: &mut Summary) {
         summary.lost_notes += u64::from(self.journal.push(note).is_err());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_live::frame::{Encoder, Values, shipped};
+    use moris_live::log::{header, replay};
+    use moris_live::{Motion, Sample, Settings};
+    use moris_washout::Parameters;
+    use rtrb::RingBuffer;
+
+    use super::*;
+    use crate::live::wire::Wire;
+
+    /// The loop's parts on a computed clock, and what it has noted.
+    struct Computed<'a> {
+        steps: Steps<'a>,
+        summary: Summary,
+        notes: Consumer<Note>,
+        digest: Digest,
+        text: String,
+        said: Vec<String>,
+    }
+
+    fn place(frames: &str, settled: bool) -> Place {
+        let template = shipped(frames).unwrap().parse().unwrap();
+        Place::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, None)
+    }
+
+    fn with_place<T>(place: Place, test: impl FnOnce(&mut Computed) -> T) -> T {
+        let settings =
+            Settings { starts_settled: place.starts_settled(), slow_speed: place.slow_speed(), ..Settings::default() };
+        let mut session = Session::new(&Parameters::default(), &settings).unwrap();
+        let shared = Shared::default();
+        let (journal, notes) = RingBuffer::new(100_000);
+        let (to_device, _) = RingBuffer::new(1);
+        let steps = Steps {
+            session: &mut session,
+            shared: &shared,
+            received: RingBuffer::new(1).1,
+            orders: std::array::from_fn(|_| RingBuffer::new(1).1),
+            interrupts: Interrupts::default(),
+            parking: RingBuffer::new(1).0,
+            is_lost: false,
+            place,
+            known: [false; Part::ALL.len()],
+            frames: Frames::new(to_device, std::thread::current(), 0.01, 0.0),
+            journal,
+            shown: None,
+            starts: false,
+            engages: false,
+            ends_at: None,
+        };
+        let text = header(&Parameters::default(), &settings);
+        let (summary, digest) = (Summary::default(), Digest::default());
+        test(&mut Computed { steps, summary, notes, digest, text, said: Vec::new() })
+    }
+
+    impl Computed<'_> {
+        fn obey(&mut self, order: Order) {
+            self.steps.obey(order, &mut self.summary);
+            while let Ok(note) = self.notes.pop() {
+                match note {
+                    Note::Entry(entry) => self.text += &format!("{entry}\n"),
+                    Note::Located(_, legs, _) => self.said.push(legs.name().to_owned()),
+                    Note::Refused(_, refusal) => self.said.push(refusal.to_string()),
+                    _ => (),
+                }
+            }
+        }
+
+        fn ask(&mut self, event: Event) {
+            self.obey(Order::Event(event));
+        }
+
+        fn state(&self) -> State {
+            self.steps.session.state()
+        }
+
+        /// A step, with a vehicle that accelerates and brakes.
+        fn step(&mut self) -> moris_live::Commands {
+            let now = self.steps.session.time();
+            if self.summary.steps.is_multiple_of(10) {
+                let mut sample = Sample { motion: Motion::at_rest(), time: Some(now), ..Sample::default() };
+                sample.motion.0[0] = 2.0 * (0.8 * now).sin();
+                sample.motion.0[9] = 20.0 - 2.5 * (0.8 * now).cos();
+                self.steps.record(Happening::Sample(now, sample), &mut self.summary);
+                self.steps.session.receive(now, &sample);
+            }
+            let commands = *self.steps.session.step();
+            self.summary.steps += 1;
+            self.digest.take(&commands);
+            commands
+        }
+
+        fn until(&mut self, state: State) {
+            let begin = self.steps.session.time();
+            while self.state() != state {
+                self.step();
+                assert!(self.steps.session.time() - begin < 40.0, "{:?}, not {state:?}", self.state());
+            }
+        }
+    }
+
+    #[test]
+    fn a_start_after_a_restart_asks_where_the_legs_are() {
+        with_place(place("amc-aasd15a", false), |live| {
+            live.ask(Event::Start);
+            assert!(
+                live.state() == State::Off && live.said[0].contains("start needs the legs' place"),
+                "{:?}",
+                live.said
+            );
+            live.obey(Order::Legs(Legs::Settled));
+            live.ask(Event::Start);
+            assert_eq!((live.state(), live.said[1].as_str()), (State::Homing, "settled"));
+            live.until(State::Neutral);
+        });
+        // A controller that is slow by itself: 0.6 m at 0.15 m/s.
+        with_place(place("csv", false), |live| {
+            live.ask(Event::Start);
+            assert_eq!((live.state(), &live.said[..]), (State::Homing, &["slow".to_owned()][..]));
+            for _ in 0..4_000 {
+                assert!(live.step().length.iter().all(|length| (length - 1.012).abs() < 1e-9));
+            }
+            live.until(State::Neutral);
+        });
+    }
+
+    #[test]
+    fn a_report_of_the_controller_is_where_the_way_begins() {
+        let reported = [1.35, 1.31, 1.42, 1.38, 1.29, 1.44];
+        with_place(place("csv", false), |live| {
+            (live.steps.starts, live.steps.engages) = (true, true);
+            live.steps.start(&mut live.summary);
+            // It waits for the answer.
+            assert_eq!(live.state(), State::Off);
+            live.obey(Order::Report(reported));
+            live.steps.start(&mut live.summary);
+            assert_eq!(live.state(), State::Homing);
+            let first = live.step().length;
+            assert!((0..6).all(|k| (first[k] - reported[k]).abs() < 1e-6), "{first:?}");
+            live.until(State::Neutral);
+        });
+        with_place(place("csv", false), |live| {
+            live.obey(Order::Report(reported.map(|length| 1000.0 * length)));
+            live.ask(Event::Start);
+            assert_eq!(live.state(), State::Off);
+            assert!(live.said[0].contains("check the report's unit"), "{:?}", live.said);
+        });
+        // Nobody answers.
+        with_place(place("csv", false), |live| {
+            (live.steps.starts, live.steps.engages) = (true, true);
+            while live.state() == State::Off {
+                live.steps.start(&mut live.summary);
+                live.step();
+            }
+            assert!((live.steps.session.time() - 0.5).abs() < 2e-3, "{} s", live.steps.session.time());
+        });
+    }
+
+    #[test]
+    fn a_controller_that_is_lost_comes_back_without_a_jump() {
+        for (frames, word) in [("csv", None), ("amc-aasd15a", Some(Legs::Slow)), ("amc-aasd15a", Some(Legs::Settled))] {
+            with_place(place(frames, true), |live| {
+                live.ask(Event::Start);
+                live.until(State::Neutral);
+                live.ask(Event::Engage);
+                let mut wire = Wire::new(0.01, 1.0);
+                let mut last = Values::default();
+                for k in 0..15_000 {
+                    let commands = live.step();
+                    if k % 10 == 0 {
+                        last = wire.pass(Duration::from_millis(k), &Values::from(&commands));
+                    }
+                }
+                assert_eq!(live.state(), State::Engaged);
+                wire.lose();
+                live.obey(Order::Lost(Loss::Refused(std::io::ErrorKind::BrokenPipe)));
+                assert!(live.state() == State::Fault && live.steps.is_lost && !live.steps.session.is_located());
+                for _ in 0..3_000 {
+                    live.step();
+                }
+                if let Some(legs) = word {
+                    live.ask(Event::Clear);
+                    assert!(live.state() == State::Fault && live.steps.is_lost, "it does not know where the legs are");
+                    live.obey(Order::Legs(legs));
+                }
+                live.ask(Event::Clear);
+                assert!(live.state() == State::Homing && !live.steps.is_lost, "{:?}", live.said);
+                wire.start();
+                for k in 0..40_000 {
+                    let commands = live.step();
+                    if k % 10 == 0 {
+                        let frame = wire.pass(Duration::from_millis(18_000 + k), &Values::from(&commands));
+                        let change = (0..6).map(|leg| (frame.length[leg] - last.length[leg]).abs());
+                        let change = change.fold(0.0, f64::max);
+                        // At most 0.25 m/s: the glide, and the way home.
+                        assert!(change <= 0.0025, "{frames}: {change} m in a frame, {k} ms after the clear");
+                        last = frame;
+                    }
+                }
+                assert_eq!(live.state(), State::Neutral);
+                assert!(live.summary.loss.is_some());
+                // The record has it all.
+                live.steps.record(Happening::End(live.digest.0), &mut live.summary);
+                live.obey(Order::Event(Event::Stop));
+                let replayed = replay(&live.text, |_| ()).unwrap();
+                assert_eq!(replayed.recorded, Some(replayed.digest));
+            });
+        }
+    }
+
+    #[test]
+    fn a_gap_as_long_as_the_time_out_is_a_fault_from_which_frames_go_on() {
+        with_place(place("csv", true), |live| {
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            live.obey(Order::Lost(Loss::Gap(0.2)));
+            assert!(live.state() == State::Fault && live.steps.session.is_located() && !live.steps.is_lost);
+            live.ask(Event::Engage);
+            assert_eq!(live.state(), State::Fault);
+            live.ask(Event::Clear);
+            live.until(State::Neutral);
+        });
+    }
+
+    #[test]
+    fn a_base_that_goes_its_own_way_is_started_again_at_once() {
+        with_place(Place::own(), |live| {
+            live.ask(Event::Start);
+            live.until(State::Neutral);
+            live.obey(Order::Lost(Loss::Device));
+            assert!(live.state() == State::Fault && live.steps.is_lost);
+            live.ask(Event::Clear);
+            assert!(live.state() == State::Homing && !live.steps.is_lost);
+        });
+    }
+
+    #[test]
+    fn a_delay_that_a_person_notices_is_said_once_and_again_when_it_has_grown() {
+        with_place(Place::own(), |live| {
+            let mut warned = None;
+            let mut said = Vec::new();
+            for gap in [10_u64, 80, 80, 160, 160] {
+                for k in 0..10_000 {
+                    let now = live.steps.session.time();
+                    if k % gap == 0 {
+                        live.steps.session.receive(now, &Sample { time: Some(now), ..Sample::default() });
+                    }
+                    live.steps.session.step();
+                    if k % 1000 == 999 {
+                        live.steps.look_at_delay(&mut warned, &mut live.summary);
+                    }
+                }
+                let notes = std::iter::from_fn(|| live.notes.pop().ok());
+                said.push(notes.filter(|note| matches!(note, Note::Delayed(..))).count());
+            }
+            assert_eq!(said, [0, 1, 0, 1, 0]);
+        });
     }
 }

@@ -26,10 +26,13 @@ use super::{Shared, pace, tables};
 use crate::recording::formats::Format as Logger;
 use crate::recording::{ConventionOptions, FADE_IN, Recording};
 
+/// Time by which samples of a source inside are there before they are needed.
+pub const BEFORE: Duration = Duration::from_millis(5);
+
 /// A sample, and when it arrived.
 #[derive(Clone, Copy, Debug)]
 pub struct Received {
-    /// Time of [`pace::now`].
+    /// Time of [`pace::now`]; of a source inside that for which the sample is.
     pub arrival: Duration,
     /// The sample.
     pub sample: Sample,
@@ -101,6 +104,11 @@ impl Input {
     #[cfg(not(feature = "ros2"))]
     fn open_ros2(_: &str, _: bool) -> Result<Input> {
         anyhow::bail!("moris was built without ROS 2; build it with --features ros2")
+    }
+
+    /// True for a source that runs inside this program, whose samples come before their time.
+    pub fn is_inside(&self) -> bool {
+        matches!(self, Input::Played(_) | Input::Driven(_))
     }
 
     /// The controls that it has.
@@ -177,7 +185,7 @@ fn play(recording: &Recording, mut samples: Producer<Received>, shared: &Shared)
         let time = step * sent;
         pace::wait_until(begin + time);
         let sample = sample(input, recording, time.as_secs_f64());
-        let _ = samples.push(Received { arrival: pace::now(), sample });
+        let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
         sent += 1;
         played += usize::from(played > 0 || engages(shared));
     }

@@ -79,7 +79,7 @@ fn ride(name: &str, read: fn(&[u8]) -> Option<Vec<f64>>) {
     socket.set_read_timeout(Some(Duration::from_millis(100))).unwrap();
     let to = format!("udp:{}", socket.local_addr().unwrap());
     let (port, runs, ended) = (free_port(), AtomicBool::new(true), AtomicBool::new(false));
-    let arguments = ["--format", "csv", "--frames", name, "--engage"];
+    let arguments = ["--format", "csv", "--frames", name, "--engage", "--settled"];
     let positions = thread::scope(|scope| {
         let device = scope.spawn(|| receive(&socket, read, &ended));
         let drive = scope.spawn(|| vehicle(port, &runs));

@@ -7,6 +7,7 @@ mod driving;
 mod exits;
 mod moog;
 mod page;
+mod place;
 mod rig;
 #[cfg(feature = "serial")]
 mod serial;
@@ -64,6 +65,12 @@ fn from_telemetry_to_frames_and_back_to_rest() {
     let replayed = replay("session.csv");
     let text = String::from_utf8(replayed.stdout).unwrap();
     assert!(replayed.status.success() && text.contains("engaged\n") && text.contains("to the bit"), "{text}");
+    // A full disk cuts it in a line: it is repeated up to there.
+    let whole = std::fs::read(directory.path().join("session.csv")).unwrap();
+    std::fs::write(directory.path().join("cut.csv"), &whole[..whole.len() * 2 / 3]).unwrap();
+    let cut = replay("cut.csv");
+    let said = String::from_utf8(cut.stdout).unwrap();
+    assert!(cut.status.success() && said.contains("engaging\n") && said.contains("no end to compare with"), "{said}");
     // With another sample it does not.
     let recorded = std::fs::read_to_string(directory.path().join("session.csv")).unwrap();
     let samples: Vec<_> = recorded.lines().enumerate().filter(|(_, line)| line.contains(",sample,")).collect();
@@ -145,6 +152,14 @@ fn what_cannot_be_used_is_said() {
         (&["--from", "udp:4444", "--format", "csv"], "--to"),
         (&["--from", "udp:4444", "--format", "csv", "--to", "tcp:x"], "--to is udp:HOST:PORT or serial:LINE:BAUD"),
         (&["--from", "nothing.csv", "--dry"], "--from is nothing.csv, but must be udp:PORT"),
+        (
+            &["--from", "udp:4444", "--format", "csv", "--to", "udp:127.0.0.1:9", "--frames", "bff", "--engage"],
+            "nobody has said where its legs are: add --settled",
+        ),
+        (
+            &["--from", "udp:4444", "--format", "csv", "--to", "udp:127.0.0.1:9", "--settled", "--slow-start"],
+            "cannot be used with",
+        ),
         (
             &["frames", "nothing"],
             "--frames is nothing, but must be a file whose name ends with .toml, or one of json, csv",

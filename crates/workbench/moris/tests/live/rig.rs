@@ -31,7 +31,8 @@ impl Live {
             }
             frames
         });
-        Live::with(directory, from, &to, arguments, device)
+        // A new emulator is at its lowest pose.
+        Live::with(directory, from, &to, &[&["--settled"], arguments].concat(), device)
     }
 
     /// Starts the command with another device. It ends by itself, so that no test waits for ever.

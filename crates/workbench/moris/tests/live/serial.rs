@@ -3,6 +3,7 @@
 use std::fs::File;
 use std::io::Read;
 use std::thread;
+use std::time::{Duration, Instant};
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
@@ -12,16 +13,50 @@ use crate::rig::{Live, free_port};
 const TEMPLATE: &str = "name = 'amc'\nabout = ''\nnote = ''\ninterval = 0.002\nstop = \"'STOP' 0A\"\n\
     frame = 'FF FF leg1:u16 leg2:u16 leg3:u16 leg4:u16 leg5:u16 leg6:u16 00 00 00 00 0A 0D'";
 
-#[test]
-fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("amc.toml"), TEMPLATE).unwrap();
+/// A pseudo-terminal: the controller's end, and the path of the line.
+fn pair() -> (File, String) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&master).unwrap();
     unlockpt(&master).unwrap();
     let line = ptsname(&master, Vec::new()).unwrap().into_string().unwrap();
+    (File::from(master), line)
+}
+
+#[test]
+fn a_line_that_is_pulled_is_a_fault_and_an_exit_status() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("amc.toml"), TEMPLATE).unwrap();
+    let (mut master, line) = pair();
+    let to = format!("serial:{line}:250000");
+    let arguments = ["--format", "csv", "--frames", "amc.toml", "--settled"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.command("start");
+    live.wait_for("homing");
+    let mut part = [0; 4096];
+    for _ in 0..20 {
+        assert!(master.read(&mut part).unwrap() > 0);
+    }
+    let pulled = Instant::now();
+    drop(master);
+    live.wait_for("Repair it, then clear");
+    let taken = pulled.elapsed();
+    live.wait_for("fault");
+    assert!(taken < Duration::from_millis(500), "said after {taken:?}");
+    // Where the legs are is unknown now, and these frames know no slow start.
+    live.command("clear");
+    live.wait_for("or start slowly");
+    live.interrupt();
+    live.wait_for("off");
+    assert!(!live.end().0.success());
+}
+
+#[test]
+fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("amc.toml"), TEMPLATE).unwrap();
+    let (mut master, line) = pair();
     let controller = thread::spawn(move || {
-        let mut master = File::from(master);
         let mut bytes = Vec::new();
         let mut part = [0; 4096];
         while !bytes.ends_with(b"STOP\n") {
@@ -31,7 +66,7 @@ fn whole_frames_arrive_and_the_stop_string_after_an_interrupt() {
         bytes
     });
     let to = format!("serial:{line}:250000");
-    let arguments = ["--format", "csv", "--frames", "amc.toml"];
+    let arguments = ["--format", "csv", "--frames", "amc.toml", "--settled"];
     let from = format!("udp:{}", free_port());
     let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
     live.command("start");

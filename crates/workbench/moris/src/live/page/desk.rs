@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use moris_interface::{Group as _, Reader, slots_of};
 use moris_live::session::retune;
-use moris_live::{Event, State, log};
+use moris_live::{Event, Legs, State, log};
 use moris_ride::Command;
 use moris_setup::{Setup, all};
 use moris_washout::{Parameters, Washout};
@@ -37,6 +37,10 @@ pub enum Order {
     Retune,
     /// The controller does not follow any more.
     Lost(Loss),
+    /// The controller has reported the legs' lengths \[m\].
+    Report([f64; 6]),
+    /// A person has said where the legs are.
+    Legs(Legs),
 }
 
 /// Most browsers that are known.
@@ -48,6 +52,8 @@ const MOST_BROWSERS: usize = 64;
 enum Ask {
     /// A command by its name.
     Event(String),
+    /// Where the legs are, for the next start: settled or slow.
+    Legs(String),
     /// Values of parameters by their names.
     Set(BTreeMap<String, f64>),
     /// The vehicle's controls as they are held.
@@ -289,6 +295,10 @@ impl Desk {
             Ask::Event(name) => {
                 let event = Event::of_person(&name).ok_or_else(|| (422, format!("there is no command {name}")))?;
                 inner.send(&[Order::Event(event)])
+            }
+            Ask::Legs(name) => {
+                let legs = Legs::of_person(&name).ok_or_else(|| (422, format!("{name} is no place of the legs")))?;
+                inner.send(&[Order::Legs(legs)])
             }
             Ask::Set(values) => {
                 let values: Option<Vec<_>> =

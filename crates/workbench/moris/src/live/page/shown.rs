@@ -60,6 +60,8 @@ pub struct Shown {
     late: Classes,
     /// The controller does not follow any more.
     is_lost: bool,
+    /// The legs are where they are commanded to be.
+    is_located: bool,
 }
 
 impl Shown {
@@ -76,6 +78,7 @@ impl Shown {
             delay: session.delay(),
             late: lateness.classes(),
             is_lost,
+            is_located: session.is_located(),
         }
     }
 }
@@ -89,11 +92,12 @@ pub fn message(moments: &[Shown], lines: &VecDeque<String>, told: &str) -> Optio
     let rows = moments.iter().map(row).collect::<Vec<_>>().join(",");
     let lines: Vec<&String> = lines.iter().rev().take(LINES).collect();
     let lines = serde_json::to_string(&lines).unwrap_or_default();
-    let (state, health, delay, is_lost) = (last.state.name(), last.health.name(), last.delay, last.is_lost);
+    let (state, health, delay) = (last.state.name(), last.health.name(), last.delay);
+    let (is_lost, is_located) = (last.is_lost, last.is_located);
     let late = serde_json::to_string(&last.late).unwrap_or_default();
     Some(format!(
         "{{\"rows\":[{rows}],\"state\":\"{state}\",\"health\":\"{health}\",\"delay\":{delay},\"late\":{late},\"is_lost\":{is_lost},\
-         \"lines\":{lines},{told}}}"
+         \"is_located\":{is_located},\"lines\":{lines},{told}}}"
     ))
 }
 
@@ -126,7 +130,7 @@ mod tests {
             assert!((of(name) - expected).abs() <= 5e-6, "{name}");
         }
         assert_eq!(value["lines"][0], "said \"so\"\n");
-        assert_eq!(value["is_lost"], true);
+        assert_eq!((&value["is_lost"], &value["is_located"]), (&true.into(), &true.into()));
         assert_eq!((&value["state"], &value["health"]), (&"off".into(), &"waiting".into()));
         assert!(!text.contains('\n'));
         assert!(message(&[], &lines, "\"changed\":{}").is_none());

@@ -12,7 +12,7 @@ use moris_ride::Command;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
-use super::telemetry::{Received, engages};
+use super::telemetry::{BEFORE, Received, engages};
 use super::{Shared, console, pace};
 pub use fmu::Fmu;
 pub use motorcycle::Motorcycle;
@@ -69,6 +69,6 @@ pub fn drive(
             return;
         };
         let sample = Sample { time: Some(time.as_secs_f64()), ..sample };
-        let _ = samples.push(Received { arrival: pace::now(), sample });
+        let _ = samples.push(Received { arrival: begin + time + step + BEFORE, sample });
     }
 }

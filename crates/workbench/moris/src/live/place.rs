@@ -1,0 +1,170 @@
+//! Place of the legs at a start: a report of the controller, what a person has seen, or a slow
+//! start.
+
+use moris_live::Legs;
+use moris_live::frame::{Encoder, Frames};
+
+/// Time for which a report holds \[s\].
+const FRESH: f64 = 1.0;
+/// Time for which a start by itself waits for the first report \[s\].
+const PATIENCE: f64 = 0.5;
+/// Speed of a leg in a slow start, without another one \[m/s\].
+pub const SLOW_SPEED: f64 = 0.02;
+
+/// Words of a person for the place, beside the options.
+pub const WORDS: &str = "settled, slow";
+
+/// All that is known of the legs' place.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    /// The device goes to the first frame by itself, or has no actuators, or nobody follows.
+    is_own: bool,
+    /// What a person has said for the next start.
+    said: Option<Legs>,
+    /// Speed with which the controller goes to its first length by itself \[m/s\].
+    slow_speed: Option<f64>,
+    /// The controller is asked.
+    asks: bool,
+    /// The last report and its time \[s\].
+    report: Option<(f64, [f64; 6])>,
+}
+
+impl Place {
+    /// A device that goes to the first frame by itself, or frames that nobody follows.
+    pub fn own() -> Self {
+        Place { is_own: true, ..Place::default() }
+    }
+
+    /// The place with a controller that a template describes. A person may have seen the platform
+    /// settled, or may know the speed with which it starts from anywhere.
+    pub fn of(template: &Frames, encoder: &Encoder, settled: bool, slow_start: Option<f64>) -> Self {
+        Place {
+            is_own: !encoder.moves_actuators(),
+            said: settled.then_some(Legs::Settled),
+            slow_speed: slow_start.or(template.slow_start),
+            asks: encoder.asks(),
+            report: None,
+        }
+    }
+
+    /// True if the legs are at the settled pose at first, as far as the device needs it.
+    pub fn starts_settled(&self) -> bool {
+        self.is_own
+    }
+
+    /// Speed of a leg in a slow start \[m/s\].
+    pub fn slow_speed(&self) -> f64 {
+        self.slow_speed.unwrap_or(SLOW_SPEED)
+    }
+
+    /// True if a session that engages by itself may begin: a person or the controller can say
+    /// where the legs are.
+    pub fn can_start(&self) -> bool {
+        self.is_own || self.said.is_some() || self.slow_speed.is_some() || self.asks
+    }
+
+    /// True if the controller is to be asked.
+    pub fn wants_report(&self) -> bool {
+        self.asks && !self.is_own && self.said.is_none()
+    }
+
+    /// True if a start by itself at this time \[s\] has nothing to wait for.
+    pub fn is_ready(&self, now: f64) -> bool {
+        !self.wants_report() || now >= PATIENCE || self.report.is_some()
+    }
+
+    /// The controller has reported these lengths \[m\].
+    pub fn report(&mut self, now: f64, lengths: [f64; 6]) {
+        self.report = Some((now, lengths));
+    }
+
+    /// A person has said it.
+    pub fn say(&mut self, legs: Legs) {
+        self.said = Some(legs);
+    }
+
+    /// The controller was lost: reports from before do not hold.
+    pub fn forget(&mut self) {
+        self.report = None;
+    }
+
+    /// The place for a start at this time \[s\]. What a person has said holds once.
+    pub fn take(&mut self, now: f64) -> Legs {
+        if self.is_own {
+            return Legs::Settled;
+        }
+        let fresh = self.report.filter(|(at, _)| now - at <= FRESH);
+        match (self.said.take(), fresh) {
+            (Some(said), _) => said,
+            (None, Some((_, lengths))) => Legs::Reported(lengths),
+            (None, None) if self.slow_speed.is_some() => Legs::Slow,
+            (None, None) => Legs::Unknown,
+        }
+    }
+
+    /// What a person should know before a start of a stroke \[m\]; none if there is nothing.
+    pub fn advice(&self, stroke: f64) -> Option<String> {
+        let asked = if self.asks { "; the controller is asked for it" } else { "" };
+        match (self.is_own, self.said, self.slow_speed) {
+            (true, ..) | (_, Some(_), _) => None,
+            (_, _, Some(speed)) => Some(format!(
+                "the legs' place is unknown{asked}. Without an answer the first lengths are held for {:.0} s: the \
+                 controller must go there by itself at {speed} m/s. --settled: the platform is at its lowest pose",
+                stroke / speed
+            )),
+            (_, _, None) => Some(format!(
+                "the legs' place is unknown{asked}. Before start, say settled if the platform is at its lowest pose, \
+                 or slow if the controller limits its own speed (--settled, --slow-start)"
+            )),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use moris_live::frame::shipped;
+
+    use super::*;
+
+    fn of(name: &str, settled: bool, slow_start: Option<f64>) -> Place {
+        let template = shipped(name).unwrap().parse().unwrap();
+        Place::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, slow_start)
+    }
+
+    #[test]
+    fn a_start_needs_a_report_a_person_or_a_controller_that_is_slow() {
+        for name in ["amc-aasd15a", "bff", "motion4sim", "simtools"] {
+            let mut place = of(name, false, None);
+            assert!(!place.can_start() && place.advice(0.6).unwrap().contains("say settled"), "{name}");
+            assert_eq!(place.take(5.0), Legs::Unknown, "{name}");
+            place.say(Legs::Settled);
+            assert_eq!([place.take(5.0), place.take(5.0)], [Legs::Settled, Legs::Unknown], "{name}");
+            let mut place = of(name, false, Some(0.05));
+            assert!(place.can_start() && place.advice(0.6).unwrap().contains("held for 12 s"), "{name}");
+            assert_eq!(place.take(5.0), Legs::Slow, "{name}");
+        }
+        for name in ["csv", "json"] {
+            let mut place = of(name, false, None);
+            assert!(place.advice(0.6).unwrap().contains("held for 4 s"), "{name}");
+            assert_eq!(place.take(5.0), Legs::Slow, "{name}");
+        }
+        let mut place = of("vr-pose", false, None);
+        assert!(place.starts_settled() && place.advice(0.6).is_none());
+        assert_eq!([place.take(0.0), place.take(5.0)], [Legs::Settled; 2]);
+    }
+
+    #[test]
+    fn a_report_holds_for_a_moment_and_what_a_person_has_seen_comes_first() {
+        let mut place = of("csv", false, None);
+        assert!(place.wants_report() && !place.is_ready(0.4) && place.is_ready(0.5));
+        place.report(0.3, [1.2; 6]);
+        assert!(place.is_ready(0.3));
+        assert_eq!([place.take(1.2), place.take(1.4)], [Legs::Reported([1.2; 6]), Legs::Slow]);
+        place.report(2.0, [1.2; 6]);
+        place.forget();
+        assert_eq!(place.take(2.1), Legs::Slow);
+        let mut place = of("csv", true, None);
+        assert!(!place.wants_report() && place.is_ready(0.0) && place.advice(0.6).is_none());
+        assert_eq!([place.take(0.0), place.take(9.0)], [Legs::Settled, Legs::Slow]);
+    }
+}

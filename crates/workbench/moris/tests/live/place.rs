@@ -1,0 +1,64 @@
+//! Place of the legs at a start: the controller's report, and a controller that has none.
+
+use std::net::UdpSocket;
+use std::thread;
+use std::time::Duration;
+
+use crate::rig::{Live, free_port, lengths};
+
+#[test]
+fn a_controller_that_reports_its_lengths_is_followed_from_there() {
+    let directory = tempfile::tempdir().unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    socket.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+    let to = format!("udp:{}", socket.local_addr().unwrap());
+    let device = thread::spawn(move || {
+        let mut frames: Vec<String> = Vec::new();
+        let mut packet = [0; 2000];
+        while frames.last().is_none_or(|frame| frame != "stop\n") {
+            let (length, from) = socket.recv_from(&mut packet).unwrap();
+            frames.push(String::from_utf8(packet[..length].to_vec()).unwrap());
+            if frames.last().unwrap() == "legs?\n" {
+                socket.send_to(b"legs,1.2,1.21,1.22,1.23,1.24,1.25\n", from).unwrap();
+            }
+        }
+        frames
+    });
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &["--format", "csv", "--engage"], device);
+    live.wait_for("legs: as the controller reports");
+    live.wait_for("neutral");
+    live.command("stop");
+    live.wait_for("off");
+    live.interrupt();
+    let (status, printed, frames) = live.end();
+    assert!(status.success(), "{printed}");
+    let start = frames.iter().position(|frame| frame == "start\n").unwrap();
+    assert!(start > 0 && frames[..start].iter().all(|frame| frame == "legs?\n"), "{frames:?}");
+    let first = lengths(&frames[start + 1]);
+    let expected = [1.2, 1.21, 1.22, 1.23, 1.24, 1.25];
+    assert!((0..6).all(|k| (first[k] - expected[k]).abs() < 2e-3), "{first:?}");
+}
+
+#[test]
+fn frames_that_know_no_slow_start_wait_for_a_person() {
+    let directory = tempfile::tempdir().unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let to = format!("udp:{}", socket.local_addr().unwrap());
+    let arguments = ["--format", "csv", "--frames", "simtools"];
+    let from = format!("udp:{}", free_port());
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.wait_for("if the controller limits its own speed (--settled, --slow-start)");
+    live.command("start");
+    live.wait_for("or start slowly");
+    socket.set_nonblocking(true).unwrap();
+    assert!(socket.recv(&mut [0; 100]).is_err(), "a frame before anybody knows where the legs are");
+    live.command("settled");
+    live.command("start");
+    live.wait_for("legs: settled");
+    live.wait_for("homing");
+    live.command("stop");
+    live.wait_for("off");
+    live.interrupt();
+    assert!(live.end().0.success());
+}
