@@ -59,7 +59,7 @@ function showLateness(classes) {
   }));
 }
 
-function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, late_frames: lateFrames }) {
+function take({ rows, state, health, delay, late, lines, changed, pair: told, holder, is_lost: isLost, is_located: isLocated, late_frames: lateFrames }) {
   if (!rows) return;
   for (const row of rows) {
     const view = Object.fromEntries(now.names.map((name, i) => [name, row[i]]));
@@ -74,6 +74,7 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told, ho
   setText("state", state);
   byId("state").classList.toggle("fault", state === "fault");
   byId("lost").hidden = !isLost;
+  byId("place").hidden = isLocated;
   showRole(holder);
   setText("health", `telemetry: ${health}, delay ${fixed(1000 * delay, 0)} ms`);
   sliders.take(changed);
@@ -110,6 +111,7 @@ readPaints();
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readPaints);
 addLegend(byId("legend"));
 letTurn(machine, () => {});
+for (const button of document.querySelectorAll("#place button")) button.addEventListener("click", async () => say(await send({ legs: button.dataset.legs }) || `At the next start: ${button.textContent}.`));
 byId("record").addEventListener("click", record);
 listenToCommands(document.querySelectorAll("#commands button"), async (event) => say(await send({ event })), { r: record, ...pair.keys, [DRIVING_KEY]: () => driving.beginAgain() });
 connect();

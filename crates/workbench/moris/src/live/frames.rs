@@ -39,6 +39,8 @@ type Line = serialport::COMPort;
 pub enum Message {
     /// The start string.
     Start,
+    /// The same to actuators that are where the first frame has them, as is known.
+    Begin,
     /// A frame.
     Frame,
     /// The park string.
@@ -93,6 +95,8 @@ pub struct Frames {
     pub lost: u64,
     /// The session ends: no start string any more.
     pub ends: bool,
+    /// The actuators are where the next start begins, as a person or the controller has said.
+    pub is_placed: bool,
     /// Time by which poses are ahead of now \[s\], and the poses before.
     ahead: Option<Ahead>,
 }
@@ -110,6 +114,7 @@ impl Frames {
             newest: None,
             lost: 0,
             ends: false,
+            is_placed: false,
             ahead: Ahead::by(ahead),
         }
     }
@@ -125,10 +130,10 @@ impl Frames {
         match (before, commands.state) {
             (State::Off, State::Off) => return,
             (_, State::Off) => self.push(Message::Stop, values),
-            (State::Off, _) => self.push(Message::Start, values),
+            (State::Off, _) => self.push_start(values),
             // A fault that is cleared at neutral leaves no time for homing.
             (State::Settled | State::Fault, State::Homing | State::Neutral) if !self.ends => {
-                self.push(Message::Start, values);
+                self.push_start(values);
             }
             (State::Parking, State::Settled) => {
                 self.push(Message::Frame, values);
@@ -138,6 +143,11 @@ impl Frames {
             _ => return,
         }
         self.sender.unpark();
+    }
+
+    fn push_start(&mut self, values: Values) {
+        let message = if std::mem::take(&mut self.is_placed) { Message::Begin } else { Message::Start };
+        self.push(message, values);
     }
 
     fn push(&mut self, message: Message, values: Values) {
@@ -330,7 +340,7 @@ impl Device {
         match self {
             Device::Template(encoder) => {
                 match message {
-                    Message::Start => encoder.start(values, out),
+                    Message::Start | Message::Begin => encoder.start(values, out),
                     Message::Frame => encoder.frame(values, out),
                     Message::Park => encoder.park(values, out),
                     Message::Stop => encoder.stop(values, out),
@@ -342,10 +352,11 @@ impl Device {
                 let (packet, fault) = if message == Message::Stop {
                     (Moog::last(), None)
                 } else {
-                    if message == Message::Start {
+                    let starts = matches!(message, Message::Start | Message::Begin);
+                    if starts {
                         moog.start();
                     }
-                    *is_up = (*is_up || message == Message::Start) && message != Message::Park;
+                    *is_up = (*is_up || starts) && message != Message::Park;
                     moog.send(*is_up, values)
                 };
                 out.extend(packet);
@@ -476,21 +487,24 @@ impl<'a> Sender<'a> {
     fn take(&mut self, message: Message, values: &Values) -> Option<Event> {
         self.running = message != Message::Stop;
         let now = pace::now();
-        if message == Message::Start {
+        if matches!(message, Message::Start | Message::Begin) {
             self.contact.renew();
-            self.wire.start();
+        }
+        if message == Message::Begin {
+            self.wire.begin_anew();
         }
         if self.contact.is_lost() && message != Message::Stop {
             // What comes back without a person who clears it would jump.
             return None;
         }
         let mut values = *values;
-        if matches!(message, Message::Start | Message::Frame) {
+        if matches!(message, Message::Start | Message::Begin | Message::Frame) {
             if message == Message::Frame
                 && let Some(gap) = self.wire.gap(now)
             {
                 self.sent.gap = self.sent.gap.max(gap);
                 if self.time_out.is_some_and(|time_out| gap >= time_out) {
+                    self.wire.lose();
                     self.report(Loss::Gap(gap.as_secs_f64()));
                 }
             }

@@ -270,7 +270,9 @@ impl Steps<'_> {
         self.record(Happening::Legs(legs), summary);
         let rig = &self.session.washout().parameters().rig;
         let hold = (rig.max_length - rig.min_length) / self.place.slow_speed();
-        let note = match self.session.locate(legs) {
+        let located = self.session.locate(legs);
+        self.frames.is_placed = located.is_ok() && legs != Legs::Slow && !self.place.starts_settled();
+        let note = match located {
             Ok(()) => Note::Located(now, legs, hold),
             Err(refusal) => Note::Refused(now, refusal),
         };
@@ -314,6 +316,7 @@ mod tests {
     use rtrb::RingBuffer;
 
     use super::*;
+    use crate::live::frames::{Message, Sending};
     use crate::live::wire::Wire;
 
     /// The loop's parts on a computed clock, and what it has noted.
@@ -321,6 +324,8 @@ mod tests {
         steps: Steps<'a>,
         summary: Summary,
         notes: Consumer<Note>,
+        sent: Consumer<Sending>,
+        wire: Wire,
         digest: Digest,
         text: String,
         said: Vec<String>,
@@ -337,7 +342,7 @@ mod tests {
         let mut session = Session::new(&Parameters::default(), &settings).unwrap();
         let shared = Shared::default();
         let (journal, notes) = RingBuffer::new(100_000);
-        let (to_device, _) = RingBuffer::new(1);
+        let (to_device, sent) = RingBuffer::new(16);
         let steps = Steps {
             session: &mut session,
             shared: &shared,
@@ -357,7 +362,8 @@ mod tests {
         };
         let text = header(&Parameters::default(), &settings);
         let (summary, digest) = (Summary::default(), Digest::default());
-        test(&mut Computed { steps, summary, notes, digest, text, said: Vec::new() })
+        let wire = Wire::new(0.01, 1.0);
+        test(&mut Computed { steps, summary, notes, sent, wire, digest, text, said: Vec::new() })
     }
 
     impl Computed<'_> {
@@ -395,6 +401,20 @@ mod tests {
             self.summary.steps += 1;
             self.digest.take(&commands);
             commands
+        }
+
+        /// A step, and the lengths on the wire if a frame leaves with it.
+        fn frame(&mut self) -> Option<[f64; 6]> {
+            let commands = self.step();
+            self.steps.frames.take(&commands);
+            let mut left = None;
+            while let Ok(Sending { message, values, .. }) = self.sent.pop() {
+                if message == Message::Begin {
+                    self.wire.begin_anew();
+                }
+                left = Some(self.wire.pass(Duration::from_millis(self.summary.steps), &values).length);
+            }
+            left
         }
 
         fn until(&mut self, state: State) {
@@ -463,26 +483,28 @@ mod tests {
         });
     }
 
+    fn farthest(one: &[f64; 6], other: &[f64; 6]) -> f64 {
+        (0..6).map(|k| (one[k] - other[k]).abs()).fold(0.0, f64::max)
+    }
+
     #[test]
     fn a_controller_that_is_lost_comes_back_without_a_jump() {
+        // It has stayed where it was, or has gone down by itself, as a person has seen.
         for (frames, word) in [("csv", None), ("amc-aasd15a", Some(Legs::Slow)), ("amc-aasd15a", Some(Legs::Settled))] {
             with_place(place(frames, true), |live| {
                 live.ask(Event::Start);
                 live.until(State::Neutral);
                 live.ask(Event::Engage);
-                let mut wire = Wire::new(0.01, 1.0);
-                let mut last = Values::default();
-                for k in 0..15_000 {
-                    let commands = live.step();
-                    if k % 10 == 0 {
-                        last = wire.pass(Duration::from_millis(k), &Values::from(&commands));
-                    }
+                let mut last = [1.012; 6];
+                for _ in 0..15_000 {
+                    last = live.frame().unwrap_or(last);
                 }
                 assert_eq!(live.state(), State::Engaged);
-                wire.lose();
+                live.wire.lose();
                 live.obey(Order::Lost(Loss::Refused(std::io::ErrorKind::BrokenPipe)));
                 assert!(live.state() == State::Fault && live.steps.is_lost && !live.steps.session.is_located());
                 for _ in 0..3_000 {
+                    // No frame arrives.
                     live.step();
                 }
                 if let Some(legs) = word {
@@ -492,27 +514,47 @@ mod tests {
                 }
                 live.ask(Event::Clear);
                 assert!(live.state() == State::Homing && !live.steps.is_lost, "{:?}", live.said);
-                wire.start();
-                for k in 0..40_000 {
-                    let commands = live.step();
-                    if k % 10 == 0 {
-                        let frame = wire.pass(Duration::from_millis(18_000 + k), &Values::from(&commands));
-                        let change = (0..6).map(|leg| (frame.length[leg] - last.length[leg]).abs());
-                        let change = change.fold(0.0, f64::max);
-                        // At most 0.25 m/s: the glide, and the way home.
-                        assert!(change <= 0.0025, "{frames}: {change} m in a frame, {k} ms after the clear");
-                        last = frame;
-                    }
+                if word == Some(Legs::Settled) {
+                    last = [1.012; 6];
+                }
+                for k in 0..45_000 {
+                    let Some(frame) = live.frame() else { continue };
+                    // At most 0.25 m/s: the glide, and the way home.
+                    let change = farthest(&frame, &last);
+                    assert!(change <= 0.0025, "{frames}: {change} m in a frame, {k} ms after the clear");
+                    last = frame;
                 }
                 assert_eq!(live.state(), State::Neutral);
                 assert!(live.summary.loss.is_some());
                 // The record has it all.
                 live.steps.record(Happening::End(live.digest.0), &mut live.summary);
-                live.obey(Order::Event(Event::Stop));
+                live.ask(Event::Stop);
                 let replayed = replay(&live.text, |_| ()).unwrap();
                 assert_eq!(replayed.recorded, Some(replayed.digest));
             });
         }
+    }
+
+    #[test]
+    fn a_start_after_a_stop_goes_on_from_the_last_frame() {
+        with_place(place("amc-aasd15a", true), |live| {
+            live.ask(Event::Start);
+            let mut last = [1.012; 6];
+            for _ in 0..1_500 {
+                last = live.frame().unwrap_or(last);
+            }
+            live.ask(Event::Stop);
+            for _ in 0..500 {
+                live.frame();
+            }
+            live.ask(Event::Start);
+            for _ in 0..5_000 {
+                let Some(frame) = live.frame() else { continue };
+                assert!(farthest(&frame, &last) <= 0.0025, "{frame:?} after {last:?}");
+                last = frame;
+            }
+            assert_eq!(live.state(), State::Neutral);
+        });
     }
 
     #[test]

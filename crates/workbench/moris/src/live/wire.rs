@@ -30,7 +30,7 @@ pub struct Wire {
     speed: f64,
     last: Option<(Duration, Values)>,
     glide: Option<Glide>,
-    /// Frames do not arrive.
+    /// The actuators have stopped since the last frame.
     is_lost: bool,
 }
 
@@ -56,16 +56,14 @@ impl Wire {
         Wire { interval, speed, last: None, glide: None, is_lost: false }
     }
 
-    /// The controller is started: it follows from the session's first frame on, or, if it was lost,
-    /// from where it was then.
-    pub fn start(&mut self) {
-        if !std::mem::take(&mut self.is_lost) {
-            self.last = None;
-        }
-        self.glide = None;
+    /// The actuators are where the next frame has them, as a person or the controller says: it has
+    /// nothing to do with the last one.
+    pub fn begin_anew(&mut self) {
+        (self.last, self.glide, self.is_lost) = (None, None, false);
     }
 
-    /// The controller does not receive frames: from this time on \[s\] they are as if not sent.
+    /// The controller does not receive frames, or has stopped by itself: its actuators come to rest
+    /// where they are.
     pub fn lose(&mut self) {
         self.is_lost = true;
     }
@@ -77,12 +75,13 @@ impl Wire {
 
     /// The frame that leaves now for these commands.
     pub fn pass(&mut self, now: Duration, commanded: &Values) -> Values {
+        let has_stopped = std::mem::take(&mut self.is_lost);
         let mut values = self.with_glide(commanded);
         if let Some((_, last)) = self.last {
             let change =
                 |values: &Values| (0..6).map(|k| (values.length[k] - last.length[k]).abs()).fold(0.0, f64::max);
             if change(&values) > LARGEST * self.speed * self.interval {
-                self.begin(&last, commanded);
+                self.begin(&last, commanded, has_stopped);
                 values = self.with_glide(commanded);
             }
         }
@@ -91,9 +90,10 @@ impl Wire {
     }
 
     /// Begins a glide from the last frame, which goes on at the commands' speed.
-    fn begin(&mut self, last: &Values, commanded: &Values) {
+    fn begin(&mut self, last: &Values, commanded: &Values, has_stopped: bool) {
         // Whoever was lost stands still.
-        let (goes_on, speed) = match self.was_long_ago(last, commanded) {
+        let has_stopped = has_stopped || self.was_long_ago(last, commanded);
+        let (goes_on, speed) = match has_stopped {
             true => (0.0, LOST_SPEED.min(GLIDE_SPEED * self.speed)),
             false => (self.interval, GLIDE_SPEED * self.speed),
         };
@@ -193,11 +193,10 @@ mod tests {
         passed(&mut wire, (0..500).step_by(10));
         let before = wire.last.unwrap().1.length[0];
         wire.lose();
-        wire.start();
         let first = wire.pass(Duration::from_secs(9), &Values { time: 9.0, length: [1.6; 6], ..Values::default() });
         assert!((first.length[0] - before).abs() < 1e-9);
-        // Without a loss the session knows where the platform is.
-        wire.start();
+        // Somebody knows where the platform is.
+        wire.begin_anew();
         assert_eq!(wire.pass(Duration::from_secs(10), &commanded(10.0)).length, commanded(10.0).length);
     }
 }
