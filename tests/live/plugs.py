@@ -170,7 +170,9 @@ def ride(seconds, picture):
         one.pull("30 idle connections to the page", one.idle_connections)
         one.pull("packets are held up for 0.4 s", one.burst(0.4))
         one.pull("the controller is away for 1 s", one.without_controller, "CONTROLLER LOST", " s  fault")
-        one.pull("a person clears the fault", lambda: one.live.command("clear"), " s  homing", " s  neutral")
+        before = one.controller.frames
+        one.pull("a person clears the fault", lambda: one.live.command("clear"), "legs: a slow start", " s  homing", " s  neutral")
+        assert one.controller.frames > before + 100, "no frames after the fault was cleared"
         one.pull("a person engages again", lambda: one.live.command("engage"), " s  engaging")
         one.pull("the page is closed, and opened again", one.without_page)
         one.pull("the recording's disk is full", one.full_disk, "the recording has ended")
@@ -277,7 +279,7 @@ def two_sessions():
 
 
 def killed():
-    """After kill -9 there are no more frames: a controller must have its own time-out."""
+    """After kill -9 there are no more frames: a controller must have its own time-out. A new session asks where the legs are."""
     controller = Controller()
     live = Live(controller)
     live.command("start")
@@ -289,8 +291,19 @@ def killed():
     frames = controller.frames
     time.sleep(0.3)
     assert frames > 0 and controller.frames == frames and "stop" not in controller.words
+    again = Live(controller, settled=False)
+    again.wait_for("the legs' place is unknown")
+    time.sleep(0.5)
+    assert controller.frames == frames and "legs?" in controller.words, controller.words
+    controller.last = None
+    again.command("start")
+    again.wait_for("legs: a slow start")
+    again.wait_for(" s  neutral")
+    again.interrupt()
+    status, _ = again.end()
     controller.ended.set()
-    print(f"kill -9: {frames} frames, and no more")
+    assert status == 0 and not controller.faults, (status, controller.faults[:5])
+    print(f"kill -9: {frames} frames, and no more; the next session asks where the legs are, and starts slowly")
 
 
 if __name__ == "__main__":

@@ -111,10 +111,10 @@ class Vehicle:
 class Live:
     """The command. Lines that it says are in `said`."""
 
-    def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE):
+    def __init__(self, controller, *options, source=None, stderr=subprocess.PIPE, settled=True):
         self.port = free_port()
         source = source or ["--from", f"udp:{self.port}", "--format", "csv"]
-        command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", "--settled", *options]
+        command = [*MORIS, "live", *source, "--to", f"udp:127.0.0.1:{controller.port}", *["--settled"] * settled, *options]
         self.process = subprocess.Popen(
             command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=stderr
         )

@@ -365,6 +365,11 @@ impl Device {
         }
     }
 
+    /// True if it can be asked for the legs' lengths.
+    fn asks(&self) -> bool {
+        matches!(self, Device::Template(encoder) if encoder.asks())
+    }
+
     /// Replaces `out` by the question for the legs' lengths; nothing if it has none.
     fn ask(&self, out: &mut Vec<u8>) {
         out.clear();
@@ -534,6 +539,9 @@ impl<'a> Sender<'a> {
 
     /// Asks for the legs' lengths now and then, and passes answers on.
     fn ask(&mut self, packet: &mut [u8]) {
+        if !self.device.asks() {
+            return;
+        }
         let now = pace::now();
         if self.asked.is_none_or(|asked| now.saturating_sub(asked) >= ASKS) {
             self.asked = Some(now);

@@ -271,7 +271,8 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
             true => Place::own(),
             false => Place::of(&template, &encoder, options.settled, options.slow_start),
         };
-        if place.wants_report() {
+        // Also where a person has said it: after a loss the controller is asked.
+        if encoder.asks() {
             sink.listen_if_it_can()?;
         }
         (Device::Template(Box::new(encoder)), template.interval, template.time_out, place)

@@ -62,3 +62,39 @@ fn frames_that_know_no_slow_start_wait_for_a_person() {
     live.interrupt();
     assert!(live.end().0.success());
 }
+
+#[test]
+fn a_controller_that_comes_back_reports_where_it_is() {
+    let directory = tempfile::tempdir().unwrap();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let address = socket.local_addr().unwrap();
+    let from = format!("udp:{}", free_port());
+    let arguments = ["--format", "csv", "--settled"];
+    let to = format!("udp:{address}");
+    let mut live = Live::with(directory.path(), &from, &to, &arguments, thread::spawn(Vec::new));
+    live.command("start");
+    live.wait_for("homing");
+    drop(socket);
+    live.wait_for("fault");
+    let socket = UdpSocket::bind(address).unwrap();
+    socket.set_read_timeout(Some(Duration::from_secs(10))).unwrap();
+    let mut packet = [0; 2000];
+    let (length, from) = socket.recv_from(&mut packet).unwrap();
+    assert_eq!(&packet[..length], b"legs?\n", "a frame before the fault is cleared");
+    socket.send_to(b"{\"legs\":[1.3,1.3,1.3,1.3,1.3,1.3]}", from).unwrap();
+    thread::sleep(Duration::from_millis(100));
+    live.command("clear");
+    live.wait_for("legs: as the controller reports");
+    let first = loop {
+        let length = socket.recv(&mut packet).unwrap();
+        let text = str::from_utf8(&packet[..length]).unwrap();
+        if text.contains(',') {
+            break lengths(text);
+        }
+    };
+    assert!(first.iter().all(|length| (length - 1.3).abs() < 2e-3), "{first:?}");
+    live.command("stop");
+    live.wait_for("off");
+    live.interrupt();
+    assert!(!live.end().0.success(), "the session was in a fault");
+}
