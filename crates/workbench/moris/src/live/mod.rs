@@ -156,7 +156,7 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", value_parser = time_out)]
     time_out: Option<f64>,
 
-    /// The platform is at its lowest pose now: checked by looking. Otherwise the controller is asked
+    /// The platform is at its lowest pose now, as a person sees. Otherwise the controller is asked
     /// where the legs are, if its frames can, or starts slowly
     #[arg(long, conflicts_with_all = ["slow_start", "dry"])]
     settled: bool,
