@@ -7,8 +7,8 @@ struct Report {
     legs: [f64; 6],
 }
 
-/// The legs' lengths \[m\] in the answer of a controller: `legs,1.01,1.01,1.01,1.01,1.01,1.01` or an
-/// object with a list `legs`. None in other packets.
+/// The legs' lengths \[m\] in the answer of a controller: the word `legs` and six numbers between
+/// commas, or an object with a list `legs`. None in other packets.
 pub fn reported(answer: &[u8]) -> Option<[f64; 6]> {
     let text = str::from_utf8(answer).ok()?.trim();
     let Some(list) = text.strip_prefix("legs,") else {
