@@ -16,6 +16,11 @@ function say(text) {
   now.forgets = setTimeout(() => setText("message", ""), 8000);
 }
 
+/** States in which the platform rests. */
+const RESTING = ["off", "settled", "neutral"];
+/** The next sensible command in a state; in the others the platform is on its way. */
+const NEXT = { off: "start", settled: "start", neutral: "engage", fault: "clear", engaged: "disengage" };
+
 /** Commands that work from every page. */
 const ALWAYS = ["stop", "park"];
 
@@ -73,6 +78,8 @@ function take({ rows, state, health, delay, late, lines, changed, pair: told, ho
   now.state = state;
   setText("state", state);
   byId("state").classList.toggle("fault", state === "fault");
+  byId("state").classList.toggle("moving", !RESTING.includes(state));
+  for (const button of document.querySelectorAll("#commands button")) button.classList.toggle("next", NEXT[state] === button.dataset.event);
   byId("lost").hidden = !isLost;
   byId("place").hidden = isLocated;
   showRole(holder);

@@ -5,6 +5,7 @@ use std::io::Read;
 use std::thread;
 use std::time::{Duration, Instant};
 
+use rustix::io::{FdFlags, fcntl_setfd};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
 use crate::rig::{Live, free_port};
@@ -13,9 +14,10 @@ use crate::rig::{Live, free_port};
 const TEMPLATE: &str = "name = 'amc'\nabout = ''\nnote = ''\ninterval = 0.002\nstop = \"'STOP' 0A\"\n\
     frame = 'FF FF leg1:u16 leg2:u16 leg3:u16 leg4:u16 leg5:u16 leg6:u16 00 00 00 00 0A 0D'";
 
-/// A pseudo-terminal: the controller's end, and the path of the line.
+/// A pseudo-terminal: the controller's end, which no child has, and the path of the line.
 fn pair() -> (File, String) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+    fcntl_setfd(&master, FdFlags::CLOEXEC).unwrap();
     grantpt(&master).unwrap();
     unlockpt(&master).unwrap();
     let line = ptsname(&master, Vec::new()).unwrap().into_string().unwrap();

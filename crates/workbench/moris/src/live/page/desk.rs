@@ -11,7 +11,7 @@ use moris_live::session::retune;
 use moris_live::{Event, Legs, State, log};
 use moris_ride::Command;
 use moris_setup::{Setup, all};
-use moris_washout::{Parameters, Washout};
+use moris_washout::{ParameterError, Parameters, Washout};
 use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
@@ -340,12 +340,23 @@ impl Inner {
         values.iter().for_each(|(slot, value)| slots[*slot] = *value);
         let mut tried = self.trial.clone();
         let parameters = Parameters::read(&mut Reader::new(&slots));
-        retune(&mut tried, &parameters, self.state).map_err(|error| (422, error.to_string()))?;
+        retune(&mut tried, &parameters, self.state).map_err(|error| (422, self.reason(&parameters, &error)))?;
         let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
         self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
         self.trial = tried;
         self.tell();
         Ok(())
+    }
+
+    /// The reason for which parameters are refused, in words of a person at the platform.
+    fn reason(&self, parameters: &Parameters, error: &ParameterError) -> String {
+        if retune(&mut self.trial.clone(), parameters, State::Settled).is_err() {
+            return error.to_string();
+        }
+        let [present, wanted] = [self.trial.parameters(), parameters].map(slots_of);
+        let differing = (0..present.len()).filter(|slot| present[*slot] != wanted[*slot]).map(log::name_of);
+        let names = differing.take(3).collect::<Vec<_>>().join(", ");
+        format!("Park first: {names} cannot change like this before the platform is settled")
     }
 
     /// Puts those of these values in force that differ from the present ones.
@@ -364,7 +375,8 @@ impl Inner {
             return self.change_to(&to);
         }
         let parameters = Parameters::read(&mut Reader::new(&to));
-        retune(&mut self.trial.clone(), &parameters, self.state).map_err(|error| (422, error.to_string()))?;
+        retune(&mut self.trial.clone(), &parameters, self.state)
+            .map_err(|error| (422, self.reason(&parameters, &error)))?;
         self.pair.go(slots_of(self.trial.parameters()), to, pace::now());
         Ok(())
     }
@@ -484,6 +496,28 @@ mod tests {
         }
         assert!(taken(&mut orders).is_empty());
         assert_eq!(desk.lock().told, text);
+    }
+
+    #[test]
+    fn what_needs_a_settled_platform_is_said_as_park_first() {
+        let (desk, mut orders) = desk(true);
+        let set = |text: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{{\"set\":{text}}}}}").as_bytes());
+        for state in [State::Neutral, State::Engaged, State::Fault] {
+            desk.lock().state = state;
+            for (change, name) in
+                [("{\"strategy\":2}", "strategy"), ("{\"scale.specificForce.x\":-1}", "scale.specificForce.x")]
+            {
+                let (number, why) = set(change).unwrap_err();
+                assert_eq!(number, 422);
+                assert!(why.starts_with("Park first: ") && why.contains(name), "{why}");
+            }
+            // What never can be used has its own reason.
+            let (_, why) = set("{\"tilt.angleLimit\":1e300}").unwrap_err();
+            assert!(why.contains("tilt.angleLimit") && !why.contains("Park first"), "{why}");
+        }
+        assert!(taken(&mut orders).is_empty());
+        desk.lock().state = State::Settled;
+        set("{\"strategy\":2}").unwrap();
     }
 
     #[test]
