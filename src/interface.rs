@@ -118,6 +118,8 @@ interface! {
         "predictive.iterations" plan_iterations: i32 = 0;
         /// True if the soft limits changed the motion during the last communication step.
         "status.softLimited" soft_limited: bool = false;
+        /// Factor by which the automatic scale multiplies surge, sway and rates; 1 while it is off.
+        "automaticScale.factor" scale_factor: f64 = 1.0;
     }
 }
 
@@ -183,6 +185,16 @@ enumeration! {
         /// Nothing.
         "off" Off,
         /// The tilt decreases ahead of the stop, and surge provides part of the force meanwhile.
+        "on" On,
+    }
+}
+
+enumeration! {
+    /// Choice of a factor on surge, sway and rates, as large as the rig can give them the right way round.
+    pub enum AutomaticScale {
+        /// No factor.
+        "off" Off,
+        /// A factor of at most 1, at which shape and sign of the felt force are right.
         "on" On,
     }
 }
@@ -318,6 +330,22 @@ interface! {
         "softLimit.pace" pace: f64 [RAD_PER_S] { 0.0 ..= 100.0 } = 5.0;
         /// Reserve that is kept at either end of an axis and of an actuator's stroke, at most a quarter of it.
         "softLimit.margin" margin: f64 [M] { 0.0 ..= 1.0 } = 0.01;
+    }
+}
+
+interface! {
+    /// The automatic scale, in front of all limits.
+    pub struct AutomaticScaleParameters: Parameter, Tunable {
+        /// Automatic scale: a factor on surge, sway and rates, as large as the rig can give them with the right sign and shape.
+        "scale.automatic" automatic: AutomaticScale = AutomaticScale::Off;
+        /// Largest shape error for which the automatic scale does not fall: RMS of the felt force less the cue, relative to the cue.
+        "automaticScale.error" error: f64 { 0.05 ..= 2.0 } = 0.62;
+        /// Time over which the automatic scale remembers the ride.
+        "automaticScale.memory" memory: f64 [S] { 1.0 ..= 1e4 } = 25.0;
+        /// Time constant with which the automatic scale falls.
+        "automaticScale.fallTime" fall_time: f64 [S] { 0.1 ..= 1e4 } = 0.6;
+        /// Time constant with which the automatic scale rises.
+        "automaticScale.riseTime" rise_time: f64 [S] { 0.1 ..= 1e4 } = 5.2;
     }
 }
 
@@ -482,5 +510,6 @@ interface_tree! {
         predictive: PredictiveParameters,
         soft_limit: SoftLimitParameters,
         rig: Rig,
+        automatic_scale: AutomaticScaleParameters,
     }
 }

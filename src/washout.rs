@@ -1,12 +1,13 @@
 //! The whole washout, the paper's Fig. 4: an input, an output, one step.
 
 use moris_interface::{Group, MOST_INTERNAL_STEPS, ParameterError, SHORTEST_STEP};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 use crate::cueing::angular::AngularChannel;
+use crate::cueing::automatic_scale::FittingScale;
 use crate::cueing::compensation::compensated;
-use crate::cueing::conditioning::{Cue, InputFilter, cue, cue_force, forward_acceleration};
+use crate::cueing::conditioning::{Cue, InputFilter, cue_force, forward_acceleration, scaled_cue};
 use crate::cueing::direct_linear::DirectLinearMotion;
 use crate::cueing::evaluator::{Felt, felt};
 use crate::cueing::gravitational::Tilt;
@@ -46,6 +47,7 @@ pub struct Washout {
     engaging: f64,
     /// The input at the end of the last step, and its cue.
     last: CuedInput,
+    scale: FittingScale,
     input_filter: InputFilter,
     preaction: StopPreaction,
     strategy: Strategy,
@@ -61,7 +63,7 @@ pub struct Washout {
     before: PreviousStep,
 }
 
-/// An input, the head with its lean, and the cue there.
+/// An input, the head with its lean, and the cue there before its limits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct CuedInput {
     input: Input,
@@ -74,7 +76,7 @@ impl CuedInput {
     fn new(input: Input, parameters: &Parameters) -> Self {
         let Parameters { conditioning, structure, .. } = parameters;
         let head = LocationFrame::new(structure, input.lean);
-        CuedInput { input, head, cue: cue(&input, conditioning, structure.gravity, head.lean) }
+        CuedInput { input, head, cue: scaled_cue(&input, conditioning, structure.gravity, head.lean) }
     }
 }
 
@@ -124,6 +126,7 @@ impl Washout {
             parameters: *parameters,
             engaging: 1.0,
             last,
+            scale: FittingScale::new(parameters)?,
             input_filter: InputFilter::default(),
             preaction: StopPreaction::new(structure.max_step),
             strategy,
@@ -172,11 +175,11 @@ impl Washout {
     pub fn preview(&mut self, preview: &Preview) {
         let Parameters { conditioning, structure, .. } = &self.parameters;
         let CuedInput { input, head, .. } = &self.last;
-        let engagement = self.engagement();
+        let (engagement, factor) = (self.engagement(), self.scale.factor());
         if let Some(law) = self.strategy.previewed() {
             law.preview(&Course::of(preview, |[surge, sway]| {
                 let force = Vector3::new(surge, sway, input.specific_force.z);
-                let cue = engagement * cue_force(force, input, conditioning, structure.gravity, head.lean);
+                let cue = engagement * cue_force(force, input, conditioning, structure.gravity, head.lean, factor);
                 [cue.x, cue.y]
             }));
         }
@@ -277,7 +280,8 @@ impl Washout {
     /// One step of Fig. 4, from left to right. The cue goes linearly from the last sample to `end`.
     fn internal_step(&mut self, end: &CuedInput, step: f64) {
         let head_at_end = &end.head;
-        let (mut cue_start, mut cue_end) = self.conditioned_cues(self.last.cue, end.cue, self.last.input.engaged, step);
+        let (cue_start, cue_end) = self.limited_cues(end, step);
+        let (mut cue_start, mut cue_end) = self.conditioned_cues(cue_start, cue_end, self.last.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
 
         let rotation = self.guard.motion().orientation.rotation;
@@ -369,6 +373,19 @@ impl Washout {
         self.angular.continue_from(&angle, &rate, rates);
     }
 
+    /// The cue at the step's start and end, times the automatic scale there, and limited.
+    fn limited_cues(&mut self, end: &CuedInput, step: f64) -> (Cue, Cue) {
+        let before = self.scale.factor();
+        let engagement = self.engagement();
+        // Disengaged, there is nothing to choose a scale by.
+        if engagement > 0.0 {
+            let references = [engagement * end.cue.force.x, engagement * end.cue.force.y];
+            self.scale.advance(references, &self.parameters, step);
+        }
+        let conditioning = &self.parameters.conditioning;
+        (self.last.cue.limited(before, conditioning), end.cue.limited(self.scale.factor(), conditioning))
+    }
+
     /// The cue at the step's start and end as the channels receive it: filtered, and faded while
     /// the washout is being engaged or disengaged.
     fn conditioned_cues(&mut self, start: Cue, end: Cue, engaged: bool, step: f64) -> (Cue, Cue) {
@@ -406,12 +423,17 @@ impl Washout {
     /// Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
+        let nothing_cued = self.last.cue.force.xy() == Vector2::zeros() && self.last.cue.rates == Vector3::zeros();
+        let mut scale = self.scale.clone();
+        scale.retune(parameters, nothing_cued)?;
         self.strategy.retune(parameters)?;
+        self.scale = scale;
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;
         self.soft_limits = SoftLimits::new(parameters, self.strategy.largest_heave());
         self.last = CuedInput::new(self.last.input, parameters);
-        let now = self.input_filter.output(self.last.cue.scaled(self.engagement()), &parameters.conditioning);
+        let cue = self.last.cue.limited(self.scale.factor(), &parameters.conditioning);
+        let now = self.input_filter.output(cue.scaled(self.engagement()), &parameters.conditioning);
         let (force_after, rates_after) = self.drive(now);
         let order = parameters.structure.splitter_order;
         self.direct_linear.retune(&parameters.splitter, order, force_before, force_after);
@@ -472,6 +494,7 @@ impl Washout {
             plan_age,
             plan_iterations,
             soft_limited: self.limited.soft,
+            scale_factor: self.scale.factor(),
         }
     }
 
@@ -501,6 +524,7 @@ impl Washout {
             tilt_pitch_rate: tilt_pitch.acceleration,
             stroke_margin: self.guard.stroke_margin_rate(),
             plan_age: f64::from(self.strategy.plan().is_some()),
+            scale_factor: self.scale.factor_rate(),
             ..Output::default()
         }
     }

@@ -23,6 +23,14 @@ impl Cue {
         Cue { force: self.force * factor, rates: self.rates * factor }
     }
 
+    /// Surge, sway and rates times the automatic scale, and all of it limited.
+    pub fn limited(&self, factor: f64, parameters: &ConditioningParameters) -> Self {
+        Cue {
+            force: limited_force(self.force, factor, parameters),
+            rates: (factor * self.rates).zip_map(&parameters.rate_limit, soft_limit),
+        }
+    }
+
     /// True if force and rates are too small to be felt.
     pub fn asks_for_no_motion(&self) -> bool {
         const FORCE: f64 = 1e-3;
@@ -31,37 +39,43 @@ impl Cue {
     }
 }
 
-/// Gravity removed, scaled and limited: the cue in the vehicle's motion at one instant.
+/// Gravity removed, scaled and limited: the cue in the vehicle's motion at one instant, at an
+/// automatic scale of 1. Arguments as for [`scaled_cue`].
+pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
+    scaled_cue(input, parameters, gravity, lean).limited(1.0, parameters)
+}
+
+/// Gravity removed, and scaled: a [`cue`] without its limits.
 ///
 /// `lean` is the lean of the head's frame relative to the vehicle's \[rad\], `gravity` the
 /// magnitude of gravity \[m/s2\].
-pub fn cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
+pub fn scaled_cue(input: &Input, parameters: &ConditioningParameters, gravity: f64, lean: f64) -> Cue {
     let (roll, pitch) = (libm::sincos(input.orientation.roll), libm::sincos(input.orientation.pitch));
     // The rider sits upright for most of the time.
     let leaned = if lean == 0.0 { roll } else { libm::sincos(input.orientation.roll + lean) };
     let force = input.specific_force + gravity * removed_gravity(parameters.gravity_removal, leaned, pitch);
     let rates = rates(input, parameters.angular_velocity_frame, roll, pitch);
-    Cue {
-        force: scaled_and_limited(force, parameters),
-        rates: rates.component_mul(&parameters.rate_scale).zip_map(&parameters.rate_limit, soft_limit),
-    }
+    Cue { force: force.component_mul(&parameters.force_scale), rates: rates.component_mul(&parameters.rate_scale) }
 }
 
-/// The force of a [`cue`] from a specific force, if the vehicle is oriented as in `input`.
+/// The force of a cue from a specific force, if the vehicle is oriented as in `input` and the
+/// automatic scale is `factor`.
 pub fn cue_force(
     specific_force: Vector3<f64>,
     input: &Input,
     parameters: &ConditioningParameters,
     gravity: f64,
     lean: f64,
+    factor: f64,
 ) -> Vector3<f64> {
     let (roll, pitch) = (libm::sincos(input.orientation.roll + lean), libm::sincos(input.orientation.pitch));
-    scaled_and_limited(specific_force + gravity * removed_gravity(parameters.gravity_removal, roll, pitch), parameters)
+    let force = specific_force + gravity * removed_gravity(parameters.gravity_removal, roll, pitch);
+    limited_force(force.component_mul(&parameters.force_scale), factor, parameters)
 }
 
-/// A force without gravity, scaled and limited.
-fn scaled_and_limited(force: Vector3<f64>, parameters: &ConditioningParameters) -> Vector3<f64> {
-    force.component_mul(&parameters.force_scale).zip_map(&parameters.force_limit, soft_limit)
+/// A scaled force times the automatic scale, but for heave, and limited.
+fn limited_force(force: Vector3<f64>, factor: f64, parameters: &ConditioningParameters) -> Vector3<f64> {
+    Vector3::new(factor * force.x, factor * force.y, force.z).zip_map(&parameters.force_limit, soft_limit)
 }
 
 /// The vehicle's acceleration along the head's x \[m/s2\]: its specific force without gravity,

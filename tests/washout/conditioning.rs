@@ -171,8 +171,8 @@ fn a_previewed_force_is_conditioned_as_the_present_one() {
         let parameters = ConditioningParameters { gravity_removal: removal, ..parameters(&[]).conditioning };
         let input = oriented([0.3, -0.2, 1.0], [2.0, -1.0, 9.0], [0.0; 3]);
         let present = cue(&input, &parameters, G, 0.4).force;
-        assert_eq!(cue_force(input.specific_force, &input, &parameters, G, 0.4), present);
-        let upright = cue_force(input.specific_force, &input, &parameters, G, 0.0);
+        assert_eq!(cue_force(input.specific_force, &input, &parameters, G, 0.4, 1.0), present);
+        let upright = cue_force(input.specific_force, &input, &parameters, G, 0.0, 1.0);
         assert!((removal == GravityRemoval::None) == (upright == present));
     }
 }

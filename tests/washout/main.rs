@@ -4,6 +4,7 @@
 //! There is one binary for all topics: they share helpers, and are linked once.
 
 mod attitudes;
+mod automatic_scale;
 mod braking_law;
 mod chain;
 mod comfort;

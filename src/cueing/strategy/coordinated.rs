@@ -205,7 +205,7 @@ impl Circumstances<'_> {
 }
 
 /// The strategies' models of surge and sway.
-fn models(parameters: &Parameters) -> [AxisModel; 2] {
+pub(in crate::cueing) fn models(parameters: &Parameters) -> [AxisModel; 2] {
     let Parameters { tilt, safety, structure, rig, .. } = parameters;
     let reach = horizontal_reach(rig);
     let head_height = LocationFrame::new(structure, 0.0).point.z;

@@ -176,6 +176,6 @@ impl Strategy {
 /// numbers, which are slow.
 const REST: f64 = 1e-30;
 
-fn at_rest_if_tiny(value: f64) -> f64 {
+pub(super) fn at_rest_if_tiny(value: f64) -> f64 {
     if value.abs() < REST { 0.0 } else { value }
 }

@@ -66,7 +66,7 @@ const WEIGHED_TRAVEL: f64 = 0.45;
 /// A long travel is used up before the tilt, whose rate is the same on every rig, can give it
 /// back. Beyond [`WEIGHED_TRAVEL`] D the weights of the travel L therefore grow: L counts as
 /// D^2/L.
-fn weighed(model: &AxisModel) -> AxisModel {
+pub(in crate::cueing) fn weighed(model: &AxisModel) -> AxisModel {
     let longer = (model.position_limit / WEIGHED_TRAVEL).max(1.0);
     AxisModel { position_limit: model.position_limit.min(WEIGHED_TRAVEL) / longer, ..*model }
 }

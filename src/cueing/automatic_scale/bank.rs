@@ -1,0 +1,215 @@
+//! The bank of shadows: what the platform would feel at fixed scales, and the largest scale at
+//! which that has the right shape.
+
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
+
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::platform::{Platform, WEIGHTS};
+use crate::cueing::conditioning::soft_limit;
+use crate::cueing::strategy::coordinated::models;
+use crate::cueing::strategy::optimal::weighed;
+use crate::cueing::strategy::regulator::{AxisModel, Regulator};
+use crate::cueing::strategy::{Unsolvable, at_rest_if_tiny};
+use crate::interface::{AutomaticScaleParameters, Parameters};
+use crate::motion::min_max::{max, min};
+
+/// Number of shadows.
+const SHADOWS: usize = 13;
+/// Scale of a shadow relative to that of the one before; the first has 1, the last 0.03.
+const RATIO: f64 = 0.746_6;
+/// Time between two samples of the bank \[s\].
+const SAMPLE: f64 = 0.02;
+/// Differences of time below this are rounding \[s\].
+const INSTANT: f64 = 1e-9;
+/// Frequency below which forces are compared \[Hz\], as in the measure of shape.
+const CUE_FREQUENCY: f64 = 2.0;
+/// Largest force that is compared \[m/s2\]: a spike does not rule the memory for minutes.
+const LARGEST_FORCE: f64 = 40.0;
+/// Mean square that is added to a reference's \[m2/s4\]: rest counts as no error.
+const REST: f64 = 0.1;
+/// Weight of what is felt the wrong way round, beside that of any error.
+const INVERSION_WEIGHT: f64 = 0.54;
+/// Fraction of the mean square of the references at which the factor may rise at its full rate. In
+/// a pause nothing shows that more would fit.
+const ACTIVE: f64 = 0.5;
+/// Memory at the ride's start \[s\]; it grows with the ride.
+const FIRST_MEMORY: f64 = 1.65;
+
+/// The shadows, and their shape errors.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bank {
+    models: [AxisModel; 2],
+    regulators: [Regulator; 2],
+    shadows: [[Shadow; 2]; SHADOWS],
+    /// The references below [`CUE_FREQUENCY`].
+    desired: [LowPass; 2],
+    /// Means of their squares \[m2/s4\].
+    power: [f64; 2],
+    /// Integral of the references since the last sample \[m/s\], and the time.
+    sum: [f64; 2],
+    since: f64,
+    /// Time over which the bank remembers \[s\].
+    memory: f64,
+}
+
+/// The outcome of a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// The largest scale at which the worse axis has the shape error that is allowed.
+    pub scale: f64,
+    /// 0 in a pause, 1 while the references are as large as usual.
+    pub activity: f64,
+}
+
+/// One axis at one scale.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Shadow {
+    platform: Platform,
+    felt: LowPass,
+    /// Mean square of the felt force less the scaled reference \[m2/s4\].
+    error: f64,
+}
+
+impl Bank {
+    /// At rest.
+    ///
+    /// # Errors
+    /// There is no regulator for the platform's limits.
+    pub fn new(parameters: &Parameters) -> Result<Self, Unsolvable> {
+        let models = models(parameters);
+        let regulator = |axis: usize| {
+            Regulator::new(&weighed(&models[axis]), &WEIGHTS)
+                .ok_or(Unsolvable { strategy: "automaticScale", weight_position: WEIGHTS.position })
+        };
+        Ok(Bank {
+            models,
+            regulators: [regulator(0)?, regulator(1)?],
+            shadows: [[Shadow::default(); 2]; SHADOWS],
+            desired: [LowPass::default(); 2],
+            power: [0.0; 2],
+            sum: [0.0; 2],
+            since: 0.0,
+            memory: FIRST_MEMORY,
+        })
+    }
+
+    /// Takes the platform's limits of another bank.
+    pub fn retune(&mut self, other: &Bank) {
+        (self.models, self.regulators) = (other.models, other.regulators);
+    }
+
+    /// Advances by `step` seconds, at whose end the references are these. Returns the goal, with
+    /// each sample.
+    pub fn advance(
+        &mut self,
+        references: [f64; 2],
+        force_limit: &Vector3<f64>,
+        tuning: &AutomaticScaleParameters,
+        step: f64,
+    ) -> Option<Goal> {
+        for (sum, reference) in self.sum.iter_mut().zip(references) {
+            *sum += reference.clamp(-LARGEST_FORCE, LARGEST_FORCE) * step;
+        }
+        self.since += step;
+        if self.since < SAMPLE - INSTANT {
+            return None;
+        }
+        let references = self.sum.map(|sum| at_rest_if_tiny(sum / self.since));
+        let desired = self.sample(references, force_limit, tuning);
+        (self.sum, self.since) = ([0.0; 2], 0.0);
+        let usual = ACTIVE * (self.power[0] + self.power[1]);
+        let activity = min((desired[0] * desired[0] + desired[1] * desired[1]) / (usual + ACTIVE * REST), 1.0);
+        Some(Goal { scale: self.fitting(tuning.error), activity })
+    }
+
+    /// Moves all shadows under these references since the last sample. Returns the references below
+    /// [`CUE_FREQUENCY`].
+    fn sample(
+        &mut self,
+        references: [f64; 2],
+        force_limit: &Vector3<f64>,
+        tuning: &AutomaticScaleParameters,
+    ) -> [f64; 2] {
+        let step = self.since;
+        self.memory = min(self.memory + step, tuning.memory);
+        let share = 1.0 - libm::exp(-step / self.memory);
+        let filter = Coefficients::new(step);
+        [0, 1].map(|axis: usize| {
+            let reference = references[axis];
+            let desired = self.desired[axis].advance(reference, &filter);
+            self.power[axis] = at_rest_if_tiny(self.power[axis] + share * (desired * desired - self.power[axis]));
+            let (model, regulator) = (&self.models[axis], &self.regulators[axis]);
+            let mut scale = 1.0;
+            for shadows in &mut self.shadows {
+                let Shadow { platform, felt, error } = &mut shadows[axis];
+                let cued = soft_limit(scale * reference, force_limit[axis]);
+                let felt = felt.advance(platform.advance(model, regulator, cued, step), &filter);
+                let inverted = if felt * desired < 0.0 { INVERSION_WEIGHT * felt * felt } else { 0.0 };
+                let missed = felt - scale * desired;
+                *error = at_rest_if_tiny(*error + share * (missed * missed + inverted - *error));
+                scale *= RATIO;
+            }
+            desired
+        })
+    }
+
+    /// The largest scale at which the worse axis has at most this shape error, between the shadows'
+    /// scales. The least of theirs if there is none.
+    fn fitting(&self, largest_error: f64) -> f64 {
+        let allowed = largest_error * largest_error;
+        let (mut scale, mut before) = (1.0, None);
+        for shadows in &self.shadows {
+            let error = self.relative_error(shadows, scale);
+            if error <= allowed {
+                let Some(larger) = before else { return scale };
+                // Linear in the logarithms, between this scale and the one before.
+                let part = libm::log(allowed / error) / libm::log(larger / error);
+                return scale * libm::pow(RATIO, -part);
+            }
+            before = Some(error);
+            scale *= RATIO;
+        }
+        scale / RATIO
+    }
+
+    /// The square of the worse axis's shape error at a scale.
+    fn relative_error(&self, shadows: &[Shadow; 2], scale: f64) -> f64 {
+        let of = |axis: usize| shadows[axis].error / (scale * scale * (self.power[axis] + REST));
+        max(of(0), of(1))
+    }
+}
+
+/// A second-order Butterworth low-pass at [`CUE_FREQUENCY`], by the bilinear transform.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct LowPass {
+    states: [f64; 2],
+}
+
+/// Coefficients of [`LowPass`] for one step.
+struct Coefficients {
+    gain: f64,
+    first: f64,
+    second: f64,
+}
+
+impl Coefficients {
+    fn new(step: f64) -> Self {
+        let k = libm::tan(PI * CUE_FREQUENCY * step);
+        let damping = 2.0 * k * FRAC_1_SQRT_2;
+        let gain = 1.0 / (1.0 + damping + k * k);
+        Coefficients { gain: gain * k * k, first: 2.0 * gain * (k * k - 1.0), second: gain * (1.0 - damping + k * k) }
+    }
+}
+
+impl LowPass {
+    fn advance(&mut self, value: f64, coefficients: &Coefficients) -> f64 {
+        let Coefficients { gain, first, second } = *coefficients;
+        let [one, two] = self.states;
+        let input = gain * value;
+        let output = input + one;
+        self.states = [two + 2.0 * input - first * output, input - second * output].map(at_rest_if_tiny);
+        output
+    }
+}

@@ -1,0 +1,229 @@
+//! The automatic scale, through inputs and outputs.
+
+use std::f64::consts::TAU;
+
+use moris_washout::interface::AutomaticScale;
+use moris_washout::{Input, Output, Parameters, Preview, Washout, presets};
+
+use crate::common::accelerating;
+
+const STEP: f64 = 0.01;
+
+/// A set's parameters, with the automatic scale on.
+fn automatic(set: &[(&str, f64)]) -> Parameters {
+    presets::parameters(&[set, &[("scale.automatic", 2.0)]].concat())
+}
+
+/// A force that alternates in sway and a little in surge \[m/s2\].
+fn slalom(size: f64) -> impl Fn(f64) -> [f64; 2] {
+    move |t| {
+        let faded = size * (t / 2.0).min(1.0);
+        [0.3 * faded * (TAU * 0.13 * t).sin(), faded * (TAU * 0.25 * t).sin()]
+    }
+}
+
+/// The outputs of a ride, with the forces that the vehicle has.
+fn ridden(parameters: &Parameters, duration: f64, force: impl Fn(f64) -> [f64; 2]) -> Vec<([f64; 2], Output)> {
+    let mut washout = Washout::new(parameters).unwrap();
+    (1..=(duration / STEP) as usize)
+        .map(|k| {
+            let force = force(k as f64 * STEP);
+            washout.step(&accelerating(force[0], force[1], 0.0), STEP);
+            (force, washout.output())
+        })
+        .collect()
+}
+
+/// The share of the time in which the felt sway has the wrong sign.
+fn inverted(ride: &[([f64; 2], Output)]) -> f64 {
+    let wrong = |(force, output): &&([f64; 2], Output)| {
+        let felt = output.felt_specific_force.y;
+        felt.abs() > 0.17 && felt * force[1] < 0.0
+    };
+    ride.iter().filter(wrong).count() as f64 / ride.len() as f64
+}
+
+#[test]
+fn what_is_too_hard_is_felt_smaller_with_the_right_sign() {
+    for set in [presets::PREDICTIVE, presets::OPTIMAL, presets::ROBUST] {
+        let off = ridden(&presets::parameters(set), 40.0, slalom(4.5));
+        let on = ridden(&automatic(set), 40.0, slalom(4.5));
+        let (off, late) = (inverted(&off[1000..]), &on[1000..]);
+        let factor = late.last().unwrap().1.scale_factor;
+        assert!(off > 0.03 && inverted(late) < 0.5 * off, "{set:?}: {off}, {}", inverted(late));
+        assert!((0.1..0.5).contains(&factor), "{set:?}: {factor}");
+    }
+}
+
+#[test]
+fn a_ride_that_fits_keeps_its_size() {
+    let ride = ridden(&automatic(presets::PREDICTIVE), 40.0, slalom(0.5));
+    assert!(ride[..300].iter().all(|(_, output)| output.scale_factor >= 0.54));
+    assert!(ride.last().unwrap().1.scale_factor > 0.97);
+}
+
+#[test]
+fn the_factor_neither_jumps_nor_leaves_its_range() {
+    for size in [0.3, 3.0, 20.0, 1e4] {
+        let ride = ridden(&automatic(presets::PREDICTIVE), 30.0, slalom(size));
+        for pair in ride.windows(2) {
+            let [before, after] = [0, 1].map(|k: usize| pair[k].1.scale_factor);
+            assert!(
+                (0.029..=1.0).contains(&after) && (after / before).ln().abs() <= 1.01 * STEP,
+                "{size}: {before} {after}"
+            );
+        }
+    }
+}
+
+#[test]
+fn in_a_pause_the_factor_waits() {
+    let pause = |t: f64| if t < 20.0 { slalom(4.5)(t) } else { [0.0; 2] };
+    let ride = ridden(&automatic(presets::OPTIMAL), 40.0, pause);
+    let at = |t: f64| ride[(t / STEP) as usize - 1].1.scale_factor;
+    assert!(at(40.0) < 1.25 * at(21.0), "{} after {}", at(40.0), at(21.0));
+}
+
+#[test]
+fn after_a_spike_the_scale_comes_back() {
+    let spiked = |t: f64| if (10.0..10.05).contains(&t) { [1e4, -1e4] } else { slalom(0.5)(t) };
+    let ride = ridden(&automatic(presets::PREDICTIVE), 90.0, spiked);
+    assert!(ride.last().unwrap().1.scale_factor > 0.9);
+}
+
+#[test]
+fn heave_keeps_its_size() {
+    let bump = |washout: &mut Washout| {
+        let mut highest = 0.0_f64;
+        for k in 0..300 {
+            washout.step(&accelerating(0.0, 0.0, 2.0 * (0.05 * f64::from(k)).sin()), STEP);
+            highest = highest.max(washout.output().position.z);
+        }
+        highest
+    };
+    let [on, off] = [automatic(presets::OPTIMAL), presets::parameters(presets::OPTIMAL)]
+        .map(|parameters| bump(&mut Washout::new(&parameters).unwrap()));
+    assert!(off > 0.02 && (on - off).abs() < 1e-12, "{on} m and {off} m");
+}
+
+#[test]
+fn rates_follow_the_force() {
+    let turned = |parameters: &Parameters| {
+        let mut washout = Washout::new(parameters).unwrap();
+        let mut yaw = 0.0_f64;
+        for k in 0..100 {
+            let mut input = Input::default();
+            input.angular_velocity.z = 0.2 * (f64::from(k) * STEP * TAU).sin();
+            washout.step(&input, STEP);
+            yaw = yaw.max(washout.output().orientation.yaw.abs());
+        }
+        yaw
+    };
+    let ratio = turned(&automatic(presets::OPTIMAL)) / turned(&presets::parameters(presets::OPTIMAL));
+    assert!((ratio - 0.55).abs() < 0.01, "{ratio}");
+}
+
+#[test]
+fn a_preview_is_scaled_like_the_cue() {
+    let tilted = |parameters: &Parameters| {
+        let mut washout = Washout::new(parameters).unwrap();
+        for _ in 0..50 {
+            washout.preview(&Preview { count: 10, sway: [0.05; 20], ..Preview::default() });
+            washout.step(&Input::default(), STEP);
+        }
+        washout.output().tilt_roll
+    };
+    let ratio = tilted(&automatic(presets::PREDICTIVE)) / tilted(&presets::parameters(presets::PREDICTIVE));
+    assert!((0.45..0.65).contains(&ratio), "{ratio}");
+}
+
+/// The largest change of the felt force per second in the second after each of two switches, if
+/// they switch at all.
+fn felt_after_switches(switches: bool) -> (f64, Output) {
+    let (on, off) = (automatic(presets::OPTIMAL), presets::parameters(presets::OPTIMAL));
+    let mut washout = Washout::new(&off).unwrap();
+    let mut before = washout.output();
+    let mut largest = 0.0_f64;
+    for k in 0..8000 {
+        if switches && k == 1000 {
+            washout.retune(&on).unwrap();
+        }
+        if switches && k == 4000 {
+            washout.retune(&off).unwrap();
+        }
+        let [surge, sway] = slalom(2.0)(f64::from(k) * STEP);
+        washout.step(&accelerating(surge, sway, 0.0), STEP);
+        let after = washout.output();
+        if (1000..1100).contains(&k) || (4000..4100).contains(&k) {
+            largest = largest.max((after.felt_specific_force - before.felt_specific_force).xy().amax() / STEP);
+        }
+        before = after;
+    }
+    (largest, before)
+}
+
+#[test]
+fn switched_in_flight_it_glides_and_off_is_off() {
+    let ((switched, end), (undisturbed, _)) = (felt_after_switches(true), felt_after_switches(false));
+    assert!(switched < undisturbed + 1.0, "{switched} m/s3, {undisturbed} without a switch");
+    assert_eq!(end.scale_factor, 1.0);
+}
+
+#[test]
+fn switched_on_or_off_at_rest_is_as_made_so() {
+    let (on, off) = (automatic(presets::PREDICTIVE), presets::parameters(presets::PREDICTIVE));
+    for (from, to) in [(on, off), (off, on)] {
+        let mut retuned = Washout::new(&from).unwrap();
+        retuned.retune(&to).unwrap();
+        let mut made = Washout::new(&to).unwrap();
+        for k in 0..1000 {
+            let [surge, sway] = slalom(3.0)(f64::from(k) * STEP);
+            for washout in [&mut retuned, &mut made] {
+                washout.step(&accelerating(surge, sway, 0.0), STEP);
+            }
+            assert_eq!(retuned.output(), made.output());
+        }
+    }
+}
+
+#[test]
+fn a_copy_of_its_state_continues_to_the_bit() {
+    let mut washout = Washout::new(&automatic(presets::ROBUST)).unwrap();
+    let input = |k: i32| {
+        let [surge, sway] = slalom(4.0)(f64::from(k) * STEP);
+        accelerating(surge, sway, 0.0)
+    };
+    for k in 0..777 {
+        washout.step(&input(k), STEP);
+    }
+    let bytes = postcard::to_allocvec(&washout).unwrap();
+    let mut copy: Washout = postcard::from_bytes(&bytes).unwrap();
+    assert_eq!(copy.parameters().automatic_scale.automatic, AutomaticScale::On);
+    for k in 777..2000 {
+        washout.step(&input(k), STEP);
+        copy.step(&input(k), STEP);
+        assert_eq!(washout.output(), copy.output());
+    }
+}
+
+#[test]
+fn disengaged_the_factor_stays() {
+    let mut washout = Washout::new(&automatic(presets::OPTIMAL)).unwrap();
+    let step = |washout: &mut Washout, k: i32, engaged: bool| {
+        let [surge, sway] = slalom(4.5)(f64::from(k) * STEP);
+        washout.step(&Input { engaged, ..accelerating(surge, sway, 0.0) }, STEP);
+        washout.output().scale_factor
+    };
+    let mut factor = 0.0;
+    for k in 0..2000 {
+        factor = step(&mut washout, k, true);
+    }
+    for k in 2000..3200 {
+        step(&mut washout, k, false);
+    }
+    let off = step(&mut washout, 3200, false);
+    for k in 3201..6000 {
+        assert_eq!(step(&mut washout, k, false), off);
+    }
+    assert!(factor < 0.5 && off < 0.6);
+}
