@@ -190,7 +190,7 @@ enumeration! {
 }
 
 enumeration! {
-    /// Choice of a factor on surge, sway and rates, as large as the rig can give them the right way round.
+    /// Choice of a factor on surge, sway and rates, as large as the rig can give.
     pub enum AutomaticScale {
         /// No factor.
         "off" Off,
