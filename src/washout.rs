@@ -424,7 +424,7 @@ impl Washout {
     pub fn retune(&mut self, parameters: &Parameters) -> Result<(), ParameterError> {
         check_change(&self.parameters, parameters)?;
         let nothing_cued = self.last.cue.force.xy() == Vector2::zeros() && self.last.cue.rates == Vector3::zeros();
-        let mut scale = self.scale.clone();
+        let mut scale = self.scale;
         scale.retune(parameters, nothing_cued)?;
         self.strategy.retune(parameters)?;
         self.scale = scale;

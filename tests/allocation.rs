@@ -1,6 +1,6 @@
 //! A step allocates no memory, whatever happens in it.
 
-use moris_washout::interface::{RollPitchYaw, StrategyKind};
+use moris_washout::interface::{AutomaticScale, RollPitchYaw, StrategyKind};
 use moris_washout::{Input, Parameters, Washout};
 use nalgebra::Vector3;
 
@@ -33,6 +33,7 @@ fn a_step_allocates_nothing() {
         for pace in [0.0, 5.0] {
             let mut parameters = with_strategy(strategy);
             parameters.soft_limit.pace = pace;
+            parameters.automatic_scale.automatic = if pace > 0.0 { AutomaticScale::Off } else { AutomaticScale::On };
             assert_eq!(allocations_of_a_ride(&parameters), 0, "{strategy:?} at a pace of {pace}");
         }
     }
@@ -72,6 +73,7 @@ fn retuning_with_the_default_rig_allocates_nothing() {
         parameters.adaptive.omega = 1.0;
         parameters.optimal.weight_position = 0.3;
         parameters.predictive.weight_position = 1e-3;
+        parameters.automatic_scale.automatic = AutomaticScale::On;
         assert_eq!(allocations(|| washout.retune(&parameters).unwrap()), 0, "{strategy:?}");
     }
 }

@@ -10,7 +10,7 @@ use super::platform::{Platform, WEIGHTS};
 use crate::cueing::conditioning::soft_limit;
 use crate::cueing::strategy::coordinated::models;
 use crate::cueing::strategy::optimal::weighed;
-use crate::cueing::strategy::regulator::{AxisModel, Regulator};
+use crate::cueing::strategy::regulator::{AxisModel, Gains, Regulator};
 use crate::cueing::strategy::{Unsolvable, at_rest_if_tiny};
 use crate::interface::{AutomaticScaleParameters, Parameters};
 use crate::motion::min_max::{max, min};
@@ -41,7 +41,7 @@ const FIRST_MEMORY: f64 = 1.65;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bank {
     models: [AxisModel; 2],
-    regulators: [Regulator; 2],
+    gains: [Gains; 2],
     shadows: [[Shadow; 2]; SHADOWS],
     /// The references below [`CUE_FREQUENCY`].
     desired: [LowPass; 2],
@@ -79,13 +79,14 @@ impl Bank {
     /// There is no regulator for the platform's limits.
     pub fn new(parameters: &Parameters) -> Result<Self, Unsolvable> {
         let models = models(parameters);
-        let regulator = |axis: usize| {
+        let gains = |axis: usize| {
             Regulator::new(&weighed(&models[axis]), &WEIGHTS)
+                .map(|regulator| regulator.gains)
                 .ok_or(Unsolvable { strategy: "automaticScale", weight_position: WEIGHTS.position })
         };
         Ok(Bank {
             models,
-            regulators: [regulator(0)?, regulator(1)?],
+            gains: [gains(0)?, gains(1)?],
             shadows: [[Shadow::default(); 2]; SHADOWS],
             desired: [LowPass::default(); 2],
             power: [0.0; 2],
@@ -97,7 +98,7 @@ impl Bank {
 
     /// Takes the platform's limits of another bank.
     pub fn retune(&mut self, other: &Bank) {
-        (self.models, self.regulators) = (other.models, other.regulators);
+        (self.models, self.gains) = (other.models, other.gains);
     }
 
     /// Advances by `step` seconds, at whose end the references are these. Returns the goal, with
@@ -140,12 +141,12 @@ impl Bank {
             let reference = references[axis];
             let desired = self.desired[axis].advance(reference, &filter);
             self.power[axis] = at_rest_if_tiny(self.power[axis] + share * (desired * desired - self.power[axis]));
-            let (model, regulator) = (&self.models[axis], &self.regulators[axis]);
+            let (model, gains) = (&self.models[axis], &self.gains[axis]);
             let mut scale = 1.0;
             for shadows in &mut self.shadows {
                 let Shadow { platform, felt, error } = &mut shadows[axis];
                 let cued = soft_limit(scale * reference, force_limit[axis]);
-                let felt = felt.advance(platform.advance(model, regulator, cued, step), &filter);
+                let felt = felt.advance(platform.advance(model, gains, cued, step), &filter);
                 let inverted = if felt * desired < 0.0 { INVERSION_WEIGHT * felt * felt } else { 0.0 };
                 let missed = felt - scale * desired;
                 *error = at_rest_if_tiny(*error + share * (missed * missed + inverted - *error));

@@ -21,13 +21,13 @@ use crate::interface::{AutomaticScale, Parameters};
 use crate::motion::min_max::{max, min};
 
 /// The factor, and what it is chosen by.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FittingScale {
     factor: f64,
     /// Its relative rate of change \[1/s\], until the bank's next sample.
     rate: f64,
     /// None while the scale is not automatic.
-    bank: Option<Box<Bank>>,
+    bank: Option<Bank>,
 }
 
 /// The factor before anything is known of the ride.
@@ -116,9 +116,9 @@ impl FittingScale {
 }
 
 /// The bank that the parameters ask for, at rest.
-fn bank(parameters: &Parameters) -> Result<Option<Box<Bank>>, Unsolvable> {
+fn bank(parameters: &Parameters) -> Result<Option<Bank>, Unsolvable> {
     match parameters.automatic_scale.automatic {
         AutomaticScale::Off => Ok(None),
-        AutomaticScale::On => Bank::new(parameters).map(|bank| Some(Box::new(bank))),
+        AutomaticScale::On => Bank::new(parameters).map(Some),
     }
 }

@@ -38,7 +38,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if MODULE.is_empty() {
         bail!("moris was built without the ride; build it again after `rustup target add wasm32-unknown-unknown`");
     }
-    let setup = options.setup.load()?;
+    let setup = options.setup.load_to_drive()?;
     let page = html(&Page {
         subtitle: format!("{}, parameters: {}", setup.rig_name, setup.parameters_name),
         module: MODULE.to_vec(),

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use moris_setup::{Error, Setup};
-use moris_washout::interface::StrategyKind;
+use moris_interface::Group;
+use moris_setup::{Error, Setup, load_set};
+use moris_washout::Parameters;
+use moris_washout::interface::{AutomaticScale, StrategyKind};
 
 /// Options for rig and parameters.
 #[derive(Clone, Debug, Default, clap::Args)]
@@ -32,7 +34,26 @@ pub(crate) fn strategies() -> impl TypedValueParser<Value = StrategyKind> {
         .map(move |name| named(name).unwrap_or(StrategyKind::Classical))
 }
 
+/// The parameter that is on in what drives at once.
+const AUTOMATIC_SCALE: &str = "scale.automatic";
+
 impl SetupOptions {
+    /// As [`SetupOptions::load`], with the automatic scale on unless a file says otherwise: nobody
+    /// has chosen a scale for the drive that is to come.
+    ///
+    /// # Errors
+    /// As [`Setup::load`].
+    pub fn load_to_drive(&self) -> Result<Setup, Error> {
+        let mut setup = self.load()?;
+        for set in &self.parameters {
+            if load_set(set, Parameters::ROWS)?.iter().any(|(name, _)| name == AUTOMATIC_SCALE) {
+                return Ok(setup);
+            }
+        }
+        setup.parameters.automatic_scale.automatic = AutomaticScale::On;
+        Ok(setup)
+    }
+
     /// The combined and validated parameters.
     ///
     /// # Errors

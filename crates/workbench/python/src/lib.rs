@@ -7,6 +7,7 @@
 
 mod arrays;
 mod error;
+mod fit;
 mod fmu;
 mod judged;
 mod output;
@@ -34,6 +35,8 @@ mod _moris {
     #[pymodule_export]
     const FADE_IN: f64 = moris::recording::FADE_IN;
 
+    #[pymodule_export]
+    use crate::fit::fit;
     #[pymodule_export]
     use crate::fmu::pack_fmu;
     #[pymodule_export]

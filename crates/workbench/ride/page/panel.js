@@ -1,7 +1,7 @@
 // The parameters that matter most, and the friction of the road.
 
 const PROMINENT = [
-  "strategy", "scale.specificForce.x", "scale.specificForce.y", "scale.angularVelocity.x", "tilt.rateLimit", "tilt.angleLimit",
+  "strategy", "scale.automatic", "scale.specificForce.x", "scale.specificForce.y", "scale.angularVelocity.x", "tilt.rateLimit", "tilt.angleLimit",
 ];
 const FRICTION = {
   name: "friction of the road", text: "Friction of the tyres on the road: 1.2 dry, 0.5 wet, 0.2 snow", unit: "", kind: "real", items: [],

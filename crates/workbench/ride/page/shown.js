@@ -7,6 +7,7 @@ const LAMPS = [
   ["stroke", "Stroke", "A leg is within 5 % of its stroke from an end."],
   ["leg_speed", "Leg speed", "A leg has more than 90 % of its largest speed."],
   ["leg_acceleration", "Leg accel.", "A leg has more than 90 % of its largest acceleration."],
+  ["scale", "Smaller scale", "The automatic scale makes force and rates smaller, so that they are felt the right way round."],
 ];
 /** Time for which a lamp stays lit, so that it can be seen [s]. */
 const GLOW = 0.4;

@@ -7,11 +7,14 @@ use moris_washout::Washout;
 const NEAR_END: f64 = 0.05;
 const NEAR_LIMIT: f64 = 0.9;
 
+/// Automatic scale below which its lamp lights.
+const SMALL: f64 = 0.9;
+
 /// Names of the lamps.
-pub const NAMES: [&str; 6] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration"];
+pub const NAMES: [&str; 7] = ["tilt", "soft", "safety", "stroke", "leg_speed", "leg_acceleration", "scale"];
 
 /// The lamps that are lit now.
-pub fn lit(washout: &Washout) -> [bool; 6] {
+pub fn lit(washout: &Washout) -> [bool; NAMES.len()] {
     let (now, rates) = (washout.output(), washout.output_derivative());
     let rig = &washout.parameters().rig;
     let any = |values: &[f64; 6], limit: f64| values.iter().any(|value| value.abs() > NEAR_LIMIT * limit);
@@ -22,5 +25,6 @@ pub fn lit(washout: &Washout) -> [bool; 6] {
         now.stroke_margin < NEAR_END * (rig.max_length - rig.min_length),
         any(&now.leg_velocity, rig.velocity_limit),
         any(&rates.leg_velocity, rig.acceleration_limit),
+        now.scale_factor < SMALL,
     ]
 }

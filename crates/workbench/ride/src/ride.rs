@@ -67,7 +67,7 @@ pub struct Ride {
     /// Steps at the beginning of the lap, and whether parameters were changed since.
     lap_start: u64,
     is_mixed: bool,
-    lamps: [bool; 6],
+    lamps: [bool; lamps::NAMES.len()],
 }
 
 impl Ride {

@@ -251,7 +251,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     if options.empty_loop {
         return empty_loop(options, out);
     }
-    let setup = options.setup.load()?;
+    let setup = options.setup.load_to_drive()?;
     let from = options.from.as_deref().unwrap_or_default();
     let input = telemetry::Input::open(from, options.format.as_deref(), options.map.as_deref(), options.listen)?;
     // The motorcycle's signs are known, and its falls are like nothing that the test knows.

@@ -5,6 +5,7 @@ are in SI units. Variables have the names that they have in the FMU.
 """
 
 from ._errors import BoundError, BuildError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
+from ._fit import AxisShape, Candidate, Fit, fit
 from ._fmu import build_fmu
 from ._measures import Measure, Measures
 from ._judged import measure
@@ -21,10 +22,13 @@ from ._variables import Variable, variables
 
 __all__ = [
     "AxisReach",
+    "AxisShape",
     "Bound",
     "BoundError",
     "BuildError",
+    "Candidate",
     "ClusterError",
+    "Fit",
     "FrequencyResponse",
     "MEASURES",
     "Measure",
@@ -47,6 +51,7 @@ __all__ = [
     "best",
     "bound",
     "build_fmu",
+    "fit",
     "frequency_response",
     "measure",
     "parameters",

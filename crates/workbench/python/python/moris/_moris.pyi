@@ -19,6 +19,7 @@ __all__ = [
     "VERSION",
     "Washout",
     "bound",
+    "fit",
     "frequency_response",
     "pack_fmu",
     "parameter_file",
@@ -166,6 +167,9 @@ class Tuning:
     ) -> tuple[dict[str, Value], str, str, bool, bool, list[tuple[str, float, float | None, float | None]]]: ...
 
 def bound(recording: Recording, rig: Rig | None, parameters: ParameterSet | None) -> list[tuple[float, float, Floats] | None]: ...
+def fit(
+    recording: Recording, rig: Rig | None, parameters: ParameterSet | None, strategy: Strategy | None, preview: float, error: float, inverted: float
+) -> tuple[Any, bool, list[Any], dict[str, Value]]: ...
 def frequency_response(
     rig: Rig | None, parameters: ParameterSet | None, strategy: Strategy | None, force: float, rate: float, gravity_turns: bool
 ) -> tuple[list[str], Floats, tuple[Any, Floats, Floats, Any], tuple[Any, Floats, Floats, Any]]: ...

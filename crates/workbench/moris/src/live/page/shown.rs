@@ -48,6 +48,7 @@ pub const NAMES: [&str; 32] = [
     "stroke",
     "leg_speed",
     "leg_acceleration",
+    "scale",
 ];
 
 /// A moment of the session.
@@ -126,6 +127,7 @@ mod tests {
             ("platform_z", commands.pose.position.z),
             ("leg6", commands.length[5]),
             ("leg_acceleration", 0.0),
+            ("scale", 0.0),
         ] {
             assert!((of(name) - expected).abs() <= 5e-6, "{name}");
         }
