@@ -12,14 +12,15 @@ use crate::setup::{self, Given};
 use crate::simulation::host;
 use crate::washout::parameter_dict;
 
-/// Scale, factor on break frequencies, factor on heave; shape error; then shape, inverted time and
-/// size of surge and of sway, where they are moved along.
+/// A candidate. Factors on scale, break frequencies and heave; the shape error; shape, inverted
+/// time and size of surge and of sway. An axis without motion has none.
 type Fitted = ([f64; 3], Option<f64>, [Option<[f64; 3]>; 2]);
 
-/// Fits a recording: the best candidate, whether it reaches the aims, the curve, and the parameters.
+/// Fits a recording. Returns the best candidate, true if it reaches the aims, the curve, and the
+/// parameters.
 ///
 /// # Errors
-/// `ParameterError`: the parameters cannot be used; `ValueError`: an aim or the preview is out of
+/// `ParameterError`: the parameters cannot be used. `ValueError`: an aim or the preview is out of
 /// range.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
