@@ -77,7 +77,7 @@ impl PySimulation {
         let recording = Arc::clone(&recording.inner);
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
-            Outcome::measured(simulated, &setup)
+            Outcome::measured(simulated, &setup)?.advised(&recording, preview)
         });
         let mut outcome = outcome.map_err(|reason| error::plain(py, "ParameterError", &reason))?;
         if bound {

@@ -1,4 +1,12 @@
-//! What another scale would give, for the findings.
+//! Advice for the findings: another scale, with and without a preview.
+
+use moris_batch::Manoeuvre;
+use moris_measures::shape::Shape;
+use moris_washout::interface::{AutomaticScale, StrategyKind};
+use moris_washout::{ParameterError, Parameters};
+
+use crate::findings::INVERTED;
+use crate::fit::{Aims, Candidate, Search};
 
 /// A scale, and the inverted time with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,6 +15,13 @@ pub struct Alternative {
     pub factor: f64,
     /// Largest fraction of inverted time of surge and sway.
     pub inverted: f64,
+}
+
+impl From<Candidate> for Alternative {
+    fn from(Candidate { factors, shape }: Candidate) -> Self {
+        let inverted = shape.most_inverted().map_or(0.0, |(_, inverted)| inverted);
+        Alternative { factor: factors.scale, inverted }
+    }
 }
 
 /// Other scales at which the cues have the right sign and proportion.
@@ -18,7 +33,38 @@ pub struct Advice {
     pub previewed: Option<(f64, Alternative)>,
 }
 
+/// Preview that is tried \[s\].
+const PREVIEW: f64 = 1.0;
+
 impl Advice {
+    /// Searches for a scale at which a manoeuvre is felt the right way round, if it is not at its
+    /// own; the predictive strategy also with a preview. None where the scale is automatic, and for
+    /// the classical strategy, which no scale alone sets right.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn of(
+        manoeuvre: &Manoeuvre,
+        parameters: &Parameters,
+        preview: f64,
+        shape: &Shape,
+    ) -> Result<Option<Self>, ParameterError> {
+        let is_right = shape.most_inverted().is_none_or(|(_, inverted)| inverted < INVERTED);
+        let strategy = parameters.structure.strategy;
+        let is_automatic = parameters.automatic_scale.automatic == AutomaticScale::On;
+        if is_right || is_automatic || strategy == StrategyKind::Classical {
+            return Ok(None);
+        }
+        let found = |preview: f64| -> Result<Option<Alternative>, ParameterError> {
+            let found = Search::new(manoeuvre, preview, Aims::default()).scale(parameters)?;
+            // The quick simulation of the search may find the scale itself just right.
+            Ok(found.map(Alternative::from).filter(|found| found.factor < 1.0))
+        };
+        let previews = strategy == StrategyKind::Predictive && preview < PREVIEW;
+        let previewed = if previews { found(PREVIEW)?.map(|found| (PREVIEW, found)) } else { None };
+        Ok(Some(Advice { scaled: found(preview)?, previewed }))
+    }
+
     /// Clauses of a sentence on inverted time.
     pub(crate) fn clauses(&self) -> String {
         let scaled = self
@@ -28,5 +74,57 @@ impl Advice {
             format!("; with a preview of {seconds} s at {factor:.2}: {:.0} %", 100.0 * inverted)
         });
         [scaled, previewed].into_iter().flatten().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use moris_measures::shape::{AxisShape, Shape};
+    use moris_washout::{Input, presets};
+
+    use super::*;
+
+    /// 30 s of a slalom of this force \[m/s2\].
+    fn slalom(force: f64) -> Manoeuvre {
+        let input = |k: usize| {
+            let time = k as f64 * 0.01;
+            let mut input = Input::default();
+            input.specific_force.y = force * (time / 2.0).min(1.0) * (TAU * 0.25 * time).sin();
+            input
+        };
+        Manoeuvre::new(0.01, (0..3000).map(input).collect())
+    }
+
+    /// A shape with this inverted time in sway.
+    fn inverted(inverted: f64) -> Shape {
+        let axis = AxisShape { shape: 0.4, size: 0.7, inverted };
+        Shape { axes: [None, Some(axis)], inverted: Some(inverted), error: Some(0.8) }
+    }
+
+    #[test]
+    fn a_hard_ride_gets_a_scale_and_a_larger_one_with_a_preview() {
+        let parameters = presets::parameters(presets::PREDICTIVE);
+        let advice = Advice::of(&slalom(4.5), &parameters, 0.0, &inverted(0.1)).unwrap().unwrap();
+        let scaled = advice.scaled.unwrap();
+        let (seconds, previewed) = advice.previewed.unwrap();
+        assert!(seconds == 1.0 && scaled.factor < previewed.factor, "{scaled:?}, {previewed:?}");
+        assert!(scaled.inverted <= 0.02 && previewed.inverted <= 0.02);
+        let clauses = advice.clauses();
+        assert!(
+            clauses.starts_with("; at a scale of 0.") && clauses.contains("; with a preview of 1 s at 0."),
+            "{clauses}"
+        );
+    }
+
+    #[test]
+    fn who_needs_none_gets_none() {
+        let predictive = presets::parameters(presets::PREDICTIVE);
+        let automatic = presets::parameters(&[presets::PREDICTIVE, &[("scale.automatic", 2.0)]].concat());
+        let of = |parameters, shape| Advice::of(&slalom(0.3), parameters, 0.0, &shape).unwrap();
+        assert_eq!(of(&predictive, inverted(0.01)), None);
+        assert_eq!(of(&automatic, inverted(0.1)), None);
+        assert_eq!(of(&presets::parameters(presets::PAPER), inverted(0.1)), None);
     }
 }

@@ -20,7 +20,7 @@ pub struct Evaluated<'a> {
     /// The least RMS error of the specific force that a controller could reach, by axis \[m/s2\];
     /// none where it is not known.
     pub bounds: Axes<Option<f64>>,
-    /// What another scale would give; none where it was not computed.
+    /// Another scale; none where it was not computed.
     pub advice: Option<Advice>,
 }
 

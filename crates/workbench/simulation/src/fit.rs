@@ -164,6 +164,16 @@ impl<'a> Search<'a> {
         Ok(Fit { fits: reaches(&best), best, curve })
     }
 
+    /// The largest scale that reaches the aims with these break frequencies. None where none does.
+    /// It is found by the quick simulation of the search.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn scale(&self, parameters: &Parameters) -> Result<Option<Candidate>, ParameterError> {
+        let curve = self.curve(parameters, 1.0)?;
+        Ok(curve.into_iter().find(|candidate| self.aims.distance(&candidate.shape) <= 1.0))
+    }
+
     /// The shape with a factor on the scale, by the quick simulation of the search.
     ///
     /// # Errors

@@ -111,7 +111,7 @@ pub struct Outcome {
     pub measures: Measures,
     /// The bound, axis by axis; none without a desired signal or if not requested.
     pub bounds: Axes<Option<AxisBound>>,
-    /// What another scale would give; none where the shape needs none, or it was not computed.
+    /// Another scale; none where the shape needs none, or it was not computed.
     pub advice: Option<Advice>,
 }
 
@@ -148,6 +148,15 @@ impl Outcome {
         let parameters = recording.parameters(&setup.parameters);
         let simulation = motion.simulation(recording.inputs(), recording.step(), &parameters, notes)?;
         Outcome::measured(simulation, &Setup { parameters_name: name.to_owned(), ..setup.clone() })
+    }
+
+    /// With the scale that the recording needs, where it is felt the wrong way round.
+    ///
+    /// # Errors
+    /// The parameters cannot be used.
+    pub fn advised(mut self, recording: &Recording, preview: f64) -> Result<Self> {
+        self.advice = Advice::of(&recording.manoeuvre, &self.setup.parameters, preview, &self.measures.shape)?;
+        Ok(self)
     }
 
     /// Measures a simulation with this setup's rig.
@@ -252,7 +261,8 @@ impl Case {
 
     fn outcome(&self, recording: &Recording, progress: impl FnMut()) -> Result<Outcome> {
         let Some(file) = &self.felt else {
-            return Outcome::previewed(recording, &self.setup, self.preview, progress);
+            return Outcome::previewed(recording, &self.setup, self.preview, progress)?
+                .advised(recording, self.preview);
         };
         let table = FeltTable::read(file)?;
         let motion = table.motion(recording).map_err(anyhow::Error::msg);
