@@ -102,10 +102,9 @@ fn a_ride_below_the_base_is_that_on_the_same_rig_from_the_floor() {
     let mut travel: f64 = 0.0;
     for step in 0..20_000 {
         let time = 0.001 * f64::from(step);
-        let mut input = Input::default();
-        input.specific_force =
-            Vector3::new(3.0 * (0.9 * time).sin(), 2.0 * (1.7 * time).sin(), 9.80665 + (2.3 * time).sin());
-        input.angular_velocity = Vector3::new(0.2 * (1.1 * time).sin(), 0.2 * (0.7 * time).cos(), 0.1);
+        let force = Vector3::new(3.0 * (0.9 * time).sin(), 2.0 * (1.7 * time).sin(), 9.80665 + (2.3 * time).sin());
+        let rates = Vector3::new(0.2 * (1.1 * time).sin(), 0.2 * (0.7 * time).cos(), 0.1);
+        let input = Input { specific_force: force, angular_velocity: rates, ..Input::default() };
         below.step(&input, 0.001);
         above.step(&input, 0.001);
         let [under, over] = [below.output(), above.output()];
