@@ -4,7 +4,7 @@ use moris_interface::{Group, ParameterError, check_fixed, refuse, slot_count};
 
 use crate::interface::{Parameters, Rig};
 use crate::platform::reach::{Axis, single_axis_range};
-use crate::platform::{Geometry, Pose, check_torso, leg_lengths, numbering, stroke_reserve, survey};
+use crate::platform::{Geometry, Pose, check_torso, known_survey, leg_lengths, numbering, stroke_reserve};
 
 /// Checks parameters; the rig with a survey of all its legs' lengths, unless it is the default rig.
 ///
@@ -104,7 +104,7 @@ pub fn check_rig(rig: &Rig, longest_step: f64) -> Result<(), ParameterError> {
     if is_default(rig) {
         return Ok(());
     }
-    match survey(rig) {
+    match known_survey(rig) {
         Ok(_) => Ok(()),
         Err(failed) => refuse(
             "rig.base, rig.platform",

@@ -59,7 +59,7 @@ pub enum Error {
     #[error("--arrays needs --fmi 3: FMI 2.0 has no array variables")]
     NoArrays,
     /// A rig or parameter file cannot be used.
-    #[error("{0}")]
+    #[error(transparent)]
     Setup(#[from] moris_setup::Error),
     /// The archive cannot be written.
     #[error("cannot pack the archive: {0}")]

@@ -25,6 +25,7 @@ mod guard;
 mod inverse;
 mod jacobian;
 mod joints;
+mod known_surveys;
 mod location;
 pub mod numbering;
 pub mod reach;
@@ -40,6 +41,7 @@ pub(crate) use guard::{ActuatorGuard, stroke_reserve};
 pub use inverse::{Legs, inverse_kinematics, leg_accelerations, leg_lengths};
 pub use jacobian::{Jacobian, jacobian};
 pub use joints::Joints;
+pub(crate) use known_surveys::known_survey;
 pub use location::{LocationFrame, check_torso};
 pub use survey::{Survey, SurveyFailed, survey};
 

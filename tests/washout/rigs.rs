@@ -1,5 +1,7 @@
 //! Rigs: what is known of the default one, and which are refused.
 
+use std::time::Instant;
+
 use moris_washout::platform::survey;
 use moris_washout::{Parameters, check};
 use moris_washout::{Rig, Washout};
@@ -122,4 +124,19 @@ fn a_scaled_default_rig_is_accepted() {
 fn neutral_outside_the_stroke_is_refused() {
     let message = refusal(Rig { neutral_height: 2.0, ..Rig::default() });
     assert!(message.contains("rig.neutralHeight") && message.contains("actuator"), "{message}");
+}
+
+/// Sweeps make a washout for each set of parameters on one rig.
+#[test]
+fn a_rig_of_one_s_own_is_surveyed_once() {
+    let mut parameters = Parameters::default();
+    parameters.rig.neutral_height = 1.087_654_321;
+    let made = || {
+        let start = Instant::now();
+        Washout::new(&parameters).expect("accepted");
+        start.elapsed()
+    };
+    let first = made();
+    let again = (0..20).map(|_| made()).min().expect("some");
+    assert!(4 * again < first, "{first:?} at first, then {again:?}");
 }

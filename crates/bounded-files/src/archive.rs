@@ -15,10 +15,10 @@ use crate::size::shown;
 #[derive(Debug, thiserror::Error)]
 pub enum ArchiveError {
     /// The file cannot be read.
-    #[error("{0}")]
+    #[error(transparent)]
     Read(#[from] io::Error),
     /// It is no archive, or a damaged one.
-    #[error("{0}")]
+    #[error(transparent)]
     Zip(#[from] ZipError),
     /// Small files can unpack to more than a disk holds.
     #[error("it has {}, which unpack to {} or more, but at most {} are unpacked", shown(*.packed), shown(*.unpacked), shown(*.largest))]

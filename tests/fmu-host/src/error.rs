@@ -9,7 +9,7 @@ use crate::api::Status;
 pub enum HostError {
     #[error("cannot read {path}", path = path.display())]
     File { path: PathBuf, source: std::io::Error },
-    #[error("cannot unpack {path}: {source}", path = path.display())]
+    #[error("cannot unpack {path}", path = path.display())]
     Archive { path: PathBuf, source: moris_bounded_files::ArchiveError },
     #[error("modelDescription.xml: {0}")]
     Description(String),

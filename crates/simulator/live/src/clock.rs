@@ -227,6 +227,22 @@ mod tests {
         assert!(matches!(clock.stamp(1.3, Some(0.1)), Stamp::At(stamp) if (stamp - 1.3).abs() < 1e-9));
     }
 
+    /// A packet of up to half a second ago is out of order; an older one is of another start.
+    #[test]
+    fn packets_within_half_a_second_are_out_of_order() {
+        for back in [1e-3, 0.1, 0.3, 0.49] {
+            let mut clock = Clock::default();
+            assert_eq!(clock.stamp(1.0, Some(50.0)), Stamp::At(1.0));
+            assert_eq!(clock.stamp(1.01, Some(50.0 - back)), Stamp::Repeated, "{back} s back");
+            assert!(matches!(clock.stamp(1.02, Some(50.02)), Stamp::At(stamp) if (stamp - 1.02).abs() < 1e-9));
+        }
+        for back in [0.51, 0.7, 2.0, 49.0] {
+            let mut clock = Clock::default();
+            assert_eq!(clock.stamp(1.0, Some(50.0)), Stamp::At(1.0));
+            assert_eq!(clock.stamp(1.01, Some(50.0 - back)), Stamp::Restarted(1.01), "{back} s back");
+        }
+    }
+
     #[test]
     fn packets_that_were_held_up_have_the_times_at_which_they_were_true() {
         for held in [0.3, 0.45, 0.6, 0.9, 3.0] {

@@ -230,6 +230,25 @@ mod tests {
         assert_eq!(before, -0.3);
     }
 
+    /// Times at the rate of the packets, which the base expects 60 times a second.
+    #[test]
+    fn the_pose_takes_three_seconds_and_silence_half_a_second() {
+        assert_eq!((1.0 / INTERVAL).round(), 60.0);
+        let mut moog = Moog::default();
+        moog.receive(&answer(0x3));
+        let mut time = 0.0;
+        while numbers(&moog.send(true, &values()).0)[2] > -0.3 {
+            moog.receive(&answer(0x3));
+            time += INTERVAL;
+        }
+        assert!((time - 3.0).abs() < 0.05, "{time} s");
+        let mut silent = 0.0;
+        while moog.send(true, &values()).1.is_none() {
+            silent += INTERVAL;
+        }
+        assert!((silent - 0.5).abs() < 0.05, "{silent} s");
+    }
+
     #[test]
     fn a_base_whose_answers_are_lost_gets_no_jump() {
         let mut moog = Moog::default();

@@ -75,10 +75,17 @@ struct Change<const N: usize, const U: usize> {
 pub fn solve<const N: usize, const U: usize, const E: usize>(
     program: &Program<N, U, E>,
 ) -> Result<Solution<N, U, E>, NotSolved> {
+    solve_within(program, MOST_ITERATIONS)
+}
+
+fn solve_within<const N: usize, const U: usize, const E: usize>(
+    program: &Program<N, U, E>,
+    most_iterations: usize,
+) -> Result<Solution<N, U, E>, NotSolved> {
     let intervals = program.desired.len();
     let limits = 2 * (N + U + E) * intervals;
     let mut solver = Solver::at_rest(program);
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..most_iterations {
         let products = solver.sum_of_products();
         let tolerance = solver.tolerance();
         if products <= tolerance && solver.gap() <= tolerance {

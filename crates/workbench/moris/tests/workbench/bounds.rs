@@ -95,6 +95,27 @@ fn an_archive_that_unpacks_to_more_than_its_bound_is_refused() {
     assert!(error.contains("it is larger than 256 MB"), "{error}");
 }
 
+#[test]
+fn an_error_is_said_once() {
+    let directory = tempfile::tempdir().unwrap();
+    let rig = "name = \"a\"\nneutralHeight = 1\n";
+    fs::write(directory.path().join("rig.toml"), rig).unwrap();
+    fs::write(directory.path().join("map.toml"), "a = 1\n").unwrap();
+    fs::write(directory.path().join("bomb.fmu"), bomb()).unwrap();
+    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../examples/motorcycle-map.toml");
+    for (command, once) in [
+        (["rig", "check", "rig.toml"].as_slice(), "TOML parse error"),
+        (&["live", "--from", "fmu:bomb.fmu", "--map", "map.toml", "--dry"], "TOML parse error"),
+        (&["live", "--from", "fmu:bomb.fmu", "--map", map, "--dry"], "which unpack to"),
+        (&["live", "--from", "fmu:none.fmu", "--map", map, "--dry"], "No such file"),
+        (&["build-fmu", "--base", "none.fmu"], "No such file"),
+        (&["build-fmu", "--base", "bomb.fmu"], "which unpack to"),
+    ] {
+        let error = error(directory.path(), command);
+        assert_eq!(error.matches(once).count(), 1, "{command:?}: {error}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn an_argument_that_is_no_text_is_an_error() {

@@ -7,7 +7,7 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, SolverStatus};
 use super::super::program::{Program, Range, Rows, relaxed, relaxed_with_tilt, restricted, restricted_with_tilt};
 use super::super::projection::Projection;
 use super::super::{AxisLimits, TiltLimits, certificate};
-use super::solve;
+use super::{NotSolved, solve, solve_within};
 
 const TILT: TiltLimits = TiltLimits { angle: 0.38, rate: 0.05, acceleration: 0.2, head_height: 1.2, gravity: 9.80665 };
 const SURGE: AxisLimits = AxisLimits { min: -0.45, max: 0.4, velocity: 1.0, acceleration: 10.0, tilt: Some(TILT) };
@@ -138,6 +138,20 @@ fn all_programs_have_the_value_that_another_solver_finds() {
         assert_least(&relaxed_with_tilt(&desired, interval, &SURGE, &TILT));
         assert_least(&restricted_with_tilt(&desired, interval, &SURGE, &TILT));
     }
+}
+
+/// The best value so far and its bound, wherever the solver gives up.
+#[test]
+fn the_least_value_lies_between_the_best_and_its_bound() {
+    let program = relaxed(&waves(400, 0.02, 6.0), 0.02, &SURGE);
+    let expected = least_value(&program);
+    let mut gaps = Vec::new();
+    for iterations in [0, 1, 2, 3, 5] {
+        let Err(NotSolved { value, least }) = solve_within(&program, iterations) else { panic!("{iterations}") };
+        assert!(least <= expected && expected <= value, "{iterations}: {least} {expected} {value}");
+        gaps.push(value - least);
+    }
+    assert!(gaps.is_sorted_by(|before, after| before > after), "{gaps:?}");
 }
 
 #[test]
