@@ -734,6 +734,8 @@ def the_start_is_the_original(browser):
         assert len(apart) == 32 and max(apart) < 1e-5, apart
         own, again = page.evaluate("simulationReport.runs().map(({ measures }) => measures.map(({ value }) => value === null ? null : simulationReport.cellText(value)))")
         assert own == again and len(own) > 40
+        # Of two equal curves one is drawn, and the legend names it.
+        assert page.locator(".chart .legend li", has_text="(as felt").count() > 0
 
 
 @check
@@ -831,7 +833,9 @@ def parameters_that_cannot_be_used_are_said_to_be(browser):
         field.fill("9")
         field.press("Enter")
         settled(page)
-        assert "cannot be used: head.torsoLength" in page.locator("#tuning .panel > [role=status]").inner_text()
+        said = page.locator("#tuning .panel > [role=status]")
+        assert "cannot be used: head.torsoLength" in said.inner_text()
+        assert said.evaluate("(one) => getComputedStyle(one).fontSize") == "18px"
         assert page.evaluate("simulationReport.runs()[1].measures") == before
 
 

@@ -127,6 +127,13 @@ function usualExtent({ times, values }, from, to) {
   return later && whole[1] - whole[0] > JOLT.factor * (later[1] - later[0]) && later[1] > later[0] ? later : whole;
 }
 
+/** True for curves with the same points, but for rounding. */
+function areEqual(one, other) {
+  const near = (a, b) => Math.abs(a - b) <= 1e-5 + 1e-5 * Math.abs(a) || (Number.isNaN(a) && Number.isNaN(b));
+  const same = (a, b) => a === b || (a.length === b.length && a.every((value, i) => near(value, b[i])));
+  return one.values.length > 0 && same(one.values, other.values) && same(one.times, other.times);
+}
+
 class Chart {
   /**
    * `lines`: { label, colour, width, dash, times, values }, `aside` for those in the background, and `layer`, higher on top
@@ -138,9 +145,10 @@ class Chart {
     this.plot = new Plot(height, shown, handlers);
     this.shown = shown;
     this.legend = lines.map((line) => {
-      const value = element("span", { class: "value" });
-      return { line, value, entry: element("li", {}, [swatch(line), line.label, " ", value]) };
+      const [value, same] = [element("span", { class: "value" }), element("span", {})];
+      return { line, value, same, entry: element("li", {}, [swatch(line), line.label, " ", same, value]) };
     });
+    this.nameEqual();
     if (limits.length > 0) {
       const line = { colour: "--limit", width: 1.5, dash: [5, 4] };
       this.legend.push({ entry: element("li", {}, [swatch(line), "limit"]) });
@@ -156,6 +164,21 @@ class Chart {
   take({ lines, others = [], limits = [] }) {
     Object.assign(this, { lines, others, limits });
     lines.forEach((line, i) => { this.legend[i].line = line; });
+    this.nameEqual();
+  }
+
+  /** The curves from the lowest to the highest layer; of equal ones the highest. */
+  get drawn() {
+    const sorted = [...this.lines].sort((a, b) => (a.layer || 0) - (b.layer || 0));
+    return sorted.filter((line, i) => !sorted.slice(i + 1).some((above) => areEqual(line, above)));
+  }
+
+  /** The legend names the curve that is drawn in the place of an equal one. */
+  nameEqual() {
+    const drawn = this.drawn;
+    for (const { line, same } of this.legend) {
+      if (line) same.textContent = drawn.includes(line) ? "" : `(as ${drawn.find((above) => areEqual(line, above)).label}) `;
+    }
   }
 
   /** The chart in words, for readers of screens. */
@@ -214,7 +237,7 @@ class Chart {
       const level = { times: shown, values: [limit, limit], colour: "--limit", width: 1.5, dash: [5, 4] };
       drawLine(context, level, shown, width, yOf);
     }
-    for (const line of [...this.lines].sort((a, b) => (a.layer || 0) - (b.layer || 0))) drawLine(context, line, shown, width, yOf);
+    for (const line of this.drawn) drawLine(context, line, shown, width, yOf);
     context.restore();
   }
 

@@ -27,6 +27,7 @@ class RigVerdict {
 
   show({ reason, is_sound: isSound, heads, rows, texts }) {
     this.state.classList.toggle("unsound", !isSound);
+    this.state.classList.toggle("refused", Boolean(reason));
     this.state.textContent = reason ? `This rig cannot be used: ${reason}` : isSound ? "The rig is sound." : "The rig is not sound.";
     if (reason) {
       this.details.replaceChildren();

@@ -98,7 +98,8 @@ class Tuning {
     return part === whole ? "the recording" : `the first ${part} of ${whole} s (curves and measures are of this part)`;
   }
 
-  say(text) {
+  say(text, isRefused = false) {
+    this.message.classList.toggle("refused", isRefused);
     this.message.textContent = text;
   }
 
@@ -234,7 +235,7 @@ class Tuning {
     this.unfinishedSince = null;
     if (run.reason) {
       if (this.isPart) this.showByHand(false);
-      this.say(`These parameters cannot be used: ${run.reason}`);
+      this.say(`These parameters cannot be used: ${run.reason}`, true);
       return;
     }
     this.byHand = { ...run, values };
