@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use moris::recording::{ConventionOptions, Conventions, Dialect, Recording};
+use moris::recording::{ConventionOptions, Conventions, Dialect, Recording, Road};
 use moris_batch::Manoeuvre;
 use moris_interface::{Group, slots_of};
 use moris_washout::Input;
@@ -24,7 +24,7 @@ pub struct PyRecording {
 }
 
 /// A recording's fields, as they are pickled.
-type State = (String, f64, Vec<Input>, f64, AngularVelocityFrame, bool, Vec<String>);
+type State = (String, f64, Vec<Input>, f64, AngularVelocityFrame, bool, Option<Road>, Vec<String>);
 
 #[pymethods]
 impl PyRecording {
@@ -81,9 +81,10 @@ impl PyRecording {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
-        let Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, warnings } = &*self.inner;
+        let Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, road, warnings } =
+            &*self.inner;
         let inputs = manoeuvre.inputs();
-        let state = (name, manoeuvre.step(), inputs, start, angular_velocity_frame, has_orientation, warnings);
+        let state = (name, manoeuvre.step(), inputs, start, angular_velocity_frame, has_orientation, road, warnings);
         let bytes = postcard::to_allocvec(&state).map_err(|reason| error::recording(py, reason.to_string()))?;
         Ok((py.get_type::<PyRecording>().getattr("_from_state")?, (PyBytes::new(py, &bytes),)))
     }
@@ -92,9 +93,9 @@ impl PyRecording {
     fn _from_state(py: Python, state: &[u8]) -> PyResult<Self> {
         let refused = |_| error::recording(py, "the pickled recording is of another version of moris".to_owned());
         let state: State = postcard::from_bytes(state).map_err(refused)?;
-        let (name, step, inputs, start, angular_velocity_frame, has_orientation, warnings) = state;
+        let (name, step, inputs, start, angular_velocity_frame, has_orientation, road, warnings) = state;
         let manoeuvre = Manoeuvre::new(step, inputs);
-        let recording = Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, warnings };
+        let recording = Recording { name, manoeuvre, start, angular_velocity_frame, has_orientation, road, warnings };
         Ok(PyRecording { inner: Arc::new(recording) })
     }
 }

@@ -59,7 +59,8 @@ pub struct PySimulation {
 
 #[pymethods]
 impl PySimulation {
-    /// Simulates a recording with `preview` seconds of its own future, and measures it.
+    /// Simulates a recording with `preview` seconds of its own future, or with a preview that is
+    /// learned by its position, and measures it.
     #[new]
     #[allow(clippy::too_many_arguments)]
     fn new(
@@ -70,10 +71,12 @@ impl PySimulation {
         strategy: Option<&str>,
         bound: bool,
         preview: f64,
+        learn: bool,
     ) -> PyResult<Self> {
         let setup = setup::load(py, rig, parameters, strategy)?;
-        let host = host(preview)?;
+        let host = Host { learns: learn, ..host(preview)? };
         check_preview(&setup, preview).map_err(PyValueError::new_err)?;
+        check_learning(&setup, &recording.inner, preview, learn).map_err(PyValueError::new_err)?;
         let recording = Arc::clone(&recording.inner);
         let outcome = py.detach(|| {
             let simulated = host.replay(&recording, &recording.parameters(&setup.parameters))?;
@@ -248,6 +251,20 @@ pub fn check_preview(setup: &Setup, preview: f64) -> Result<(), &'static str> {
         StrategyKind::Predictive => Ok(()),
         _ if preview > 0.0 => Err("preview is for the predictive strategy alone; add strategy=\"predictive\""),
         _ => Ok(()),
+    }
+}
+
+/// Checks that a preview can be learned, where one is asked for.
+///
+/// # Errors
+/// Why not, and the argument that helps.
+fn check_learning(setup: &Setup, recording: &Recording, preview: f64, learn: bool) -> Result<(), &'static str> {
+    match setup.parameters.structure.strategy {
+        _ if !learn => Ok(()),
+        _ if preview > 0.0 => Err("preview and learn exclude each other"),
+        _ if recording.road.is_none() => Err("the recording has no position; read it with position=True"),
+        StrategyKind::Predictive => Ok(()),
+        _ => Err("learn is for the predictive strategy alone; add strategy=\"predictive\""),
     }
 }
 

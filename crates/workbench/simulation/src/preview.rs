@@ -9,10 +9,21 @@ use moris_washout::{Input, Preview};
 pub struct Previewer {
     /// Time between the recording's samples \[s\].
     step: f64,
-    /// Specific force along x and y at each sample, averaged as [`Previewer::new`] says \[m/s2\].
-    forces: [Vec<f64>; 2],
-    /// Elements of the preview.
-    count: usize,
+    source: Source,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    /// The recording itself.
+    Recording {
+        /// Specific force along x and y at each sample, averaged as [`Previewer::new`] says
+        /// \[m/s2\].
+        forces: [Vec<f64>; 2],
+        /// Elements of the preview.
+        count: usize,
+    },
+    /// A preview as of each sample.
+    Given(Vec<Preview>),
 }
 
 /// Time from one element to the next \[s\].
@@ -41,19 +52,32 @@ impl Previewer {
         let count = ((seconds / PREVIEW_STEP + ROUNDING) as usize).min(PREVIEW_SAMPLES);
         let reach = (PREVIEW_STEP / step).round() as usize;
         let force = |axis: usize| inputs.iter().map(|input| input.specific_force[axis]).collect::<Vec<_>>();
-        Previewer { step, forces: [0, 1].map(|axis| averaged(&force(axis), reach)), count }
+        let forces = [0, 1].map(|axis| averaged(&force(axis), reach));
+        Previewer { step, source: Source::Recording { forces, count } }
+    }
+
+    /// Previews as of each sample. Between samples the latest holds.
+    pub fn given(previews: Vec<Preview>, step: f64) -> Self {
+        Previewer { step, source: Source::Given(previews) }
     }
 
     /// The preview at a time \[s\]; it ends with the recording.
     pub fn at(&self, time: f64) -> Preview {
-        let last = (self.forces[0].len() - 1) as f64 * self.step;
+        let (forces, count) = match &self.source {
+            Source::Recording { forces, count } => (forces, *count),
+            Source::Given(previews) => {
+                let sample = (time / self.step + ROUNDING) as usize;
+                return previews.get(sample).copied().unwrap_or_default();
+            }
+        };
+        let last = (forces[0].len() - 1) as f64 * self.step;
         let left = ((last - time) / PREVIEW_STEP + ROUNDING).max(0.0) as usize;
         let element = |axis: usize, k: usize| {
             let position = (time + (k + 1) as f64 * PREVIEW_STEP) / self.step;
-            self.forces[axis].get(position.round() as usize).copied().unwrap_or(0.0)
+            forces[axis].get(position.round() as usize).copied().unwrap_or(0.0)
         };
         Preview {
-            count: self.count.min(left) as i32,
+            count: count.min(left) as i32,
             step: PREVIEW_STEP,
             surge: std::array::from_fn(|k| element(0, k)),
             sway: std::array::from_fn(|k| element(1, k)),
@@ -114,5 +138,13 @@ mod tests {
         assert_eq!(previewer.at(9.6).count, 2, "the recording ends at 10 s");
         assert_eq!(previewer.at(10.0).count, 0);
         assert_eq!(Previewer::new(&ramp(1001), 0.01, 9.0).at(0.0).count, 20);
+    }
+
+    #[test]
+    fn given_previews_hold_to_the_next_sample() {
+        let previews = (0..100).map(|count| Preview { count, ..Preview::default() }).collect();
+        let previewer = Previewer::given(previews, 0.02);
+        let counts = [0.0, 0.06, 0.0799, 0.08, 1.98, 5.0].map(|time| previewer.at(time).count);
+        assert_eq!(counts, [0, 3, 3, 4, 99, 0]);
     }
 }

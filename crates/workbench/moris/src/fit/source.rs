@@ -135,6 +135,7 @@ impl Usual {
             start: 0.0,
             angular_velocity_frame: AngularVelocityFrame::Body,
             has_orientation: false,
+            road: None,
             warnings: Vec::new(),
         }
     }

@@ -28,6 +28,8 @@ pub struct Host {
     pub inputs: Inputs,
     /// Length of the preview that the host gives \[s\]; 0: none.
     pub preview: f64,
+    /// True with a preview that is learned by the recording's position.
+    pub learns: bool,
 }
 
 impl Host {
@@ -36,7 +38,7 @@ impl Host {
     ///
     /// # Errors
     /// The parameters cannot be used, or neither of the host's step and the recording's is a
-    /// multiple of the other.
+    /// multiple of the other. Or a preview is to be learned of a recording without position.
     pub fn replay(&self, recording: &Recording, parameters: &Parameters) -> Result<Simulation> {
         let sample = recording.step();
         let step = self.step.unwrap_or(sample);
@@ -44,7 +46,11 @@ impl Host {
             let name = &recording.name;
             format!("--step is {step} s, but the samples of {name} come every {sample} s; one must be a multiple of the other")
         })?;
-        let previewer = (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview));
+        let previewer = if self.learns {
+            Some(recording.learned()?)
+        } else {
+            (self.preview > 0.0).then(|| Previewer::new(recording.inputs(), sample, self.preview))
+        };
         Ok(Simulation::previewed(&replay, parameters, previewer, || ())?)
     }
 }

@@ -58,6 +58,11 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_seconds)]
     preview: f64,
 
+    /// Preview for the predictive strategy that is learned from earlier passes of the same road: the
+    /// columns x and y are the position
+    #[arg(long, conflicts_with = "preview")]
+    learn: bool,
+
     /// Compute the bound, the least error that any controller could reach. Takes
     /// some seconds a recording
     #[arg(long)]
@@ -123,8 +128,8 @@ impl MeasuredRecording {
 /// A recording, the rig or the parameters cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let setup = options.setup.load()?;
-    let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
-    let host = Host { step: options.step, inputs: options.inputs, preview: options.preview };
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn);
+    let host = Host { step: options.step, inputs: options.inputs, preview: options.preview, learns: options.learn };
     let measure = |file: &PathBuf| {
         let recording = Recording::read(file, &conventions)?;
         MeasuredRecording::of(&recording, &setup, &host, options.bound).with_context(|| recording.name.clone())

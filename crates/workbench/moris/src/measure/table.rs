@@ -26,7 +26,11 @@ fn host_text(host: &Host) -> String {
         Inputs::Slopes => "with slopes",
         Inputs::Values => "without slopes",
     };
-    let preview = if host.preview > 0.0 { format!(", preview of {} s", host.preview) } else { String::new() };
+    let preview = match host.preview {
+        _ if host.learns => ", learned preview".to_owned(),
+        seconds if seconds > 0.0 => format!(", preview of {seconds} s"),
+        _ => String::new(),
+    };
     match host.step {
         Some(step) => format!("host steps of {} ms {inputs}{preview}", (1e9 * step).round() / 1e6),
         None => format!("host steps as recorded, {inputs}{preview}"),

@@ -37,6 +37,7 @@ pub mod conventions;
 pub mod felt;
 mod message;
 mod read;
+mod road;
 mod signal;
 pub mod table;
 
@@ -44,6 +45,7 @@ use std::path::Path;
 
 use moris_batch::{Manoeuvre, Replay};
 pub use moris_simulation::preview;
+use moris_simulation::preview::Previewer;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters};
 
@@ -54,6 +56,7 @@ pub use conventions::{ConventionOptions, Conventions, FADE_IN, formats};
 pub use message::{Dialect, RecordingError};
 pub(crate) use read::source;
 pub use read::source::files_in;
+pub use road::Road;
 use table::{Table, laps, sampling};
 
 /// A recording.
@@ -69,6 +72,8 @@ pub struct Recording {
     pub angular_velocity_frame: AngularVelocityFrame,
     /// True where the recording holds the vehicle's orientation.
     pub has_orientation: bool,
+    /// Position and speed along the road, if the conventions ask for them.
+    pub road: Option<Road>,
     /// Warnings, in whole sentences.
     pub warnings: Vec<String>,
 }
@@ -125,6 +130,7 @@ impl Recording {
                 RateFrame::World => AngularVelocityFrame::World,
             },
             has_orientation: table.has_orientation(),
+            road: Road::of(&table),
             warnings: warnings.iter().map(|warning| conventions.dialect.written(warning)).collect(),
         })
     }
@@ -135,6 +141,20 @@ impl Recording {
         let mut parameters = *parameters;
         parameters.conditioning.angular_velocity_frame = self.angular_velocity_frame;
         parameters
+    }
+
+    /// The preview that is learned by its position.
+    ///
+    /// # Errors
+    /// It has no position.
+    pub fn learned(&self) -> Result<Previewer, RecordingError> {
+        let road = self.road.as_ref().ok_or_else(|| {
+            RecordingError::whole(
+                Path::new(&self.name),
+                "has no position to learn by; read it with its columns x and y",
+            )
+        })?;
+        Ok(Previewer::given(road.learned(self.inputs(), self.step()), self.step()))
     }
 
     /// The samples.

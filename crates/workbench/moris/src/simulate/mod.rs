@@ -32,6 +32,7 @@ use moris_simulation::Evaluated;
 use moris_simulation::advice::Advice;
 use moris_simulation::foreign::ForeignMotion;
 use moris_simulation::preview::{Previewer, parse_seconds};
+use moris_washout::Parameters;
 use moris_washout::interface::StrategyKind;
 
 use crate::progress::Progress;
@@ -74,6 +75,11 @@ pub struct Options {
     /// force, in s, at most 4
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     preview: Option<f64>,
+
+    /// Also simulate the predictive strategy with a preview learned from earlier passes of the same
+    /// road: the columns x and y are the position
+    #[arg(long)]
+    learn: bool,
 
     /// Motion that another washout computed for the recording, compared with these parameters:
     /// CSV with felt forces, poses of the platform or lengths of the legs.
@@ -131,7 +137,26 @@ impl Outcome {
     pub fn previewed(recording: &Recording, setup: &Setup, seconds: f64, progress: impl FnMut()) -> Result<Self> {
         let parameters = recording.parameters(&setup.parameters);
         let previewer = (seconds > 0.0).then(|| Previewer::new(recording.inputs(), recording.step(), seconds));
-        Outcome::measured(Simulation::previewed(&recording.replay(), &parameters, previewer, progress)?, setup)
+        Outcome::with(recording, setup, &parameters, previewer, progress)
+    }
+
+    /// As [`Outcome::of`] with a preview that is learned by the recording's position.
+    ///
+    /// # Errors
+    /// As [`Outcome::of`], or the recording has no position.
+    pub fn learned(recording: &Recording, setup: &Setup, progress: impl FnMut()) -> Result<Self> {
+        let parameters = recording.parameters(&setup.parameters);
+        Outcome::with(recording, setup, &parameters, Some(recording.learned()?), progress)
+    }
+
+    fn with(
+        recording: &Recording,
+        setup: &Setup,
+        parameters: &Parameters,
+        previewer: Option<Previewer>,
+        progress: impl FnMut(),
+    ) -> Result<Self> {
+        Outcome::measured(Simulation::previewed(&recording.replay(), parameters, previewer, progress)?, setup)
     }
 
     /// Judges motion that another washout computed, under its name.
@@ -190,7 +215,7 @@ impl Outcome {
 /// The rig, the parameters or an option cannot be used, or standard output cannot be written.
 pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let cases = cases(options)?;
-    let conventions = options.conventions.load_or_fade_in(FADE_IN)?;
+    let conventions = options.conventions.load_or_fade_in(FADE_IN)?.with_position(options.learn);
     let recordings = table::recordings(&options.recordings, &conventions);
     if recordings.len() > 1 && !options.felt.is_empty() {
         bail!("--felt is the motion for one recording, but there are {}; simulate each with its own", recordings.len());
@@ -250,16 +275,21 @@ struct Case {
     setup: Setup,
     /// \[s\]; 0: none.
     preview: f64,
+    /// True with a preview that is learned.
+    learns: bool,
     /// The file of another washout's motion; none: the parameters are simulated.
     felt: Option<PathBuf>,
 }
 
 impl Case {
     fn of(setup: Setup) -> Self {
-        Case { setup, preview: 0.0, felt: None }
+        Case { setup, preview: 0.0, learns: false, felt: None }
     }
 
     fn outcome(&self, recording: &Recording, progress: impl FnMut()) -> Result<Outcome> {
+        if self.learns {
+            return Outcome::learned(recording, &self.setup, progress);
+        }
         let Some(file) = &self.felt else {
             return Outcome::previewed(recording, &self.setup, self.preview, progress)?
                 .advised(recording, self.preview);
@@ -292,22 +322,26 @@ fn cases(options: &Options) -> Result<Vec<Case>> {
     Ok(cases)
 }
 
-/// The parameters of the predictive strategy with the preview, if one is asked for.
+/// The parameters of the predictive strategy with the previews that are asked for.
 fn previewed(options: &Options, cases: &[Case]) -> Result<Vec<Case>> {
-    let Some(preview) = options.preview.filter(|&seconds| seconds > 0.0) else { return Ok(Vec::new()) };
-    let is_predictive = |case: &&Case| case.setup.parameters.structure.strategy == StrategyKind::Predictive;
-    let previewed: Vec<Case> = cases
-        .iter()
-        .filter(is_predictive)
-        .map(|case| {
-            let parameters_name = format!("{}, preview of {preview} s", case.setup.parameters_name);
-            Case { preview, ..Case::of(Setup { parameters_name, ..case.setup.clone() }) }
-        })
-        .collect();
-    if previewed.is_empty() {
-        bail!("--preview is for the predictive strategy alone; add --strategy predictive");
+    let preview = options.preview.filter(|&seconds| seconds > 0.0);
+    let predictive: Vec<&Case> =
+        cases.iter().filter(|case| case.setup.parameters.structure.strategy == StrategyKind::Predictive).collect();
+    for (option, is_given) in [("--preview", preview.is_some()), ("--learn", options.learn)] {
+        if is_given && predictive.is_empty() {
+            bail!("{option} is for the predictive strategy alone; add --strategy predictive");
+        }
     }
-    Ok(previewed)
+    let named = |case: &Case, preview: &str| {
+        let parameters_name = format!("{}, {preview}", case.setup.parameters_name);
+        Case::of(Setup { parameters_name, ..case.setup.clone() })
+    };
+    let previewed = predictive.iter().flat_map(|case| {
+        let previewed =
+            preview.map(|seconds| Case { preview: seconds, ..named(case, &format!("preview of {seconds} s")) });
+        previewed.into_iter().chain(options.learn.then(|| Case { learns: true, ..named(case, "learned preview") }))
+    });
+    Ok(previewed.collect())
 }
 
 /// A recording's results, ready to be printed.

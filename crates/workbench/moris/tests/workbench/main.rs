@@ -8,6 +8,7 @@ mod forms;
 mod frequency_response;
 mod import;
 mod judged;
+mod laps;
 mod loggers;
 mod measure;
 mod mounting;

@@ -112,6 +112,7 @@ class Simulation:
         strategy: Strategy | None,
         bound: bool,
         preview: float,
+        learn: bool,
     ) -> Simulation: ...
     @staticmethod
     def judged(

@@ -39,7 +39,7 @@ class Simulation(Outputs):
 
     time: (N,) [s]. Inputs and outputs by the names of the FMU's variables, as in Outputs.
     recording: the Recording. measures: Measures. verdict: with what to change. findings: sentences, the most important first.
-    preview: time of the recording that was previewed [s]. parameters: dict of all parameters. fits: False where
+    preview: time of the recording that was previewed [s]. learned: True with a preview learned by the position. parameters: dict of all parameters. fits: False where
         a safety unit or an actuator's limit was active, or soft limits for more than 1 % of the time; None where no
         limits were judged.
     """
@@ -50,20 +50,22 @@ class Simulation(Outputs):
     findings: list[str]
     parameters: dict[str, Value]
     preview: float
+    learned: bool
     fits: bool | None
     name: str
 
-    def __init__(self, native: _moris.Simulation, recording: Recording, preview: float = 0.0) -> None:
+    def __init__(self, native: _moris.Simulation, recording: Recording, preview: float = 0.0, learned: bool = False) -> None:
         super().__init__(*native.samples())
         self._native = native
         self.recording = recording
         self.preview = preview
+        self.learned = learned
         self.measures = Measures(native.measures)
         self.verdict = native.verdict
         self.findings = native.findings
         self.parameters = native.parameters
         self.fits = native.fits
-        previewed = f", preview of {preview:g} s" if preview else ""
+        previewed = ", learned preview" if learned else f", preview of {preview:g} s" if preview else ""
         self.name = f"{recording.name}, {native.parameters_name} on {native.rig_name}{previewed}"
 
     @property
@@ -89,7 +91,7 @@ class Simulation(Outputs):
         return path
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Simulation, (self._native, self.recording, self.preview)
+        return Simulation, (self._native, self.recording, self.preview, self.learned)
 
     def __repr__(self) -> str:
         fits = {True: "fits the rig", False: "does not fit the rig", None: "limits not judged"}[self.fits]
@@ -119,6 +121,7 @@ def simulate(
     *,
     bound: bool = False,
     preview: float = 0.0,
+    learn: bool = False,
     **options: Unpack[RecordingOptions],
 ) -> Simulation:
     """Simulates a recording from rest at neutral, the inputs going linearly from sample to sample.
@@ -128,11 +131,16 @@ def simulate(
     bound: compute the least error that any controller could reach, too; it takes some seconds.
     preview: time of the recording's own future that the washout knows at each sample, from 0 to 4 [s]. Only the strategy
         "predictive" makes use of it.
+    learn: give it a preview that is learned from earlier passes of the same road instead. The source needs the columns x and y;
+        a Recording is read with position=True.
 
     Returns a Simulation. Raises RecordingError, ParameterError or BoundError.
     """
+    if learn and not isinstance(recording, Recording):
+        options = {**options, "position": True}
     recording = recording_of(recording, options)
-    return Simulation(_moris.Simulation(recording._native, rig, parameters, strategy, bound, preview), recording, preview)
+    native = _moris.Simulation(recording._native, rig, parameters, strategy, bound, preview, learn)
+    return Simulation(native, recording, preview, learn)
 
 
 def bound(

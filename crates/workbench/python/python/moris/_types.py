@@ -36,6 +36,8 @@ class RecordingOptions(TypedDict, total=False):
     rate_unit: Literal["rad/s", "deg/s"] | None
     angle_unit: Literal["rad", "deg"] | None
     speed_unit: Literal["m/s", "km/h", "mph", "kn", "ft/s"] | None
+    length_unit: Literal["m", "km", "ft"] | None
+    position: bool | None
     gravity: Literal["included", "removed"] | None
     axes: Literal["forward-left-up", "forward-right-down"] | None
     mounting: Sequence[float] | Literal["auto"] | None

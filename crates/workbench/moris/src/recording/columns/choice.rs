@@ -69,7 +69,12 @@ impl Header {
         skips_time: bool,
     ) -> Result<Vec<(Quantity, Vec<Term>)>, String> {
         let (mut chosen, mut missing, mut ambiguous) = (Vec::new(), Vec::new(), None);
-        for quantity in Quantity::ALL.into_iter().filter(|&quantity| !(skips_time && quantity == Quantity::Time)) {
+        let is_read = |quantity: &Quantity| match quantity {
+            Quantity::Time => !skips_time,
+            Quantity::Position(_) => conventions.position,
+            _ => true,
+        };
+        for quantity in Quantity::ALL.into_iter().filter(is_read) {
             match self.terms(conventions.column(quantity)) {
                 Ok(Some(terms)) => chosen.push((quantity, terms)),
                 Ok(None) if conventions.expects(quantity) => missing.push(quantity),

@@ -11,13 +11,29 @@ pub enum Quantity {
     Angle(usize),
     Speed,
     Lean,
+    Position(usize),
 }
 
 impl Quantity {
     /// Every quantity, in the order of columns.
-    pub const ALL: [Quantity; 12] = {
-        use Quantity::{Angle, Force, Lean, Rate, Speed, Time};
-        [Time, Force(0), Force(1), Force(2), Rate(0), Rate(1), Rate(2), Angle(0), Angle(1), Angle(2), Speed, Lean]
+    pub const ALL: [Quantity; 14] = {
+        use Quantity::{Angle, Force, Lean, Position, Rate, Speed, Time};
+        [
+            Time,
+            Force(0),
+            Force(1),
+            Force(2),
+            Rate(0),
+            Rate(1),
+            Rate(2),
+            Angle(0),
+            Angle(1),
+            Angle(2),
+            Speed,
+            Lean,
+            Position(0),
+            Position(1),
+        ]
     };
 
     /// Roll, pitch and yaw.
@@ -41,6 +57,7 @@ impl Quantity {
             Quantity::Rate(_) => Dimension::Rate,
             Quantity::Angle(_) | Quantity::Lean => Dimension::Angle,
             Quantity::Speed => Dimension::Speed,
+            Quantity::Position(_) => Dimension::Length,
         }
     }
 
@@ -53,6 +70,7 @@ impl Quantity {
             Quantity::Angle(axis) => ["roll", "pitch", "yaw"][axis],
             Quantity::Speed => "speed",
             Quantity::Lean => "lean",
+            Quantity::Position(axis) => ["x", "y"][axis],
         }
     }
 

@@ -24,6 +24,7 @@ pub enum Dimension {
     Rate,
     Angle,
     Speed,
+    Length,
 }
 
 /// Declares the units of one dimension: word, item, factor to SI, and other spellings, as
@@ -120,18 +121,32 @@ units! {
     }
 }
 
+units! {
+    /// Unit of the position.
+    LengthUnit {
+        /// Metres
+        "m" Metre = 1.0, ["metre" "metres" "meter" "meters"],
+        /// Kilometres
+        "km" Kilometre = 1e3, ["kilometre" "kilometres" "kilometer" "kilometers"],
+        /// Feet
+        "ft" Foot = FOOT, ["foot" "feet"],
+    }
+}
+
 impl Dimension {
-    pub const ALL: [Dimension; 5] =
-        [Dimension::Time, Dimension::Force, Dimension::Rate, Dimension::Angle, Dimension::Speed];
+    pub const ALL: [Dimension; 6] = {
+        use Dimension::{Angle, Force, Length, Rate, Speed, Time};
+        [Time, Force, Rate, Angle, Speed, Length]
+    };
 
     /// Name of the option that gives its unit.
     pub fn option(self) -> &'static str {
-        ["time-unit", "force-unit", "rate-unit", "angle-unit", "speed-unit"][self as usize]
+        ["time-unit", "force-unit", "rate-unit", "angle-unit", "speed-unit", "length-unit"][self as usize]
     }
 
     /// Its name in messages.
     pub fn name(self) -> &'static str {
-        ["time", "specific force", "angular velocity", "angle", "speed"][self as usize]
+        ["time", "specific force", "angular velocity", "angle", "speed", "position"][self as usize]
     }
 
     /// Its units, the SI unit first, each with its other spellings.
@@ -142,6 +157,7 @@ impl Dimension {
             Dimension::Rate => RateUnit::SPELLED,
             Dimension::Angle => AngleUnit::SPELLED,
             Dimension::Speed => SpeedUnit::SPELLED,
+            Dimension::Length => LengthUnit::SPELLED,
         }
     }
 

@@ -21,7 +21,9 @@ mod options;
 use std::collections::BTreeMap;
 
 pub use crate::recording::columns::Quantity;
-pub use crate::recording::columns::units::{AngleUnit, Dimension, ForceUnit, RateUnit, SpeedUnit, TimeUnit, Unit};
+pub use crate::recording::columns::units::{
+    AngleUnit, Dimension, ForceUnit, LengthUnit, RateUnit, SpeedUnit, TimeUnit, Unit,
+};
 use crate::recording::message::Dialect;
 pub(super) use choices::choices;
 pub use choices::{Axes, EmptyFields, Gravity, Missing, RateFrame};
@@ -59,6 +61,8 @@ pub struct Conventions {
     pub resample: Option<f64>,
     /// Time over which the recording is faded in from rest \[s\].
     pub fade_in: f64,
+    /// True if the vehicle's position is needed.
+    pub position: bool,
     /// Notation of options in messages.
     pub dialect: Dialect,
 }
@@ -70,6 +74,11 @@ impl Default for Conventions {
 }
 
 impl Conventions {
+    /// The same with the vehicle's position, if it is needed.
+    pub fn with_position(self, is_needed: bool) -> Self {
+        Conventions { position: self.position || is_needed, ..self }
+    }
+
     /// The name of a quantity's column.
     pub fn column(&self, quantity: Quantity) -> &str {
         self.columns.get(&quantity).map_or(quantity.key(), String::as_str)
@@ -78,7 +87,8 @@ impl Conventions {
     /// True for a quantity that a recording must have.
     pub fn needs(&self, quantity: Quantity) -> bool {
         let has_rate = quantity == Quantity::Time && self.rate.is_some();
-        quantity.is_required() && !self.is_at_rest(quantity) && !has_rate
+        let is_required = quantity.is_required() || self.position && matches!(quantity, Quantity::Position(_));
+        is_required && !self.is_at_rest(quantity) && !has_rate
     }
 
     /// True for a quantity that a recording must have, or whose column is named.

@@ -8,8 +8,8 @@ use serde::Deserialize;
 
 use super::mounting::Written;
 use super::{
-    AngleUnit, Axes, Conventions, Dimension, EmptyFields, ForceUnit, Format, Gravity, Missing, Mounting, Quantity,
-    RateFrame, RateUnit, SpeedUnit, TimeUnit,
+    AngleUnit, Axes, Conventions, Dimension, EmptyFields, ForceUnit, Format, Gravity, LengthUnit, Missing, Mounting,
+    Quantity, RateFrame, RateUnit, SpeedUnit, TimeUnit,
 };
 use crate::recording::message::{Dialect, RecordingError};
 
@@ -23,7 +23,7 @@ pub struct ConventionOptions {
     pub format: Option<Format>,
 
     /// Names of columns that are not called time, ax ay az, wx wy wz (and, where there are any,
-    /// roll pitch yaw, speed, lean): time=t,ax=accel_x. A sign turns an axis round:
+    /// roll pitch yaw, speed, lean, x y): time=t,ax=accel_x. A sign turns an axis round:
     /// ay=-accel_x. Terms with spaces around their sign are added: "ax=accel_x + gravity_x".
     /// A number scales a column: "ax=counts_x / 16384".
     /// FILE.NAME is a column of one of several files, NAME#2 the second of two of this name.
@@ -52,6 +52,10 @@ pub struct ConventionOptions {
     /// Unit of speed [default: the header's, otherwise m/s]
     #[arg(long, value_name = "UNIT")]
     pub speed_unit: Option<SpeedUnit>,
+
+    /// Unit of x y [default: the header's, otherwise m]
+    #[arg(long, value_name = "UNIT")]
+    pub length_unit: Option<LengthUnit>,
 
     /// Presence of gravity's reaction in ax ay az, as an accelerometer reads it [default: included]
     #[arg(long, value_name = "GRAVITY")]
@@ -82,6 +86,10 @@ pub struct ConventionOptions {
     /// The lap of a recording whose time starts again with each, from 1
     #[arg(long, value_name = "NUMBER")]
     pub lap: Option<f64>,
+
+    /// Read the vehicle's position, the columns x and y in fixed axes; --learn does so, too
+    #[arg(long)]
+    pub position: bool,
 
     /// Interpolate over a logger's error values and isolated spikes
     #[arg(long)]
@@ -146,6 +154,7 @@ impl ConventionOptions {
             rate_unit: self.rate_unit.or(under.rate_unit),
             angle_unit: self.angle_unit.or(under.angle_unit),
             speed_unit: self.speed_unit.or(under.speed_unit),
+            length_unit: self.length_unit.or(under.length_unit),
             gravity: self.gravity.or(under.gravity),
             axes: self.axes.or(under.axes),
             mounting: self.mounting.or(under.mounting),
@@ -153,6 +162,7 @@ impl ConventionOptions {
             empty_fields: self.empty_fields.or(under.empty_fields),
             missing: self.missing.or(under.missing),
             lap: self.lap.or(under.lap),
+            position: self.position || under.position,
             repair: self.repair || under.repair,
             rate: self.rate.or(under.rate),
             resample: self.resample.or(under.resample),
@@ -183,6 +193,7 @@ impl ConventionOptions {
             (Dimension::Rate, self.rate_unit.map(RateUnit::unit)),
             (Dimension::Angle, self.angle_unit.map(AngleUnit::unit)),
             (Dimension::Speed, self.speed_unit.map(SpeedUnit::unit)),
+            (Dimension::Length, self.length_unit.map(LengthUnit::unit)),
         ];
         Conventions {
             format: self.format,
@@ -199,6 +210,7 @@ impl ConventionOptions {
             rate: self.rate,
             resample: self.resample,
             fade_in: self.fade_in.unwrap_or(0.0),
+            position: self.position,
             dialect: Dialect::Command,
         }
     }

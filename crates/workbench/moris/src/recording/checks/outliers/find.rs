@@ -32,7 +32,7 @@ fn largest_and_least_spike(dimension: Dimension) -> (f64, f64) {
         Dimension::Rate => (35.0, 1.0),
         Dimension::Angle => (7.0, 0.3),
         Dimension::Speed => (150.0, 5.0),
-        Dimension::Time => (f64::INFINITY, f64::INFINITY),
+        Dimension::Time | Dimension::Length => (f64::INFINITY, f64::INFINITY),
     }
 }
 
