@@ -33,6 +33,7 @@ fn recording(name: &str, duration: f64, input: impl Fn(f64, &mut Input)) -> Reco
         start: 0.0,
         angular_velocity_frame: AngularVelocityFrame::Body,
         has_orientation: false,
+        road: None,
         warnings: Vec::new(),
     }
 }
