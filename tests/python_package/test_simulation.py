@@ -246,3 +246,32 @@ def test_a_misspelt_option_is_found_before_it_runs(tmp_path):
     done = subprocess.run([sys.executable, "-m", "mypy", "--config-file", config, source], capture_output=True, text=True)
     errors = [line for line in done.stdout.splitlines() if ": error: " in line]
     assert len(errors) == 1 and ":3: " in errors[0] and "force_units" in errors[0], done.stdout + done.stderr
+
+
+def rounds(count):
+    """Rounds of 30 s with forces that belong to their places."""
+    time = np.arange(0, count * 30, 0.02)
+    angle = 2 * np.pi * time / 30
+    zero = 0 * time
+    columns = {"time": time, "ax": 1.5 * np.tanh(4 * np.sin(3 * angle)), "ay": 1.5 * np.tanh(4 * np.cos(4 * angle))}
+    columns |= {"az": zero + 9.80665, "wx": zero, "wy": zero, "wz": zero}
+    return columns | {"x": 80 * np.cos(angle), "y": 80 * np.sin(angle)}
+
+
+def test_a_preview_is_learned_from_earlier_rounds():
+    ride = rounds(2)
+    plain = moris.simulate(ride, parameters="preview")
+    learned = moris.simulate(ride, parameters="preview", learn=True)
+    assert learned.learned and learned.name.endswith(", learned preview")
+    second = learned.time > 40
+    errors = [np.std((s["rider.specificForce"] - s.desired[0])[second], axis=0) for s in (learned, plain)]
+    assert np.all(errors[0][:2] < 0.9 * errors[1][:2]), errors
+    recording = pickle.loads(pickle.dumps(moris.Recording(ride, position=True)))
+    again = moris.simulate(recording, parameters="preview", learn=True)
+    assert np.array_equal(again["rider.specificForce"], learned["rider.specificForce"])
+    with pytest.raises(ValueError, match="position=True"):
+        moris.simulate(moris.Recording(ride), parameters="preview", learn=True)
+    with pytest.raises(ValueError, match="exclude each other"):
+        moris.simulate(ride, parameters="preview", preview=1.0, learn=True)
+    with pytest.raises(ValueError, match="predictive strategy alone"):
+        moris.simulate(ride, learn=True)

@@ -58,8 +58,8 @@ pub struct Options {
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = parse_seconds)]
     preview: f64,
 
-    /// Preview for the predictive strategy that is learned from earlier passes of the same road: the
-    /// columns x and y are the position
+    /// Preview for the predictive strategy that is learned from earlier passes of the same road:
+    /// the columns x and y are the position
     #[arg(long, conflicts_with = "preview")]
     learn: bool,
 

@@ -137,7 +137,7 @@ def simulate(
     Returns a Simulation. Raises RecordingError, ParameterError or BoundError.
     """
     if learn and not isinstance(recording, Recording):
-        options = {**options, "position": True}
+        options["position"] = True
     recording = recording_of(recording, options)
     native = _moris.Simulation(recording._native, rig, parameters, strategy, bound, preview, learn)
     return Simulation(native, recording, preview, learn)
