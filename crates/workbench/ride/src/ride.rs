@@ -96,7 +96,7 @@ impl Ride {
             laps: Vec::new(),
             lap_start: 0,
             is_mixed: false,
-            lamps: [false; 6],
+            lamps: [false; lamps::NAMES.len()],
             washout,
         })
     }
