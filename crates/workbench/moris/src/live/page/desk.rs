@@ -130,7 +130,7 @@ pub struct Welcome {
     pub drives: bool,
     /// The vehicle has controls.
     can_drive: bool,
-    names: [&'static str; NAMES.len()],
+    names: &'static [&'static str],
 }
 
 impl Desk {
@@ -248,7 +248,7 @@ impl Desk {
             shared: self.shared_control,
             drives: is_first && can_drive,
             can_drive,
-            names: NAMES,
+            names: &NAMES,
         }
     }
 

@@ -15,7 +15,7 @@ pub const EVERY: u64 = 10;
 const LINES: usize = 8;
 
 /// Names of the numbers in a row, in order.
-pub const NAMES: [&str; 32] = [
+pub const NAMES: [&str; 33] = [
     "time",
     "desired_x",
     "desired_y",
