@@ -1,7 +1,7 @@
 //! Automatic scale: a factor on force and rates, as large as the rig can give them the right way
 //! round.
 //!
-//! A rig that is asked for more than it has gives the right amount at the wrong time. The [`bank`]
+//! A rig that is asked for more than it has gives the right amount at the wrong time. The `bank`
 //! moves shadow platforms at fixed scales beside the real one, and compares what each would feel
 //! with what it should. The largest scale whose shape error is small enough is the goal. The
 //! factor goes there, fast when it falls and slowly when it rises. A scale is lowered only where a
