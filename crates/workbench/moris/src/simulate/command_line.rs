@@ -7,7 +7,7 @@ use clap::{Args, Command};
 use super::Options;
 
 /// Options about parameters, which the file takes the place of.
-const OF_PARAMETERS: [&str; 5] = ["--parameters", "--strategy", "--compare", "--against", "--preview"];
+const OF_PARAMETERS: [&str; 6] = ["--parameters", "--strategy", "--compare", "--against", "--preview", "--learn"];
 
 /// This program's command line for one recording, with `--parameters` at its end for another file.
 pub fn with_other_parameters(recording: &Path) -> String {
@@ -60,7 +60,7 @@ mod tests {
         let expected =
             "cargo moris simulate 'my ride'\\''s.csv' --rig r.toml --no-bound --mounting -3,0,1 --parameters";
         assert_eq!(command, expected);
-        let command = of("--repair a.csv --json --rig r.toml".split(' ').map(str::to_owned), "a.csv");
+        let command = of("--repair a.csv --learn --json --rig r.toml".split(' ').map(str::to_owned), "a.csv");
         assert_eq!(command, "cargo moris simulate a.csv --repair --json --rig r.toml --parameters");
     }
 }
