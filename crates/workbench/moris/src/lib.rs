@@ -6,6 +6,7 @@
 //! - [`simulate`] simulates recordings on it.
 //! - [`measure`] prints a table of the measures of several recordings.
 //! - [`fit`](mod@fit) finds the scale at which the cues have the right sign and proportion.
+//! - [`bench`](mod@bench) compares washouts on fixed drives and rigs.
 //! - [`worst_case`] measures the strategies on platforms that differ from the nominal one.
 //! - [`live`] steps the washout beside a running vehicle.
 //! - [`tune`] searches for better parameters.
@@ -21,6 +22,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod bench;
 pub mod build_fmu;
 pub mod fit;
 pub mod frequency_response;

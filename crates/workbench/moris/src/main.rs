@@ -5,7 +5,8 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 use moris::{
-    build_fmu, fit, frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune, worst_case,
+    bench, build_fmu, fit, frequency_response, help, live, measure, parameters, ride, rig, schema, simulate, tune,
+    worst_case,
 };
 
 /// Workbench of the washout: simulate recordings on a rig, measure cue quality, tune parameters
@@ -24,6 +25,7 @@ enum Command {
     Simulate(simulate::Options),
     Measure(measure::Options),
     Fit(fit::Options),
+    Bench(bench::Options),
     Ride(ride::Options),
     Live(live::Options),
     WorstCase(worst_case::Options),
@@ -44,6 +46,7 @@ fn main() -> ExitCode {
         Command::Simulate(options) => simulate::main(&options, out),
         Command::Measure(options) => measure::main(&options, out),
         Command::Fit(options) => fit::main(&options, out),
+        Command::Bench(options) => bench::main(&options, out),
         Command::Ride(options) => ride::main(&options, out),
         Command::Live(options) => live::main(&options, out),
         Command::WorstCase(options) => worst_case::main(&options, out),

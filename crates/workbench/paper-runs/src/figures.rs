@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 use plotters::style::{BLACK, RGBColor};
 
 use crate::chart::{Curve, Panel, Stroke, draw};
-use crate::manoeuvres::{A, B, C, TOWN};
 use crate::trace::{Sample, Trace};
+use moris_drives::runs::{A, B, C, TOWN};
 
 /// Colours that the colour-blind tell apart too (Okabe and Ito's).
 const BLUE: RGBColor = RGBColor(0, 114, 178);
@@ -175,8 +175,8 @@ fn curve(label: &str, colour: RGBColor, stroke: Stroke, trace: &Trace, value: im
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::manoeuvres::Manoeuvre;
     use crate::parameter_set::STRATEGIES;
+    use moris_drives::runs::Manoeuvre;
 
     /// A run felt a tenth of a second late.
     fn trace(run: &Manoeuvre, parameters: &'static str) -> Trace {

@@ -7,7 +7,6 @@ mod chart;
 pub mod curves;
 pub mod figures;
 pub mod fmu;
-pub mod manoeuvres;
 pub mod parameter_set;
 pub mod simulate;
 pub mod table;

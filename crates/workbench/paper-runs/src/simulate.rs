@@ -4,9 +4,9 @@ use anyhow::{Context, Result, ensure};
 use moris_fmu_host::{Fmu, Instance, Status};
 use moris_measures::LimitFlags;
 
-use crate::manoeuvres::Manoeuvre;
 use crate::parameter_set::ParameterSet;
 use crate::trace::{Sample, Trace};
+use moris_drives::runs::Manoeuvre;
 
 const FLAGS: [&str; 4] = ["status.tiltLimited", "status.softLimited", "status.safetyActive", "status.actuatorLimited"];
 

@@ -44,7 +44,15 @@ const MOST_INTERVALS: f64 = 10_000.0;
 /// The recording is too short for a bound, or the solver fails.
 pub fn bounds(simulation: &Simulation) -> Result<Axes<Option<AxisBound>>, BoundError> {
     let duration = simulation.step * simulation.inputs.len() as f64;
-    let interval = INTERVAL.max(duration / MOST_INTERVALS);
+    bounds_at(simulation, INTERVAL.max(duration / MOST_INTERVALS))
+}
+
+/// The bounds with intervals of this length \[s\]. With longer ones they are a little lower, and as
+/// valid.
+///
+/// # Errors
+/// As [`bounds`].
+pub fn bounds_at(simulation: &Simulation, interval: f64) -> Result<Axes<Option<AxisBound>>, BoundError> {
     let on_axis = |axis: usize| {
         let rest = [0.0, 0.0, STANDARD_GRAVITY][axis];
         let desired: Vec<f64> = simulation.inputs.iter().map(|input| input.specific_force[axis] - rest).collect();

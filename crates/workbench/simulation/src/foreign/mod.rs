@@ -21,7 +21,7 @@ use moris_washout::{Input, Output, Parameters};
 
 use crate::Simulation;
 pub use error::ForeignError;
-pub use limits::Excess;
+pub use limits::{Excess, Limit};
 pub(crate) use plausible::Suspicion;
 pub use times::on_samples;
 

@@ -8,6 +8,8 @@ use std::f64::consts::TAU;
 
 use moris_washout::interface::STANDARD_GRAVITY as GRAVITY;
 
+use crate::smooth::{rise, rise_integral, rise_rate};
+
 /// Time at which run c stops \[s\].
 ///
 /// The speed gained is that of 2.2 m/s2 for 11 s, from the middle of one ramp to the middle of the
@@ -139,24 +141,6 @@ fn straight(t: f64, changes: &[(f64, f64, f64)]) -> Motion {
 
 /// Constant speed of run b \[m/s\].
 const SPEED_IN_THE_WAKE: f64 = 25.0;
-
-/// A smooth rise from 0 to 1 that begins at `start` and takes `duration` \[s\].
-fn rise(t: f64, start: f64, duration: f64) -> f64 {
-    let x = ((t - start) / duration).clamp(0.0, 1.0);
-    x * x * (3.0 - 2.0 * x)
-}
-
-/// The integral of [`rise`] over time.
-fn rise_integral(t: f64, start: f64, duration: f64) -> f64 {
-    let x = ((t - start) / duration).clamp(0.0, 1.0);
-    duration * (x * x * x - 0.5 * x * x * x * x) + (t - start - duration).max(0.0)
-}
-
-/// The time derivative of [`rise`].
-fn rise_rate(t: f64, start: f64, duration: f64) -> f64 {
-    let x = ((t - start) / duration).clamp(0.0, 1.0);
-    6.0 * x * (1.0 - x) / duration
-}
 
 /// Amplitude, frequency \[Hz\], phase \[rad\].
 type Wave = (f64, f64, f64);

@@ -1,0 +1,119 @@
+//! `moris bench`: washouts compared on fixed drives and rigs.
+//!
+//! - `moris_drives::bench` has the drives, and [`rigs`] the rigs.
+//! - [`columns`] are the measures, in their order.
+//! - [`run`] computes the rows of a drive on a rig.
+//! - [`table`] writes the rows as CSV, and prints their means.
+
+pub mod columns;
+pub mod rigs;
+pub mod run;
+pub mod table;
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use anyhow::{Context, Result, bail};
+use clap::builder::PossibleValuesParser;
+use moris_drives::bench::{DRIVES, Drive};
+use moris_washout::interface::StrategyKind;
+use rayon::prelude::*;
+
+use crate::progress::Progress;
+use crate::setup_options::strategies;
+use rigs::{BenchRig, RIGS};
+use run::{Foreign, Row, rows};
+
+/// Version of the bench: of its drives, rigs and columns. Rows of different versions do not compare.
+pub const VERSION: u32 = 1;
+
+/// Compare washouts on fixed drives and rigs
+///
+/// Simulates each drive on each rig with the set of each strategy: with the vehicle's force
+/// unscaled, and at the scale that `moris fit` finds. Writes bench.csv with a row for each, and
+/// prints the means over drives and rigs. A platform at rest is the first row of each drive, and the
+/// bound stands beside every error. The same program writes the same bytes each time.
+///
+/// A washout of your own: write the drives with --write-drives, compute its motion for each, and
+/// give the folder of the results with --felt. docs/bench.md has the steps.
+#[derive(Clone, Debug, clap::Args)]
+pub struct Options {
+    /// Drives, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(DRIVES.map(|drive| drive.name)))]
+    drive: Vec<String>,
+
+    /// Rigs, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(RIGS.map(|rig| rig.name)))]
+    rig: Vec<String>,
+
+    /// Strategies, separated by commas [default: all]
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = strategies())]
+    strategy: Vec<StrategyKind>,
+
+    /// Folder with the motion that another washout computed: RIG/DRIVE.csv, or DRIVE.csv for every
+    /// rig. docs/your-washout.md has the columns. The folder's name is the washout's
+    #[arg(long, value_name = "FOLDER")]
+    felt: Vec<PathBuf>,
+
+    /// Write the drives as recordings into a folder, and end
+    #[arg(long, value_name = "FOLDER")]
+    write_drives: Option<PathBuf>,
+
+    /// Directory for bench.csv
+    #[arg(long, value_name = "DIRECTORY", default_value = crate::REPORT_DIRECTORY)]
+    report: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A file cannot be read or written, or a motion cannot be judged.
+pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
+    let chosen = |name: &str, names: &[String]| names.is_empty() || names.iter().any(|other| other == name);
+    let drives: Vec<Drive> = DRIVES.into_iter().filter(|drive| chosen(drive.name, &options.drive)).collect();
+    if let Some(folder) = &options.write_drives {
+        write_drives(folder, &drives, out)?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let rigs: Vec<BenchRig> = RIGS.into_iter().filter(|rig| chosen(rig.name, &options.rig)).collect();
+    let chosen = |strategy: &StrategyKind| options.strategy.is_empty() || options.strategy.contains(strategy);
+    let strategies: Vec<StrategyKind> = StrategyKind::ALL.iter().copied().filter(chosen).collect();
+    let foreign = options.felt.iter().map(|folder| Foreign::of(folder)).collect::<Result<Vec<_>>>()?;
+    let pairs: Vec<(BenchRig, Drive)> =
+        rigs.iter().flat_map(|rig| drives.iter().map(move |drive| (*rig, *drive))).collect();
+    if !foreign.is_empty() && !pairs.iter().any(|(rig, drive)| foreign.iter().any(|one| one.file(rig, drive).is_some()))
+    {
+        bail!("--felt: there is no file DRIVE.csv or RIG/DRIVE.csv, such as {}.csv", drives[0].name);
+    }
+    let progress = Progress::new("bench", "simulating")?;
+    let of_pair = |(rig, drive): &(BenchRig, Drive)| rows(rig, drive, &strategies, &foreign);
+    let rows: Vec<Row> = pairs.par_iter().map(of_pair).collect::<Result<Vec<_>>>()?.concat();
+    progress.finish();
+    fs::create_dir_all(&options.report).with_context(|| format!("cannot make {}", options.report.display()))?;
+    let file = options.report.join("bench.csv");
+    table::write(&file, &rows)?;
+    write!(out, "{}", table::text(&rows, drives.len(), rigs.len()))?;
+    writeln!(out, "wrote {}", file.display())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Writes the drives as recordings.
+fn write_drives(folder: &Path, drives: &[Drive], out: &mut dyn Write) -> Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
+    for drive in drives {
+        let file = folder.join(format!("{}.csv", drive.name));
+        let mut text = "time,ax,ay,az,wx,wy,wz,speed\n".to_owned();
+        let manoeuvre = drive.manoeuvre();
+        for (k, input) in manoeuvre.inputs().iter().enumerate() {
+            let (force, rate) = (input.specific_force, input.angular_velocity);
+            let values = [force.x, force.y, force.z, rate.x, rate.y, rate.z, input.speed];
+            let fields = values.map(|value| value.to_string()).join(",");
+            text += &format!("{:.2},{fields}\n", k as f64 * manoeuvre.step());
+        }
+        fs::write(&file, text).with_context(|| format!("cannot write {}", file.display()))?;
+        writeln!(out, "wrote {}: {}", file.display(), drive.text)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,156 @@
+//! The rows of the bench.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use moris_drives::bench::{Drive, FRAME};
+use moris_measures::Axes;
+use moris_setup::Setup;
+use moris_simulation::fit::{Aims, Search};
+use moris_simulation::foreign::ForeignMotion;
+use moris_washout::Parameters;
+use moris_washout::interface::StrategyKind;
+use moris_washout::platform::Pose;
+
+use super::columns::COLUMNS;
+use super::rigs::BenchRig;
+use crate::recording::Recording;
+use crate::recording::felt::FeltTable;
+use crate::simulate::{AxisBound, Outcome, Simulation, bounds};
+
+/// Interval of the bound's controls \[s\].
+const INTERVAL: f64 = 0.05;
+
+/// Scale of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scale {
+    /// The vehicle's force, unscaled.
+    One,
+    /// That of `moris fit`, which reaches its aims or comes nearest to them.
+    Fit {
+        /// On force and rates.
+        factor: f64,
+        /// True if it reaches them.
+        fits: bool,
+    },
+    /// That of another washout.
+    Own,
+}
+
+/// A washout on a drive and a rig.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Name of the drive.
+    pub drive: &'static str,
+    /// Name of the rig.
+    pub rig: &'static str,
+    /// Name of the washout.
+    pub washout: String,
+    /// Scale of force and rates.
+    pub scale: Scale,
+    /// The measures, of [`COLUMNS`].
+    pub values: Vec<Option<f64>>,
+}
+
+/// A folder of the motions that another washout computed.
+#[derive(Clone, Debug)]
+pub struct Foreign {
+    name: String,
+    folder: PathBuf,
+}
+
+impl Foreign {
+    /// The folder, under its own name.
+    ///
+    /// # Errors
+    /// There is no such folder.
+    pub fn of(folder: &Path) -> Result<Self> {
+        if !folder.is_dir() {
+            bail!("--felt {}: there is no such folder", folder.display());
+        }
+        let full = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+        let name = full.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(Foreign { name, folder: folder.to_owned() })
+    }
+
+    /// The file for a drive on a rig.
+    pub fn file(&self, rig: &BenchRig, drive: &Drive) -> Option<PathBuf> {
+        let name = format!("{}.csv", drive.name);
+        [self.folder.join(rig.name).join(&name), self.folder.join(name)].into_iter().find(|file| file.is_file())
+    }
+}
+
+/// The rows of a drive on a rig: a platform at rest, the strategies, and other washouts.
+///
+/// # Errors
+/// A set cannot be used on the rig, or a motion cannot be judged.
+pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign: &[Foreign]) -> Result<Vec<Row>> {
+    let of = || format!("{} on {}", drive.name, rig.name);
+    let setup = rig.setup().with_context(of)?;
+    let recording = Recording {
+        name: drive.name.to_owned(),
+        manoeuvre: drive.manoeuvre(),
+        start: 0.0,
+        angular_velocity_frame: FRAME,
+        has_orientation: false,
+        warnings: Vec::new(),
+    };
+    let unscaled = recording.parameters(&unscaled(&setup.parameters, StrategyKind::Classical));
+    let asked = Simulation::without_outputs(&recording.manoeuvre, &unscaled);
+    let bounds = bounds::bounds_at(&asked, INTERVAL).with_context(of)?;
+    let row = |washout: &str, scale: Scale, outcome: Outcome| row(rig, drive, washout, scale, outcome, &bounds);
+    let at_rest = at_rest(&recording, &Setup { parameters: unscaled, ..setup.clone() }).with_context(of)?;
+    let mut rows = vec![row("at rest", Scale::One, at_rest)];
+    let search = Search::new(&recording.manoeuvre, 0.0, Aims::default());
+    for &strategy in strategies {
+        let parameters = recording.parameters(&self::unscaled(&setup.parameters, strategy));
+        let simulated = |parameters: &Parameters| {
+            let setup = Setup { parameters: *parameters, ..setup.clone() };
+            Outcome::of(&recording, &setup, || ()).with_context(of)
+        };
+        let name = strategy.name();
+        rows.push(row(name, Scale::One, simulated(&parameters)?));
+        let found = search.fit(&parameters).with_context(of)?;
+        let scale = Scale::Fit { factor: found.best.factors.scale, fits: found.fits };
+        rows.push(row(name, scale, simulated(&found.best.factors.applied(&parameters))?));
+    }
+    for other in foreign {
+        let Some(file) = other.file(rig, drive) else { continue };
+        let judge = || {
+            let (motion, notes) = FeltTable::read(&file)?.motion(&recording).map_err(anyhow::Error::msg)?;
+            let setup = Setup { parameters: unscaled, ..setup.clone() };
+            Outcome::foreign(&recording, &setup, &other.name, &motion, notes)
+        };
+        rows.push(row(&other.name, Scale::Own, judge().with_context(|| file.display().to_string())?));
+    }
+    Ok(rows)
+}
+
+/// A strategy with the force as the vehicle's. The rates keep the scale of the rig's parameters.
+fn unscaled(parameters: &Parameters, strategy: StrategyKind) -> Parameters {
+    let mut unscaled = *parameters;
+    unscaled.structure.strategy = strategy;
+    unscaled.conditioning.force_scale.fill(1.0);
+    unscaled
+}
+
+/// The platform at rest at neutral.
+fn at_rest(recording: &Recording, setup: &Setup) -> Result<Outcome> {
+    let position = Pose::neutral(&setup.parameters.rig).position;
+    let pose = vec![[position.x, position.y, position.z, 0.0, 0.0, 0.0]; recording.inputs().len()];
+    let motion = ForeignMotion { pose: Some(pose), ..ForeignMotion::default() };
+    Outcome::foreign(recording, setup, "at rest", &motion, Vec::new())
+}
+
+fn row(
+    rig: &BenchRig,
+    drive: &Drive,
+    washout: &str,
+    scale: Scale,
+    mut outcome: Outcome,
+    bounds: &Axes<Option<AxisBound>>,
+) -> Row {
+    outcome.bounds.clone_from(bounds);
+    let values = COLUMNS.iter().map(|column| (column.value)(&outcome.evaluated())).collect();
+    Row { drive: drive.name, rig: rig.name, washout: washout.to_owned(), scale, values }
+}

@@ -1,0 +1,69 @@
+//! The bench of washouts.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+fn bench(directory: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_moris")).arg("bench").args(arguments).current_dir(directory).output().unwrap();
+    (output.status.code(), String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap())
+}
+
+/// The rows of a table, field by field.
+fn rows(file: &Path) -> Vec<Vec<String>> {
+    let text = fs::read_to_string(file).unwrap();
+    text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+const SHORT: [&str; 6] = ["--drive", "lane-change,paper-b", "--rig", "default", "--strategy", "classical,optimal"];
+
+#[test]
+fn the_bench_writes_the_same_bytes_twice_and_at_rest_has_the_desired_error() {
+    let directory = tempfile::tempdir().unwrap();
+    let (code, printed, error) = bench(directory.path(), &SHORT);
+    assert_eq!(code, Some(0), "{error}");
+    assert!(printed.contains("moris bench 1: 2 drives on 1 rigs") && printed.contains("optimal, fit"), "{printed}");
+    let file = directory.path().join("moris-report/bench.csv");
+    let first = fs::read(&file).unwrap();
+    assert_eq!(bench(directory.path(), &SHORT).0, Some(0));
+    assert_eq!(first, fs::read(&file).unwrap());
+
+    let rows = rows(&file);
+    // At rest, and two strategies at two scales.
+    assert_eq!(rows.len(), 1 + 2 * 5);
+    let place = |name: &str| rows[0].iter().position(|head| head == name).unwrap();
+    for row in &rows[1..] {
+        assert_eq!(row[0], "1");
+        let number = |name: &str| row[place(name)].parse::<f64>().unwrap();
+        let [desired, error, bound] = ["desired y [m/s2]", "RMS error y [m/s2]", "bound y [m/s2]"].map(number);
+        assert!(bound <= error && bound <= desired, "{row:?}");
+        if row[3] == "at rest" {
+            assert!((desired - error).abs() < 1e-3 && number("stroke used [%]") == 0.0, "{row:?}");
+        }
+    }
+}
+
+#[test]
+fn another_washout_has_a_row_beside_ours() {
+    let directory = tempfile::tempdir().unwrap();
+    let (code, printed, _) = bench(directory.path(), &["--write-drives", "drives"]);
+    assert_eq!(code, Some(0));
+    assert!(printed.contains("lane-change.csv: car: double lane change at 80 km/h"), "{printed}");
+    // A platform that does not move, as the first row is.
+    let ride = rows(&directory.path().join("drives/lane-change.csv"));
+    let still = |row: &Vec<String>| format!("{},0,0,1.091,0,0,0\n", row[0]);
+    let text = "time,x,y,z,roll,pitch,yaw\n".to_owned() + &ride[1..].iter().map(still).collect::<String>();
+    fs::create_dir_all(directory.path().join("mine")).unwrap();
+    fs::write(directory.path().join("mine/lane-change.csv"), text).unwrap();
+    let (code, printed, error) = bench(directory.path(), &[&SHORT[..], &["--felt", "mine"]].concat());
+    assert_eq!(code, Some(0), "{error}");
+    assert!(printed.contains("mine, own scale"), "{printed}");
+    let rows = rows(&directory.path().join("moris-report/bench.csv"));
+    let of =
+        |washout: &str| rows.iter().find(|row| row[1] == "lane-change" && row[3] == washout).unwrap()[7..].to_vec();
+    assert_eq!(of("mine"), of("at rest"));
+    fs::create_dir_all(directory.path().join("none")).unwrap();
+    let (code, _, error) = bench(directory.path(), &[&SHORT[..], &["--felt", "none"]].concat());
+    assert!(code == Some(1) && error.contains("no file DRIVE.csv or RIG/DRIVE.csv"), "{error}");
+}
