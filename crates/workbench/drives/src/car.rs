@@ -77,7 +77,8 @@ pub struct Course {
     pub along: &'static [Change],
     /// Changes of the curvature that is steered for \[1/m\].
     pub curvature: &'static [Change],
-    /// Waves of the curvature: amplitude \[1/m\], frequency \[Hz\], start and end of the waves \[s\].
+    /// Waves of the curvature: amplitude \[1/m\], frequency \[Hz\], start and
+    /// end of the waves \[s\].
     pub weaving: Option<[f64; 4]>,
     /// Waves of the road, felt as heave: amplitude \[m/s2\] and frequency \[Hz\].
     pub road: &'static [[f64; 2]],

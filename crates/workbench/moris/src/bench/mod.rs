@@ -26,15 +26,16 @@ use crate::setup_options::strategies;
 use rigs::{BenchRig, RIGS};
 use run::{Foreign, Row, rows};
 
-/// Version of the bench: of its drives, rigs and columns. Rows of different versions do not compare.
+/// Version of the bench: of its drives, rigs and columns. Rows of different
+/// versions do not compare.
 pub const VERSION: u32 = 1;
 
 /// Compare washouts on fixed drives and rigs
 ///
 /// Simulates each drive on each rig with the set of each strategy: with the vehicle's force
 /// unscaled, and at the scale that `moris fit` finds. Writes bench.csv with a row for each, and
-/// prints the means over drives and rigs. A platform at rest is the first row of each drive, and the
-/// bound stands beside every error. The same program writes the same bytes each time.
+/// prints the means over drives and rigs. A platform at rest is the first row of each drive, and
+/// the bound stands beside every error. The same program writes the same bytes each time.
 ///
 /// A washout of your own: write the drives with --write-drives, compute its motion for each, and
 /// give the folder of the results with --felt. docs/bench.md has the steps.
