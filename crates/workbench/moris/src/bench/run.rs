@@ -93,6 +93,7 @@ pub fn rows(rig: &BenchRig, drive: &Drive, strategies: &[StrategyKind], foreign:
         start: 0.0,
         angular_velocity_frame: FRAME,
         has_orientation: false,
+        road: None,
         warnings: Vec::new(),
     };
     let unscaled = recording.parameters(&unscaled(&setup.parameters, StrategyKind::Classical));
