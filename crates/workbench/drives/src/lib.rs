@@ -2,7 +2,7 @@
 //!
 //! - [`runs`] has the paper's runs and a drive through town, in closed form.
 //! - [`car`] is a single-track car, with a driver's steering and pedals in closed form.
-//! - [`bench`] is the fixed list of drives on which washouts are compared.
+//! - [`bench`](mod@bench) is the fixed list of drives on which washouts are compared.
 
 #![forbid(unsafe_code)]
 
