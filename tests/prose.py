@@ -4,7 +4,7 @@
     python3 tests/prose.py [--list] [--check] [--wrap] [FILE ...]
 
 - Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
-  counts once. At most 2 % of them.
+  counts once. At most 0.2 % of them.
 - Sentences: their length in words, in the pages, in the documentation packed into the FMUs, in doc comments and in Python's
   docstrings. Code, tables and headings do not count. A list's item ends a sentence; a link counts as its
   text, a piece of code as one word. A mean of at most 16 words a page (not of docstrings), none above 30.
@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-OPENINGS = 0.02
+OPENINGS = 0.002
 MEAN = 16.0
 LONGEST = 30
 COLUMNS = 100
@@ -296,7 +296,7 @@ def main():
     if arguments.list:
         for finding in [*opening, *long, *columns]:
             print(finding)
-    print(f"{len(opening)} of {comments} doc comments begin with What, Whether or How: {fraction:.1%} (at most {OPENINGS:.0%})")
+    print(f"{len(opening)} of {comments} doc comments begin with What, Whether or How: {fraction:.1%} (at most {OPENINGS:.1%})")
     print(f"{len(counts)} sentences of {mean:.1f} words in the mean: {len(long)} above {LONGEST}, or pages above {MEAN:.0f} (none)")
     print(f"{len(columns)} lines of prose above {COLUMNS} columns (none)")
     met = fraction <= OPENINGS and not long and not columns

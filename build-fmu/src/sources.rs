@@ -21,7 +21,7 @@ const WASM2C: &str = "1.0.32";
 const DECLARATIONS: &str = "sources/module.h";
 const CODE: &str = "sources/module_code.h";
 
-/// What wasm2c has made of a model's library, adapted to the runtime.
+/// Output of wasm2c for a model's library, adapted to the runtime.
 pub struct Sources {
     declarations: String,
     code: String,

@@ -52,7 +52,7 @@ pub(crate) fn log_categories<'a>(categories: impl IntoIterator<Item = (&'a str, 
     Element::new("LogCategories").containing(categories.into_iter().map(category))
 }
 
-/// What a host runs when its user says nothing; times in seconds.
+/// Experiment that a host runs by default; times in seconds.
 pub(crate) fn default_experiment(identity: &Identity) -> Element {
     Element::new("DefaultExperiment")
         .with("startTime", 0.0)

@@ -42,8 +42,8 @@ pub fn with_source_file(mut description: Element, file: &str) -> Element {
     description
 }
 
-/// What the binary is called, without its ending, and the capabilities of the C functions of
-/// moris-fmi, for any model.
+/// Name of the binary without its ending, and the capabilities of the C functions of moris-fmi, for
+/// any model.
 fn co_simulation(identity: &Identity) -> Element {
     Element::new("CoSimulation")
         .with("modelIdentifier", identity.name)

@@ -31,8 +31,8 @@ pub fn describe_with<M: Model>(start: &[f64], layout: Layout) -> Element {
         ])
 }
 
-/// What the binary is called, without its ending, and the capabilities of the C functions of
-/// moris-fmi, for any model.
+/// Name of the binary without its ending, and the capabilities of the C functions of moris-fmi, for
+/// any model.
 fn co_simulation(identity: &Identity) -> Element {
     Element::new("CoSimulation")
         .with("modelIdentifier", identity.name)

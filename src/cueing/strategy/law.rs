@@ -50,8 +50,8 @@ pub struct Circumstances<'a> {
     pub time_to_stop: f64,
 }
 
-/// What a law decides by: surge and sway at a step's beginning, and the effective references at its
-/// end \[m/s2\].
+/// Input of a law: surge and sway at a step's beginning, and the effective references at its end
+/// \[m/s2\].
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
     pub states: [AxisState; 2],
@@ -59,7 +59,7 @@ pub struct Situation<'a> {
     pub circumstances: &'a Circumstances<'a>,
 }
 
-/// What decides on the dropped force and the tilt of surge and sway.
+/// Control law for the dropped force and the tilt of surge and sway.
 pub trait Law: Sized {
     /// At rest.
     ///

@@ -147,7 +147,7 @@ impl Strategy {
         }
     }
 
-    /// What makes use of a preview, if the strategy does.
+    /// The user of a preview; none if the strategy has no use for one.
     pub fn previewed(&mut self) -> Option<&mut dyn Previewed> {
         match self {
             Strategy::Classical(_) => None,

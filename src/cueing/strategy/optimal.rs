@@ -29,7 +29,7 @@ pub struct Tuning {
     pub weights: Weights,
     /// Time constant that splits the reference into its slow and its fast part \[s\].
     pub split_time: f64,
-    /// What the robust strategy withstands; none for the optimal one.
+    /// Disturbance that the robust strategy withstands; none for the optimal one.
     pub disturbance: Option<Disturbance>,
 }
 

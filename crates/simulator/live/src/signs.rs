@@ -22,7 +22,7 @@ const LEANING: f64 = 0.5;
 /// Angles up to which a body's rates are those of its angles, about \[rad\].
 const LEVEL: f64 = 0.3;
 
-/// What a slope may add to a force \[m/s2\], without an attitude and with one.
+/// Largest part of a force that a slope may cause \[m/s2\], without an attitude and with one.
 const SLOPES: [f64; 2] = [2.5, 0.5];
 /// Time over which a change of speed is compared with the force \[s\].
 const WINDOW: f64 = 0.1;

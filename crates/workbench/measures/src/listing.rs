@@ -107,7 +107,7 @@ pub fn all_rows() -> Vec<Row> {
     Measures::of(&run).expect("the run has equal series of numbers").rows()
 }
 
-/// What the rows of a subject have in common.
+/// Name and source that all rows of a subject have.
 struct Subject {
     name: String,
     source: &'static str,

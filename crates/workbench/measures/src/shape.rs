@@ -181,7 +181,7 @@ mod tests {
         [times().map(desired).collect(), times().map(felt).collect()]
     }
 
-    /// What SciPy 1.17 and NumPy make of [`forces`]: `sosfiltfilt(butter(2, 2, fs=1/step,
+    /// Values of SciPy 1.17 and NumPy for [`forces`]: `sosfiltfilt(butter(2, 2, fs=1/step,
     /// output="sos"), force)`, then `corrcoef`, ratios of RMS and counts.
     #[test]
     fn shape_size_and_inverted_are_those_of_scipy() {

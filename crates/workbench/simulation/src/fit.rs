@@ -28,7 +28,7 @@ const BREAKS: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
 /// Factors on heave, the largest first.
 const HEAVE: [f64; 6] = [1.0, 0.7, 0.5, 0.35, 0.25, 0.15];
 
-/// What a scale has to reach.
+/// Bounds of the errors that a scale has to keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aims {
     /// Largest shape error of surge and sway together.

@@ -40,7 +40,7 @@ impl Evaluated<'_> {
         Finding { weight, text }
     }
 
-    /// What to change where the scale asks too much.
+    /// Remedy where the scale is too large for the rig.
     fn smaller_scale(&self) -> String {
         match self.advice.and_then(|advice| advice.scaled) {
             _ if self.simulation.foreign.is_some() => "A smaller scale of force and rates helps.".to_owned(),

@@ -105,7 +105,7 @@ impl<'a> Surroundings<'a> {
     }
 }
 
-/// What is left of a value after `time` seconds if it returns to zero critically damped.
+/// Value after `time` seconds of a critically damped return to zero.
 fn free_response(value: f64, rate: f64, frequency: f64, time: f64) -> f64 {
     (value + (rate + frequency * value) * time) * libm::exp(-frequency * time)
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Time without word from the page after which the controls are released.
 const SILENT: Duration = Duration::from_millis(500);
 
-/// What controls a vehicle has.
+/// Kind of a vehicle's controls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Handling {
@@ -68,7 +68,7 @@ impl Controls {
         self.lock().until = Duration::ZERO;
     }
 
-    /// What is held now.
+    /// The command in force at this time: the one that is held, or none.
     pub fn at(&self, now: Duration) -> Command {
         let Held { command, until, .. } = *self.lock();
         if now < until { command } else { Command { is_helped: command.is_helped, ..Command::default() } }

@@ -1,4 +1,4 @@
-//! How late something was, again and again: classes for people, fine bins for quantiles.
+//! Histogram of delays: wide classes for printing, fine bins for quantiles.
 
 use std::fmt::{self, Display, Formatter};
 use std::time::Duration;

@@ -19,7 +19,7 @@ pub const WORDS: &str = "settled, slow";
 pub struct Place {
     /// The device goes to the first frame by itself, or has no actuators, or nobody follows.
     is_own: bool,
-    /// What a person has said for the next start.
+    /// The place that a person has given for the next start.
     said: Option<Legs>,
     /// Speed with which the controller goes to its first length by itself \[m/s\].
     slow_speed: Option<f64>,
@@ -102,7 +102,7 @@ impl Place {
         }
     }
 
-    /// What a person should know before a start of a stroke \[m\]; none if there is nothing.
+    /// Advice before a start with this stroke \[m\]; none if the place is known.
     pub fn advice(&self, stroke: f64) -> Option<String> {
         let asked = if self.asks { "; the controller is asked for it" } else { "" };
         match (self.is_own, self.said, self.slow_speed) {

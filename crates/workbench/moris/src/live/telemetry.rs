@@ -38,7 +38,7 @@ pub struct Received {
     pub sample: Sample,
 }
 
-/// What `--from` may be.
+/// The accepted values of `--from`.
 const SOURCES: &str = "must be udp:PORT with a port from 1 to 65535, ros2:TOPIC, fmu:FILE, ride, or a recording's file";
 
 /// The format of recordings of this name.

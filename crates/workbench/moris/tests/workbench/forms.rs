@@ -323,8 +323,7 @@ fn racebox_and_racechrono_with_a_pause_are_read() {
     assert_is_the_car(read(&body, &chrono), "RaceChrono");
 }
 
-/// What is wrong is named: the warnings or the error of the ride with columns that a function
-/// changes.
+/// The warnings or the error of the ride with columns that a function changes.
 fn judged(options: &ConventionOptions, change: impl Fn([f64; 8]) -> [f64; 8]) -> String {
     let mut text = format!("{}\n", HEADER.join(","));
     for k in 0..COUNT {

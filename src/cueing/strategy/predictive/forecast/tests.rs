@@ -169,7 +169,7 @@ impl Plain {
         Features::from_fn(|k, _| if k == 0 { self.value(n) } else { self.low_passes[n][k - 1] })
     }
 
-    /// What followed a sample, or came before it where the horizon is not over: the targets as of
+    /// Course after a sample, or before it where the horizon is not over: the targets as of
     /// sample `now`, for forecasts of their own ages.
     fn truth(&self, start: isize, now: isize) -> Targets {
         let slow = self.low_passes[now as usize][SLOW];

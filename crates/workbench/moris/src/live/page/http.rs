@@ -93,7 +93,7 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Refusal> {
     Ok(Some((request, head, length)))
 }
 
-/// What a request needs to be answered.
+/// Token and port that a request must have to be answered.
 #[derive(Clone, Debug)]
 pub struct Access {
     pub token: String,

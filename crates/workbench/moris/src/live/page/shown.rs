@@ -1,4 +1,4 @@
-//! What the loop shows to the page, and the messages made of it.
+//! Values that the loop passes to the page, and the messages made of them.
 
 use std::collections::VecDeque;
 

@@ -15,7 +15,7 @@ use super::{Handling, Vehicle};
 
 /// Words of a map that are not those of a table of fields.
 const OWN: [&str; 3] = ["start", "step", "controls"];
-/// What a table of fields has, and a map needs not say.
+/// Keys of a table of fields that a map may leave out, with their values.
 const DEFAULTS: [(&str, &str); 4] = [("name", "map"), ("about", ""), ("note", ""), ("layout", "json")];
 
 /// A control of the page.
