@@ -122,7 +122,7 @@ fn less_stroke_at_neutral_than_a_leg_moves_in_half_a_step_is_refused() {
 }
 
 #[test]
-fn weights_without_a_regulator_are_refused_by_the_strategys_name() {
+fn weights_and_limits_without_a_regulator_are_refused_by_the_strategys_name() {
     for (strategy, prefix) in [(3.0, "optimal"), (4.0, "predictive"), (5.0, "robust")] {
         let weight = |name: &str, value: f64| (format!("{prefix}.{name}"), value);
         let extreme = [
@@ -146,11 +146,30 @@ fn weights_without_a_regulator_are_refused_by_the_strategys_name() {
         changed.extend(extreme.iter().map(|(name, value)| (name.as_str(), *value)));
         let unusable = parameters(&changed);
         for refusal in [Washout::new(&unusable).unwrap_err(), washout.retune(&unusable).unwrap_err()] {
-            assert_eq!(refusal.variable, format!("{prefix}.weightPosition"));
-            assert!(refusal.reason.contains("is 33, ") && refusal.reason.contains("Riccati"), "{refusal}");
+            assert_eq!(refusal.variable, "strategy");
+            // The weight of travel is one cause among others.
+            assert!(!refusal.reason.contains("weightPosition"), "{refusal}");
+            for part in [&format!("is {prefix}, "), &format!("{prefix}.*"), "safety.*", "tilt.*", "Riccati"] {
+                assert!(refusal.reason.contains(part), "{part}: {refusal}");
+            }
         }
         assert_eq!(washout, before);
     }
+}
+
+#[test]
+fn limits_without_a_regulator_of_the_automatic_scale_are_refused_by_the_name_of_a_parameter() {
+    let extreme = [
+        ("scale.automatic", 2.0),
+        ("safety.x.positionLimit", 3.9e5),
+        ("safety.x.velocityLimit", 6.3e-9),
+        ("tilt.rateLimit", 1.9e-7),
+        ("tilt.accelerationLimit", 560.0),
+        ("tilt.angleLimit", 2e-4),
+    ];
+    let refusal = Washout::new(&parameters(&extreme)).unwrap_err();
+    assert!(Washout::IDENTITY.slot(&refusal.variable).is_some(), "{refusal}");
+    assert!(refusal.variable == "scale.automatic" && refusal.reason.contains("Riccati"), "{refusal}");
 }
 
 #[test]

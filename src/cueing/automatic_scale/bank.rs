@@ -82,7 +82,7 @@ impl Bank {
         let gains = |axis: usize| {
             Regulator::new(&weighed(&models[axis]), &WEIGHTS)
                 .map(|regulator| regulator.gains)
-                .ok_or(Unsolvable { strategy: "automaticScale", weight_position: WEIGHTS.position })
+                .ok_or(Unsolvable::AutomaticScale)
         };
         Ok(Bank {
             models,

@@ -113,22 +113,33 @@ pub struct PlanStatus {
     pub kept: bool,
 }
 
-/// The error for weights with which the Riccati equation has no numerical solution.
+/// The error for a regulator whose Riccati equation has no numerical solution. All of its weights
+/// and limits enter the equation; none of them can be named as the cause.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unsolvable {
-    /// Of the strategy, as its parameters begin.
-    pub strategy: &'static str,
-    pub weight_position: f64,
+pub enum Unsolvable {
+    /// The regulator of a strategy, by the strategy's name.
+    Strategy(&'static str),
+    /// The regulator of the automatic scale, whose weights are fixed.
+    AutomaticScale,
 }
 
 impl From<Unsolvable> for ParameterError {
-    fn from(Unsolvable { strategy, weight_position }: Unsolvable) -> Self {
-        ParameterError {
-            variable: format!("{strategy}.weightPosition"),
-            reason: format!(
-                "is {weight_position}, and with the strategy's other weights and poles the Riccati equation has no \
-                 numerical solution; choose them nearer to their start values"
+    fn from(error: Unsolvable) -> Self {
+        let (variable, reason) = match error {
+            Unsolvable::Strategy(name) => (
+                "strategy",
+                format!(
+                    "is {name}, and with the weights and poles {name}.* and the limits safety.* and tilt.* the Riccati \
+                     equation has no numerical solution; choose them nearer to their start values"
+                ),
             ),
-        }
+            Unsolvable::AutomaticScale => (
+                "scale.automatic",
+                "is on, and with the limits safety.* and tilt.* the Riccati equation has no numerical solution; choose \
+                 them nearer to their start values"
+                    .to_owned(),
+            ),
+        };
+        ParameterError { variable: variable.to_owned(), reason }
     }
 }

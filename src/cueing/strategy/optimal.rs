@@ -41,21 +41,17 @@ impl From<&OptimalParameters> for Tuning {
 
 impl Law for Optimal {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
-        Optimal::new(models, &(&parameters.optimal).into()).ok_or_else(|| unsolvable(parameters))
+        Optimal::new(models, &(&parameters.optimal).into()).ok_or(Unsolvable::Strategy("optimal"))
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
         let retuned = self.retune(models, &(&parameters.optimal).into());
-        retuned.then_some(()).ok_or_else(|| unsolvable(parameters))
+        retuned.then_some(()).ok_or(Unsolvable::Strategy("optimal"))
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
         Some(self.decide(&situation.states, situation.references, step))
     }
-}
-
-fn unsolvable(parameters: &Parameters) -> Unsolvable {
-    Unsolvable { strategy: "optimal", weight_position: parameters.optimal.weight_position }
 }
 
 /// Travel above which its weight no longer falls with the square of its limit \[m\].

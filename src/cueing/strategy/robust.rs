@@ -19,21 +19,17 @@ pub struct Robust(Optimal);
 impl Law for Robust {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
         let optimal = Optimal::new(models, &(&parameters.robust).into());
-        optimal.map(Robust).ok_or_else(|| unsolvable(parameters))
+        optimal.map(Robust).ok_or(Unsolvable::Strategy("robust"))
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
         let retuned = self.0.retune(models, &(&parameters.robust).into());
-        retuned.then_some(()).ok_or_else(|| unsolvable(parameters))
+        retuned.then_some(()).ok_or(Unsolvable::Strategy("robust"))
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
         self.0.decisions(situation, step)
     }
-}
-
-fn unsolvable(parameters: &Parameters) -> Unsolvable {
-    Unsolvable { strategy: "robust", weight_position: parameters.robust.weight_position }
 }
 
 impl From<&RobustParameters> for Tuning {

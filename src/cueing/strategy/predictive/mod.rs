@@ -100,12 +100,12 @@ impl From<&PredictiveParameters> for Tuning {
 impl Law for Box<Predictive> {
     fn at_rest(models: &[AxisModel; 2], parameters: &Parameters) -> Result<Self, Unsolvable> {
         let predictive = Predictive::new(models, &(&parameters.predictive).into());
-        predictive.map(Box::new).ok_or_else(|| unsolvable(parameters))
+        predictive.map(Box::new).ok_or(Unsolvable::Strategy("predictive"))
     }
 
     fn set_parameters(&mut self, models: &[AxisModel; 2], parameters: &Parameters) -> Result<(), Unsolvable> {
         let retuned = self.retune(models, &(&parameters.predictive).into());
-        retuned.then_some(()).ok_or_else(|| unsolvable(parameters))
+        retuned.then_some(()).ok_or(Unsolvable::Strategy("predictive"))
     }
 
     fn decisions(&mut self, situation: &Situation, step: f64) -> Option<[Decision; 2]> {
@@ -144,10 +144,6 @@ impl Previewed for Predictive {
             forecaster.put_off_preview(lag);
         }
     }
-}
-
-fn unsolvable(parameters: &Parameters) -> Unsolvable {
-    Unsolvable { strategy: "predictive", weight_position: parameters.predictive.weight_position }
 }
 
 impl Predictive {
