@@ -15,7 +15,7 @@ use crate::cueing::preaction::StopPreaction;
 use crate::cueing::soft_limits::{self, SoftLimits};
 use crate::cueing::strategy::Strategy;
 use crate::cueing::strategy::law::Circumstances;
-use crate::cueing::strategy::predictive::preview::Course;
+use crate::cueing::strategy::predictive::preview::PreviewedCue;
 use crate::interface::{Input, Output, Parameters, Preaction, Preview, Reconstruction};
 use crate::motion::min_max::{max, min};
 use crate::motion::orientation::RotationalMotion;
@@ -177,7 +177,7 @@ impl Washout {
         let CuedInput { input, head, .. } = &self.last;
         let (engagement, factor) = (self.engagement(), self.scale.factor());
         if let Some(law) = self.strategy.previewed() {
-            law.preview(&Course::of(preview, |[surge, sway]| {
+            law.preview(&PreviewedCue::of(preview, |[surge, sway]| {
                 let force = Vector3::new(surge, sway, input.specific_force.z);
                 let cue = engagement * cue_force(force, input, conditioning, structure.gravity, head.lean, factor);
                 [cue.x, cue.y]
@@ -218,7 +218,7 @@ impl Washout {
         let end = end.sanitized();
         self.last.input.engaged = end.engaged;
         if let Some(law) = self.strategy.previewed() {
-            law.put_off_preview(step);
+            law.delay_preview(step);
         }
         self.step_to(&end, step, observe);
     }
@@ -280,6 +280,8 @@ impl Washout {
     /// One step of Fig. 4, from left to right. The cue goes linearly from the last sample to `end`.
     fn internal_step(&mut self, end: &CuedInput, step: f64) {
         let head_at_end = &end.head;
+        // (1) Strategy splitter: scale, limits and low-pass of the cue. Its high- and low-pass are in
+        // the strategy and in the chain of (3).
         let (cue_start, cue_end) = self.limited_cues(end, step);
         let (mut cue_start, mut cue_end) = self.conditioned_cues(cue_start, cue_end, self.last.input.engaged, step);
         self.preact(&mut cue_start, &mut cue_end, &end.input, step);
@@ -289,8 +291,10 @@ impl Washout {
         let force_start = rotation * self.last.head.to_platform_axes(cue_start.force);
         let force_end = rotation_at_end * head_at_end.to_platform_axes(cue_end.force);
         let Parameters { conditioning, safety, structure, rig, .. } = &self.parameters;
+        // (5), (6) Angular channel.
         let channel_angles = self.angular.advance(cue_start.rates, cue_end.rates, step);
-        // Disengaged, the platform does not make up for the rider's lean either.
+        // (2) Gravitational strategy: tilt. Disengaged, the platform does not make up for the rider's
+        // lean either.
         let lean = head_at_end.lean * self.engagement();
         let circumstances = Circumstances {
             parameters: &self.parameters,
@@ -307,15 +311,18 @@ impl Washout {
         let mut angles = channel_angles;
         angles.add_to_axis(0, &tilt_roll);
         angles.add_to_axis(1, &tilt_pitch);
+        // (4) Compensation of spurious accelerations.
         let turning = RotationalMotion::new(&angles);
         let arm = turning.orientation.rotation * head_at_end.point;
         let tilt = Tilt { roll: tilt_roll.position, pitch: tilt_pitch.position };
         let spurious = compensated(conditioning.compensation, &turning, arm, &tilt, structure.gravity);
+        // (3) Direct linear motion, with its safety units below.
         let filtered = self.direct_linear.advance_filters([force_start - spurious, force_end - spurious], step);
         let linear = self.strategy.demand(filtered, self.preaction.surge(), &circumstances, &turning, step);
         let mut demand = PlatformCoordinates { linear, angles };
         let mut motion = PlatformMotion::new(&demand.linear, &turning, rig.neutral_height);
         let mut legs = self.guard.legs_of(&motion);
+        // Soft limits, safety units, actuator guard and evaluator: each may change the demand.
         let at_rest = cue_end.asks_for_no_motion() && lean == 0.0;
         self.resting = if at_rest { self.resting + step } else { 0.0 };
         let soft = self.soft_limits.enabled() && self.resting <= SOFT_LIMITS_HOLD;
@@ -427,6 +434,9 @@ impl Washout {
         let mut scale = self.scale;
         scale.retune(parameters, nothing_cued)?;
         self.strategy.retune(parameters)?;
+        // From here on nothing fails. The order matters: the channels' inputs `before` are those of
+        // the old conditioning and the new strategy, and the cue, its limits and the inputs `after`
+        // are made with the new parameters.
         self.scale = scale;
         let (force_before, rates_before) = self.drive(self.input_filter.cue());
         self.parameters = *parameters;

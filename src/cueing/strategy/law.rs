@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
-use super::predictive::preview::Course;
+use super::predictive::preview::PreviewedCue;
 use super::regulator::AxisModel;
 use crate::interface::Parameters;
 use crate::motion::Motion;
@@ -96,10 +96,10 @@ pub trait Law: Sized {
 /// A law that makes use of a preview.
 pub trait Previewed {
     /// Sets the specific force of surge and sway that is to come.
-    fn preview(&mut self, courses: &[Course; 2]);
+    fn preview(&mut self, courses: &[PreviewedCue; 2]);
 
-    /// Lets the preview begin `lag` seconds later.
-    fn put_off_preview(&mut self, lag: f64);
+    /// Delays a preview that has just been given by `lag` seconds.
+    fn delay_preview(&mut self, lag: f64);
 }
 
 /// The plan of a law that plans.

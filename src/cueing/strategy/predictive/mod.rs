@@ -26,7 +26,7 @@ use self::dual_active_set::{DualActiveSet, Rows, Status};
 use self::forecast::{Forecaster, Memory, Tables};
 use self::horizon::{BLOCKS, Horizon, SAMPLE, reserved};
 use self::legs::{LARGEST_HEAVE, Surroundings, leg_rows};
-use self::preview::Course;
+use self::preview::PreviewedCue;
 use self::program::{AXIS_CONTROLS, AXIS_ROWS, AxisControls, CONTROLS, Nodes, Programs, RAMP, ROWS};
 use super::law::{AxisState, Decision, Law, PlanStatus, Previewed, Situation, Unsolvable};
 use super::regulator::{AxisModel, Weights};
@@ -132,16 +132,16 @@ impl Law for Box<Predictive> {
 
 impl Previewed for Predictive {
     /// Sets the courses that the cue will take in surge and sway.
-    fn preview(&mut self, courses: &[Course; 2]) {
+    fn preview(&mut self, courses: &[PreviewedCue; 2]) {
         for (forecaster, course) in self.forecasters.iter_mut().zip(courses) {
             forecaster.preview(course);
         }
     }
 
     /// Delays courses that have just been given by `lag` seconds.
-    fn put_off_preview(&mut self, lag: f64) {
+    fn delay_preview(&mut self, lag: f64) {
         for forecaster in &mut self.forecasters {
-            forecaster.put_off_preview(lag);
+            forecaster.delay_preview(lag);
         }
     }
 }

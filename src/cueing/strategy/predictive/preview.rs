@@ -15,7 +15,7 @@ const INSTANT: f64 = 1e-9;
 
 /// The cue of one axis at points of time to come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Course {
+pub struct PreviewedCue {
     /// Time from one value to the next; the first is one such time after the
     /// course was given \[s\].
     pub step: f64,
@@ -29,17 +29,17 @@ pub struct Course {
     pub begun: bool,
 }
 
-impl Course {
+impl PreviewedCue {
     /// The courses in surge and sway of a preview whose forces \[m/s2\] `cue` conditions. A preview
     /// ends before its first element that is not a number.
     pub fn of(preview: &Preview, cue: impl Fn([f64; 2]) -> [f64; 2]) -> [Self; 2] {
         if preview.count <= 0 || preview.step.is_nan() {
-            return [Course::default(); 2];
+            return [PreviewedCue::default(); 2];
         }
         let Preview { count, step, surge, sway } = preview.sanitized();
         let mut courses = [&preview.surge, &preview.sway].map(|forces| {
             let numbers = forces.iter().position(|force| force.is_nan()).unwrap_or(PREVIEW_SAMPLES);
-            Course { step, count: numbers.min(count as usize), ..Course::default() }
+            PreviewedCue { step, count: numbers.min(count as usize), ..PreviewedCue::default() }
         });
         for k in 0..PREVIEW_SAMPLES {
             [courses[0].values[k], courses[1].values[k]] = cue([surge[k], sway[k]]);
@@ -71,10 +71,10 @@ impl Course {
 /// Each preview's points lie between those of the others, so that within a step a host tells all of
 /// a force that it knows at points of time. Together they have the means of a force that vibrates.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Courses {
-    latest: Course,
+pub struct PreviewedCues {
+    latest: PreviewedCue,
     /// A ring, with the oldest at `next`.
-    before: [Course; REMEMBERED],
+    before: [PreviewedCue; REMEMBERED],
     next: u8,
 }
 
@@ -83,11 +83,11 @@ const REMEMBERED: usize = 9;
 /// Corners of all of them, and the reference now.
 const CORNERS: usize = (REMEMBERED + 1) * PREVIEW_SAMPLES + 1;
 
-impl Courses {
+impl PreviewedCues {
     /// Takes a new course. One without values, or with another step, removes those before.
-    pub fn give(&mut self, course: &Course) {
+    pub fn give(&mut self, course: &PreviewedCue) {
         if course.step != self.latest.step || course.count == 0 {
-            *self = Courses::default();
+            *self = PreviewedCues::default();
         } else if self.latest.begun && self.is_apart() {
             let next = usize::from(self.next) % REMEMBERED;
             self.before[next] = self.latest;
@@ -151,7 +151,7 @@ impl Ahead {
     ///
     /// Now the reference is on the line from `low`, what it was about `lag` seconds ago without its
     /// vibration, to the course's next value.
-    pub fn new(courses: &Courses, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
+    pub fn new(courses: &PreviewedCues, (lag, low): (f64, f64), beside: f64) -> Option<Self> {
         let mut ahead = Ahead { times: [0.0; CORNERS], values: [0.0; CORNERS], count: 1 };
         for (time, value) in courses.points() {
             if time > ahead.times[ahead.count - 1] + INSTANT {
@@ -256,14 +256,14 @@ mod tests {
     use super::*;
 
     /// One and a half seconds of a course that was given 0.1 s ago.
-    fn course() -> Course {
+    fn course() -> PreviewedCue {
         let mut values = [0.0; PREVIEW_SAMPLES];
         values[..8].copy_from_slice(&[1.0, 2.0, -1.0, 0.5, 0.5, 3.0, 0.0, -2.0]);
-        Course { step: 0.2, count: 8, values, age: 0.1, begun: true }
+        PreviewedCue { step: 0.2, count: 8, values, age: 0.1, begun: true }
     }
 
-    fn alone(course: Course) -> Courses {
-        Courses { latest: course, ..Courses::default() }
+    fn alone(course: PreviewedCue) -> PreviewedCues {
+        PreviewedCues { latest: course, ..PreviewedCues::default() }
     }
 
     /// The reference of [`course`], which is 0.5 now.
@@ -306,9 +306,9 @@ mod tests {
 
     #[test]
     fn a_course_that_is_over_is_none() {
-        assert!(Ahead::new(&alone(Course { age: 1.6, ..course() }), (0.0, 0.5), 0.0).is_none());
-        assert!(Ahead::new(&Courses::default(), (0.0, 0.5), 0.0).is_none());
-        assert_eq!(Course { age: 1.7, ..course() }.length(), 0.0);
+        assert!(Ahead::new(&alone(PreviewedCue { age: 1.6, ..course() }), (0.0, 0.5), 0.0).is_none());
+        assert!(Ahead::new(&PreviewedCues::default(), (0.0, 0.5), 0.0).is_none());
+        assert_eq!(PreviewedCue { age: 1.7, ..course() }.length(), 0.0);
     }
 
     #[test]
@@ -336,7 +336,7 @@ mod tests {
     fn between_the_preview_s_end_and_the_forecast_s_the_low_pass_follows_the_forecast() {
         let after = Forecast { means: SVector::from_fn(|k, _| 0.3 - 0.1 * k as f64), end: [0.4, -0.2] };
         for count in [4, 8] {
-            let ahead = Ahead::new(&alone(Course { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
+            let ahead = Ahead::new(&alone(PreviewedCue { count, ..course() }), (0.0, 0.5), 0.0).unwrap();
             let length = ahead.length();
             let previewed = Previewed { ahead, after, slow: 0.2, slow_time: 0.6 };
             let mut low = ahead.low_pass(0.2, 0.6, length);
@@ -360,19 +360,19 @@ mod tests {
         (preview.surge[..4]).copy_from_slice(&[1.0, f64::NAN, 3.0, 4.0]);
         (preview.sway[..4]).copy_from_slice(&[-1.0, -2.0, -3.0, -4.0]);
         let cue = |[surge, sway]: [f64; 2]| [2.0 * surge, 3.0 * sway];
-        let [surge, sway] = Course::of(&preview, cue);
+        let [surge, sway] = PreviewedCue::of(&preview, cue);
         assert_eq!((surge.count, surge.step, surge.values[0]), (1, 0.25, 2.0));
         assert_eq!((sway.count, sway.step, sway.values[..3].to_vec()), (3, 0.25, vec![-3.0, -6.0, -9.0]));
         for nothing in
             [Preview { count: 0, ..preview }, Preview { count: -1, ..preview }, Preview { step: f64::NAN, ..preview }]
         {
-            assert_eq!(Course::of(&nothing, cue), [Course::default(); 2]);
+            assert_eq!(PreviewedCue::of(&nothing, cue), [PreviewedCue::default(); 2]);
         }
     }
 
     #[test]
     fn only_a_course_that_has_not_begun_is_delayed() {
-        let mut course = Course { age: 0.0, begun: false, ..course() };
+        let mut course = PreviewedCue { age: 0.0, begun: false, ..course() };
         course.delay(0.05);
         assert_eq!((course.age, course.length()), (-0.05, 0.2 * 8.0 + 0.05));
         course.advance(0.15);
@@ -386,13 +386,13 @@ mod tests {
     }
 
     /// Courses of 8 points, 0.2 s apart, given every `period` from 0 to `until`.
-    fn given(period: f64, until: f64) -> Courses {
-        let mut courses = Courses::default();
+    fn given(period: f64, until: f64) -> PreviewedCues {
+        let mut courses = PreviewedCues::default();
         let count = (until / period).round() as usize;
         for k in 0..=count {
             let now = k as f64 * period;
             let values = std::array::from_fn(|k| vibrating(now + 0.2 * (k + 1) as f64));
-            courses.give(&Course { step: 0.2, count: 8, values, ..Course::default() });
+            courses.give(&PreviewedCue { step: 0.2, count: 8, values, ..PreviewedCue::default() });
             if k < count {
                 courses.advance(period);
             }
@@ -418,10 +418,10 @@ mod tests {
 
     #[test]
     fn courses_of_another_step_or_without_values_replace_all() {
-        for next in [Course { step: 0.25, ..course() }, Course { count: 0, ..course() }] {
+        for next in [PreviewedCue { step: 0.25, ..course() }, PreviewedCue { count: 0, ..course() }] {
             let mut courses = given(0.01, 0.5);
             courses.give(&next);
-            assert_eq!(courses, Courses { latest: next, ..Courses::default() });
+            assert_eq!(courses, PreviewedCues { latest: next, ..PreviewedCues::default() });
         }
     }
 }

@@ -238,7 +238,7 @@ fn a_plan_is_made_from_the_same_forecast_by_any_steps() {
 #[test]
 fn a_long_preview_is_planned_for_over_the_far_horizon() {
     let mut predictive = predictive();
-    let course = |count: usize| Course { step: 0.1, count, ..Course::default() };
+    let course = |count: usize| PreviewedCue { step: 0.1, count, ..PreviewedCue::default() };
     for (counts, lag, horizon) in [
         ([20, 20], 0.0, Horizon::Near),
         ([19, 22], 0.0, Horizon::Far),
@@ -247,7 +247,7 @@ fn a_long_preview_is_planned_for_over_the_far_horizon() {
         ([0, 0], 0.0, Horizon::Near),
     ] {
         predictive.preview(&counts.map(course));
-        predictive.put_off_preview(lag);
+        predictive.delay_preview(lag);
         predictive.due = true;
         predictive.solver.abandon();
         passed(&mut predictive, 1, 0.0);
@@ -296,7 +296,7 @@ fn a_foreseen_stop_ends_the_reference_of_surge_where_no_preview_contains_it() {
     assert!(surge == sway && surge > 4.0, "{surge}, {sway}");
 
     let mut previewed = predictive();
-    previewed.preview(&[Course { step: 0.5, count: 12, values: [2.0; _], ..Course::default() }; 2]);
+    previewed.preview(&[PreviewedCue { step: 0.5, count: 12, values: [2.0; _], ..PreviewedCue::default() }; 2]);
     begun(&mut previewed, 2.0, 1.5);
     let [surge, sway] = ends(&previewed);
     assert!(surge == sway && surge > 6.0, "{surge}, {sway}");

@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 
 use super::expected::{FADE_DECAY, Forecast};
 use super::horizon::{BLOCKS, FORECAST, FORECAST_SAMPLES, Horizon, SAMPLE, SAMPLES, end_samples};
-use super::preview::{Ahead, Course, Courses, Previewed};
+use super::preview::{Ahead, Previewed, PreviewedCue, PreviewedCues};
 use crate::cueing::strategy::at_rest_if_tiny;
 use crate::interface::ForecastKind;
 
@@ -110,7 +110,7 @@ pub struct Forecaster {
     errors: SMatrix<f64, EXPERTS, TARGETS>,
     /// The forecast without the preview.
     forecast: Forecast,
-    courses: Courses,
+    courses: PreviewedCues,
     /// The part of the reference that is the angular channel's \[m/s2\].
     beside: f64,
     /// Mean squared errors of the means forecast without the preview and by it.
@@ -241,7 +241,7 @@ impl Forecaster {
             until_fit: 0,
             errors: SMatrix::repeat(LEAST_ERROR),
             forecast: Forecast::default(),
-            courses: Courses::default(),
+            courses: PreviewedCues::default(),
             beside: 0.0,
             preview_errors: [LEAST_ERROR, UNPROVED].map(SVector::repeat),
         }
@@ -261,12 +261,12 @@ impl Forecaster {
     }
 
     /// Sets the course that the cue will take. A course without values removes it.
-    pub fn preview(&mut self, course: &Course) {
+    pub fn preview(&mut self, course: &PreviewedCue) {
         self.courses.give(course);
     }
 
     /// Delays a preview that has just been given by `lag` seconds.
-    pub fn put_off_preview(&mut self, lag: f64) {
+    pub fn delay_preview(&mut self, lag: f64) {
         self.courses.delay(lag);
     }
 

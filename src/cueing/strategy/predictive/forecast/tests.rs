@@ -321,9 +321,9 @@ fn over_a_horizon_the_forecast_is_its_own() {
 }
 
 /// A preview of `count` values, 0.2 s apart, of a reference from a time on.
-fn course(reference: impl Fn(f64) -> f64, time: f64, count: usize) -> Course {
+fn course(reference: impl Fn(f64) -> f64, time: f64, count: usize) -> PreviewedCue {
     let values = std::array::from_fn(|k| reference(time + (k + 1) as f64 * 0.2));
-    Course { step: 0.2, count, values, ..Course::default() }
+    PreviewedCue { step: 0.2, count, values, ..PreviewedCue::default() }
 }
 
 /// Linear between values 0.2 s apart: a preview loses nothing of it.
@@ -347,7 +347,7 @@ fn after_a_right_preview_the_forecast_is_the_one_made_then() {
     for part in 0..2 {
         assert!((previewed.after.end[part] - then.forecast.end[part]).abs() < 0.02);
     }
-    forecaster.put_off_preview(0.3);
+    forecaster.delay_preview(0.3);
     assert!((forecaster.preview_length() - 1.9).abs() < 1e-12);
 }
 
