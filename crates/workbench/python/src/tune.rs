@@ -243,10 +243,9 @@ fn look(py: Python, observe: &Py<PyAny>, progress: Option<Progress>) -> PyResult
 }
 
 fn group(name: &str) -> PyResult<Group> {
-    <Group as clap::ValueEnum>::from_str(name, true).map_err(|_| {
-        let names = <Group as clap::ValueEnum>::value_variants();
-        let names: Vec<String> = names.iter().map(|group| format!("{group:?}").to_lowercase()).collect();
-        PyValueError::new_err(format!("there is no group {name}; there are {}", names.join(", ")))
+    Group::named(name).ok_or_else(|| {
+        let names = Group::ALL.map(Group::name).join(", ");
+        PyValueError::new_err(format!("there is no group {name}; there are {names}"))
     })
 }
 

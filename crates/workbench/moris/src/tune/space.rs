@@ -26,6 +26,30 @@ pub enum Group {
     Order,
 }
 
+impl Group {
+    /// All groups, in the order in which they are listed.
+    pub const ALL: [Group; 7] =
+        [Group::Splitter, Group::Angular, Group::Scale, Group::Cutoff, Group::Tilt, Group::Strategy, Group::Order];
+
+    /// The group's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Group::Splitter => "splitter",
+            Group::Angular => "angular",
+            Group::Scale => "scale",
+            Group::Cutoff => "cutoff",
+            Group::Tilt => "tilt",
+            Group::Strategy => "strategy",
+            Group::Order => "order",
+        }
+    }
+
+    /// The group of this name, in letters of any case.
+    pub fn named(name: &str) -> Option<Group> {
+        Group::ALL.into_iter().find(|group| group.name().eq_ignore_ascii_case(name))
+    }
+}
+
 /// The orders that may be tuned: of the splitter's high-passes and of the angular channel's.
 pub type Orders = [i32; 2];
 
@@ -41,29 +65,42 @@ pub fn with_orders(parameters: &Parameters, orders: Orders) -> Parameters {
     parameters
 }
 
-/// Range of a parameter that makes sense for a washout.
-const FREQUENCIES: Range = Range { min: 0.05, max: 20.0 };
-const DAMPINGS: Range = Range { min: 0.3, max: 2.0 };
-const CUTOFFS: Range = Range { min: 5.0, max: 200.0 };
-/// A scale above 1 would exceed the vehicle's motion.
-const SCALES: Range = Range { min: 0.01, max: 1.0 };
+/// Usual break frequencies \[rad/s\].
+const FREQUENCIES: Range = Range { role: Role::Frequency, min: 0.05, max: 20.0 };
+/// Usual damping ratios.
+const DAMPINGS: Range = Range { role: Role::Other, min: 0.3, max: 2.0 };
+/// Usual frequencies of the input's low-passes \[rad/s\].
+const CUTOFFS: Range = Range { role: Role::Cutoff, min: 5.0, max: 200.0 };
+/// Usual scales; one above 1 would exceed the vehicle's motion.
+const SCALES: Range = Range { role: Role::Scale, min: 0.01, max: 1.0 };
 
 /// Weights of a strategy's cost, and rates at which gains follow its gradient.
-const WEIGHTS: Range = Range { min: 1e-5, max: 1e3 };
+const WEIGHTS: Range = Range { role: Role::Other, min: 1e-5, max: 1e3 };
 /// Gains of the adaptive strategy: a fraction of the force as travel, and a tilt rate for it.
-const GAINS: Range = Range { min: 1e-3, max: 2.0 };
-const ATTENUATIONS: Range = Range { min: 1.01, max: 10.0 };
-const FAST_POLES: Range = Range { min: 0.05, max: 100.0 };
-const DISTURBANCES: Range = Range { min: 1.0, max: 1e4 };
-const SPLIT_TIMES: Range = Range { min: 0.01, max: 2.0 };
+const GAINS: Range = Range { role: Role::Other, min: 1e-3, max: 2.0 };
+const ATTENUATIONS: Range = Range { role: Role::Other, min: 1.01, max: 10.0 };
+const FAST_POLES: Range = Range { role: Role::Other, min: 0.05, max: 100.0 };
+const DISTURBANCES: Range = Range { role: Role::Other, min: 1.0, max: 1e4 };
+const SPLIT_TIMES: Range = Range { role: Role::Other, min: 0.01, max: 2.0 };
 
 /// Tilt that riders hardly perceive, but not too slow to be of use.
-const TILT_RATES: Range = Range { min: 0.02, max: 0.053 };
-const TILT_ACCELERATIONS: Range = Range { min: 0.05, max: 0.5 };
-const TILT_ANGLES: Range = Range { min: 0.1, max: 0.38 };
+const TILT_RATES: Range = Range { role: Role::Other, min: 0.02, max: 0.053 };
+const TILT_ACCELERATIONS: Range = Range { role: Role::Other, min: 0.05, max: 0.5 };
+const TILT_ANGLES: Range = Range { role: Role::Other, min: 0.1, max: 0.38 };
 
+/// Use that the search makes of a parameter, whatever its range.
 #[derive(Clone, Copy, PartialEq)]
+enum Role {
+    Frequency,
+    Cutoff,
+    Scale,
+    Other,
+}
+
+/// Range of a parameter that makes sense for a washout, with the parameter's role.
+#[derive(Clone, Copy)]
 struct Range {
+    role: Role,
     min: f64,
     max: f64,
 }
@@ -71,7 +108,7 @@ struct Range {
 /// Initial value for a parameter that is 0, which has no logarithm. A scale starts at its least
 /// value, a low-pass that is off at its highest frequency.
 fn instead_of_none(range: Range) -> f64 {
-    if range == CUTOFFS { range.max } else { range.min }
+    if range.role == Role::Cutoff { range.max } else { range.min }
 }
 
 /// The parameters that are tuned, as a box of logarithms about those that the search starts from.
@@ -121,7 +158,7 @@ impl Space {
 
     /// The start with all scales that are tuned multiplied by this factor, as far as the box goes.
     pub fn scaled_start(&self, factor: f64) -> DVector<f64> {
-        let logarithm = |range| if range == SCALES { factor.ln() } else { 0.0 };
+        let logarithm = |range: Range| if range.role == Role::Scale { factor.ln() } else { 0.0 };
         let logarithms =
             tuned(&mut self.start.clone(), &self.groups).iter().map(|tuned| logarithm(tuned.range)).collect();
         self.clamped(&DVector::from_vec(logarithms)).0
@@ -132,9 +169,9 @@ impl Space {
     pub fn with_channel(&self, point: &DVector<f64>, channel: usize, frequency: f64, scale: f64) -> DVector<f64> {
         let mut moved = point.clone();
         for (coordinate, tuned) in moved.iter_mut().zip(tuned(&mut self.start.clone(), &self.groups)) {
-            if tuned.channel == Some(channel) && tuned.range == FREQUENCIES {
+            if tuned.channel == Some(channel) && tuned.range.role == Role::Frequency {
                 *coordinate = frequency.ln();
-            } else if tuned.channel == Some(channel) && tuned.range == SCALES {
+            } else if tuned.channel == Some(channel) && tuned.range.role == Role::Scale {
                 *coordinate = scale.ln();
             }
         }
@@ -293,6 +330,23 @@ mod tests {
     use super::*;
 
     const DEFAULT: [Group; 3] = [Group::Splitter, Group::Angular, Group::Scale];
+
+    #[test]
+    fn a_group_has_the_name_of_the_option() {
+        for group in <Group as clap::ValueEnum>::value_variants() {
+            let option = clap::ValueEnum::to_possible_value(group).unwrap();
+            assert_eq!((group.name(), Group::named(&group.name().to_uppercase())), (option.get_name(), Some(*group)));
+        }
+        assert_eq!(Group::ALL, <Group as clap::ValueEnum>::value_variants());
+        assert_eq!(Group::named("gains"), None);
+    }
+
+    #[test]
+    fn roles_do_not_depend_on_ranges() {
+        // With equal ranges a scale still starts low, and a low-pass that is off starts high.
+        let scale = Range { role: Role::Scale, ..CUTOFFS };
+        assert_eq!([instead_of_none(scale), instead_of_none(CUTOFFS)], [CUTOFFS.min, CUTOFFS.max]);
+    }
 
     #[test]
     fn the_origin_is_the_start() {
