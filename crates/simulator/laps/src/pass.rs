@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::line::Line;
-use crate::smooth::{LAG, Place};
+use crate::smooth::{LAG, RoadPoint};
 use crate::ticks::TICK;
 
 /// Distance from the remembered line within which the vehicle is on it \[m\].
@@ -48,7 +48,7 @@ impl Pass {
 
     /// Goes on by a tick to the place beside the vehicle. False where the vehicle has left the
     /// line, or the line ends.
-    pub fn advance(&mut self, line: &Line, place: &Place) -> bool {
+    pub fn advance(&mut self, line: &Line, place: &RoadPoint) -> bool {
         let expected = self.number + self.pace;
         match nearest(line, place, expected) {
             Some(found) => {
@@ -93,7 +93,7 @@ impl Pass {
 }
 
 /// Number of the point of the line nearest to a place, of those around a number.
-fn nearest(line: &Line, place: &Place, around: f64) -> Option<f64> {
+fn nearest(line: &Line, place: &RoadPoint, around: f64) -> Option<f64> {
     let middle = around.max(0.0) as u64;
     let mut best: Option<(f64, f64)> = None;
     for number in middle.saturating_sub(BACK)..middle + AHEAD {

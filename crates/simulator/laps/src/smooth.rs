@@ -32,14 +32,14 @@ pub struct Smooth {
     forces: [[f64; 2]; WIDTH],
     positions: [[f64; 3]; POSITIONS],
     /// Averaged positions and speeds, the latest first.
-    places: [Place; KEPT],
+    places: [RoadPoint; KEPT],
     /// Ticks so far, at most [`KEPT`] and [`POSITIONS`] together.
     count: usize,
 }
 
-/// Place of the vehicle at a tick.
+/// Position of the vehicle at a tick, with its direction and speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct RoadPoint {
     /// Mean over 0.2 s \[m\].
     pub position: [f64; 3],
     /// Unit vector; zero at rest.
@@ -63,7 +63,7 @@ impl Smooth {
             std::array::from_fn(|axis| self.positions.iter().map(|p| p[axis]).sum::<f64>() / POSITIONS as f64);
         self.places.rotate_right(1);
         if self.count == 1 {
-            self.places = [Place { position, ..Place::default() }; KEPT];
+            self.places = [RoadPoint { position, ..RoadPoint::default() }; KEPT];
         }
         let before = self.places[STRETCH].position;
         let length = distance(&before, &position);
@@ -72,7 +72,7 @@ impl Smooth {
             _ => std::array::from_fn(|axis| (position[axis] - before[axis]) / length),
         };
         let speed = tick.speed.map_or(length / (STRETCH as f64 * TICK), f64::abs);
-        self.places[0] = Place { position, direction, speed };
+        self.places[0] = RoadPoint { position, direction, speed };
     }
 
     /// True once all kept ticks are the vehicle's.
@@ -81,7 +81,7 @@ impl Smooth {
     }
 
     /// The place at the latest tick.
-    pub fn place(&self) -> &Place {
+    pub fn place(&self) -> &RoadPoint {
         &self.places[0]
     }
 
@@ -96,7 +96,7 @@ impl Smooth {
 
     /// The point of the line [`LAG`] ticks ago.
     pub fn point(&self) -> Point {
-        let Place { position, direction, speed } = self.places[LAG];
+        let RoadPoint { position, direction, speed } = self.places[LAG];
         let force = |axis: usize| self.forces.iter().zip(WEIGHTS).map(|(force, weight)| weight * force[axis]).sum();
         Point { position, direction, speed, force: std::array::from_fn(force), run: 0 }
     }

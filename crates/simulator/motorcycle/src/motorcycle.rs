@@ -18,7 +18,7 @@ use crate::path::grip::{self, Friction};
 use crate::path::table::Table;
 use crate::pose::{Geometry, Head, Moving, Point};
 use crate::rider::Rider;
-use crate::state::{Place, RunState, Stage, State};
+use crate::state::{PathState, RunState, Stage, State};
 use crate::suspension::{self, Suspension};
 
 /// Largest number of internal steps in a communication step.
@@ -272,7 +272,7 @@ impl Motorcycle {
         let gains = self.rider.gains(speed);
         let command = (input.lean, input.rider_lean);
         let mut rider = self.rider.derivative(&state.rider, &state.lateral, &gains, feet, command);
-        let (mut throttle, mut brake, mut place) = (input.throttle, input.brake, Place::default());
+        let (mut throttle, mut brake, mut place) = (input.throttle, input.brake, PathState::default());
         if let Some(follower) = &self.follower {
             if !self.obeys(stage) {
                 let (control, feet) = match stage {

@@ -22,12 +22,12 @@ pub struct State {
     pub throttle: f64,
     pub brake: f64,
     /// Place beside the path; all zero without one.
-    pub place: Place,
+    pub place: PathState,
 }
 
 /// Place beside a path: in its own coordinates, positive to the RIGHT as in [`crate::lateral`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Place {
+pub struct PathState {
     /// Distance along the path \[m\].
     pub distance: f64,
     /// Deviation of the rear contact \[m\], and its integral \[m s\].

@@ -63,14 +63,14 @@ fn main() -> ExitCode {
         Err(error) if nobody_reads_on(&error) => ExitCode::SUCCESS,
         Err(error) => {
             // The reader may be gone.
-            let _ = writeln!(stderr(), "error: {}", shortened(&told_once(&error)));
+            let _ = writeln!(stderr(), "error: {}", shortened(&with_causes(&error)));
             ExitCode::FAILURE
         }
     }
 }
 
 /// The error and its causes; a cause that the text before it has said is left out.
-fn told_once(error: &anyhow::Error) -> String {
+fn with_causes(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(|cause| cause.to_string()) {
         if !text.contains(cause.trim_end()) {

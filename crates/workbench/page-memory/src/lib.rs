@@ -57,8 +57,8 @@ pub fn write(values: impl Iterator<Item = f64>) -> *const f64 {
 }
 
 /// Puts a text, or the reason why there is none, for the page to read; true for a text.
-pub fn say(said: Result<String, impl ToString>) -> bool {
-    let is_good = said.is_ok();
-    TEXT.set(said.unwrap_or_else(|reason| reason.to_string()));
+pub fn respond(answer: Result<String, impl ToString>) -> bool {
+    let is_good = answer.is_ok();
+    TEXT.set(answer.unwrap_or_else(|reason| reason.to_string()));
     is_good
 }

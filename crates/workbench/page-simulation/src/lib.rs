@@ -11,7 +11,7 @@ use std::ops::Range;
 use moris_batch::{Manoeuvre, Replay};
 use moris_interface::{Group, Reader, slot_count};
 use moris_measures::References;
-use moris_page_memory::{group, say, with_numbers};
+use moris_page_memory::{group, respond, with_numbers};
 use moris_report::{Event, Finding, Limits, Measure, Rig, Thinning, events};
 use moris_simulation::capabilities::{AxisAlone, Capabilities};
 use moris_simulation::{Evaluated, Simulation, Unfinished, measures_with};
@@ -101,7 +101,7 @@ pub extern "C" fn record() -> usize {
 #[unsafe(no_mangle)]
 pub extern "C" fn begin() -> bool {
     let parameters: Parameters = group();
-    say(with_recorded(|recorded| recorded.begin(&parameters)))
+    respond(with_recorded(|recorded| recorded.begin(&parameters)))
 }
 
 /// Simulates up to so many further samples. The result is the number of all so far.
@@ -124,7 +124,7 @@ pub extern "C" fn part() -> usize {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn finish() -> bool {
-    say(with_recorded(Recorded::finish))
+    respond(with_recorded(Recorded::finish))
 }
 
 /// The verdict on the rig of the parameters that the numbers hold; before them the diameter of its
@@ -133,7 +133,7 @@ pub extern "C" fn finish() -> bool {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn check_rig() -> bool {
-    say(with_numbers(|numbers| {
+    respond(with_numbers(|numbers| {
         let given: Parameters = Parameters::read(&mut Reader::new(&numbers[1..]));
         verdict(&given, Some(numbers[0]).filter(|diameter| diameter.is_finite()))
     }))

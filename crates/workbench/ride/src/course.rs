@@ -7,40 +7,40 @@ pub const SPACING: f64 = 2.0;
 /// Parts in which the heading between two points is integrated.
 const PARTS: usize = 8;
 
-/// A place in the plane and the heading there, in m and rad, positive to the left.
+/// Position and heading in the plane, in m and rad, positive to the left.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct PlanePose {
     pub x: f64,
     pub y: f64,
     pub yaw: f64,
 }
 
-impl Place {
-    /// This place moved ahead and to the left, and turned to the left.
-    pub fn moved(self, ahead: f64, left: f64, turned: f64) -> Place {
+impl PlanePose {
+    /// This pose moved ahead and to the left, and turned to the left.
+    pub fn moved(self, ahead: f64, left: f64, turned: f64) -> PlanePose {
         let (sin, cos) = self.yaw.sin_cos();
-        Place { x: self.x + ahead * cos - left * sin, y: self.y + ahead * sin + left * cos, yaw: self.yaw + turned }
+        PlanePose { x: self.x + ahead * cos - left * sin, y: self.y + ahead * sin + left * cos, yaw: self.yaw + turned }
     }
 }
 
-/// A closed course.
+/// The closed course of the ride, sampled along its centre line.
 #[derive(Clone, Debug)]
-pub struct Course {
+pub struct Circuit {
     length: f64,
-    centre: Vec<Place>,
+    centre: Vec<PlanePose>,
     /// Speed that a rider plans at each point \[m/s\].
     advised: Vec<f64>,
 }
 
-impl Course {
+impl Circuit {
     /// The course of a rider on a path.
-    pub fn new(follower: &Follower) -> Course {
+    pub fn new(follower: &Follower) -> Circuit {
         let table = follower.table();
         let length = table.length();
         let count = (length / SPACING).round() as usize;
         let spacing = length / count as f64;
         let part = spacing / PARTS as f64;
-        let mut centre = vec![Place::default()];
+        let mut centre = vec![PlanePose::default()];
         for k in 0..count * PARTS {
             let here = centre[centre.len() - 1];
             // Of the model, positive to the right.
@@ -54,7 +54,7 @@ impl Course {
             }
         }
         let advised = (0..=count).map(|k| follower.planned_speed(k as f64 * spacing)).collect();
-        Course { length, centre, advised }
+        Circuit { length, centre, advised }
     }
 
     /// Length of a lap \[m\].
@@ -63,13 +63,13 @@ impl Course {
     }
 
     /// The points of the centre, the last at the place of the first, and the advised speeds there.
-    pub fn points(&self) -> impl Iterator<Item = (&Place, f64)> {
+    pub fn points(&self) -> impl Iterator<Item = (&PlanePose, f64)> {
         self.centre.iter().zip(self.advised.iter().copied())
     }
 
     /// The place of a motorcycle at a distance along the centre, so far to the left of it and
     /// turned to the left. Headings count all laps.
-    pub fn at(&self, distance: f64, left: f64, turned: f64) -> Place {
+    pub fn at(&self, distance: f64, left: f64, turned: f64) -> PlanePose {
         let laps = (distance / self.length).floor();
         let last = self.centre.len() - 1;
         let along = (distance / self.length - laps) * last as f64;
@@ -78,6 +78,6 @@ impl Course {
         let t = along - row as f64;
         let between = |from: f64, to: f64| from + t * (to - from);
         let yaw = between(from.yaw, to.yaw) + laps * self.centre[last].yaw;
-        Place { x: between(from.x, to.x), y: between(from.y, to.y), yaw }.moved(0.0, left, turned)
+        PlanePose { x: between(from.x, to.x), y: between(from.y, to.y), yaw }.moved(0.0, left, turned)
     }
 }

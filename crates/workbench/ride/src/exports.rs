@@ -3,10 +3,10 @@
 
 use std::cell::RefCell;
 
-use moris_page_memory::{group, say, write};
+use moris_page_memory::{group, respond, write};
 use serde_json::json;
 
-use crate::ridden::Command;
+use crate::ridden::RiderCommand;
 use crate::ride::Ride;
 
 thread_local! {
@@ -23,7 +23,7 @@ fn with_ride<T: Default>(act: impl FnOnce(&mut Ride) -> T) -> T {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn create() -> bool {
-    say(Ride::new(&group()).map(|mut ride| {
+    respond(Ride::new(&group()).map(|mut ride| {
         let names: Vec<&str> = ride.view().into_iter().map(|(name, _)| name).collect();
         RIDE.set(Some(ride));
         json!(names).to_string()
@@ -34,7 +34,7 @@ pub extern "C" fn create() -> bool {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn retune() -> bool {
-    with_ride(|ride| say(ride.retune(&group()).map(|_| String::new())))
+    with_ride(|ride| respond(ride.retune(&group()).map(|_| String::new())))
 }
 
 /// Sets the friction of the road; false if it is out of range.
@@ -48,7 +48,7 @@ pub extern "C" fn set_friction(friction: f64) -> bool {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn advance(milliseconds: u32, throttle: f64, brake: f64, stick: f64, is_helped: bool) {
-    let command = Command { throttle, brake, stick, is_helped };
+    let command = RiderCommand { throttle, brake, stick, is_helped };
     with_ride(|ride| (0..milliseconds).for_each(|_| ride.step(&command)));
 }
 
@@ -91,7 +91,7 @@ fn points(ride: &Ride) -> Vec<f64> {
 pub extern "C" fn lap(number: usize) -> bool {
     with_ride(|ride| {
         let lap = ride.laps().get(number).ok_or("no such lap");
-        say(lap.map(|lap| {
+        respond(lap.map(|lap| {
             let ratings = ride.ratings(lap);
             json!({ "time": lap.time, "is_mixed": lap.is_mixed, "ratings": ratings }).to_string()
         }))
@@ -102,5 +102,5 @@ pub extern "C" fn lap(number: usize) -> bool {
 // SAFETY: no other function of this module has the name.
 #[unsafe(no_mangle)]
 pub extern "C" fn csv() -> bool {
-    with_ride(|ride| say(Ok::<_, &str>(ride.recording().csv())) && ride.recording().samples() > 1)
+    with_ride(|ride| respond(Ok::<_, &str>(ride.recording().csv())) && ride.recording().samples() > 1)
 }

@@ -2,7 +2,7 @@
 //!
 //! - [`Ridden`] is the motorcycle with its rider, who obeys a player.
 //! - [`Ride`] steps motorcycle and washout together, a millisecond at a time.
-//! - [`Course`] is the road in the plane.
+//! - [`Circuit`] is the road in the plane.
 //! - [`Recording`] has the ride's measures and its file.
 //! - [`lamps`] shows limits that act.
 //! - [`page`] makes the page. The functions for its script are in `exports`, which only the
@@ -19,7 +19,7 @@ mod ridden;
 mod ride;
 mod rider;
 
-pub use course::{Course, Place};
+pub use course::{Circuit, PlanePose};
 pub use recording::{Rating, Recording};
-pub use ridden::{Command, Ridden};
+pub use ridden::{Ridden, RiderCommand};
 pub use ride::{HALF_WIDTH, Lap, Ride, STEP, Stage};

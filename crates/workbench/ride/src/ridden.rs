@@ -12,7 +12,7 @@ use crate::rider;
 /// The player's commands to the rider.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Command {
+pub struct RiderCommand {
     /// From 0 to 1.
     pub throttle: f64,
     pub brake: f64,
@@ -35,11 +35,11 @@ impl Ridden {
         Self::with(Parameters::default())
     }
 
-    /// The same motorcycle, at the beginning again.
+    /// The same motorcycle at rest at the beginning of the lap.
     ///
     /// # Errors
     /// Never, because its parameters are in use.
-    pub fn again(&self) -> Result<Self, ParameterError> {
+    pub fn restarted(&self) -> Result<Self, ParameterError> {
         Self::with(*self.0.parameters())
     }
 
@@ -51,8 +51,8 @@ impl Ridden {
     }
 
     /// Advances by [`STEP`].
-    pub fn step(&mut self, command: &Command) {
-        let Command { throttle, brake, stick, is_helped } = *command;
+    pub fn step(&mut self, command: &RiderCommand) {
+        let RiderCommand { throttle, brake, stick, is_helped } = *command;
         let lean = rider::lean(stick, is_helped, &self.0);
         self.0.step(&Controls { throttle, brake, lean, ..Controls::default() }, STEP);
     }

@@ -5,10 +5,10 @@ use moris_motorcycle::Motorcycle;
 use moris_washout::interface::AngularVelocityFrame;
 use moris_washout::{Input, Parameters, Washout};
 
-use crate::course::{Course, Place};
+use crate::course::{Circuit, PlanePose};
 use crate::lamps;
 use crate::recording::{Rating, Recording};
-use crate::ridden::{Command, Ridden};
+use crate::ridden::{Ridden, RiderCommand};
 
 /// Time of a step \[s\].
 pub const STEP: f64 = 0.001;
@@ -50,7 +50,7 @@ pub struct Lap {
 #[derive(Clone, Debug)]
 pub struct Ride {
     ridden: Ridden,
-    course: Course,
+    course: Circuit,
     parameters: Parameters,
     washout: Washout,
     /// The washout that follows as soon as the platform is at neutral.
@@ -59,7 +59,7 @@ pub struct Ride {
     disengaged: f64,
     input: Input,
     stage: Stage,
-    place: Place,
+    place: PlanePose,
     recording: Recording,
     /// Steps since the ride has begun.
     steps: u64,
@@ -83,14 +83,14 @@ impl Ride {
         let Some(follower) = ridden.motorcycle().follower() else { unreachable!("the course is a path") };
         let felt = washout.output().felt_specific_force;
         Ok(Ride {
-            course: Course::new(follower),
+            course: Circuit::new(follower),
             ridden,
             parameters,
             next: None,
             disengaged: 0.0,
             input,
             stage: Stage::Ready,
-            place: Place::default(),
+            place: PlanePose::default(),
             recording: Recording::new(STEP, input, [felt.x, felt.y]),
             steps: 0,
             laps: Vec::new(),
@@ -102,7 +102,7 @@ impl Ride {
     }
 
     /// Advances by [`STEP`].
-    pub fn step(&mut self, command: &Command) {
+    pub fn step(&mut self, command: &RiderCommand) {
         if self.stage == Stage::Ready && command.throttle > 0.0 && self.next.is_none() {
             self.begin();
         }
@@ -117,7 +117,7 @@ impl Ride {
         };
         self.washout.step(&self.input, STEP);
         self.disengaged = if is_engaged { 0.0 } else { self.disengaged + STEP };
-        self.light_lamps();
+        self.update_lamps();
         if self.stage == Stage::Riding {
             self.record();
         }
@@ -150,7 +150,7 @@ impl Ride {
         self.ridden.set_friction(friction)?;
         // The speed that a rider plans depends on it.
         if let Some(follower) = self.motorcycle().follower() {
-            self.course = Course::new(follower);
+            self.course = Circuit::new(follower);
         }
         Ok(())
     }
@@ -162,8 +162,8 @@ impl Ride {
     pub fn restart(&mut self) -> Result<(), ParameterError> {
         if !matches!(self.stage, Stage::Ready | Stage::Returning) {
             self.next = Some(Box::new(Washout::new(&self.parameters)?));
-            self.ridden = self.ridden.again()?;
-            self.place = Place::default();
+            self.ridden = self.ridden.restarted()?;
+            self.place = PlanePose::default();
             self.stage = Stage::Returning;
         }
         Ok(())
@@ -177,7 +177,7 @@ impl Ride {
         (self.steps, self.lap_start, self.is_mixed) = (0, 0, false);
     }
 
-    fn ride(&mut self, command: &Command) {
+    fn ride(&mut self, command: &RiderCommand) {
         self.ridden.step(command);
         let now = self.motorcycle().output();
         self.stage = match self.stage {
@@ -235,7 +235,7 @@ impl Ride {
             && now.angular_velocity.norm() < STILL
     }
 
-    fn light_lamps(&mut self) {
+    fn update_lamps(&mut self) {
         let lit = lamps::lit(&self.washout);
         for (lamp, lit) in self.lamps.iter_mut().zip(lit) {
             *lamp |= lit;
@@ -246,7 +246,7 @@ impl Ride {
         self.stage
     }
 
-    pub fn course(&self) -> &Course {
+    pub fn course(&self) -> &Circuit {
         &self.course
     }
 

@@ -2,7 +2,7 @@
 
 use moris_motorcycle::{Model, Output};
 use moris_ride::page::{Page, html};
-use moris_ride::{Command, HALF_WIDTH, Lap, Ride, STEP, Stage};
+use moris_ride::{HALF_WIDTH, Lap, Ride, RiderCommand, STEP, Stage};
 use moris_washout::interface::StrategyKind;
 use moris_washout::{Input, Parameters, Washout, presets};
 
@@ -11,7 +11,7 @@ fn ride() -> Ride {
 }
 
 /// Rides for so many seconds; `command` is asked every 20 ms.
-fn go(ride: &mut Ride, seconds: f64, mut command: impl FnMut(&Ride) -> Command) {
+fn go(ride: &mut Ride, seconds: f64, mut command: impl FnMut(&Ride) -> RiderCommand) {
     for _ in 0..(seconds / 0.02).round() as usize {
         let command = command(ride);
         for _ in 0..20 {
@@ -21,9 +21,9 @@ fn go(ride: &mut Ride, seconds: f64, mut command: impl FnMut(&Ride) -> Command) 
 }
 
 /// Throttle and brakes of a player who keeps a speed.
-fn at_speed(ride: &Ride, speed: f64) -> Command {
+fn at_speed(ride: &Ride, speed: f64) -> RiderCommand {
     let missing = speed - output(ride).speed;
-    Command {
+    RiderCommand {
         throttle: (0.1 * missing).clamp(0.0, 0.25),
         brake: (-0.1 * missing).clamp(0.0, 0.6),
         stick: 0.0,
@@ -49,9 +49,9 @@ fn lap() -> (Ride, Lap) {
 #[test]
 fn nothing_moves_before_the_throttle_opens() {
     let mut ride = ride();
-    go(&mut ride, 2.0, |_| Command { brake: 1.0, stick: 1.0, ..Command::default() });
+    go(&mut ride, 2.0, |_| RiderCommand { brake: 1.0, stick: 1.0, ..RiderCommand::default() });
     assert_eq!((ride.stage(), output(&ride).speed, ride.recording().samples()), (Stage::Ready, 0.0, 1));
-    go(&mut ride, 2.0, |_| Command { throttle: 0.5, ..Command::default() });
+    go(&mut ride, 2.0, |_| RiderCommand { throttle: 0.5, ..RiderCommand::default() });
     assert_eq!(ride.stage(), Stage::Riding);
     assert!(output(&ride).speed > 3.0);
 }
@@ -60,7 +60,7 @@ fn nothing_moves_before_the_throttle_opens() {
 fn the_stick_to_the_right_leans_and_turns_to_the_right() {
     let mut ride = ride();
     go(&mut ride, 5.0, |ride| at_speed(ride, 12.0));
-    go(&mut ride, 1.0, |ride| Command { stick: 0.3, is_helped: false, ..at_speed(ride, 12.0) });
+    go(&mut ride, 1.0, |ride| RiderCommand { stick: 0.3, is_helped: false, ..at_speed(ride, 12.0) });
     let now = output(&ride);
     assert!(now.orientation.roll > 0.1 && now.orientation.yaw < -0.02 && now.angular_velocity.x.abs() < 0.8);
 }
@@ -111,16 +111,16 @@ fn leaving_the_road_ends_the_ride_and_a_restart_begins_the_next_one() {
     let mut ride = ride();
     go(&mut ride, 6.0, |ride| at_speed(ride, 15.0));
     let recorded = |ride: &Ride| ride.recording().samples();
-    go(&mut ride, 4.0, |ride| Command { stick: -1.0, is_helped: false, ..at_speed(ride, 15.0) });
+    go(&mut ride, 4.0, |ride| RiderCommand { stick: -1.0, is_helped: false, ..at_speed(ride, 15.0) });
     assert_eq!(ride.stage(), Stage::OffRoad);
     let samples = recorded(&ride);
-    go(&mut ride, 8.0, |_| Command { throttle: 1.0, ..Command::default() });
+    go(&mut ride, 8.0, |_| RiderCommand { throttle: 1.0, ..RiderCommand::default() });
     assert!(output(&ride).speed < 0.1, "the rider stops beside the road");
     assert_eq!(recorded(&ride), samples);
 
     ride.restart().unwrap();
     assert_eq!(ride.stage(), Stage::Returning);
-    go(&mut ride, 15.0, |_| Command::default());
+    go(&mut ride, 15.0, |_| RiderCommand::default());
     assert_eq!((ride.stage(), output(&ride).speed), (Stage::Ready, 0.0));
     go(&mut ride, 2.0, |ride| at_speed(ride, 15.0));
     assert_eq!(ride.stage(), Stage::Riding);
@@ -136,7 +136,7 @@ fn braking_in_a_bend_on_a_slippery_road_ends_in_a_fall() {
     let mut dry = ride.clone();
     ride.set_friction(0.4).unwrap();
     for ride in [&mut ride, &mut dry] {
-        go(ride, 4.0, |ride| Command { brake: 0.4, throttle: 0.0, ..at_speed(ride, 14.0) });
+        go(ride, 4.0, |ride| RiderCommand { brake: 0.4, throttle: 0.0, ..at_speed(ride, 14.0) });
     }
     assert_eq!((ride.stage(), dry.stage()), (Stage::Fallen, Stage::Riding));
 }
@@ -158,9 +158,9 @@ fn falls_restarts_and_new_strategies_are_gentle() {
     let mut exchanged = 0;
     for k in 0..90_000_usize {
         let command = match k {
-            0..20_000 => Command { stick: 0.2, ..at_speed(&ride, 13.0) },
+            0..20_000 => RiderCommand { stick: 0.2, ..at_speed(&ride, 13.0) },
             20_000..40_000 => at_speed(&ride, 9.0),
-            _ => Command { stick: 1.0, is_helped: false, ..at_speed(&ride, 16.0) },
+            _ => RiderCommand { stick: 1.0, is_helped: false, ..at_speed(&ride, 16.0) },
         };
         if k == 10_000 {
             let mut parameters = presets::parameters(presets::OPTIMAL);

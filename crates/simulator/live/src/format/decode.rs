@@ -5,7 +5,9 @@ use moris_washout::motion::orientation::Orientation;
 use nalgebra::Vector3;
 use serde_json::Value;
 
-use super::{Axes, ByteOrder, Field, Format, Gravity, Layout, Number, Place, QUANTITIES, Quantity, SHIPPED, Unit};
+use super::{
+    Axes, ByteOrder, Field, FieldAddress, Format, Gravity, Layout, Number, QUANTITIES, Quantity, SHIPPED, Unit,
+};
 use crate::motion::{Motion, Sample};
 
 /// Reason for which a packet is dropped.
@@ -40,10 +42,10 @@ impl Format {
         };
         for (quantity, field) in &self.fields {
             let read = match (&field.at, self.layout) {
-                (Place::Index(at), Layout::Binary) => number(packet, *at, field.kind, self.byte_order),
-                (Place::Index(at), Layout::Pairs) => paired(body, *at),
-                (Place::Index(at), Layout::Csv) => column(text(), *at),
-                (Place::Key(key), _) => object.as_ref().and_then(|object| value(at_path(object, key)?)),
+                (FieldAddress::Index(at), Layout::Binary) => number(packet, *at, field.kind, self.byte_order),
+                (FieldAddress::Index(at), Layout::Pairs) => paired(body, *at),
+                (FieldAddress::Index(at), Layout::Csv) => column(text(), *at),
+                (FieldAddress::Key(key), _) => object.as_ref().and_then(|object| value(at_path(object, key)?)),
                 _ => None,
             };
             let optional = matches!(self.layout, Layout::Csv | Layout::Json) && !is_needed(*quantity);

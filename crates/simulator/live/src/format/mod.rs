@@ -131,7 +131,7 @@ pub struct Subscribe {
 #[serde(deny_unknown_fields)]
 pub struct Field {
     /// Offset \[bytes\], column, number or key.
-    pub at: Place,
+    pub at: FieldAddress,
     /// Type of a binary number.
     #[serde(rename = "type", default)]
     pub kind: Number,
@@ -148,10 +148,10 @@ fn one() -> f64 {
     1.0
 }
 
-/// Place of a field.
+/// Address of a field in a packet.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub enum Place {
+pub enum FieldAddress {
     /// An offset, a column or a number.
     Index(usize),
     /// A key.
@@ -218,8 +218,8 @@ impl FromStr for Format {
         for (quantity, field) in &format.fields {
             let refuse = |reason| Err(FormatError::Field(*quantity, reason));
             match (&field.at, format.layout) {
-                (Place::Key(_), Layout::Json) => (),
-                (Place::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MOST => (),
+                (FieldAddress::Key(_), Layout::Json) => (),
+                (FieldAddress::Index(index), Layout::Binary | Layout::Pairs | Layout::Csv) if *index < MOST => (),
                 (_, Layout::Json) => return refuse("`at` must be a key"),
                 _ => return refuse("`at` must be a number below 4096"),
             }
@@ -261,7 +261,7 @@ impl Format {
     pub fn subscriptions(&self) -> Vec<Vec<u8>> {
         let Some(subscribe) = &self.subscribe else { return Vec::new() };
         let request = |field: &Field| {
-            let (Place::Index(index), Some(dataref)) = (&field.at, &field.dataref) else { return None };
+            let (FieldAddress::Index(index), Some(dataref)) = (&field.at, &field.dataref) else { return None };
             let mut packet = b"RREF\0".to_vec();
             packet.extend(subscribe.rate.to_le_bytes());
             packet.extend((*index as i32).to_le_bytes());

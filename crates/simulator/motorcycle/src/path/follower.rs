@@ -10,7 +10,7 @@ use crate::interface::Parameters;
 use crate::lateral::{Lateral, place};
 use crate::longitudinal::Longitudinal;
 use crate::rider::{FORGETTING, Rider, within};
-use crate::state::{Place, State};
+use crate::state::{PathState, State};
 
 /// A path, the plan of the speed along it, and the gains of the rider who follows it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -155,14 +155,14 @@ impl Follower {
     }
 
     /// Rate of the place beside the path: the kinematics of a point beside a curve.
-    pub fn place_rate(&self, state: &State, feet: f64) -> Place {
-        let Place { distance, deviation, integral, heading } = state.place;
+    pub fn place_rate(&self, state: &State, feet: f64) -> PathState {
+        let PathState { distance, deviation, integral, heading } = state.place;
         let curvature = self.table.curvature_at(distance);
         let (sin, cos) = libm::sincos(heading);
         let to_right = state.lateral[place::VELOCITY];
         let along = (state.speed * cos - to_right * sin) / (1.0 - curvature * deviation).max(INNERMOST);
         let accumulated = (1.0 - feet) * within(deviation, LARGEST_ACCUMULATED);
-        Place {
+        PathState {
             distance: along,
             deviation: state.speed * sin + to_right * cos,
             integral: accumulated - feet * integral / FORGETTING,

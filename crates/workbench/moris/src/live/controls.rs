@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use moris_ride::Command;
+use moris_ride::RiderCommand;
 use serde::Serialize;
 
 /// Time without word from the page after which the controls are released.
@@ -29,7 +29,7 @@ pub struct Controls {
 
 #[derive(Clone, Copy, Debug, Default)]
 struct Held {
-    command: Command,
+    command: RiderCommand,
     /// Time of [`super::pace::now`] until which it counts.
     until: Duration,
     begins_again: bool,
@@ -50,7 +50,7 @@ impl Controls {
     ///
     /// # Errors
     /// A value is out of range.
-    pub fn hold(&self, command: &Command, now: Duration) -> Result<(), String> {
+    pub fn hold(&self, command: &RiderCommand, now: Duration) -> Result<(), String> {
         let check = |name: &str, value: f64, range: RangeInclusive<f64>| match range.contains(&value) {
             true => Ok(()),
             false => Err(format!("{name} must be from {} to {}", range.start(), range.end())),
@@ -69,9 +69,9 @@ impl Controls {
     }
 
     /// The command in force at this time: the one that is held, or none.
-    pub fn at(&self, now: Duration) -> Command {
+    pub fn at(&self, now: Duration) -> RiderCommand {
         let Held { command, until, .. } = *self.lock();
-        if now < until { command } else { Command { is_helped: command.is_helped, ..Command::default() } }
+        if now < until { command } else { RiderCommand { is_helped: command.is_helped, ..RiderCommand::default() } }
     }
 
     /// Asks for a new ride.
@@ -96,14 +96,14 @@ impl Controls {
 mod tests {
     use super::*;
 
-    const HELD: Command = Command { throttle: 0.7, brake: 0.1, stick: -0.4, is_helped: true };
+    const HELD: RiderCommand = RiderCommand { throttle: 0.7, brake: 0.1, stick: -0.4, is_helped: true };
 
     #[test]
     fn what_is_held_is_released_after_half_a_second_of_silence() {
         let controls = Controls::new(Handling::Rider);
         let at = Duration::from_millis;
-        let released = Command { is_helped: true, ..Command::default() };
-        assert_eq!(controls.at(at(0)), Command::default());
+        let released = RiderCommand { is_helped: true, ..RiderCommand::default() };
+        assert_eq!(controls.at(at(0)), RiderCommand::default());
         controls.hold(&HELD, at(1000)).unwrap();
         assert_eq!(controls.at(at(1499)), HELD);
         assert_eq!(controls.at(at(1500)), released);
@@ -119,10 +119,10 @@ mod tests {
         let at = Duration::from_millis(1000);
         controls.hold(&HELD, at).unwrap();
         for wrong in [
-            Command { throttle: 1.1, ..HELD },
-            Command { brake: -0.1, ..HELD },
-            Command { stick: f64::NAN, ..HELD },
-            Command { throttle: f64::INFINITY, ..HELD },
+            RiderCommand { throttle: 1.1, ..HELD },
+            RiderCommand { brake: -0.1, ..HELD },
+            RiderCommand { stick: f64::NAN, ..HELD },
+            RiderCommand { throttle: f64::INFINITY, ..HELD },
         ] {
             assert!(controls.hold(&wrong, at).is_err(), "{wrong:?}");
         }

@@ -109,5 +109,5 @@ pub fn keep(mut notes: Consumer<Note>, record: Option<File>, page: Option<&Desk>
 /// Prints a line, and shows it in the page.
 pub fn say(line: &str, page: Option<&Desk>) {
     console::line(line);
-    page.inspect(|page| page.say(line));
+    page.inspect(|page| page.log_line(line));
 }

@@ -65,7 +65,7 @@ use controls::{Controls, Handling};
 use frames::{Device, Sender, Sent, Sink};
 use occupied::Occupied;
 use page::{Desk, Server, Start};
-use place::Place;
+use place::LegPlace;
 use signals::{Interrupts, Signals};
 use watch::{Failed, Part, watch};
 
@@ -263,13 +263,13 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
     let (device, interval, time_out, place) = if options.frames == moog::NAME {
         sink.listen()?;
         // The base itself goes from its home to neutral.
-        (Device::moog(), moog::INTERVAL, None, Place::own())
+        (Device::moog(), moog::INTERVAL, None, LegPlace::own())
     } else {
         let template = tables::frames(&options.frames)?;
         let encoder = Encoder::new(&template, [rig.min_length, rig.max_length])?;
         let place = match options.dry {
-            true => Place::own(),
-            false => Place::of(&template, &encoder, options.settled, options.slow_start),
+            true => LegPlace::own(),
+            false => LegPlace::of(&template, &encoder, options.settled, options.slow_start),
         };
         // Also where a person has said it: after a loss the controller is asked.
         if encoder.asks() {

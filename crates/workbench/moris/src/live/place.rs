@@ -16,11 +16,11 @@ pub const WORDS: &str = "settled, slow";
 
 /// All that is known of the legs' place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct LegPlace {
     /// The device goes to the first frame by itself, or has no actuators, or nobody follows.
     is_own: bool,
     /// The place that a person has given for the next start.
-    said: Option<Legs>,
+    given: Option<Legs>,
     /// Speed with which the controller goes to its first length by itself \[m/s\].
     slow_speed: Option<f64>,
     /// The controller is asked.
@@ -29,18 +29,18 @@ pub struct Place {
     report: Option<(f64, [f64; 6])>,
 }
 
-impl Place {
+impl LegPlace {
     /// A device that goes to the first frame by itself, or frames that nobody follows.
     pub fn own() -> Self {
-        Place { is_own: true, ..Place::default() }
+        LegPlace { is_own: true, ..LegPlace::default() }
     }
 
     /// The place with a controller that a template describes. A person may have seen the platform
     /// settled, or may know the speed with which it starts from anywhere.
     pub fn of(template: &Frames, encoder: &Encoder, settled: bool, slow_start: Option<f64>) -> Self {
-        Place {
+        LegPlace {
             is_own: !encoder.moves_actuators(),
-            said: settled.then_some(Legs::Settled),
+            given: settled.then_some(Legs::Settled),
             slow_speed: slow_start.or(template.slow_start),
             asks: encoder.asks(),
             report: None,
@@ -60,12 +60,12 @@ impl Place {
     /// True if a session that engages by itself may begin: a person or the controller can say
     /// where the legs are.
     pub fn can_start(&self) -> bool {
-        self.is_own || self.said.is_some() || self.slow_speed.is_some() || self.asks
+        self.is_own || self.given.is_some() || self.slow_speed.is_some() || self.asks
     }
 
     /// True if the controller is to be asked.
     pub fn wants_report(&self) -> bool {
-        self.asks && !self.is_own && self.said.is_none()
+        self.asks && !self.is_own && self.given.is_none()
     }
 
     /// True if a start by itself at this time \[s\] has nothing to wait for.
@@ -78,9 +78,9 @@ impl Place {
         self.report = Some((now, lengths));
     }
 
-    /// A person has said it.
-    pub fn say(&mut self, legs: Legs) {
-        self.said = Some(legs);
+    /// Sets the place for the next start, as a person has given it.
+    pub fn give(&mut self, legs: Legs) {
+        self.given = Some(legs);
     }
 
     /// The controller was lost: reports from before do not hold.
@@ -88,14 +88,14 @@ impl Place {
         self.report = None;
     }
 
-    /// The place for a start at this time \[s\]. What a person has said holds once.
+    /// The place for a start at this time \[s\]. A place that a person has given holds once.
     pub fn take(&mut self, now: f64) -> Legs {
         if self.is_own {
             return Legs::Settled;
         }
         let fresh = self.report.filter(|(at, _)| now - at <= FRESH);
-        match (self.said.take(), fresh) {
-            (Some(said), _) => said,
+        match (self.given.take(), fresh) {
+            (Some(given), _) => given,
             (None, Some((_, lengths))) => Legs::Reported(lengths),
             (None, None) if self.slow_speed.is_some() => Legs::Slow,
             (None, None) => Legs::Unknown,
@@ -105,7 +105,7 @@ impl Place {
     /// Advice before a start with this stroke \[m\]; none if the place is known.
     pub fn advice(&self, stroke: f64) -> Option<String> {
         let asked = if self.asks { "; the controller is asked for it" } else { "" };
-        match (self.is_own, self.said, self.slow_speed) {
+        match (self.is_own, self.given, self.slow_speed) {
             (true, ..) | (_, Some(_), _) => None,
             (_, _, Some(speed)) => Some(format!(
                 "the legs' place is unknown{asked}. Without an answer the first lengths are held for {:.0} s: the \
@@ -126,9 +126,9 @@ mod tests {
 
     use super::*;
 
-    fn of(name: &str, settled: bool, slow_start: Option<f64>) -> Place {
+    fn of(name: &str, settled: bool, slow_start: Option<f64>) -> LegPlace {
         let template = shipped(name).unwrap().parse().unwrap();
-        Place::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, slow_start)
+        LegPlace::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, slow_start)
     }
 
     #[test]
@@ -137,7 +137,7 @@ mod tests {
             let mut place = of(name, false, None);
             assert!(!place.can_start() && place.advice(0.6).unwrap().contains("say settled"), "{name}");
             assert_eq!(place.take(5.0), Legs::Unknown, "{name}");
-            place.say(Legs::Settled);
+            place.give(Legs::Settled);
             assert_eq!([place.take(5.0), place.take(5.0)], [Legs::Settled, Legs::Unknown], "{name}");
             let mut place = of(name, false, Some(0.05));
             assert!(place.can_start() && place.advice(0.6).unwrap().contains("held for 12 s"), "{name}");

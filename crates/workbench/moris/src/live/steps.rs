@@ -16,7 +16,7 @@ use super::journal::Note;
 use super::lateness::Lateness;
 use super::pace;
 use super::page::{EVERY, Order, Shown};
-use super::place::Place;
+use super::place::LegPlace;
 use super::signals::Interrupts;
 use super::telemetry::Received;
 use super::watch::Part;
@@ -38,7 +38,7 @@ pub struct Steps<'a> {
     pub parking: Producer<Session>,
     /// The controller does not follow any more.
     pub is_lost: bool,
-    pub place: Place,
+    pub place: LegPlace,
     /// Threads whose failure is known.
     pub known: [bool; Part::ALL.len()],
     pub frames: Frames,
@@ -235,7 +235,7 @@ impl Steps<'_> {
                 self.ask(if self.is_lost { Event::Lost } else { Event::Fault }, summary);
             }
             Order::Report(lengths) => self.place.report(self.session.time(), lengths),
-            Order::Legs(legs) => self.place.say(legs),
+            Order::Legs(legs) => self.place.give(legs),
             Order::Choose(slot, value) => {
                 self.record(Happening::Choice(slot, value), summary);
                 self.session.choose(usize::from(slot), value);
@@ -331,12 +331,12 @@ mod tests {
         said: Vec<String>,
     }
 
-    fn place(frames: &str, settled: bool) -> Place {
+    fn place(frames: &str, settled: bool) -> LegPlace {
         let template = shipped(frames).unwrap().parse().unwrap();
-        Place::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, None)
+        LegPlace::of(&template, &Encoder::new(&template, [1.0, 1.6]).unwrap(), settled, None)
     }
 
-    fn with_place<T>(place: Place, test: impl FnOnce(&mut Computed) -> T) -> T {
+    fn with_place<T>(place: LegPlace, test: impl FnOnce(&mut Computed) -> T) -> T {
         let settings =
             Settings { starts_settled: place.starts_settled(), slow_speed: place.slow_speed(), ..Settings::default() };
         let mut session = Session::new(&Parameters::default(), &settings).unwrap();
@@ -575,7 +575,7 @@ mod tests {
 
     #[test]
     fn a_base_that_goes_its_own_way_is_started_again_at_once() {
-        with_place(Place::own(), |live| {
+        with_place(LegPlace::own(), |live| {
             live.ask(Event::Start);
             live.until(State::Neutral);
             live.obey(Order::Lost(Loss::Device));
@@ -587,7 +587,7 @@ mod tests {
 
     #[test]
     fn a_delay_that_a_person_notices_is_said_once_and_again_when_it_has_grown() {
-        with_place(Place::own(), |live| {
+        with_place(LegPlace::own(), |live| {
             let mut warned = None;
             let mut said = Vec::new();
             for gap in [10_u64, 80, 80, 160, 160] {

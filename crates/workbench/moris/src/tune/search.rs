@@ -107,8 +107,8 @@ pub fn search(
         let ended = search.next_parallel().is_some();
         let error = best.lock().expect("no evaluation panics").0.first().map(|found| found.error);
         least = error.map(|error| least.map_or(error, |least| least.min(error))).or(least);
-        let go_on = progress(search.function_evals(), least);
-        if ended || !go_on {
+        let continues = progress(search.function_evals(), least);
+        if ended || !continues {
             break;
         }
     }
@@ -138,12 +138,12 @@ struct Beginning {
 }
 
 /// The best start: first with the initial orders, then, if orders are tuned, with others,
-/// while `go_on` is true.
-fn beginning(recordings: &Recordings, space: &Space, mut go_on: impl FnMut() -> bool) -> Beginning {
+/// while `continues` is true.
+fn beginning(recordings: &Recordings, space: &Space, mut continues: impl FnMut() -> bool) -> Beginning {
     let mut first = scan(recordings, space);
     for order in 0..2 {
         for other in first.space.with_other_order(order) {
-            if !go_on() {
+            if !continues() {
                 return first;
             }
             let scanned = scan(recordings, &other);

@@ -53,11 +53,11 @@ impl Tuner<'_> {
     pub fn tune(&self, objectives: &[&Objective], what: &str) -> Result<Setup> {
         let begin = self.bar.position();
         let searched = search(objectives, self.evaluate, &self.space, self.budget, |tried, least| {
-            let go_on = (self.observe)(what, tried, least);
+            let continues = (self.observe)(what, tried, least);
             self.bar.set_position(begin + tried.min(self.budget.evaluations) as u64);
             let error = least.map_or_else(|| "none fits yet".to_owned(), |error| format!("error {error:.4}"));
             self.bar.set_message(format!("{what}: {error}"));
-            go_on && !self.was_interrupted()
+            continues && !self.was_interrupted()
         })?;
         self.bar.set_position(begin + self.budget.evaluations as u64);
         let before = full_costs(objectives, self.setup)?;

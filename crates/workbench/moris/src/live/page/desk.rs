@@ -9,7 +9,7 @@ use std::time::Duration;
 use moris_interface::{Group as _, Reader, slots_of};
 use moris_live::session::retune;
 use moris_live::{Event, Legs, State, log};
-use moris_ride::Command;
+use moris_ride::RiderCommand;
 use moris_setup::{Setup, all};
 use moris_washout::{ParameterError, Parameters, Washout};
 use rtrb::{Consumer, Producer};
@@ -57,7 +57,7 @@ enum Ask {
     /// Values of parameters by their names.
     Set(BTreeMap<String, f64>),
     /// The vehicle's controls as they are held.
-    Drive(Command),
+    Drive(RiderCommand),
     /// A new ride.
     BeginAgain,
     /// The parameters in force become one of the two sets.
@@ -104,7 +104,7 @@ struct Inner {
     count: u64,
     pair: Pair,
     /// Members of a JSON object: parameters that differ from their start, and the pair.
-    told: String,
+    status: String,
     /// The last message and its number.
     message: (u64, String),
     ended: bool,
@@ -155,11 +155,11 @@ impl Desk {
             controller: None,
             browsers: Vec::new(),
             count: 0,
-            told: String::new(),
+            status: String::new(),
             message: (0, String::new()),
             ended: false,
         };
-        inner.tell();
+        inner.renew_status();
         Ok(Desk {
             inner: Mutex::new(inner),
             urgent: Mutex::new(urgent),
@@ -176,7 +176,7 @@ impl Desk {
     }
 
     /// A line for the page's journal.
-    pub fn say(&self, line: &str) {
+    pub fn log_line(&self, line: &str) {
         let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
         lines.push_back(line.trim().to_owned());
         if lines.len() > MOST_LINES {
@@ -196,16 +196,16 @@ impl Desk {
             let lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let [late, latest] = shared.late_frame.each_ref().map(|late| late.load(Ordering::Relaxed));
             let mut inner = self.lock();
-            inner.go_on(pace::now());
+            inner.advance_transition(pace::now());
             let holder = inner.controller.as_ref().map_or(0, |holder| holder.number);
-            let told = format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}]", inner.told);
-            if let Some(text) = shown::message(&taken, &lines, &told) {
+            let status = format!("{},\"holder\":{holder},\"late_frames\":[{late},{latest}]", inner.status);
+            if let Some(text) = shown::message(&taken, &lines, &status) {
                 inner.message = (inner.message.0 + 1, text);
                 inner.state = taken.last().map_or(inner.state, |shown| shown.state);
             }
             if inner.state == State::Engaged {
                 let slots = slots_of(inner.trial.parameters());
-                inner.pair.feel(&slots);
+                inner.pair.mark_felt(&slots);
             }
             inner.ended = ended;
             drop(inner);
@@ -304,13 +304,13 @@ impl Desk {
                 let values: Option<Vec<_>> =
                     values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
                 let values = values.ok_or_else(|| (422, "there is no such parameter".to_owned()))?;
-                inner.pair.stay();
+                inner.pair.end_transition();
                 inner.choose(&values)
             }
             Ask::Keep(which) => {
                 let slots = slots_of(inner.trial.parameters());
                 let kept = inner.pair.keep(which, slots);
-                inner.tell();
+                inner.renew_status();
                 kept.map_err(|why| (422, why))
             }
             Ask::GoTo(which) => inner.go_to(which),
@@ -344,7 +344,7 @@ impl Inner {
         let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
         self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
         self.trial = tried;
-        self.tell();
+        self.renew_status();
         Ok(())
     }
 
@@ -371,7 +371,7 @@ impl Inner {
     fn go_to(&mut self, which: Which) -> Result<(), (u16, String)> {
         let to = self.pair.slots(which).map_err(|why| (422, why))?.clone();
         if matches!(self.state, State::Off | State::Settled) {
-            self.pair.stay();
+            self.pair.end_transition();
             return self.change_to(&to);
         }
         let parameters = Parameters::read(&mut Reader::new(&to));
@@ -382,22 +382,23 @@ impl Inner {
     }
 
     /// The next change on the way to a set. One that cannot be used, or has no place, is left out.
-    fn go_on(&mut self, now: Duration) {
-        let Some((slots, is_there)) = self.pair.on_the_way(now) else { return };
+    fn advance_transition(&mut self, now: Duration) {
+        let Some((slots, is_there)) = self.pair.transition_at(now) else { return };
         let changed = self.change_to(&slots);
         if is_there && changed.map_or_else(|(number, _)| number != 503, |()| true) {
-            self.pair.stay();
+            self.pair.end_transition();
         }
     }
 
-    fn tell(&mut self) {
+    /// Renews the part of each message that changes by orders alone.
+    fn renew_status(&mut self) {
         let slots = slots_of(self.trial.parameters());
         let changed: BTreeMap<String, f64> = (0..slots.len())
             .filter(|slot| slots[*slot] != self.start[*slot])
             .map(|slot| (log::name_of(slot), slots[slot]))
             .collect();
         let changed = serde_json::to_string(&changed).unwrap_or_default();
-        self.told = format!("\"changed\":{changed},\"pair\":{}", self.pair.told(&slots));
+        self.status = format!("\"changed\":{changed},\"pair\":{}", self.pair.status(&slots));
     }
 }
 
@@ -478,7 +479,7 @@ mod tests {
             Order::Retune,
         ];
         assert_eq!(taken(&mut orders), expected);
-        let text = desk.lock().told.clone();
+        let text = desk.lock().status.clone();
         assert!(text.starts_with("\"changed\":{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
         for (wrong, number) in [
             ("{\"tilt.angleLimit\":1e300}", 422),
@@ -495,7 +496,7 @@ mod tests {
             assert_eq!(desk.ask(text.as_bytes()).unwrap_err().0, 422, "{wrong}");
         }
         assert!(taken(&mut orders).is_empty());
-        assert_eq!(desk.lock().told, text);
+        assert_eq!(desk.lock().status, text);
     }
 
     #[test]
@@ -546,12 +547,12 @@ mod tests {
         ask("{\"keep\":\"a\"}").unwrap();
         ask("{\"set\":{\"scale.specificForce.x\":0.25}}").unwrap();
         ask("{\"keep\":\"b\"}").unwrap();
-        let feel = || {
+        let mark_felt = || {
             let mut inner = desk.lock();
             let slots = slots_of(inner.trial.parameters());
-            inner.pair.feel(&slots);
+            inner.pair.mark_felt(&slots);
         };
-        feel();
+        mark_felt();
         assert_eq!(number("{\"vote\":\"a\"}"), 422);
         assert_eq!(taken(&mut asked), [Order::Choose(scale, 0.25), Order::Retune]);
         desk.lock().state = State::Engaged;
@@ -562,7 +563,7 @@ mod tests {
         // Equal factors, at most 1.5 of the mean at a time.
         let most = 4.0_f64.powf(1.5 * 0.04 / 2.0 + 1e-3);
         for change in 1..=51 {
-            desk.lock().go_on(begin + change * Duration::from_millis(40));
+            desk.lock().advance_transition(begin + change * Duration::from_millis(40));
             for order in taken(&mut asked) {
                 let Order::Choose(slot, value) = order else { continue };
                 assert!(slot == scale && value > before && value / before < most, "{value} after {before}");
@@ -570,8 +571,8 @@ mod tests {
             }
         }
         assert_eq!(before, 1.0);
-        feel();
-        assert!(desk.lock().told.contains("\"now\":\"A\""));
+        mark_felt();
+        assert!(desk.lock().status.contains("\"now\":\"A\""));
         ask("{\"vote\":\"b\"}").unwrap();
         let votes = crate::votes::read(&file).unwrap();
         assert_eq!(votes[0].better, [("scale.specificForce.x".to_owned(), 0.25)].into());

@@ -38,15 +38,15 @@ struct Kept {
 #[derive(Debug)]
 pub struct Pair {
     kept: [Option<Kept>; 2],
-    way: Option<Way>,
+    transition: Option<Transition>,
     /// Values of the rig with default parameters.
     rig_alone: NamedValues,
     votes: Option<File>,
 }
 
-/// A way from one set to another.
+/// A transition from one set to another.
 #[derive(Clone, Debug)]
-struct Way {
+struct Transition {
     from: Vec<f64>,
     to: Vec<f64>,
     begin: Duration,
@@ -55,7 +55,7 @@ struct Way {
 impl Pair {
     /// No sets, and a file for votes.
     pub fn new(rig_alone: NamedValues, votes: Option<File>) -> Self {
-        Pair { kept: [None, None], way: None, rig_alone, votes }
+        Pair { kept: [None, None], transition: None, rig_alone, votes }
     }
 
     /// Keeps the parameters in force.
@@ -63,7 +63,7 @@ impl Pair {
     /// # Errors
     /// They change just now.
     pub fn keep(&mut self, which: Which, slots: Vec<f64>) -> Result<(), String> {
-        if self.way.is_some() {
+        if self.transition.is_some() {
             return Err("the parameters change just now".to_owned());
         }
         self.kept[which as usize] = Some(Kept { slots, was_felt: false });
@@ -79,19 +79,19 @@ impl Pair {
         kept.map(|kept| &kept.slots).ok_or_else(|| format!("nothing has been kept as {}", which.name()))
     }
 
-    /// Begins the way from these values to those.
+    /// Begins the transition from these values to those.
     pub fn go(&mut self, from: Vec<f64>, to: Vec<f64>, begin: Duration) {
-        self.way = Some(Way { from, to, begin });
+        self.transition = Some(Transition { from, to, begin });
     }
 
-    /// Ends a way where it is.
-    pub fn stay(&mut self) {
-        self.way = None;
+    /// Ends a transition where it is.
+    pub fn end_transition(&mut self) {
+        self.transition = None;
     }
 
-    /// The values of all slots now, if they are on a way, and true at its end.
-    pub fn on_the_way(&self, now: Duration) -> Option<(Vec<f64>, bool)> {
-        let Way { from, to, begin } = self.way.as_ref()?;
+    /// The values of all slots at this time of a transition, and true at its end; none without one.
+    pub fn transition_at(&self, now: Duration) -> Option<(Vec<f64>, bool)> {
+        let Transition { from, to, begin } = self.transition.as_ref()?;
         let part = now.saturating_sub(*begin).as_secs_f64() / blend::TIME;
         Some((blended(from, to, part), part >= 1.0))
     }
@@ -102,15 +102,15 @@ impl Pair {
         [Which::A, Which::B].into_iter().find(is_there)
     }
 
-    /// The platform was engaged with these values.
-    pub fn feel(&mut self, slots: &[f64]) {
+    /// Marks the sets with these values as felt: the platform was engaged with them.
+    pub fn mark_felt(&mut self, slots: &[f64]) {
         for kept in self.kept.iter_mut().flatten() {
             kept.was_felt |= kept.slots == slots;
         }
     }
 
     /// As JSON: which sets there are, and which one is in force.
-    pub fn told(&self, slots: &[f64]) -> String {
+    pub fn status(&self, slots: &[f64]) -> String {
         let [a, b] = self.kept.each_ref().map(Option::is_some);
         let now = self.present(slots).map(Which::name);
         serde_json::json!({ "a": a, "b": b, "now": now, "votes": self.votes.is_some() }).to_string()

@@ -153,18 +153,18 @@ impl Strangers {
     }
 }
 
-/// A place among a few, which is left at its end.
-struct Place<'a>(&'a AtomicUsize);
+/// One of a few connections at a time; dropping it frees the slot.
+struct ConnectionSlot<'a>(&'a AtomicUsize);
 
-impl<'a> Place<'a> {
+impl<'a> ConnectionSlot<'a> {
     fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, http::Refusal> {
-        let place = Place(places);
+        let place = ConnectionSlot(places);
         let taken = places.fetch_add(1, Ordering::Relaxed);
         if taken < most { Ok(place) } else { Err((503, "too many pages or requests at once".to_owned())) }
     }
 }
 
-impl Drop for Place<'_> {
+impl Drop for ConnectionSlot<'_> {
     fn drop(&mut self) {
         self.0.fetch_sub(1, Ordering::Relaxed);
     }
@@ -192,7 +192,7 @@ impl Site {
         self.access.check(request)?;
         let (places, most) =
             if request.path == "/events" { (&self.pages, MOST_PAGES) } else { (&self.requests, MOST_REQUESTS) };
-        let _place = Place::among(places, most)?;
+        let _place = ConnectionSlot::among(places, most)?;
         match (request.method.as_str(), request.path.as_str()) {
             ("GET", "/") => http::answer(stream, 200, "text/html", &self.page),
             ("GET", "/events") => self.send_events(stream)?,

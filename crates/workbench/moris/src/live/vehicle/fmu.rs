@@ -7,8 +7,8 @@ use anyhow::{Context, Result, ensure};
 use moris_bounded_files::TEXT;
 use moris_fmu_host::Running;
 use moris_live::Sample;
-use moris_live::format::{Format, Place};
-use moris_ride::Command;
+use moris_live::format::{FieldAddress, Format};
+use moris_ride::RiderCommand;
 use serde::Deserialize;
 
 use super::{Handling, Vehicle};
@@ -72,9 +72,9 @@ impl Fmu {
         let controls: BTreeMap<Control, Taken> =
             controls.map_or(Ok(BTreeMap::new()), toml::Value::try_into).context("controls")?;
         ensure!(controls.values().all(|taken| taken.scale.is_finite()), "the scale of a control must be a number");
-        let key = |place: &Place| match place {
-            Place::Key(name) => Some(name.clone()),
-            Place::Index(_) => None,
+        let key = |place: &FieldAddress| match place {
+            FieldAddress::Key(name) => Some(name.clone()),
+            FieldAddress::Index(_) => None,
         };
         let variables: Option<Vec<String>> = fields.fields.values().map(|field| key(&field.at)).collect();
         let variables = variables.context("a field's `at` is the name of a variable")?;
@@ -82,12 +82,12 @@ impl Fmu {
         let running = Running::start(file, &values).with_context(|| file.display().to_string())?;
         let mut fmu = Fmu { running, controls, fields, variables, step, steps: 0 };
         fmu.sample()?;
-        fmu.control(&Command::default())?;
+        fmu.control(&RiderCommand::default())?;
         Ok(fmu)
     }
 
     /// Sets the inputs that take controls.
-    fn control(&mut self, command: &Command) -> Result<()> {
+    fn control(&mut self, command: &RiderCommand) -> Result<()> {
         for (control, Taken { at, scale }) in &self.controls {
             let value = match control {
                 Control::Throttle => command.throttle,
@@ -120,7 +120,7 @@ impl Vehicle for Fmu {
         Ok(sample)
     }
 
-    fn advance(&mut self, command: &Command) -> Result<()> {
+    fn advance(&mut self, command: &RiderCommand) -> Result<()> {
         self.control(command)?;
         self.running.step(f64::from(self.steps) * self.step, self.step)?;
         self.steps += 1;

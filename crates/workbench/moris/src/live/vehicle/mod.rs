@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use moris_live::Sample;
-use moris_ride::Command;
+use moris_ride::RiderCommand;
 use rtrb::Producer;
 
 use super::controls::{Controls, Handling};
@@ -29,7 +29,7 @@ pub trait Vehicle: Send {
     ///
     /// # Errors
     /// It has ended.
-    fn advance(&mut self, command: &Command) -> Result<()>;
+    fn advance(&mut self, command: &RiderCommand) -> Result<()>;
 
     /// The motion now, without a time.
     ///

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use moris_live::{Motion, Sample};
-use moris_ride::{Command, Ridden, STEP};
+use moris_ride::{Ridden, RiderCommand, STEP};
 
 use super::{Handling, Vehicle};
 
@@ -35,7 +35,7 @@ impl Vehicle for Motorcycle {
         Some(Handling::Rider)
     }
 
-    fn advance(&mut self, command: &Command) -> Result<()> {
+    fn advance(&mut self, command: &RiderCommand) -> Result<()> {
         (0..DIVISIONS).for_each(|_| self.ridden.step(command));
         Ok(())
     }
@@ -55,7 +55,7 @@ impl Vehicle for Motorcycle {
     }
 
     fn begin_again(&mut self) {
-        if let Ok(ridden) = self.ridden.again() {
+        if let Ok(ridden) = self.ridden.restarted() {
             *self = Motorcycle { ridden, is_put_back: true };
         }
     }
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     /// The samples of a ride from a stand with these controls.
-    fn ride(motorcycle: &mut Motorcycle, command: &Command, seconds: f64) -> Vec<Sample> {
+    fn ride(motorcycle: &mut Motorcycle, command: &RiderCommand, seconds: f64) -> Vec<Sample> {
         let count = (seconds / motorcycle.step()) as u32;
         let sample = |_| {
             motorcycle.advance(command).unwrap();
@@ -78,7 +78,7 @@ mod tests {
     #[test]
     fn the_end_of_the_road_is_a_pause_until_a_new_ride() {
         let mut motorcycle = Motorcycle::new().unwrap();
-        let full = Command { throttle: 1.0, is_helped: false, ..Command::default() };
+        let full = RiderCommand { throttle: 1.0, is_helped: false, ..RiderCommand::default() };
         let samples = ride(&mut motorcycle, &full, 60.0);
         let ridden = samples.iter().position(|sample| sample.paused).expect("the road has bends");
         assert!(samples[ridden..].iter().all(|sample| sample.paused));

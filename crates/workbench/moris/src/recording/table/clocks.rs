@@ -41,7 +41,7 @@ impl Clock<'_> {
         } else if !is_written && let Some(seconds) = of_digits(time, unit) {
             *time = seconds;
             warnings.push("The times are read as HHMMSS: they leave out the seconds from 60 to 99.".to_owned());
-            go_on(time, &PERIODS);
+            add_period(time, &PERIODS);
         } else {
             let counters = BITS.map(|bits| 2f64.powi(bits));
             let micros = [32, 31].map(|bits| 1e-6 * 2f64.powi(bits) / unit);
@@ -49,7 +49,7 @@ impl Clock<'_> {
             let periods: Vec<f64> =
                 PERIODS.map(|period| period / unit).into_iter().chain(micros).chain(millis).collect();
             let counted: &[f64] = if is_written { &[] } else { &counters };
-            if let Some(sample) = go_on(time, &[&periods, counted].concat()).filter(|_| !is_written) {
+            if let Some(sample) = add_period(time, &[&periods, counted].concat()).filter(|_| !is_written) {
                 warnings.push(format!("The clock begins again at sample {}; its times are continued.", sample + 1));
             }
             time.iter_mut().for_each(|time| *time *= unit);
@@ -60,7 +60,7 @@ impl Clock<'_> {
 
 /// Adds a period wherever the clock begins again: where a step back is a usual step with the period
 /// added, or half a day back. Returns the first such sample.
-fn go_on(time: &mut [f64], periods: &[f64]) -> Option<usize> {
+fn add_period(time: &mut [f64], periods: &[f64]) -> Option<usize> {
     let usual = usual_step(time);
     let (mut added, mut first) = (0.0, None);
     let mut before = *time.first()?;

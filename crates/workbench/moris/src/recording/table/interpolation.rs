@@ -9,25 +9,25 @@ use moris_washout::nalgebra::{Rotation3, UnitQuaternion, Vector3};
 /// vertical roll and yaw flip by half a turn.
 const FLIP: f64 = 0.5;
 
-/// The place of a time among samples.
+/// The two samples around a time.
 #[derive(Clone, Copy)]
-pub struct Place {
+pub struct Bracket {
     /// The first sample after it.
     pub after: usize,
-    /// Fraction of the way from the sample before.
+    /// Fraction of the time from the sample before to it.
     fraction: f64,
 }
 
-/// The places of times among at least two samples. Both ascend; times beyond the samples' ends are
+/// The brackets of times among at least two samples. Both ascend; times beyond the samples' ends are
 /// at the ends.
-pub fn places(samples: &[f64], times: &[f64]) -> Vec<Place> {
+pub fn places(samples: &[f64], times: &[f64]) -> Vec<Bracket> {
     let mut after = 1;
     let place = |&time: &f64| {
         while after + 1 < samples.len() && samples[after] < time {
             after += 1;
         }
         let (before, next) = (samples[after - 1], samples[after]);
-        Place { after, fraction: ((time - before) / (next - before)).clamp(0.0, 1.0) }
+        Bracket { after, fraction: ((time - before) / (next - before)).clamp(0.0, 1.0) }
     };
     times.iter().map(place).collect()
 }
@@ -40,13 +40,13 @@ pub fn between(before: f64, next: f64, fraction: f64, period: Option<f64>) -> f6
 }
 
 /// The values at places; `period` is that of angles.
-pub fn values(places: &[Place], samples: &[f64], period: Option<f64>) -> Vec<f64> {
-    let value = |place: &Place| between(samples[place.after - 1], samples[place.after], place.fraction, period);
+pub fn values(places: &[Bracket], samples: &[f64], period: Option<f64>) -> Vec<f64> {
+    let value = |place: &Bracket| between(samples[place.after - 1], samples[place.after], place.fraction, period);
     places.iter().map(value).collect()
 }
 
 /// Roll, pitch and yaw \[rad\] at places.
-pub fn orientations(places: &[Place], angles: [&[f64]; 3]) -> [Vec<f64>; 3] {
+pub fn orientations(places: &[Bracket], angles: [&[f64]; 3]) -> [Vec<f64>; 3] {
     let mut found = angles.map(|angle| values(places, angle, Some(TAU)));
     for (k, place) in places.iter().enumerate() {
         let at = |sample: usize| Vector3::from_fn(|axis, _| angles[axis][sample]);
@@ -83,7 +83,7 @@ mod tests {
         let pitch = [1.4, 1.7];
         let flipped = (PI, PI - pitch[1], PI);
         let angles = [[0.0, flipped.0], [pitch[0], flipped.1], [0.0, flipped.2]];
-        let places = [Place { after: 1, fraction: 0.25 }, Place { after: 1, fraction: 0.75 }];
+        let places = [Bracket { after: 1, fraction: 0.25 }, Bracket { after: 1, fraction: 0.75 }];
         let [roll, pitch, yaw] = orientations(&places, [&angles[0], &angles[1], &angles[2]]);
         for (k, true_pitch) in [(0, 1.475f64), (1, 1.625)] {
             let found = Orientation::new(RollPitchYaw::new(roll[k], pitch[k], yaw[k])).rotation;
