@@ -18,8 +18,8 @@ pub struct Bracket {
     fraction: f64,
 }
 
-/// The brackets of times among at least two samples. Both ascend; times beyond the samples' ends are
-/// at the ends.
+/// The brackets of times among at least two samples. Both ascend; times beyond the samples' ends
+/// are at the ends.
 pub fn places(samples: &[f64], times: &[f64]) -> Vec<Bracket> {
     let mut after = 1;
     let place = |&time: &f64| {

@@ -1,0 +1,67 @@
+"""ARCHITECTURE.md's rule of rings and its table of uses, held against the manifests."""
+
+import re
+
+import pytest
+from conftest import ROOT
+
+tomllib = pytest.importorskip("tomllib", reason="tomllib is there from Python 3.11 on")
+
+# Path of a package -> its ring. Washout and machinery are one ring: they use each other.
+RINGS = (("crates/simulator/", 1), ("crates/workbench/", 2), ("", 0))
+# Packages that may use these of a later ring.
+EXCEPTIONS = {
+    "fmus": {"motorcycle", "stewart-platform"},
+    "build-fmu": {"motorcycle", "stewart-platform", "setup"},
+    "hunter": {"setup"},
+}
+OUTSIDE = ("target/", "examples/", "fuzz/", "tests/importers/")
+
+
+def packages():
+    """Each package of the workspace by its name without `moris-`: its folder, and the packages that it uses."""
+    found = {}
+    for manifest in sorted(ROOT.glob("**/Cargo.toml")):
+        folder = manifest.parent.relative_to(ROOT).as_posix() + "/"
+        table = tomllib.loads(manifest.read_text())
+        if folder.startswith(OUTSIDE) or "package" not in table:
+            continue
+        sections = [table, *table.get("target", {}).values()]
+        uses = {short(name) for section in sections for name in section.get("dependencies", {}) if name.startswith("moris")}
+        found[short(table["package"]["name"])] = folder, uses
+    return found
+
+
+def short(name):
+    return name.removeprefix("moris-")
+
+
+def ring(folder):
+    return next(ring for path, ring in RINGS if folder.startswith(path))
+
+
+def test_a_package_uses_its_own_ring_and_those_before():
+    found = packages()
+    assert len(found) > 20
+    for name, (folder, uses) in found.items():
+        excepted = EXCEPTIONS.get("fmus" if folder.startswith("crates/fmus/") else name, set())
+        later = {used for used in uses if ring(found[used][0]) > ring(folder)}
+        assert later <= excepted, f"{name} uses {later - excepted} of a later ring"
+
+
+def test_the_table_of_uses_has_what_the_manifests_have():
+    section = (ROOT / "ARCHITECTURE.md").read_text().partition("| package | uses |")[2].partition("\n\n")[0]
+    rows = re.findall(r"^\| (`.*?) \| (.*) \|$", section, re.MULTILINE)
+    table = {name: uses for names, uses in rows for name in re.findall(r"`([\w*/-]+)`", names)}
+    found = packages()
+    for name, text in table.items():
+        if name == "fmus/*":
+            continue
+        # What a package's tests use, or it compiles by calling cargo, comes after a semicolon; reasons are in parentheses.
+        named = set(re.findall(r"`([\w-]+)`", re.sub(r"\(.*?\)", "", text.partition(";")[0])))
+        named |= {"motorcycle", "stewart-platform", "washout"} if "the three models" in text else set()
+        name = {"modelDescription": "model-description"}.get(name, name)
+        named = {{"modelDescription": "model-description"}.get(used, used) for used in named}
+        folder, uses = found[name]
+        assert named == uses - {"shared-features"}, f"{name}: the table has {named}, the manifest {uses}"
+    assert {"fmu-host", "washout", "moris", "python"} <= table.keys()
