@@ -7,8 +7,8 @@ are in SI units. Variables have the names that they have in the FMU.
 from ._errors import BoundError, BuildError, ClusterError, MorisError, NoFeasibleParameters, ParameterError, RecordingError
 from ._fit import AxisShape, Candidate, Fit, fit
 from ._fmu import build_fmu
-from ._measures import Measure, Measures
 from ._judged import measure
+from ._measures import Measure, Measures
 from ._moris import VERSION as __version__
 from ._moris import Output, Washout
 from ._outputs import Outputs
