@@ -203,6 +203,14 @@ fn options_stand_over_the_file_of_conventions() {
     assert!(message.contains("there is no key axx; there are time, ax"), "{message}");
 }
 
+/// A circuit with more bends to the right, at 2 g: its median is no tilt of the sensor.
+#[test]
+fn hard_bends_one_way_are_no_wrong_axes() {
+    let sway = |time: f64| -5.0 + 18.0 * (0.9 * time).sin() * if (0.9 * time).sin() > 0.0 { 0.6 } else { 1.0 };
+    let bends = csv(PLAIN, &samples(), |s| vec![s[0], s[1], s[2] + sway(s[0]), s[3] + 0.4, s[4], s[5], s[6]]);
+    read(&bends, &ConventionOptions::default());
+}
+
 #[test]
 fn wrong_units_and_axes_are_recognised() {
     let scaled = |factors: [f64; 7]| csv(PLAIN, &samples(), |s| (0..7).map(|i| factors[i] * s[i]).collect());
@@ -224,6 +232,8 @@ fn wrong_units_and_axes_are_recognised() {
     assert!(refusal(&without, &default).contains("so gravity has been taken out: use --gravity removed"));
     let turned = csv(PLAIN, &samples(), |s| vec![s[0], s[3], s[2], s[1], s[4], s[5], s[6]]);
     assert!(refusal(&turned, &default).contains("x is nearest to the vertical"));
+    let tilted = csv(PLAIN, &samples(), |s| vec![s[0], s[1], s[2] + 5.3, s[3] - 1.55, s[4], s[5], s[6]]);
+    assert!(refusal(&tilted, &default).contains("z is nearest to the vertical"));
 
     // Given units and axes that are not the recording's are also refused.
     let given = |options: ConventionOptions| refusal(&plain(), &options);
