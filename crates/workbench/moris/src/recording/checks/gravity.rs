@@ -52,9 +52,9 @@ pub fn check(table: &Table, inputs: &[Input], conventions: &Conventions) -> Resu
     ))
 }
 
-/// True if driving explains a horizontal median, as on a circuit with more bends one way. z is
-/// gravity, more nearly so than under a tilt with this horizontal part, and the force varies by
-/// more than the median is.
+/// True if driving explains a horizontal median, as on a circuit with more bends one way. Then the
+/// force varies by more than the median. And its z is nearer to gravity than under a tilt with this
+/// horizontal part.
 fn is_driven_hard(median: &Vector3<f64>, inputs: &[Input]) -> bool {
     let horizontal = median.xy().norm();
     let tilted = (STANDARD_GRAVITY.powi(2) - horizontal.powi(2)).max(0.0).sqrt();
