@@ -5,6 +5,7 @@
 
 - Openings: doc comments in Rust (`//!` and `///`) that begin with What, Whether or How. A doc comment is a run of such lines; each
   counts once. At most 0.2 % of them.
+- Fragments: doc comments of at most three words, such as "Its name.", which say nothing alone. At most 6.5 % of them.
 - Sentences: their length in words, in the pages, in the documentation packed into the FMUs, in doc comments and in Python's
   docstrings. Code, tables and headings do not count. A list's item ends a sentence; a link counts as its
   text, a piece of code as one word. A mean of at most 16 words a page (not of docstrings), none above 30.
@@ -25,6 +26,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 OPENINGS = 0.002
+FRAGMENTS = 0.065
+FRAGMENT = 3  # words
 MEAN = 16.0
 LONGEST = 30
 COLUMNS = 100
@@ -256,6 +259,12 @@ def lengths(pages):
     return found, all_counts
 
 
+def fragments(sources):
+    """Doc comments of few words."""
+    texts = ((file, begin, " ".join(run).split()) for file in sources for begin, run in doc_comments(file))
+    return [Finding(file, begin, " ".join(words)) for file, begin, words in texts if len(words) <= FRAGMENT]
+
+
 def wide(sources, pages):
     """Lines of prose that are too wide."""
     found = []
@@ -293,13 +302,16 @@ def main():
     (opening, comments), (long, counts), columns = openings(sources), lengths([*pages, *packed, *sources, *scripts]), wide(sources, pages)
     mean = sum(counts) / max(len(counts), 1)
     fraction = len(opening) / max(comments, 1)
+    short = fragments(sources)
+    fraction_short = len(short) / max(comments, 1)
     if arguments.list:
-        for finding in [*opening, *long, *columns]:
+        for finding in [*opening, *(short if fraction_short > FRAGMENTS else []), *long, *columns]:
             print(finding)
     print(f"{len(opening)} of {comments} doc comments begin with What, Whether or How: {fraction:.1%} (at most {OPENINGS:.1%})")
+    print(f"{len(short)} doc comments have at most {FRAGMENT} words: {fraction_short:.1%} (at most {FRAGMENTS:.1%})")
     print(f"{len(counts)} sentences of {mean:.1f} words in the mean: {len(long)} above {LONGEST}, or pages above {MEAN:.0f} (none)")
     print(f"{len(columns)} lines of prose above {COLUMNS} columns (none)")
-    met = fraction <= OPENINGS and not long and not columns
+    met = fraction <= OPENINGS and fraction_short <= FRAGMENTS and not long and not columns
     return 1 if arguments.check and not met else 0
 
 

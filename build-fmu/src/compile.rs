@@ -79,7 +79,7 @@ fn plan_for(platform: Platform) -> Result<Plan, Error> {
 
 /// The profile of the workspace's manifest by which the libraries are compiled.
 const PROFILE: &str = "fmu-library";
-/// The same for WebAssembly.
+/// Profile in which the WebAssembly is compiled.
 pub const WEBASSEMBLY_PROFILE: &str = "page-simulation";
 
 /// Compiles the model's library for a version of FMI and returns it.

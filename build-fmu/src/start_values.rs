@@ -11,7 +11,7 @@ use crate::{Error, FmuModel};
 pub struct Start {
     /// Those that stand in place of the model's own, by slot, in the order of the slots.
     overrides: Overrides,
-    /// All of them.
+    /// Start values of all slots.
     slots: Vec<f64>,
 }
 

@@ -19,7 +19,7 @@ pub struct AngularChannel {
 }
 
 impl AngularChannel {
-    /// At rest.
+    /// The channel at rest.
     pub fn new(parameters: &AngularParameters, order: i32) -> Self {
         let chains = Chains::new(denominators(parameters, order));
         AngularChannel { chains, offset: FadingOffset::default(), rates: Vector3::zeros() }

@@ -186,7 +186,7 @@ pub fn soft_limit(value: f64, limit: f64) -> f64 {
 pub struct InputFilter {
     /// The output of the first.
     cue: Cue,
-    /// The second.
+    /// Second low-pass, on the rates.
     rates: CriticallyDamped,
 }
 

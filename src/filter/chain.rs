@@ -106,7 +106,7 @@ impl Chains {
         }
     }
 
-    /// The same for chains of order 2.
+    /// Advances chains of order 2.
     #[inline(always)]
     fn advance_second_order(&mut self, start: Vector3<f64>, end: Vector3<f64>) {
         let first_two = |lanes: &f64x4| {

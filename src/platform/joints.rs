@@ -14,7 +14,7 @@ pub struct Joints {
 }
 
 impl Joints {
-    /// One joint.
+    /// Position of joint `i` \[m\].
     pub fn joint(&self, i: usize) -> Vector3<f64> {
         Vector3::new(self.x[i], self.y[i], self.z[i])
     }

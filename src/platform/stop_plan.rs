@@ -56,7 +56,7 @@ impl StopPlan {
         self.elapsed = 0.0;
     }
 
-    /// Rest.
+    /// The plan of a platform at rest.
     pub fn rest() -> Self {
         StopPlan::new(&PlatformCoordinates::default(), StopDurations::common(0.0))
     }
@@ -71,7 +71,7 @@ impl StopPlan {
         &self.durations
     }
 
-    /// The same plan `step` seconds on.
+    /// The plan after `step` seconds of it.
     pub fn advanced(&self, step: f64) -> Self {
         let [.., last] = self.durations.breakpoints();
         StopPlan { elapsed: (self.elapsed + step).min(max(last, self.elapsed)), ..*self }
@@ -88,7 +88,7 @@ impl StopPlan {
         })
     }
 
-    /// The state now.
+    /// The coordinates at the time that the plan has reached.
     pub fn now(&self) -> PlatformCoordinates {
         self.at(self.elapsed)
     }

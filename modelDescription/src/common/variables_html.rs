@@ -6,7 +6,7 @@ use moris_interface::{Causality, Identity, Kind, Row, Variability};
 pub(crate) struct Notation {
     /// The names of its variables.
     pub name: fn(&Row) -> String,
-    /// Their type.
+    /// Name of a variable's type.
     pub type_name: fn(&Row) -> String,
 }
 

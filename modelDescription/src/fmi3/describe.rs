@@ -71,7 +71,7 @@ struct Place {
     row: &'static Row,
     name: String,
     first_slot: usize,
-    /// Its sizes, outermost first; none for a scalar.
+    /// Sizes of the array, outermost first; none for a scalar.
     dimensions: Vec<usize>,
 }
 

@@ -26,12 +26,12 @@ pub struct SafetyUnits {
 }
 
 impl SafetyUnits {
-    /// At rest at neutral, not active.
+    /// The safety units at rest at neutral, not active.
     pub fn new(longest_step: f64) -> Self {
         SafetyUnits { longest_step, motion: Motion::default(), following: [false; 3], active: [false; 3] }
     }
 
-    /// The motion now.
+    /// The limited motion now.
     pub fn motion(&self) -> &Motion<Vector3<f64>> {
         &self.motion
     }

@@ -34,11 +34,11 @@ pub struct Adaptive {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 struct Adaptation {
     gains: [f64; 2],
-    /// Of the position and the velocity to P1.
+    /// Sensitivity of position and velocity to P1.
     to_travel_gain: [f64; 2],
-    /// Of the position and the velocity to P2.
+    /// Sensitivity of position and velocity to P2.
     to_tilt_gain: [f64; 2],
-    /// Of the tilt and its rate to P2.
+    /// Sensitivity of the tilt and its rate to P2.
     tilt: [f64; 2],
 }
 

@@ -59,7 +59,7 @@ impl Disturbance {
         Some(least.sqrt().recip())
     }
 
-    /// D D'.
+    /// The product D D' of the disturbance's directions.
     fn square(&self) -> SMatrix<f64, 6, 6> {
         let mut square = SMatrix::zeros();
         square[(4, 4)] = 1.0;

@@ -81,7 +81,7 @@ pub struct Regulator {
 /// Without a weight on the tilt itself the equation would have no solution; this one changes
 /// nothing that can be seen.
 const TILT_WEIGHT: f64 = 1e-9;
-/// The same for every scaled state.
+/// Weight added to every scaled state, so that the equation has a solution.
 const STATE_WEIGHT: f64 = 1e-10;
 
 /// The regulator's problem in states and inputs relative to their scales.
@@ -90,7 +90,7 @@ pub struct Problem {
     a: SMatrix<f64, 6, 6>,
     b: SMatrix<f64, 6, 2>,
     q: SMatrix<f64, 6, 6>,
-    /// R^-1 B'.
+    /// R^-1 B': from the costate to the input.
     to_input: SMatrix<f64, 2, 6>,
     scale: State,
     input_scale: SVector<f64, 2>,

@@ -29,7 +29,7 @@ const MOST_PARTS: f64 = 32.0;
 /// Distances on the straight way to neutral.
 #[derive(Clone, Copy)]
 struct Distance {
-    /// Of any joint, at most \[m\].
+    /// Largest distance that any joint may have from its place at neutral \[m\].
     joint: f64,
     /// Sum of the angles' magnitudes \[rad\].
     angular: f64,

@@ -51,7 +51,7 @@ pub struct ActuatorGuard {
 struct Deviation {
     demand: PlatformCoordinates,
     coordinates: PlatformCoordinates,
-    /// Of the legs' lengths, over the last step \[m/s2\].
+    /// Accelerations of the legs over the last step \[m/s2\].
     leg_accelerations: [f64; 6],
     /// Time for which the input has been at rest meanwhile \[s\].
     resting: f64,

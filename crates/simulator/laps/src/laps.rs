@@ -43,7 +43,7 @@ pub struct Laps {
 }
 
 impl Laps {
-    /// Nothing is remembered.
+    /// An empty memory.
     pub fn new() -> Self {
         Laps::default()
     }

@@ -20,11 +20,11 @@ const NONE: u64 = u64::MAX;
 /// A point of the line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// \[m\]
+    /// Position \[m\].
     pub position: [f64; 3],
     /// Unit vector of the motion.
     pub direction: [f64; 3],
-    /// \[m/s\]
+    /// Speed \[m/s\].
     pub speed: f64,
     /// Smoothed force of surge and sway \[m/s2\].
     pub force: [f64; 2],
@@ -130,12 +130,12 @@ pub struct Between<'a> {
 }
 
 impl Between<'_> {
-    /// \[m/s2\]
+    /// Smoothed force of surge or sway at this distance \[m/s2\].
     pub fn force(&self, axis: usize) -> f64 {
         self.from.force[axis] + self.fraction * (self.to.force[axis] - self.from.force[axis])
     }
 
-    /// \[m/s\]
+    /// Speed at this distance \[m/s\].
     pub fn speed(&self) -> f64 {
         self.from.speed + self.fraction * (self.to.speed - self.from.speed)
     }

@@ -44,7 +44,7 @@ pub struct RoadPoint {
     pub position: [f64; 3],
     /// Unit vector; zero at rest.
     pub direction: [f64; 3],
-    /// \[m/s\]
+    /// Speed \[m/s\].
     pub speed: f64,
 }
 

@@ -10,7 +10,7 @@ use crate::motion::{ANGLES, CHANNELS, Channels, FELT, Motion, turns};
 pub const GLIDE: [f64; 2] = [1.0, 5.0];
 /// Time for which a felt difference takes to glide \[s\].
 const PER_FELT: f64 = 0.5;
-/// The same after a gap, at least.
+/// Least time for which a felt difference takes to glide after a gap \[s\].
 const PER_GAP: f64 = 0.1;
 /// Longest time for which the slope before a change goes on to fade \[s\].
 const SLOPE_TIME: f64 = 0.2;

@@ -11,7 +11,7 @@ const TOLERANCE: f64 = 0.02;
 /// Where the legs are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Legs {
-    /// Nobody knows.
+    /// An unknown place.
     Unknown,
     /// At the settled pose, as a person has seen.
     Settled,
@@ -23,7 +23,7 @@ pub enum Legs {
 }
 
 impl Legs {
-    /// Its name.
+    /// The place's name.
     pub fn name(self) -> &'static str {
         match self {
             Legs::Unknown => "unknown",

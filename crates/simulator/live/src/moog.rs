@@ -48,15 +48,15 @@ pub enum Command {
 /// State of the base, from an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// It starts.
+    /// The motion base starts.
     PowerUp,
-    /// It is at home, without power.
+    /// The motion base is at home, without power.
     Idle,
-    /// It goes to neutral.
+    /// The motion base goes to neutral.
     Standby,
-    /// It follows.
+    /// The motion base follows the commanded positions.
     Engaged,
-    /// It goes home.
+    /// The motion base goes home.
     Parking,
     /// A fault, disabled or inhibited.
     Failed,

@@ -39,9 +39,9 @@ struct Stamped {
 /// The motion at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct At {
-    /// The motion.
+    /// Motion at the asked time.
     pub motion: Motion,
-    /// Its slope.
+    /// Slope of each channel of the motion there.
     pub slope: Channels,
     /// Time of the sample from which on nothing is known, if that is past: it is held \[s\].
     pub held_from: Option<f64>,

@@ -126,7 +126,7 @@ pub struct Commands {
     pub time: f64,
     /// Lengths of the actuators \[m\].
     pub length: [f64; 6],
-    /// Their velocities \[m/s\].
+    /// Velocities of the legs \[m/s\].
     pub velocity: [f64; 6],
     /// Pose of the platform.
     pub pose: Pose,
@@ -294,7 +294,7 @@ impl Session {
         self.travel_part = speed * STEP / way.fold(1e-3, f64::max);
     }
 
-    /// The time \[s\].
+    /// Time since the session's start \[s\].
     pub fn time(&self) -> f64 {
         self.steps as f64 * STEP
     }

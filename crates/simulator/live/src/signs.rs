@@ -33,7 +33,7 @@ const REVERSING: f64 = 8.0;
 /// Speed from which on a negative one is a sign \[m/s\].
 const REVERSES: f64 = 0.3;
 
-/// A check.
+/// A check of one sign or axis of the telemetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Check {
     /// Braking is a backward force.
@@ -63,7 +63,7 @@ impl Check {
     /// All checks.
     pub const ALL: [Check; 5] = [Check::Braking, Check::LeftTurn, Check::Roll, Check::Pitch, Check::Yaw];
 
-    /// Its meaning.
+    /// The statement that the check tests.
     pub fn text(self) -> &'static str {
         match self {
             Check::Braking => "braking is a backward force (ax against the change of speed)",

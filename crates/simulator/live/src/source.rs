@@ -33,7 +33,7 @@ pub enum Health {
 }
 
 impl Health {
-    /// Its name.
+    /// The health's name.
     pub fn name(self) -> &'static str {
         match self {
             Health::Waiting => "waiting",
@@ -89,7 +89,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// The health.
+    /// Health of the telemetry now.
     pub fn health(&self) -> Health {
         self.health
     }

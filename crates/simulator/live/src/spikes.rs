@@ -25,7 +25,7 @@ pub struct Spikes {
 pub enum Judgement {
     /// It is used, after the doubtful one before it if there is one that it confirms.
     Used(Option<(f64, Sample)>),
-    /// It waits for the next one.
+    /// The sample waits for the next one.
     Doubtful,
 }
 

@@ -35,7 +35,7 @@ pub mod place {
 }
 use place::*;
 
-/// The state's size.
+/// Number of lateral states.
 pub const SIZE: usize = 8;
 /// The lateral state, or its derivative.
 pub type State = SVector<f64, SIZE>;
@@ -197,7 +197,7 @@ impl Lateral {
         self.constant + self.per_speed * speed + self.hold * feet
     }
 
-    /// The state's derivative.
+    /// Derivative of the lateral state, at this forward speed \[m/s\].
     pub fn derivative(&self, state: &State, speed: f64, feet: f64, actions: &Actions) -> State {
         self.constant * state
             + self.per_speed * state * speed

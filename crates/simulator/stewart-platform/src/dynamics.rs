@@ -18,11 +18,11 @@ use crate::body::Body;
 /// The equations at an instant, for given pose and velocities of the platform.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dynamics {
-    /// J.
+    /// J: Jacobian of the legs.
     jacobian: Matrix6<f64>,
     /// The inverse of M.
     mobility: Matrix6<f64>,
-    /// M.
+    /// M: inertia matrix of the body at the origin.
     inertia: Matrix6<f64>,
     /// c: force \[N\] and moment about the platform's origin \[N m\] at zero acceleration.
     bias: Vector6<f64>,

@@ -44,8 +44,9 @@ pub struct StewartPlatform {
     /// The last commands inside the stroke \[m\].
     last_command: [f64; 6],
     now: Instant,
-    /// One internal step ago, and its length \[s\].
+    /// State one internal step ago.
     before: Instant,
+    /// Length of the last internal step \[s\].
     last_step: f64,
     limited: DriveStatus,
 }

@@ -33,7 +33,7 @@ impl Manoeuvre {
         self.step
     }
 
-    /// The inputs.
+    /// Inputs at all samples.
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
     }

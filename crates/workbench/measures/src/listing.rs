@@ -11,15 +11,15 @@ use crate::shape::{AxisShape, Shape};
 /// The better of two values of a measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
-    /// The smaller one.
+    /// The smaller value.
     Less,
-    /// The larger one.
+    /// The larger value.
     More,
-    /// Neither.
+    /// Neither value: the measure describes, and does not judge.
     Neither,
 }
 
-/// One measure.
+/// One measure, with its value, unit, definition and source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Subject: `specific force x`, `sensed angular velocity y`, `platform`, ...
@@ -34,7 +34,7 @@ pub struct Row {
     pub better: Better,
     /// Definition, in a sentence.
     pub definition: &'static str,
-    /// Where it is from.
+    /// Publication or page that defines the measure.
     pub source: &'static str,
 }
 

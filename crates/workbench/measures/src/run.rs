@@ -67,7 +67,7 @@ pub enum RunError {
     Length {
         /// Name of the series.
         series: &'static str,
-        /// Its length.
+        /// Length of the series.
         found: usize,
         /// The length that it must have.
         expected: usize,
@@ -79,7 +79,7 @@ pub enum RunError {
         series: &'static str,
         /// Where the value is, from 0.
         sample: usize,
-        /// The value.
+        /// Value of the sample.
         value: f64,
     },
 }

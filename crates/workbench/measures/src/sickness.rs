@@ -104,7 +104,7 @@ fn derivative(state: &State, force: Vector3<f64>, rate: Vector3<f64>) -> State {
     ])
 }
 
-/// H.
+/// Hill function H of the conflict between sensed and expected vertical.
 fn conflict(state: &State) -> f64 {
     let square = (state.column(2) - state.column(3)).norm_squared() / (HALF * HALF);
     square / (1.0 + square)

@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 /// Values of a set by their names.
 pub type Set = BTreeMap<String, f64>;
 
-/// A vote.
+/// A vote for the better of two parameter sets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vote {

@@ -6,7 +6,7 @@ use moris_measures::{LimitFlags, Platform};
 /// Everything that the tables and figures need of one communication point.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
-    /// \[s\]
+    /// Time \[s\].
     pub time: f64,
     /// Specific force that the vehicle's rider would feel, in head axes \[m/s2\].
     pub desired_force: [f64; 3],

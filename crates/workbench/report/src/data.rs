@@ -101,7 +101,7 @@ pub struct Run {
     pub verdict: Finding,
     /// Findings, in order of importance.
     pub findings: Vec<Finding>,
-    /// \[s\], ascending.
+    /// Times of the samples \[s\], ascending.
     #[serde(serialize_with = "times")]
     pub times: Vec<f64>,
     /// Desired: motion at the head of the vehicle's rider.
@@ -169,21 +169,21 @@ pub struct LimitHistory {
 /// The limits that the run was made under. The legs' stroke is the rig's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Limits {
-    /// \[rad\]
+    /// Limit of the tilt's angle \[rad\].
     pub tilt_angle: f64,
-    /// \[rad/s\]
+    /// Limit of the tilt's rate \[rad/s\].
     pub tilt_rate: f64,
-    /// \[rad/s2\]
+    /// Limit of the tilt's acceleration \[rad/s2\].
     pub tilt_acceleration: f64,
-    /// Of the safety units, x, y, z about neutral \[m\].
+    /// Limits of the safety units about neutral, along x, y and z \[m\].
     pub safety_position: [f64; 3],
-    /// \[m/s\]
+    /// Velocity limits of the safety units along x, y and z \[m/s\].
     pub safety_velocity: [f64; 3],
-    /// \[m/s2\]
+    /// Acceleration limits of the safety units along x, y and z \[m/s2\].
     pub safety_acceleration: [f64; 3],
-    /// \[m/s\]
+    /// Speed limit of the legs \[m/s\].
     pub actuator_velocity: f64,
-    /// \[m/s2\]
+    /// Acceleration limit of the legs \[m/s2\].
     pub actuator_acceleration: f64,
 }
 
@@ -228,7 +228,7 @@ pub struct Measure {
 pub enum Better {
     Less,
     More,
-    /// Neither in itself.
+    /// Neither value is better in itself.
     #[default]
     Neither,
 }

@@ -9,15 +9,15 @@ use crate::tilt_limits::TiltLimit;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Event {
     pub kind: Kind,
-    /// \[s\]
+    /// Begin \[s\].
     pub from: f64,
-    /// \[s\]
+    /// End \[s\].
     pub to: f64,
     /// Which limit, on which axis or leg, as well as the motion shows it.
     pub why: String,
 }
 
-/// The limit.
+/// The limit that acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {

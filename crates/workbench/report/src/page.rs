@@ -75,7 +75,7 @@ impl Head<'_> {
 #[derive(Serialize)]
 struct Page<'a> {
     report: &'a Report,
-    /// Of each run.
+    /// Events of each run.
     events: Vec<Vec<Event>>,
     /// The script of the simulation beside the page; none for a page without simulation.
     worker: Option<&'static str>,

@@ -35,7 +35,7 @@ pub struct Page {
     pub parameters: Vec<Parameter>,
     /// Names and values of the set that each strategy has, by the strategy's name.
     pub sets: Vec<(String, Vec<(String, f64)>)>,
-    /// \[m\]
+    /// Half the width of the road \[m\].
     pub half_width: f64,
 }
 

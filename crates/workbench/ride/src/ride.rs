@@ -38,7 +38,7 @@ pub enum Stage {
 /// A whole lap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lap {
-    /// \[s\]
+    /// Lap time \[s\].
     pub time: f64,
     /// Samples of the recording between which it was.
     pub samples: [usize; 2],

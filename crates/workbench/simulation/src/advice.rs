@@ -29,7 +29,7 @@ impl From<Candidate> for Alternative {
 pub struct Advice {
     /// With the same strategy and limits.
     pub scaled: Option<Alternative>,
-    /// The same with a preview of so many seconds.
+    /// Alternative with a preview, and the preview's length \[s\].
     pub previewed: Option<(f64, Alternative)>,
 }
 

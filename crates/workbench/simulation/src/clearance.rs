@@ -46,7 +46,7 @@ const FREE: f64 = 3.0;
 pub struct Clearance {
     /// The closest approach of each pair of legs, the closest pair first.
     pub approaches: Vec<Approach>,
-    /// Of a leg \[m\].
+    /// Diameter of a leg \[m\].
     pub diameter: f64,
     /// True if the rig file gives the diameter.
     is_given: bool,
@@ -55,7 +55,7 @@ pub struct Clearance {
 }
 
 impl Clearance {
-    /// Of a rig with legs of this diameter \[m\].
+    /// Clearance of a rig with legs of this diameter \[m\].
     pub fn of(rig: &Rig, diameter: Option<f64>) -> Self {
         let is_given = diameter.is_some();
         let diameter = diameter.unwrap_or(ASSUMED_DIAMETER);

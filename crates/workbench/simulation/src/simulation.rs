@@ -135,7 +135,7 @@ impl Simulation {
         (0..self.inputs.len()).map(|k| self.desired_rate(k)).collect()
     }
 
-    /// The same at one sample.
+    /// Desired angular velocity at one sample \[rad/s\].
     pub fn desired_rate(&self, sample: usize) -> Vector3<f64> {
         let input = &self.inputs[sample];
         let in_body = match self.parameters.conditioning.angular_velocity_frame {

@@ -11,7 +11,7 @@ pub const FADE_DECAY: [f64; 2] = [0.1, 3.0];
 /// The expected reference.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Forecast {
-    /// Its mean over each block \[m/s2\].
+    /// Mean of the reference over each block \[m/s2\].
     pub means: SVector<f64, BLOCKS>,
     /// Its slow and its fast part at the horizon's end \[m/s2\].
     pub end: [f64; 2],

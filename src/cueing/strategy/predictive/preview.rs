@@ -21,7 +21,7 @@ pub struct PreviewedCue {
     pub step: f64,
     /// Number of values in use.
     pub count: usize,
-    /// \[m/s2\]
+    /// Values of the cue \[m/s2\].
     pub values: [f64; PREVIEW_SAMPLES],
     /// Time since the course was given \[s\]; below 0 where the reference lags behind it.
     pub age: f64,

@@ -13,13 +13,13 @@ use crate::motion::{Motion, Sample};
 /// Reason for which a packet is dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Dropped {
-    /// Its length is not one of the format's.
+    /// The packet's length is not one of the format's.
     #[error("a packet of {0} bytes")]
     Length(usize),
-    /// It begins otherwise.
+    /// The packet's first bytes are not the format's.
     #[error("a packet with another head")]
     Head,
-    /// It lacks a field, or the field is no number.
+    /// The packet lacks a field, or the field is no number.
     #[error("a packet without the field {0:?}")]
     Field(Quantity),
 }

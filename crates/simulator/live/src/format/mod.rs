@@ -154,7 +154,7 @@ fn one() -> f64 {
 pub enum FieldAddress {
     /// An offset, a column or a number.
     Index(usize),
-    /// A key.
+    /// Key of a JSON object.
     Key(String),
 }
 

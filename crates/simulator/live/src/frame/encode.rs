@@ -25,7 +25,7 @@ pub struct Values {
     pub time: f64,
     /// Lengths of the actuators \[m\].
     pub length: [f64; 6],
-    /// Their velocities \[m/s\].
+    /// Velocities of the legs \[m/s\].
     pub velocity: [f64; 6],
     /// Position of the platform \[m\], its roll, pitch and yaw \[rad\].
     pub pose: [f64; 6],

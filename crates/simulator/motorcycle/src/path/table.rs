@@ -10,9 +10,9 @@ use crate::interface::{Course, PATH_POINTS, Path, PathColumn};
 pub struct Table {
     /// Distance from the beginning \[m\], ascending from 0.
     distance: PathColumn,
-    /// \[1/m\], positive to the right.
+    /// Curvature \[1/m\], positive to the right.
     curvature: PathColumn,
-    /// \[m/s\]
+    /// Speed \[m/s\].
     speed: PathColumn,
     /// Number of rows, two at least.
     count: usize,

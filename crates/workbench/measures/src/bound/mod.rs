@@ -67,7 +67,7 @@ pub struct Bound {
     pub rms_error: f64,
     /// RMS error of the best motion found that keeps the limits \[m/s2\].
     pub attained: f64,
-    /// That motion.
+    /// The best motion found.
     pub trajectory: Trajectory,
 }
 
@@ -90,17 +90,17 @@ pub enum BoundError {
     NotFinite {
         /// Index of the sample, from 0.
         sample: usize,
-        /// The value.
+        /// Value of the sample.
         value: f64,
     },
     /// A limit is outside its permitted range.
     #[error("the {name} limit is {value}; it must be {needed}")]
     Limit {
-        /// Which limit.
+        /// Name of the limit.
         name: &'static str,
-        /// Its value.
+        /// Value of the limit.
         value: f64,
-        /// The requirement.
+        /// Permitted values of the limit.
         needed: &'static str,
     },
     /// The solver stopped without a solution.

@@ -8,7 +8,7 @@ pub fn add<const M: usize>(sum: &mut [f64; M], times: f64, terms: &[f64; M]) {
     sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += times * term);
 }
 
-/// left right.
+/// The product left right.
 pub fn product<const R: usize, const K: usize, const C: usize>(
     left: &[[f64; K]; R],
     right: &[[f64; C]; K],
@@ -22,7 +22,7 @@ pub fn product<const R: usize, const K: usize, const C: usize>(
     result
 }
 
-/// left' right.
+/// The product left' right, without transposing.
 pub fn transposed_product<const R: usize, const K: usize, const C: usize>(
     left: &[[f64; R]; K],
     right: &[[f64; C]; K],
@@ -63,7 +63,7 @@ pub fn forward_substitute<const M: usize>(factor: &[[f64; M]; M], right: &mut [f
     }
 }
 
-/// The same for each column.
+/// Forward substitution for each column of `right`.
 pub fn forward_substitute_columns<const M: usize, const C: usize>(factor: &[[f64; M]; M], right: &mut [[f64; C]; M]) {
     for i in 0..M {
         for j in 0..i {

@@ -13,7 +13,7 @@ const FASTER_TILT: f64 = 6.0_f64.to_radians();
 /// A strategy's parameters under its name.
 #[derive(Clone, Debug)]
 pub struct Strategy {
-    /// The name.
+    /// Name of the strategy.
     pub name: String,
     /// Rig and parameters.
     pub setup: Setup,

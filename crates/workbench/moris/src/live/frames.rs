@@ -41,7 +41,7 @@ pub enum Message {
     Start,
     /// The same to actuators that are where the first frame has them, as is known.
     Begin,
-    /// A frame.
+    /// A frame of actuator positions.
     Frame,
     /// The park string.
     Park,
@@ -63,11 +63,11 @@ pub struct Sending {
 /// Reason for which the controller does not follow any more.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Loss {
-    /// It refuses frames, or the line is gone.
+    /// The receiver refuses frames, or the line is gone.
     Refused(ErrorKind),
     /// No frame has left for this time \[s\], its own time-out or longer.
     Gap(f64),
-    /// It answers with a fault, or no more.
+    /// The device answers with a fault, or no more.
     Device,
 }
 
@@ -198,7 +198,7 @@ impl Ahead {
 
 /// Place to which frames go.
 pub enum Sink {
-    /// A device.
+    /// Address of a device.
     Udp(UdpSocket),
     /// A serial line.
     #[cfg(feature = "serial")]

@@ -9,7 +9,7 @@ const CLASSES: [u64; 10] = [20, 50, 100, 200, 500, 1_000, 2_000, 5_000, 10_000, 
 const WIDTH: u64 = 5;
 const BINS: usize = 4_000;
 
-/// Counts of times.
+/// Counts of delays by their length.
 #[derive(Clone, Debug)]
 pub struct Lateness {
     bins: [u32; BINS],
@@ -27,7 +27,7 @@ impl Default for Lateness {
 }
 
 impl Lateness {
-    /// Takes a time.
+    /// Counts a delay.
     pub fn take(&mut self, late: Duration) {
         let micros = late.as_micros().min(u128::from(u64::MAX)) as u64;
         let class = CLASSES.iter().position(|end| micros <= *end).unwrap_or(CLASSES.len());
@@ -38,7 +38,7 @@ impl Lateness {
         self.largest = self.largest.max(late);
     }
 
-    /// The classes.
+    /// Counts in classes, for printing.
     pub fn classes(&self) -> Classes {
         let end = |class: usize| CLASSES.get(class).map_or(self.largest.as_secs_f64() * 1e3, |end| *end as f64 * 1e-3);
         std::array::from_fn(|class| (end(class), self.counts[class]))

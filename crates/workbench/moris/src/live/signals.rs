@@ -15,7 +15,7 @@ const SAME: Duration = Duration::from_millis(500);
 /// Flags of signals that have come.
 #[derive(Clone, Debug, Default)]
 pub struct Signals {
-    /// Ctrl-C.
+    /// True once Ctrl-C was pressed.
     interrupt: Arc<AtomicBool>,
     /// Another one that ends a program, or stops it.
     termination: Arc<AtomicBool>,

@@ -60,7 +60,7 @@ pub enum Input {
     /// A topic of ROS 2.
     #[cfg(feature = "ros2")]
     Ros2(Box<Subscription>),
-    /// A recording.
+    /// Playback of a recording.
     Played(Box<Recording>),
     /// A vehicle.
     Driven(Box<dyn Vehicle>),

@@ -14,10 +14,10 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them.
+    /// All parts of the program that are watched.
     pub const ALL: [Part; 5] = [Part::Commands, Part::Telemetry, Part::Frames, Part::Journal, Part::Page];
 
-    /// Its work.
+    /// The part's work, in a word.
     pub fn name(self) -> &'static str {
         match self {
             Part::Commands => "reads commands",

@@ -99,7 +99,7 @@ pub enum Part {
 pub struct FeltTable {
     /// The file's name without directory and extension.
     pub name: String,
-    /// \[s\]; none if the table has no times.
+    /// Times \[s\]; none if the table has no times.
     pub time: Option<Vec<f64>>,
     /// Felt specific force.
     pub force: Option<Vec<[f64; 3]>>,

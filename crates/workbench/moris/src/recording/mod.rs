@@ -59,7 +59,7 @@ pub use read::source::files_in;
 pub use road::Road;
 use table::{Table, laps, sampling};
 
-/// A recording.
+/// A recording as inputs of the washout at a fixed rate.
 #[derive(Clone, Debug)]
 pub struct Recording {
     /// The file's name without directory and extension.
@@ -157,7 +157,7 @@ impl Recording {
         Ok(Previewer::given(road.learned(self.inputs(), self.step()), self.step()))
     }
 
-    /// The samples.
+    /// Inputs of the washout, sample by sample.
     pub fn inputs(&self) -> &[Input] {
         self.manoeuvre.inputs()
     }
@@ -167,7 +167,7 @@ impl Recording {
         self.manoeuvre.step()
     }
 
-    /// Its replay with one communication step per sample.
+    /// Replay of the recording with one communication step per sample.
     pub fn replay(&self) -> Replay<'_> {
         Replay::new(&self.manoeuvre)
     }

@@ -10,7 +10,7 @@ use super::table::Table;
 /// Position and speed at each sample.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Road {
-    /// \[m\]
+    /// Positions of the vehicle \[m\].
     positions: Vec<[f64; 2]>,
     /// Speeds, where the recording has them \[m/s\].
     speeds: Option<Vec<f64>>,

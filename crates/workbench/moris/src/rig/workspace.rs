@@ -40,7 +40,7 @@ pub struct Workspace {
 /// A volume found by testing points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Volume {
-    /// \[m3\]
+    /// Volume of the workspace \[m3\].
     pub size: f64,
     /// Standard deviation of `size` over other choices of points \[m3\].
     pub standard_error: f64,

@@ -273,7 +273,7 @@ pub fn main(options: &Options, out: &mut dyn Write) -> Result<ExitCode> {
 /// Parameters on a rig, and the preview that they get.
 struct Case {
     setup: Setup,
-    /// \[s\]; 0: none.
+    /// Length of the preview \[s\]; 0: none.
     preview: f64,
     /// True with a preview that is learned.
     learns: bool,

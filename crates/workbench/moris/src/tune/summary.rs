@@ -54,14 +54,14 @@ pub enum Verdict {
     Worse,
     /// Better in the mean and on most recordings that were not tuned on.
     Better,
-    /// Neither.
+    /// Neither better nor worse beyond doubt.
     NotClear,
     /// No recording was held out.
     Unknown,
 }
 
 impl Verdict {
-    /// Of these results. `fraction` is that of [`super::tested::Tested`].
+    /// Verdict on these results. `fraction` is that of [`super::tested::Tested`].
     pub fn of(results: &[RecordingResult], fraction: f64) -> Self {
         match Comparison::unseen(results) {
             _ if fraction == 0.0 => Verdict::Unchanged,

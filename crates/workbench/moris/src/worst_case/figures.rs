@@ -36,7 +36,7 @@ pub struct RideFigures {
     comfort: [f64; 2],
 }
 
-/// A figure.
+/// Measure of which the worst case is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Geometric mean of the RMS errors.
@@ -48,7 +48,7 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All of them, in the table's order.
+    /// All measures, in the table's order.
     pub const ALL: [Measure; 3] = [Measure::Error, Measure::Shake, Measure::Jolt];
 }
 

@@ -30,9 +30,9 @@ pub struct Study {
 /// A strategy's figures on a machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MachineFigures {
-    /// The machine.
+    /// Parameters of the machine.
     pub point: Point,
-    /// Its figures.
+    /// Figures of the strategy on the machine.
     pub figures: Figures,
     /// True if a drive was limited by its force on any ride.
     pub force_limited: bool,

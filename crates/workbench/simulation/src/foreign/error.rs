@@ -15,9 +15,9 @@ pub enum ForeignError {
     Rows {
         /// Name of the argument.
         argument: &'static str,
-        /// Its number of rows.
+        /// Number of rows of the argument.
         found: usize,
-        /// That of the recording's samples.
+        /// Number of the recording's samples.
         samples: usize,
     },
     /// Too few samples for derivatives.
@@ -25,7 +25,7 @@ pub enum ForeignError {
     TooShort {
         /// Name of the argument.
         argument: &'static str,
-        /// Its number of rows.
+        /// Number of rows of the argument.
         found: usize,
         /// The least number.
         fewest: usize,
@@ -37,7 +37,7 @@ pub enum ForeignError {
         argument: &'static str,
         /// Place of the row, from 0.
         row: usize,
-        /// The value.
+        /// Value in the row.
         value: f64,
     },
     /// Values that cannot be meant.

@@ -17,9 +17,9 @@ pub struct Excess {
     pub leg: usize,
     /// The value, in SI units.
     pub value: f64,
-    /// The limit's value.
+    /// Value of the limit.
     pub allowed: f64,
-    /// \[s\]
+    /// Time of the value \[s\].
     pub time: f64,
 }
 

@@ -39,7 +39,7 @@ impl Default for Amplitudes {
 }
 
 impl Amplitudes {
-    /// All of them times a factor.
+    /// All amplitudes times a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Amplitudes {
             force: factor * self.force,
@@ -63,9 +63,9 @@ impl Amplitudes {
 #[derive(Clone, Copy, Debug)]
 pub struct Sine<'a> {
     pub channel: Channel,
-    /// \[m/s2 or rad/s\]
+    /// Amplitude \[m/s2 or rad/s\].
     pub amplitude: f64,
-    /// \[rad/s\]
+    /// Angular frequency \[rad/s\].
     pub frequency: f64,
     /// Time over which it fades in, whole periods \[s\].
     pub fade: f64,

@@ -12,9 +12,9 @@ use super::excitation::Sine;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
     pub input: Channel,
-    /// \[rad/s\]
+    /// Angular frequency \[rad/s\].
     pub frequency: f64,
-    /// Of the input \[m/s2 or rad/s\].
+    /// Amplitude of the input \[m/s2 or rad/s\].
     pub amplitude: f64,
     /// Felt amplitude of each channel over the input's, in SI units.
     pub ratios: [Complex<f64>; CHANNELS],

@@ -29,7 +29,7 @@ const MOST_LINES: usize = 50;
 /// An order to the loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Order {
-    /// A command.
+    /// A command of a person.
     Event(Event),
     /// A value of a parameter, by its slot.
     Choose(u16, f64),
@@ -121,12 +121,12 @@ struct Browser {
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Welcome {
     client: String,
-    /// Its number among those that have come.
+    /// The browser's number among those that have come.
     number: u64,
     pub controls: bool,
     /// All browsers command.
     shared: bool,
-    /// It holds the vehicle's controls.
+    /// True if this browser holds the vehicle's controls.
     pub drives: bool,
     /// The vehicle has controls.
     can_drive: bool,

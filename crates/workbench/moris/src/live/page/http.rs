@@ -19,7 +19,7 @@ fn refused<T>(number: u16, why: &str) -> Result<T, Refusal> {
     Err((number, why.to_owned()))
 }
 
-/// A request.
+/// A request of a browser, read and bounded.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     pub method: String,

@@ -20,7 +20,7 @@ pub enum Which {
 }
 
 impl Which {
-    /// Its name.
+    /// The set's name.
     pub fn name(self) -> &'static str {
         ["A", "B"][self as usize]
     }

@@ -31,7 +31,7 @@ enum Control {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Taken {
-    /// Its name.
+    /// Name of the FMU's variable.
     at: String,
     #[serde(default = "one")]
     scale: f64,

@@ -22,7 +22,7 @@ pub trait Vehicle: Send {
     /// Time of a step \[s\].
     fn step(&self) -> f64;
 
-    /// Its controls; none if it drives by itself.
+    /// Kind of the vehicle's controls; none if it drives by itself.
     fn handling(&self) -> Option<Handling>;
 
     /// Makes a step with what is held.

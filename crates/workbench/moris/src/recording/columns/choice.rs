@@ -15,7 +15,7 @@ pub enum UnitSource {
     Header,
     /// An option, or the file of conventions.
     Option,
-    /// Neither.
+    /// The default, which neither a name nor an option gives.
     Default,
 }
 

@@ -17,9 +17,9 @@ pub struct Title {
 pub enum Likeness {
     /// The name is the whole title.
     Whole,
-    /// It is the part before the brackets.
+    /// The name is the part before the brackets.
     BeforeUnit,
-    /// It is one of them in another case.
+    /// The name is one of them in another case.
     OtherCase,
 }
 

@@ -26,7 +26,7 @@ impl Part {
         Err(RecordingError::line(&self.file, self.samples.lines[wrong], None, reason))
     }
 
-    /// The first and the last time.
+    /// First and last time of the table.
     fn span(&self) -> (f64, f64) {
         (self.samples.time[0], self.samples.time[self.samples.time.len() - 1])
     }
