@@ -17,7 +17,8 @@ use crate::error;
 /// An argument that may be left out.
 pub type Given<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
 
-/// The rig, parameters and strategy, put together and checked.
+/// The rig, parameters and strategy, put together and checked. The strategy sets the parameter of
+/// this name alone; the commands' `--strategy` also lays the preset of its name below.
 ///
 /// # Errors
 /// `ParameterError`: a name, a value or the combination cannot be used.

@@ -24,7 +24,8 @@ use crate::{error, setup};
 /// - rig: path of a rig file, or a dict with its keys. None is the default rig.
 /// - parameters: name of a preset, path of a parameter file, dict of values by the names of the
 ///   FMU's variables, or a list of these. In a list, later ones override earlier ones.
-/// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". None is the
+/// - strategy: "classical", "adaptive", "optimal", "robust" or "predictive". It sets the parameter
+///   `strategy` and no other; the preset of its name goes into `parameters`. None is the
 ///   parameters' strategy.
 ///
 /// Raises ParameterError for a name or a value that cannot be used.
