@@ -205,6 +205,8 @@ fn laps_are_read_one_by_one() {
     assert_eq!(laps[0].inputs(), laps[1].inputs());
     assert_eq!((laps[2].inputs().len(), laps[2].inputs()[7].specific_force.z), (1001, 9.9));
     assert!(with(4.0).unwrap_err().contains("has no samples of lap 4: time starts 3 times"));
+    let fraction = ConventionOptions { lap: Some(1.7), ..ConventionOptions::default() }.load().unwrap_err();
+    assert_eq!(fraction.to_string(), "lap is 1.7, but must be from 1 to 1000000 and whole");
 }
 
 #[test]

@@ -175,11 +175,12 @@ impl ConventionOptions {
         let allowed = [
             ("rate", self.rate, 1.0..=1e5, "samples a second"),
             ("resample", self.resample, 1.0..=1e5, "samples a second"),
-            ("lap", self.lap, 1.0..=1e6, "laps"),
+            ("lap", self.lap, 1.0..=1e6, "and whole"),
             ("fade-in", self.fade_in, 0.0..=1e3, "seconds"),
         ];
         for (name, given, range, unit) in allowed {
-            if let Some(value) = given.filter(|value| !range.contains(value)) {
+            let is_whole = |value: f64| name != "lap" || value.fract() == 0.0;
+            if let Some(value) = given.filter(|value| !range.contains(value) || !is_whole(*value)) {
                 return Err(RecordingError::Option { name, value, min: *range.start(), max: *range.end(), unit });
             }
         }
