@@ -87,8 +87,8 @@ impl Measures {
     pub fn with(run: &Run, references: &mut References) -> Result<Self, RunError> {
         run.check()?;
         let upright = [0.0, 0.0, STANDARD_GRAVITY];
-        let force = Channel { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
-        let rate = Channel { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
+        let force = SensedSignal { sensor: &OTOLITHS, rest: upright, thresholds: FORCE_THRESHOLDS, step: run.step };
+        let rate = SensedSignal { sensor: &CANALS, rest: [0.0; 3], thresholds: RATE_THRESHOLDS, step: run.step };
         let force = force.compare(run.desired_force, run.felt_force);
         let rate = rate.compare(run.desired_rate, run.felt_rate);
         let divisions = divisions(run.desired_force.len(), run.felt_force_within_steps.len());
@@ -112,8 +112,8 @@ impl Measures {
     }
 }
 
-/// Sensed vector signal.
-struct Channel<'a> {
+/// A vector signal with the organ that senses it.
+struct SensedSignal<'a> {
     sensor: &'a SensorModel,
     rest: [f64; 3],
     thresholds: [f64; 3],
@@ -127,7 +127,7 @@ struct Comparison {
     cues: Axes<Cues>,
 }
 
-impl Channel<'_> {
+impl SensedSignal<'_> {
     fn compare(&self, desired: &[[f64; 3]], felt: &[[f64; 3]]) -> Comparison {
         let raw = [desired, felt].map(|signal| from_fn(|k| axis(signal, k)));
         let sense = |signal: &Axes<Vec<f64>>| from_fn(|k| sensed(self.sensor, &signal[k], self.rest[k], self.step));

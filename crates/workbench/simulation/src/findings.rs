@@ -63,8 +63,10 @@ impl Evaluated<'_> {
             let warnings = moris_washout::warnings(&self.simulation.parameters);
             findings.extend(warnings.into_iter().map(|warning| finding(Weight::Warning, format!("{warning}."))));
         }
-        let (worse, others): (Vec<Finding>, Vec<Finding>) =
-            channels(self).iter().filter_map(Channel::finding).partition(|finding| finding.weight == Weight::Warning);
+        let (worse, others): (Vec<Finding>, Vec<Finding>) = channels(self)
+            .iter()
+            .filter_map(JudgedChannel::finding)
+            .partition(|finding| finding.weight == Weight::Warning);
         findings.extend(worse);
         findings.extend(tilt(self));
         findings.extend(others);
@@ -159,7 +161,7 @@ pub(crate) fn fits_freely(measures: &Measures) -> bool {
 
 /// True if no channel is worse than on a platform at rest.
 pub fn is_better_than_rest(outcome: &Evaluated) -> bool {
-    !channels(outcome).iter().any(Channel::is_worse_than_rest)
+    !channels(outcome).iter().any(JudgedChannel::is_worse_than_rest)
 }
 
 /// Active limits with total duration and first time; none without any.
@@ -273,7 +275,7 @@ fn tilt(outcome: &Evaluated) -> Option<Finding> {
 }
 
 /// A channel of the felt motion on which something is desired or felt.
-struct Channel {
+struct JudgedChannel {
     name: &'static str,
     unit: &'static str,
     /// Units in one SI unit.
@@ -289,10 +291,10 @@ struct Channel {
 }
 
 /// The channels of a simulation: surge, sway, heave, and the rates of roll, pitch and yaw.
-fn channels(outcome: &Evaluated) -> Vec<Channel> {
+fn channels(outcome: &Evaluated) -> Vec<JudgedChannel> {
     let measures = outcome.measures;
     let force = |axis: usize| {
-        Some(Channel {
+        Some(JudgedChannel {
             name: AXES[axis],
             unit: "m/s²",
             factor: 1.0,
@@ -304,7 +306,7 @@ fn channels(outcome: &Evaluated) -> Vec<Channel> {
         })
     };
     let rate = |axis: usize| {
-        Some(Channel {
+        Some(JudgedChannel {
             name: RATES[axis],
             unit: "°/s",
             factor: 1f64.to_degrees(),
@@ -330,7 +332,7 @@ fn bound_limits(outcome: &Evaluated, axis: usize) -> String {
     format!("within these limits of tilt ({}°, {} °/s) and travel", degrees(tilt.angle_limit), degrees(tilt.rate_limit))
 }
 
-impl Channel {
+impl JudgedChannel {
     /// True if a platform at rest would be better: its error would be smaller or, where hardly any
     /// motion is desired, motion is sensed that should not be.
     fn is_worse_than_rest(&self) -> bool {
@@ -407,7 +409,7 @@ mod tests {
     /// The finding on a roll rate of this RMS [°/s], error [°/s] and fraction of false cues.
     fn finding_on(desired: f64, error: f64, false_cues: f64) -> Option<(Weight, String)> {
         let fidelity = Fidelity { rms_error: error.to_radians(), peak_error: 0.1, correlation: Some(0.5), delay: None };
-        let channel = Channel {
+        let channel = JudgedChannel {
             name: RATES[0],
             unit: "°/s",
             factor: 1f64.to_degrees(),

@@ -9,7 +9,7 @@ use moris_washout::platform::reach::Axis;
 
 /// A channel's figures, in m/s2 or rad/s.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Channel {
+pub struct ChannelFigures {
     /// The specific force along this axis, or the angular velocity about it.
     pub axis: Axis,
     /// RMS of the desired signal, as a deviation from rest: the error of a platform at rest.
@@ -29,7 +29,7 @@ pub struct Channel {
     pub cues: Cues,
 }
 
-impl Channel {
+impl ChannelFigures {
     /// The unit that people read.
     pub fn unit(&self) -> &'static str {
         if self.axis.is_rotation() { "°/s" } else { "m/s²" }
@@ -48,7 +48,7 @@ impl Channel {
 
 /// The channels of a recording on which something is desired or felt; without rates where another
 /// washout's are not known.
-pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
+pub fn channels(evaluated: &Evaluated) -> Vec<ChannelFigures> {
     let Evaluated { measures, bounds, .. } = evaluated;
     let channel = |&axis: &Axis| {
         let k = axis as usize % 3;
@@ -58,7 +58,7 @@ pub fn channels(evaluated: &Evaluated) -> Vec<Channel> {
         } else {
             (evaluated.desired_rate_rms(k), measures.rate[k], measures.sensed_rate[k], measures.rate_cues[k])
         };
-        Some(Channel {
+        Some(ChannelFigures {
             axis,
             at_rest,
             bound: bounds[k].filter(|_| is_force),

@@ -23,7 +23,7 @@ use crate::recording::{ConventionOptions, FADE_IN, Recording, files_in};
 use crate::setup_options::SetupOptions;
 use crate::simulate::{Outcome, bounds};
 use crate::status::WORSE;
-use channel::{Channel, channels};
+use channel::{ChannelFigures, channels};
 use host::{Host, Inputs};
 use targets::Targets;
 
@@ -87,7 +87,7 @@ pub struct MeasuredRecording {
     /// Duration \[s\].
     pub duration: f64,
     /// The channels on which something is desired or felt.
-    pub channels: Vec<Channel>,
+    pub channels: Vec<ChannelFigures>,
     /// Fractions of the steps in which tilt coordination was limited, and in which the soft limits,
     /// a safety unit and the actuator guard were active.
     pub limits: [f64; 4],

@@ -7,7 +7,7 @@ use moris_simulation::frequency_response::channel::name;
 use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
-use super::channel::Channel;
+use super::channel::ChannelFigures;
 use super::host::{Host, Inputs};
 use super::targets::{geometric_mean, wrong_cues};
 use crate::text_table::{Column, TextTable, or_undefined};
@@ -38,7 +38,7 @@ fn host_text(host: &Host) -> String {
 }
 
 fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
-    let columns: [Column<(&str, &Channel)>; 15] = [
+    let columns: [Column<(&str, &ChannelFigures)>; 15] = [
         ("recording", |(recording, _)| (*recording).to_owned()),
         ("channel", |(_, channel)| name(channel.axis).to_owned()),
         ("unit", |(_, channel)| channel.unit().to_owned()),
@@ -62,12 +62,12 @@ fn channel_table(recordings: &[MeasuredRecording]) -> TextTable {
     TextTable::of(&columns, rows)
 }
 
-fn number(channel: &Channel, value: f64) -> String {
+fn number(channel: &ChannelFigures, value: f64) -> String {
     format!("{:.3}", channel.in_unit(value))
 }
 
 /// The ratio to a platform at rest; where hardly anything is desired it means nothing.
-fn ratio(channel: &Channel) -> String {
+fn ratio(channel: &ChannelFigures) -> String {
     let is_desired = channel.in_unit(channel.at_rest) >= 0.03;
     or_undefined(is_desired.then(|| format!("{:.2}", channel.ratio())))
 }

@@ -5,7 +5,7 @@ use moris_simulation::frequency_response::channel::name;
 use moris_washout::platform::reach::Axis;
 
 use super::MeasuredRecording;
-use super::channel::Channel;
+use super::channel::ChannelFigures;
 
 /// A force on which less than this is desired does not count; an error below it
 /// counts as this \[m/s2\].
@@ -44,7 +44,7 @@ pub struct Targets {
 }
 
 /// Surge and sway, where something is desired.
-pub fn counts(channel: &Channel) -> bool {
+pub fn counts(channel: &ChannelFigures) -> bool {
     matches!(channel.axis, Axis::Surge | Axis::Sway) && channel.at_rest >= LEAST_FORCE
 }
 

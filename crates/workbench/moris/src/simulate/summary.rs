@@ -3,7 +3,7 @@
 use moris_measures::comfort::{Comfort, Excess};
 
 use super::Outcome;
-use crate::measure::channel::{Channel, channels};
+use crate::measure::channel::{ChannelFigures, channels};
 use crate::recording::Recording;
 use crate::text_table::{Column, TextTable, or_undefined};
 
@@ -28,7 +28,7 @@ pub fn text(recording: &Recording, outcomes: &[Outcome]) -> String {
 
 /// The measures of the cues, axis by axis; axes on which nothing happens are left out.
 fn table(outcome: &Outcome) -> TextTable {
-    let columns: [Column<Channel>; 15] = [
+    let columns: [Column<ChannelFigures>; 15] = [
         ("felt against desired", |channel| {
             let kind = if channel.axis.is_rotation() { "rate" } else { "force" };
             format!("{kind} {}", ["x", "y", "z"][channel.axis as usize % 3])
@@ -51,11 +51,11 @@ fn table(outcome: &Outcome) -> TextTable {
     TextTable::of(&columns, channels(&outcome.evaluated()))
 }
 
-fn number(channel: &Channel, value: f64) -> String {
+fn number(channel: &ChannelFigures, value: f64) -> String {
     format!("{:.2} {}", channel.in_unit(value), channel.unit())
 }
 
-fn excess(channel: &Channel, of: fn(Comfort) -> Option<Excess>) -> String {
+fn excess(channel: &ChannelFigures, of: fn(Comfort) -> Option<Excess>) -> String {
     or_undefined(channel.comfort.and_then(of).map(|excess| number(channel, excess.value)))
 }
 
