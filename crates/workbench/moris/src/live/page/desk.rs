@@ -16,6 +16,7 @@ use rtrb::{Consumer, Producer};
 use serde::Deserialize;
 
 use super::pair::{Pair, Which};
+use super::refusal::{Refusal, Status};
 use super::shown::{self, NAMES, Shown};
 use crate::live::controls::Controls;
 use crate::live::frames::Loss;
@@ -263,18 +264,19 @@ impl Desk {
     }
 
     /// Passes a stop or a park on, from whichever page it comes.
-    fn ask_at_once(&self, event: Event) -> Result<(), (u16, String)> {
+    fn ask_at_once(&self, event: Event) -> Result<(), Refusal> {
         let mut urgent = self.urgent.lock().unwrap_or_else(PoisonError::into_inner);
-        let refused = |_| (503, "the loop has not taken the last orders yet".to_owned());
+        let refused = |_| Refusal::new(Status::Unavailable, "the loop has not taken the last orders yet");
         urgent.push(Order::Event(event)).map_err(refused)
     }
 
     /// Passes on what a browser asks for.
     ///
     /// # Errors
-    /// The number of the answer, and the reason for which it is refused.
-    pub fn ask(&self, body: &[u8]) -> Result<(), (u16, String)> {
-        let asked: Asked = serde_json::from_slice(body).map_err(|error| (400, error.to_string()))?;
+    /// The status of the refusal, and its reason.
+    pub fn ask(&self, body: &[u8]) -> Result<(), Refusal> {
+        let asked: Asked =
+            serde_json::from_slice(body).map_err(|error| Refusal::new(Status::BadRequest, error.to_string()))?;
         if let Ask::Event(name) = &asked.ask
             && let Some(event @ (Event::Stop | Event::Park)) = Event::of_person(name)
         {
@@ -287,23 +289,25 @@ impl Desk {
         let drives = matches!(asked.ask, Ask::Drive(_) | Ask::BeginAgain);
         let holds = inner.controller.as_ref().is_some_and(|holder| holder.client == asked.client);
         if (drives || !self.shared_control) && !holds {
-            return Err((403, "another page controls; Stop and Park work here, too".to_owned()));
+            return Err(Refusal::new(Status::Forbidden, "another page controls; Stop and Park work here, too"));
         }
         match asked.ask {
             Ask::Drive(command) => self.drive(|controls| controls.hold(&command, pace::now())),
             Ask::BeginAgain => self.drive(Controls::begin_again),
             Ask::Event(name) => {
-                let event = Event::of_person(&name).ok_or_else(|| (422, format!("there is no command {name}")))?;
+                let event = Event::of_person(&name)
+                    .ok_or_else(|| Refusal::unprocessable(format!("there is no command {name}")))?;
                 inner.send(&[Order::Event(event)])
             }
             Ask::Legs(name) => {
-                let legs = Legs::of_person(&name).ok_or_else(|| (422, format!("{name} is no place of the legs")))?;
+                let legs = Legs::of_person(&name)
+                    .ok_or_else(|| Refusal::unprocessable(format!("{name} is no place of the legs")))?;
                 inner.send(&[Order::Legs(legs)])
             }
             Ask::Set(values) => {
                 let values: Option<Vec<_>> =
                     values.iter().map(|(name, value)| Some((log::slot_of(name)?, *value))).collect();
-                let values = values.ok_or_else(|| (422, "there is no such parameter".to_owned()))?;
+                let values = values.ok_or_else(|| Refusal::unprocessable("there is no such parameter"))?;
                 inner.pair.end_transition();
                 inner.choose(&values)
             }
@@ -311,36 +315,37 @@ impl Desk {
                 let slots = slots_of(inner.trial.parameters());
                 let kept = inner.pair.keep(which, slots);
                 inner.renew_status();
-                kept.map_err(|why| (422, why))
+                kept.map_err(Refusal::unprocessable)
             }
             Ask::GoTo(which) => inner.go_to(which),
-            Ask::Vote(which) => inner.pair.vote(which).map_err(|why| (422, why)),
+            Ask::Vote(which) => inner.pair.vote(which).map_err(Refusal::unprocessable),
         }
     }
 
-    fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), (u16, String)> {
-        let controls = self.controls.as_ref().ok_or_else(|| (422, "this vehicle has no controls".to_owned()))?;
-        act(controls).map_err(|why| (422, why))
+    fn drive(&self, act: impl FnOnce(&Controls) -> Result<(), String>) -> Result<(), Refusal> {
+        let controls = self.controls.as_ref().ok_or_else(|| Refusal::unprocessable("this vehicle has no controls"))?;
+        act(controls).map_err(Refusal::unprocessable)
     }
 }
 
 impl Inner {
     /// Passes orders on: all or none, because a part of a set may not fit together.
-    fn send(&mut self, orders: &[Order]) -> Result<(), (u16, String)> {
+    fn send(&mut self, orders: &[Order]) -> Result<(), Refusal> {
         let Ok(place) = self.orders.write_chunk_uninit(orders.len()) else {
-            return Err((503, "the loop has not taken the last orders yet".to_owned()));
+            return Err(Refusal::new(Status::Unavailable, "the loop has not taken the last orders yet"));
         };
         place.fill_from_iter(orders.iter().copied());
         Ok(())
     }
 
     /// Puts values of slots in force if they can be used now.
-    fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), (u16, String)> {
+    fn choose(&mut self, values: &[(usize, f64)]) -> Result<(), Refusal> {
         let mut slots = slots_of(self.trial.parameters());
         values.iter().for_each(|(slot, value)| slots[*slot] = *value);
         let mut tried = self.trial.clone();
         let parameters = Parameters::read(&mut Reader::new(&slots));
-        retune(&mut tried, &parameters, self.state).map_err(|error| (422, self.reason(&parameters, &error)))?;
+        retune(&mut tried, &parameters, self.state)
+            .map_err(|error| Refusal::unprocessable(self.reason(&parameters, &error)))?;
         let chosen = values.iter().map(|(slot, value)| Order::Choose(*slot as u16, *value));
         self.send(&chosen.chain([Order::Retune]).collect::<Vec<_>>())?;
         self.trial = tried;
@@ -360,7 +365,7 @@ impl Inner {
     }
 
     /// Puts those of these values in force that differ from the present ones.
-    fn change_to(&mut self, slots: &[f64]) -> Result<(), (u16, String)> {
+    fn change_to(&mut self, slots: &[f64]) -> Result<(), Refusal> {
         let present = slots_of(self.trial.parameters());
         let differing = slots.iter().copied().enumerate().filter(|(slot, value)| present[*slot] != *value);
         let differing: Vec<_> = differing.collect();
@@ -368,15 +373,15 @@ impl Inner {
     }
 
     /// Goes to a kept set: at once at the lowest pose, otherwise in small changes.
-    fn go_to(&mut self, which: Which) -> Result<(), (u16, String)> {
-        let to = self.pair.slots(which).map_err(|why| (422, why))?.clone();
+    fn go_to(&mut self, which: Which) -> Result<(), Refusal> {
+        let to = self.pair.slots(which).map_err(Refusal::unprocessable)?.clone();
         if matches!(self.state, State::Off | State::Settled) {
             self.pair.end_transition();
             return self.change_to(&to);
         }
         let parameters = Parameters::read(&mut Reader::new(&to));
         retune(&mut self.trial.clone(), &parameters, self.state)
-            .map_err(|error| (422, self.reason(&parameters, &error)))?;
+            .map_err(|error| Refusal::unprocessable(self.reason(&parameters, &error)))?;
         self.pair.go(slots_of(self.trial.parameters()), to, pace::now());
         Ok(())
     }
@@ -385,7 +390,7 @@ impl Inner {
     fn advance_transition(&mut self, now: Duration) {
         let Some((slots, is_there)) = self.pair.transition_at(now) else { return };
         let changed = self.change_to(&slots);
-        if is_there && changed.map_or_else(|(number, _)| number != 503, |()| true) {
+        if is_there && changed.map_or_else(|refusal| refusal.status != Status::Unavailable, |()| true) {
             self.pair.end_transition();
         }
     }
@@ -427,18 +432,18 @@ mod tests {
         let start =
             |client: &str| desk.ask(format!("{{\"client\":\"{client}\",\"ask\":{{\"event\":\"start\"}}}}").as_bytes());
         // Somebody who has not come.
-        assert_eq!(start("one").unwrap_err().0, 403);
+        assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
         assert!(desk.enter("one").controls && !desk.enter("two").controls && !desk.enter("three").controls);
-        assert_eq!(start("two").unwrap_err().0, 403);
+        assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
         start("one").unwrap();
         desk.leave("three");
-        assert_eq!(start("two").unwrap_err().0, 403);
+        assert_eq!(start("two").unwrap_err().status, Status::Forbidden);
         desk.leave("one");
-        assert_eq!(start("one").unwrap_err().0, 403);
-        assert_eq!(start("three").unwrap_err().0, 403);
+        assert_eq!(start("one").unwrap_err().status, Status::Forbidden);
+        assert_eq!(start("three").unwrap_err().status, Status::Forbidden);
         start("two").unwrap();
         assert!(!desk.enter("four").controls);
-        assert_eq!(start("four").unwrap_err().0, 403);
+        assert_eq!(start("four").unwrap_err().status, Status::Forbidden);
         assert_eq!(taken(&mut orders), [Order::Event(Event::Start); 2]);
     }
 
@@ -451,7 +456,10 @@ mod tests {
         let desk = Desk::new(&setup(), None, [orders, urgent], None, false).unwrap();
         desk.enter("one");
         desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap();
-        assert_eq!(desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().0, 503);
+        assert_eq!(
+            desk.ask(b"{\"client\":\"one\",\"ask\":{\"event\":\"start\"}}").unwrap_err().status,
+            Status::Unavailable
+        );
         let busy = desk.lock();
         desk.ask(b"{\"client\":\"two\",\"ask\":{\"event\":\"stop\"}}").unwrap();
         desk.ask(b"{\"client\":\"\",\"ask\":{\"event\":\"park\"}}").unwrap();
@@ -481,19 +489,19 @@ mod tests {
         assert_eq!(taken(&mut orders), expected);
         let text = desk.lock().status.clone();
         assert!(text.starts_with("\"changed\":{\"scale.specificForce.x\":0.5,\"tilt.angleLimit\":0.25}"), "{text}");
-        for (wrong, number) in [
-            ("{\"tilt.angleLimit\":1e300}", 422),
-            ("{\"actuator.maxLength\":3}", 422),
-            ("{\"nothing\":3}", 422),
-            ("{\"tilt.angleLimit\":NaN}", 400),
-            ("{\"tilt.angleLimit\":\"../../etc/passwd\"}", 400),
-            ("[]", 400),
+        for (wrong, status) in [
+            ("{\"tilt.angleLimit\":1e300}", Status::Unprocessable),
+            ("{\"actuator.maxLength\":3}", Status::Unprocessable),
+            ("{\"nothing\":3}", Status::Unprocessable),
+            ("{\"tilt.angleLimit\":NaN}", Status::BadRequest),
+            ("{\"tilt.angleLimit\":\"../../etc/passwd\"}", Status::BadRequest),
+            ("[]", Status::BadRequest),
         ] {
-            assert_eq!(set(wrong).unwrap_err().0, number, "{wrong}");
+            assert_eq!(set(wrong).unwrap_err().status, status, "{wrong}");
         }
         for wrong in ["fault", "arrived", "explode", ""] {
             let text = format!("{{\"client\":\"\",\"ask\":{{\"event\":\"{wrong}\"}}}}");
-            assert_eq!(desk.ask(text.as_bytes()).unwrap_err().0, 422, "{wrong}");
+            assert_eq!(desk.ask(text.as_bytes()).unwrap_err().status, Status::Unprocessable, "{wrong}");
         }
         assert!(taken(&mut orders).is_empty());
         assert_eq!(desk.lock().status, text);
@@ -508,12 +516,12 @@ mod tests {
             for (change, name) in
                 [("{\"strategy\":2}", "strategy"), ("{\"scale.specificForce.x\":-1}", "scale.specificForce.x")]
             {
-                let (number, why) = set(change).unwrap_err();
-                assert_eq!(number, 422);
+                let Refusal { status, reason: why } = set(change).unwrap_err();
+                assert_eq!(status, Status::Unprocessable);
                 assert!(why.starts_with("Park first: ") && why.contains(name), "{why}");
             }
             // What never can be used has its own reason.
-            let (_, why) = set("{\"tilt.angleLimit\":1e300}").unwrap_err();
+            let why = set("{\"tilt.angleLimit\":1e300}").unwrap_err().reason;
             assert!(why.contains("tilt.angleLimit") && !why.contains("Park first"), "{why}");
         }
         assert!(taken(&mut orders).is_empty());
@@ -527,7 +535,7 @@ mod tests {
         let desk = Desk::new(&setup(), None, [orders, RingBuffer::new(8).0], None, true).unwrap();
         let set = b"{\"client\":\"\",\"ask\":{\"set\":{\"tilt.angleLimit\":0.25,\"scale.specificForce.x\":0.5}}}";
         desk.ask(set).unwrap();
-        assert_eq!(desk.ask(set).unwrap_err().0, 503);
+        assert_eq!(desk.ask(set).unwrap_err().status, Status::Unavailable);
         assert_eq!(taken(&mut asked).len(), 3);
     }
 
@@ -539,11 +547,11 @@ mod tests {
         let desk = Desk::new(&setup(), Some(File::create(&file).unwrap()), [orders, RingBuffer::new(8).0], None, true)
             .unwrap();
         let ask = |order: &str| desk.ask(format!("{{\"client\":\"\",\"ask\":{order}}}").as_bytes());
-        let number = |order: &str| ask(order).unwrap_err().0;
+        let status = |order: &str| ask(order).unwrap_err().status;
         let scale = log::slot_of("scale.specificForce.x").unwrap() as u16;
-        assert_eq!(number("{\"go_to\":\"a\"}"), 422);
-        assert_eq!(number("{\"keep\":\"c\"}"), 400);
-        assert_eq!(number("{\"vote\":\"../../votes\"}"), 400);
+        assert_eq!(status("{\"go_to\":\"a\"}"), Status::Unprocessable);
+        assert_eq!(status("{\"keep\":\"c\"}"), Status::BadRequest);
+        assert_eq!(status("{\"vote\":\"../../votes\"}"), Status::BadRequest);
         ask("{\"keep\":\"a\"}").unwrap();
         ask("{\"set\":{\"scale.specificForce.x\":0.25}}").unwrap();
         ask("{\"keep\":\"b\"}").unwrap();
@@ -553,11 +561,11 @@ mod tests {
             inner.pair.mark_felt(&slots);
         };
         mark_felt();
-        assert_eq!(number("{\"vote\":\"a\"}"), 422);
+        assert_eq!(status("{\"vote\":\"a\"}"), Status::Unprocessable);
         assert_eq!(taken(&mut asked), [Order::Choose(scale, 0.25), Order::Retune]);
         desk.lock().state = State::Engaged;
         ask("{\"go_to\":\"a\"}").unwrap();
-        assert_eq!(number("{\"keep\":\"a\"}"), 422);
+        assert_eq!(status("{\"keep\":\"a\"}"), Status::Unprocessable);
         let begin = pace::now();
         let mut before = 0.25_f64;
         // Equal factors, at most 1.5 of the mean at a time.

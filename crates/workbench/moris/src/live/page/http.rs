@@ -4,6 +4,8 @@ use std::io::{Read, Write};
 use std::net::{IpAddr, TcpStream};
 use std::time::{Duration, Instant};
 
+use super::refusal::{Refusal, Status};
+
 /// Most bytes of a request's head, and of its body.
 const MOST_HEAD: usize = 16_384;
 const MOST_BODY: usize = 16_384;
@@ -12,11 +14,8 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Time in which a browser must take what is written.
 pub const WRITE_TIME: Duration = Duration::from_secs(2);
 
-/// Answer to a request that is refused: its number, and why.
-pub type Refusal = (u16, String);
-
-fn refused<T>(number: u16, why: &str) -> Result<T, Refusal> {
-    Err((number, why.to_owned()))
+fn refused<T>(status: Status, reason: &str) -> Result<T, Refusal> {
+    Err(Refusal::new(status, reason))
 }
 
 /// A request of a browser, read and bounded.
@@ -45,7 +44,7 @@ pub fn read(stream: &mut TcpStream) -> Result<Request, Refusal> {
             stream.set_read_timeout(Some(left.max(Duration::from_millis(1)))).ok()?;
             stream.read(&mut part).ok().filter(|count| *count > 0 && !left.is_zero())
         };
-        let Some(count) = taken() else { return refused(408, "the request is not complete") };
+        let Some(count) = taken() else { return refused(Status::Timeout, "the request is not complete") };
         bytes.extend(&part[..count]);
         Ok(())
     };
@@ -67,8 +66,8 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Refusal> {
     let head = match parsed.parse(bytes) {
         Ok(httparse::Status::Complete(head)) => head,
         Ok(httparse::Status::Partial) if bytes.len() < MOST_HEAD => return Ok(None),
-        Ok(httparse::Status::Partial) => return refused(431, "the request's head is too large"),
-        Err(error) => return refused(400, &error.to_string()),
+        Ok(httparse::Status::Partial) => return refused(Status::HeadTooLarge, "the request's head is too large"),
+        Err(error) => return refused(Status::BadRequest, &error.to_string()),
     };
     let (path, query) =
         parsed.path.unwrap_or_default().split_once('?').unwrap_or((parsed.path.unwrap_or_default(), ""));
@@ -77,16 +76,18 @@ fn parsed(bytes: &[u8]) -> Result<Option<(Request, usize, usize)>, Refusal> {
     request.token = query.split('&').find_map(|part| part.strip_prefix("token=")).unwrap_or_default().into();
     let mut length = 0;
     for header in parsed.headers {
-        let Ok(value) = std::str::from_utf8(header.value) else { return refused(400, "a header is no text") };
+        let Ok(value) = std::str::from_utf8(header.value) else {
+            return refused(Status::BadRequest, "a header is no text");
+        };
         match header.name.to_ascii_lowercase().as_str() {
             "host" => request.host = value.into(),
             "origin" => request.origin = Some(value.into()),
             "x-token" => request.token = value.into(),
             "content-length" => match value.parse() {
                 Ok(count) if count <= MOST_BODY => length = count,
-                _ => return refused(413, "the request is too large"),
+                _ => return refused(Status::TooLarge, "the request is too large"),
             },
-            "transfer-encoding" => return refused(411, "the request has no length"),
+            "transfer-encoding" => return refused(Status::LengthRequired, "the request has no length"),
             _ => (),
         }
     }
@@ -111,18 +112,21 @@ impl Access {
         let address = host.trim_start_matches('[').trim_end_matches(']');
         let is_own = (host == "localhost" || address.parse::<IpAddr>().is_ok()) && port == self.port.to_string();
         if !is_own {
-            return refused(403, "the address is not that of this page");
+            return refused(Status::Forbidden, "the address is not that of this page");
         }
         let own = format!("http://{}", request.host);
         match &request.origin {
-            Some(origin) if *origin != own => return refused(403, "the request comes from another page"),
-            None if request.method != "GET" => return refused(403, "the request comes from no page"),
+            Some(origin) if *origin != own => return refused(Status::Forbidden, "the request comes from another page"),
+            None if request.method != "GET" => return refused(Status::Forbidden, "the request comes from no page"),
             _ => (),
         }
         let given = request.token.as_bytes();
         let differences = given.iter().zip(self.token.as_bytes()).fold(0, |sum, (one, other)| sum | (one ^ other));
         if given.len() != self.token.len() || differences != 0 {
-            return refused(403, "the token is missing or wrong; open the address that moris live has printed");
+            return refused(
+                Status::Forbidden,
+                "the token is missing or wrong; open the address that moris live has printed",
+            );
         }
         Ok(())
     }
@@ -192,7 +196,7 @@ mod tests {
             request("GET", "0123", "127.0.0.1:8081", None),
             request("GET", "0123", "", None),
         ] {
-            assert_eq!(access().check(&wrong).map_err(|(number, _)| number), Err(403), "{wrong:?}");
+            assert_eq!(access().check(&wrong).map_err(|refusal| refusal.status), Err(Status::Forbidden), "{wrong:?}");
         }
     }
 
@@ -209,7 +213,7 @@ mod tests {
 
     #[test]
     fn large_requests_are_refused() {
-        let number = |text: String| parsed(text.as_bytes()).unwrap_err().0;
+        let number = |text: String| parsed(text.as_bytes()).unwrap_err().number();
         assert_eq!(number(format!("GET /{} HTTP/1.1", "a".repeat(MOST_HEAD))), 431);
         assert_eq!(number("POST / HTTP/1.1\r\nContent-Length: 99999999999999999999\r\n\r\n".into()), 413);
         assert_eq!(number("POST / HTTP/1.1\r\nContent-Length: 16385\r\n\r\n".into()), 413);

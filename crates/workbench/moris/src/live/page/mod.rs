@@ -4,6 +4,7 @@
 //! - `shown` is what the loop passes on, and the messages made of it.
 //! - `desk` knows who controls, and checks what is asked.
 //! - `pair` has two parameter sets, the way from one to the other, and votes.
+//! - `refusal` is the answer to a request that is refused.
 //! - `server` answers requests, each on a thread of its own.
 //!
 //! A browser gets messages as server-sent events, and sends orders by POST. A browser that reads
@@ -12,6 +13,7 @@
 mod desk;
 mod http;
 mod pair;
+mod refusal;
 mod server;
 mod shown;
 

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use super::desk::Desk;
 use super::http::{self, Access, Request};
+use super::refusal::{Refusal, Status};
 use crate::live::Shared;
 use crate::live::controls::Handling;
 use crate::live::watch::{Part, watch};
@@ -157,10 +158,14 @@ impl Strangers {
 struct ConnectionSlot<'a>(&'a AtomicUsize);
 
 impl<'a> ConnectionSlot<'a> {
-    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, http::Refusal> {
+    fn among(places: &'a AtomicUsize, most: usize) -> Result<Self, Refusal> {
         let place = ConnectionSlot(places);
         let taken = places.fetch_add(1, Ordering::Relaxed);
-        if taken < most { Ok(place) } else { Err((503, "too many pages or requests at once".to_owned())) }
+        if taken < most {
+            Ok(place)
+        } else {
+            Err(Refusal::new(Status::Unavailable, "too many pages or requests at once"))
+        }
     }
 }
 
@@ -179,16 +184,16 @@ impl Site {
         let is_ready = stream.set_nonblocking(false).is_ok()
             && stream.set_nodelay(true).is_ok()
             && stream.set_write_timeout(Some(http::WRITE_TIME)).is_ok();
-        let request = if is_ready { http::read(&mut stream) } else { Err((500, String::new())) };
+        let request = if is_ready { http::read(&mut stream) } else { Err(Refusal::new(Status::Internal, "")) };
         // From here on the token decides.
         self.strangers().forget(number);
         let answered = request.and_then(|request| self.answer(&request, &mut stream));
-        if let Err((number, why)) = answered {
-            http::answer(&mut stream, number, "text/plain", &why);
+        if let Err(refusal) = answered {
+            http::answer(&mut stream, refusal.number(), "text/plain", &refusal.reason);
         }
     }
 
-    fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), http::Refusal> {
+    fn answer(&self, request: &Request, stream: &mut TcpStream) -> Result<(), Refusal> {
         self.access.check(request)?;
         let (places, most) =
             if request.path == "/events" { (&self.pages, MOST_PAGES) } else { (&self.requests, MOST_REQUESTS) };
@@ -200,13 +205,13 @@ impl Site {
                 self.desk.ask(&request.body)?;
                 http::answer(stream, 200, "text/plain", "");
             }
-            _ => return Err((404, "there is nothing here".to_owned())),
+            _ => return Err(Refusal::new(Status::NotFound, "there is nothing here")),
         }
         Ok(())
     }
 
-    fn send_events(&self, stream: &mut TcpStream) -> Result<(), http::Refusal> {
-        let client = secret().map_err(|error| (500, error.to_string()))?;
+    fn send_events(&self, stream: &mut TcpStream) -> Result<(), Refusal> {
+        let client = secret().map_err(|error| Refusal::new(Status::Internal, error.to_string()))?;
         let welcome = serde_json::to_string(&self.desk.enter(&client)).unwrap_or_default();
         if http::begin_events(stream) && http::send_event(stream, "welcome", &welcome) {
             let mut number = 0;
