@@ -79,14 +79,9 @@ impl Bank {
     /// There is no regulator for the platform's limits.
     pub fn new(parameters: &Parameters) -> Result<Self, Unsolvable> {
         let models = models(parameters);
-        let gains = |axis: usize| {
-            Regulator::new(&weighed(&models[axis]), &WEIGHTS)
-                .map(|regulator| regulator.gains)
-                .ok_or(Unsolvable::AutomaticScale)
-        };
         Ok(Bank {
             models,
-            gains: [gains(0)?, gains(1)?],
+            gains: gains(&models)?,
             shadows: [[Shadow::default(); 2]; SHADOWS],
             desired: [LowPass::default(); 2],
             power: [0.0; 2],
@@ -96,9 +91,17 @@ impl Bank {
         })
     }
 
-    /// Takes the platform's limits of another bank.
-    pub fn retune(&mut self, other: &Bank) {
-        (self.models, self.gains) = (other.models, other.gains);
+    /// Takes the platform's limits from other parameters.
+    ///
+    /// # Errors
+    /// There is no regulator for them. Nothing has changed then.
+    pub fn retune(&mut self, parameters: &Parameters) -> Result<(), Unsolvable> {
+        let models = models(parameters);
+        if models != self.models {
+            self.gains = gains(&models)?;
+            self.models = models;
+        }
+        Ok(())
     }
 
     /// Advances by `step` seconds, at whose end the references are these. Returns the goal, with
@@ -180,6 +183,16 @@ impl Bank {
         let of = |axis: usize| shadows[axis].error / (scale * scale * (self.power[axis] + REST));
         max(of(0), of(1))
     }
+}
+
+/// The regulators' gains for surge and sway.
+fn gains(models: &[AxisModel; 2]) -> Result<[Gains; 2], Unsolvable> {
+    let gains = |axis: usize| {
+        Regulator::new(&weighed(&models[axis]), &WEIGHTS)
+            .map(|regulator| regulator.gains)
+            .ok_or(Unsolvable::AutomaticScale)
+    };
+    Ok([gains(0)?, gains(1)?])
 }
 
 /// A second-order Butterworth low-pass at [`CUE_FREQUENCY`], by the bilinear transform.

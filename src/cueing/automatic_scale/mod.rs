@@ -55,22 +55,12 @@ impl FittingScale {
     /// # Errors
     /// There is no regulator for the platform's limits. Nothing has changed then.
     pub fn retune(&mut self, parameters: &Parameters, nothing_cued: bool) -> Result<(), Unsolvable> {
-        let new = bank(parameters)?;
-        match (&mut self.bank, new) {
-            (Some(bank), Some(new)) => bank.retune(&new),
-            (bank @ None, Some(new)) => {
-                *bank = Some(new);
-                self.rate = 0.0;
-                if nothing_cued {
-                    self.factor = START;
-                }
-            }
-            (bank, None) => {
-                *bank = None;
-                if nothing_cued {
-                    self.factor = 1.0;
-                }
-            }
+        let is_automatic = parameters.automatic_scale.automatic == AutomaticScale::On;
+        match &mut self.bank {
+            Some(bank) if is_automatic => bank.retune(parameters)?,
+            None if !is_automatic => {}
+            _ if nothing_cued => *self = Self::new(parameters)?,
+            bank => *bank = self::bank(parameters)?,
         }
         Ok(())
     }
