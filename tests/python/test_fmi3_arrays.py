@@ -162,7 +162,7 @@ def test_the_names_are_those_of_fmi_2_without_indices_and_components(description
     assert arrays["rig.base"].shape == (6, 3)
     reals = [v for v in description3.modelVariables if v.type == "Float64"]
     # Of the strategy predictive alone, and constant with any other.
-    assert {v.name for v in reals if v.causality == "output"} == set(OUTPUTS) | {"predictive.planAge"}
+    assert {v.name for v in reals if v.causality == "output"} == set(OUTPUTS) | {"predictive.planAge", "automaticScale.factor"}
     preview = {f"vehicle.preview.{name}" for name in ("step", "specificForce.x", "specificForce.y")}
     assert {v.name for v in reals if v.causality == "input"} == set(INPUTS) | preview
     assert arrays["vehicle.preview.specificForce.x"].shape == (20,)

@@ -78,9 +78,9 @@ class Fit:
 
 
 def _candidate(given: Any) -> Candidate:
-    factors, error, axes = given
+    (scale, breaks, heave), error, axes = given
     surge, sway = (AxisShape(*axis) if axis else None for axis in axes)
-    return Candidate(*factors, error, surge, sway)
+    return Candidate(scale, breaks, heave, error, surge, sway)
 
 
 def fit(
