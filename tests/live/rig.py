@@ -122,8 +122,9 @@ class Live:
         self.state = "off"
         self.states = []
         self.news = threading.Condition()
-        if stderr == subprocess.PIPE:
-            threading.Thread(target=self.listen, daemon=True).start()
+        self.listener = threading.Thread(target=self.listen, daemon=True) if stderr == subprocess.PIPE else None
+        if self.listener:
+            self.listener.start()
 
     def listen(self):
         for text in self.process.stderr:
@@ -159,9 +160,12 @@ class Live:
         self.process.send_signal(number)
 
     def end(self):
-        """The exit status and what was printed."""
+        """The exit status and what was printed. All that was said is in `said` then."""
         out = self.process.stdout.read().decode()
-        return self.process.wait(), out
+        status = self.process.wait()
+        if self.listener:
+            self.listener.join()
+        return status, out
 
     def resident(self):
         """Resident memory [kB]."""
