@@ -509,7 +509,7 @@ interface_tree! {
         robust: RobustParameters,
         predictive: PredictiveParameters,
         soft_limit: SoftLimitParameters,
-        rig: Rig,
         automatic_scale: AutomaticScaleParameters,
+        rig: Rig,
     }
 }
