@@ -142,7 +142,8 @@ def two_sets_are_kept_gone_to_and_voted_on(browser):
         page.screenshot(path=PICTURES / "live-pair.png", full_page=True)
         click("vote", "b")
         wait(page, "document.getElementById('pair-message').textContent.includes('Noted: B')")
-    assert json.loads(votes.read_text()) == {"better": {"scale.specificForce.x": 0.5}, "worse": {}}
+    automatic = {"scale.automatic": 2.0}  # On in live, counted from 1.
+    assert json.loads(votes.read_text()) == {"better": automatic | {"scale.specificForce.x": 0.5}, "worse": automatic}
 
 
 @check

@@ -157,7 +157,10 @@ def a_lap_has_its_time_and_its_recording_is_read_by_the_workbench(browser):
             page.locator("#save").click()
         file = PAGES / "ridden.csv"
         download.value.save_as(file)
-    out = subprocess.run([*MORIS, "simulate", file, "--no-bound", "--json", "--fade-in", "0", "--report", PAGES], capture_output=True, text=True)
+    automatic = PAGES / "automatic.toml"
+    automatic.write_text('"scale.automatic" = "on"\n')  # As in the page.
+    options = ["--parameters", automatic, "--no-bound", "--json", "--fade-in", "0", "--report", PAGES]
+    out = subprocess.run([*MORIS, "simulate", file, *options], capture_output=True, text=True)
     assert out.returncode in (0, 3), out.stderr
     [result] = json.loads(out.stdout)
     rows = {(row["subject"], row["name"]): row["value"] for row in result["results"][0]["measures"]}

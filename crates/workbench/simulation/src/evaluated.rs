@@ -56,17 +56,19 @@ impl Evaluated<'_> {
         rms(self.simulation.desired_rates().iter().map(|rate| rate[axis]))
     }
 
-    /// The run of a report, without further charts.
+    /// The run of a report, without further charts and without advice: the page simulates other
+    /// parameters, and searches for none.
     pub fn run(&self, name: &str, thinning: &Thinning) -> Run {
         let Simulation { inputs, outputs, step, parameters, .. } = self.simulation;
         let curve = |value: fn(&Output) -> f64| thinning.extremes(|k| value(&outputs[k]));
         let desired_rates = self.simulation.desired_rates();
         let tilt_limits = self.simulation.tilt_limits();
         let leans = inputs.iter().any(|input| input.lean != 0.0);
+        let without_advice = Evaluated { advice: None, ..*self };
         Run {
             name: name.to_owned(),
-            verdict: self.headline(),
-            findings: self.findings(),
+            verdict: without_advice.headline(),
+            findings: without_advice.findings(),
             times: thinning.at_times(|k| k as f64 * step),
             desired: Cues {
                 specific_force: array::from_fn(|axis| thinning.extremes(|k| inputs[k].specific_force[axis])),
