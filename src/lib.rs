@@ -22,6 +22,10 @@
 
 #![forbid(unsafe_code)]
 
+#[cfg(test)]
+#[path = "../tests/cases/mod.rs"]
+mod cases;
+
 // The blocks and their filters: public for the workspace's other models and for tests, and no part of
 // the crate's interface.
 #[doc(hidden)]

@@ -63,5 +63,5 @@ def test_the_table_of_uses_has_what_the_manifests_have():
         name = {"modelDescription": "model-description"}.get(name, name)
         named = {{"modelDescription": "model-description"}.get(used, used) for used in named}
         folder, uses = found[name]
-        assert named == uses - {"shared-features"}, f"{name}: the table has {named}, the manifest {uses}"
+        assert named == uses, f"{name}: the table has {named}, the manifest {uses}"
     assert {"fmu-host", "washout", "moris", "python"} <= table.keys()

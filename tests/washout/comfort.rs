@@ -115,7 +115,7 @@ fn engaging_and_disengaging_are_felt_without_a_jerk() {
     for (set, changed) in SETS {
         let parameters = presets::parameters(changed);
         let forces = [[1.0, 0.5], [3.0, -2.0], [-4.0, 3.0], [-6.0, 4.0]];
-        for force in forces.into_iter().step_by(moris_cases::cases(1, 3)) {
+        for force in forces.into_iter().step_by(crate::cases::cases(1, 3)) {
             let jerk = largest_jerk(&parameters, force);
             assert!(jerk < 10.0, "{set}, {force:?} m/s2: {jerk} m/s3");
         }

@@ -114,8 +114,8 @@ fn limits_hold_at_1_khz() {
     for (seed, set) in SETS.iter().enumerate() {
         for kind in KINDS {
             // Few cases: the inputs of every second set are held.
-            for held in [true, false].into_iter().filter(|held| moris_cases::cases(true, *held == (seed % 2 == 0))) {
-                survive(set, kind, Steps::Even(0.001), held, seed as u64, moris_cases::cases(10_000, 2_000));
+            for held in [true, false].into_iter().filter(|held| crate::cases::cases(true, *held == (seed % 2 == 0))) {
+                survive(set, kind, Steps::Even(0.001), held, seed as u64, crate::cases::cases(10_000, 2_000));
             }
         }
     }

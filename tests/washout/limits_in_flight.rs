@@ -125,7 +125,7 @@ fn a_slow_machine_keeps_its_limits_at_irregular_steps() {
         ("safety.z.accelerationLimit", 3.7),
     ];
     let parameters = parameters(&slow);
-    for seed in 0..moris_cases::cases(20, 6) {
+    for seed in 0..crate::cases::cases(20, 6) {
         ride_irregularly(&parameters, seed);
     }
 }

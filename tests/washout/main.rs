@@ -6,6 +6,8 @@
 mod attitudes;
 mod automatic_scale;
 mod braking_law;
+#[path = "../cases/mod.rs"]
+mod cases;
 mod chain;
 mod comfort;
 mod common;

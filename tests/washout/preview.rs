@@ -96,7 +96,7 @@ fn a_wrong_preview_costs_little_and_no_limit() {
         ),
     ];
     let runs = runs();
-    for (duration, input) in &runs[..moris_cases::cases(runs.len(), 1)] {
+    for (duration, input) in &runs[..crate::cases::cases(runs.len(), 1)] {
         let without = errors(*duration, input, |_| Preview::default());
         let costs_little = |name: &str, with: [f64; 2]| {
             for axis in 0..2 {

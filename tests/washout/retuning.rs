@@ -189,7 +189,7 @@ fn after_retuning_at_rest_the_motion_is_the_new_parameters() {
                 let mut washouts = [&start, &slots].map(|slots| Washout::from_slots(slots).unwrap());
                 washouts[0].retune_from(&slots).unwrap();
                 for washout in &mut washouts {
-                    ride(washout, moris_cases::cases(2.0, 0.5), 0.01, moving, |_, _| {});
+                    ride(washout, crate::cases::cases(2.0, 0.5), 0.01, moving, |_, _| {});
                 }
                 let [retuned, made] = washouts.map(|washout| *washout.motion());
                 let what = format!("strategy {kind}, {name} = {value}");

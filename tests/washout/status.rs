@@ -119,7 +119,8 @@ fn the_flags_tell_of_every_internal_step() {
 fn a_speed_above_a_tightened_limit_shows() {
     for &strategy in StrategyKind::ALL {
         let mut beyond = 0;
-        for (change, limit) in (100..1500).step_by(moris_cases::cases(23, 69)).zip([0.3, 0.1, 0.01].into_iter().cycle())
+        for (change, limit) in
+            (100..1500).step_by(crate::cases::cases(23, 69)).zip([0.3, 0.1, 0.01].into_iter().cycle())
         {
             let mut parameters = parameters(&[]);
             parameters.structure.strategy = strategy;
@@ -140,6 +141,6 @@ fn a_speed_above_a_tightened_limit_shows() {
                 }
             }
         }
-        assert!(beyond > moris_cases::cases(500, 150), "{strategy:?}: {beyond}");
+        assert!(beyond > crate::cases::cases(500, 150), "{strategy:?}: {beyond}");
     }
 }

@@ -95,7 +95,7 @@ pub fn rms_difference(a: &[f64], b: &[f64]) -> f64 {
 /// A search over this many cases, the same ones every time; by default a tenth of them, at least
 /// ten.
 pub fn cases(all: u32) -> ProptestConfig {
-    let count = moris_cases::cases(all, (all / 10).max(10));
+    let count = crate::cases::cases(all, (all / 10).max(10));
     ProptestConfig {
         rng_seed: RngSeed::Fixed(1),
         failure_persistence: None,

@@ -81,7 +81,7 @@ fn distance_left(seed: u64, rest: f64) -> f64 {
 #[test]
 fn a_platform_comes_home_from_any_corner_of_its_workspace() {
     let mut left = Vec::new();
-    for seed in 0..moris_cases::cases(400, 100) {
+    for seed in 0..crate::cases::cases(400, 100) {
         let distance = distance_left(seed, 60.0);
         if distance > 1e-6 {
             left.push((seed, distance));

@@ -1,7 +1,7 @@
 //! The washout's library in the hands of a host that does everything wrong, by
 //! both versions of FMI.
 
-use moris_cases::cases;
+use crate::cases::cases;
 use moris_fmi::fmi3::Layout;
 use moris_fmu_host::{Api, Fmu, fmi3};
 use moris_fmu_tests::hostile::{CallCounts, Choices, Functions, run};

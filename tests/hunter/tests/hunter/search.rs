@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use crate::cases::cases;
 use anyhow::Result;
-use moris_cases::cases;
 use moris_hunter::episode::{Episode, Scope};
 use moris_hunter::oracle::{Quantity, Sample};
 use moris_hunter::run::Runner;

@@ -18,7 +18,7 @@ fn target() -> FmuTarget {
 
 #[test]
 fn a_search_through_the_functions_breaks_no_limit() {
-    let steps = moris_cases::cases(500_000, 100_000);
+    let steps = crate::cases::cases(500_000, 100_000);
     let plan = Plan { seed: 2, first_machine: 0, steps, machines: u64::MAX, breaches: 1, threads: 2, shrink: true };
     let summary = search(&plan, || Ok(target()), |_| {}).unwrap();
     assert!(
@@ -27,7 +27,7 @@ fn a_search_through_the_functions_breaks_no_limit() {
         summary.found[0].failure,
         summary.found[0].episode.to_toml().unwrap()
     );
-    assert!(summary.steps >= plan.steps && summary.machines > moris_cases::cases(5, 3), "{summary:?}");
+    assert!(summary.steps >= plan.steps && summary.machines > crate::cases::cases(5, 3), "{summary:?}");
 }
 
 /// The last sample of an episode on a target. The episode has this preview and this attacker.

@@ -2,6 +2,8 @@
 
 #[cfg(target_arch = "x86_64")]
 mod arithmetic;
+#[path = "../../../../../tests/cases/mod.rs"]
+mod cases;
 mod derivatives;
 mod fixture;
 mod forged_states;

@@ -1,5 +1,7 @@
 //! A session: any events at any time, with telemetry of a smooth ride.
 
+#[path = "../../../../../tests/cases/mod.rs"]
+mod cases;
 mod ride;
 mod sets;
 
@@ -284,7 +286,7 @@ fn any_ride() -> impl Strategy<Value = Ride> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: moris_cases::cases(24, 12), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: crate::cases::cases(24, 12), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn no_sequence_of_events_is_felt_as_a_jolt(
@@ -327,7 +329,7 @@ proptest! {
 fn no_sequence_of_a_million_events_is_felt_as_a_jolt() {
     use proptest::strategy::ValueTree;
     use proptest::test_runner::TestRunner;
-    let count: usize = moris_cases::cases(10_000, 100);
+    let count: usize = crate::cases::cases(10_000, 100);
     let runner = Mutex::new((0..count, TestRunner::deterministic()));
     let sequences = prop::collection::vec(any_event(), 100);
     let next = || {

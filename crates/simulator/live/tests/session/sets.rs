@@ -37,7 +37,7 @@ fn is_usable(parameters: &Parameters, sets: &[(usize, [f64; 2])]) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: moris_cases::cases(8, 4), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: crate::cases::cases(8, 4), rng_seed: RngSeed::Fixed(1), failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Each parameter 0.7 to 1.4 times that of the base, in both sets.
     #[test]

@@ -50,7 +50,7 @@ fn assert_sane(output: &Output) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: moris_cases::cases(128, 16), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: crate::cases::cases(128, 16), rng_seed: RngSeed::Fixed(1), ..ProptestConfig::default() })]
 
     #[test]
     fn no_input_makes_it_fall_or_fly(

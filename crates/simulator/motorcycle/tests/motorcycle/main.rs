@@ -1,5 +1,7 @@
 //! The motorcycle against what others published, closed forms, differences and balances.
 
+#[path = "../../../../../tests/cases/mod.rs"]
+mod cases;
 mod common;
 mod hostile;
 mod interface;

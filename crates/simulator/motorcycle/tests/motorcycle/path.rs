@@ -1,7 +1,7 @@
 //! The rider on a path: deviation, speed, stability, preview, and the end of a ride that is too
 //! fast.
 
-use moris_cases::cases;
+use crate::cases::cases;
 use moris_interface::{Group, Writer, slot_count};
 use moris_motorcycle::interface::{PATH_POINTS, Path, PathColumn};
 use moris_motorcycle::path::preview_rider::{

@@ -92,7 +92,7 @@ fn what_has_inertia_does_not_jump() {
 /// time.
 #[test]
 fn the_new_values_hold() {
-    for (name, change) in CHANGES.iter().step_by(moris_cases::cases(1, 5)) {
+    for (name, change) in CHANGES.iter().step_by(crate::cases::cases(1, 5)) {
         let mut motorcycle = in_a_bend();
         let parameters = changed(&motorcycle, *change);
         motorcycle.retune(&parameters).unwrap();

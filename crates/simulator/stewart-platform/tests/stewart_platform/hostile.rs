@@ -78,7 +78,7 @@ fn check(parameters: &Parameters, platform: &StewartPlatform) -> Result<(), Test
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(moris_cases::cases(150, 50)))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases::cases(150, 50)))]
 
     #[test]
     fn nothing_leaves_its_limits(

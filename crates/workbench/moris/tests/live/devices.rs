@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use moris_cases::cases;
+use crate::cases::cases;
 
 use crate::rig::{Live, free_port, vehicle};
 

@@ -2,6 +2,8 @@
 
 #![cfg(unix)]
 
+#[path = "../../../../../tests/cases/mod.rs"]
+mod cases;
 mod devices;
 mod driving;
 mod exits;

@@ -538,7 +538,7 @@ fn the_page_of_a_long_recording_has_its_largest_size() {
         assert!(curves(&page).len() < 3_000_000 && page.len() <= 4_200_000, "{} bytes", page.len());
         page
     };
-    if moris_cases::cases(true, false) {
+    if crate::cases::cases(true, false) {
         assert!(page(&["car"]).contains("[\"Curves\",\"every sample\"]"), "the resolution is stated");
     }
     let thinned = page(&["car", "motorcycle", "small-motions", "paper"]);

@@ -2,6 +2,8 @@
 
 mod bench;
 mod bounds;
+#[path = "../../../../../tests/cases/mod.rs"]
+mod cases;
 mod commands;
 mod consistency;
 mod fit;

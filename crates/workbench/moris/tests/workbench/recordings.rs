@@ -414,7 +414,7 @@ fn field() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(moris_cases::cases(300, 100)))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases::cases(300, 100)))]
 
     /// Any file gives a recording of finite numbers at equal steps, or an error that names the
     /// file.

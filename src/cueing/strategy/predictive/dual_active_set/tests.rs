@@ -190,7 +190,7 @@ pub fn compare<const N: usize, const M: usize>(program: &Program<N, M>) {
 
 #[test]
 fn random_programs_have_the_solution_that_an_interior_point_method_finds() {
-    compare_feasible(1, moris_cases::cases(300, 100));
+    compare_feasible(1, crate::cases::cases(300, 100));
 }
 
 #[test]

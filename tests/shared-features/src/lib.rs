@@ -1,1 +1,0 @@
-//! No code: only dependencies, for their features.
