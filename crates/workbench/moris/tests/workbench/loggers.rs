@@ -343,6 +343,67 @@ fn columns_are_turned_round_exchanged_and_added() {
     assert!(message.contains("there are no columns lx + hx"), "{message}");
 }
 
+/// Results of vehicle simulations: accelerations of motion, without gravity, and angles.
+#[test]
+fn results_of_simulations_are_read() {
+    let roll = |t: f64| 0.03 * (TAU * 0.1 * t).sin();
+    let roll_rate = |t: f64| 0.03 * TAU * 0.1 * (TAU * 0.1 * t).cos();
+    let acceleration = |t: f64| [car(t).0.x, car(t).0.y, car(t).0.z - GRAVITY];
+    let heading = |t: f64| if t > 8.0 { 0.15 / (TAU * 0.1) * (1.0 - (TAU * 0.1 * (t - 8.0)).cos()) } else { 0.0 };
+    let simulation = |t: f64, force_unit: f64, angle_unit: f64, speed_unit: f64| {
+        let [ax, ay, az] = acceleration(t).map(|value| value / force_unit);
+        let rates = [roll_rate(t), 0.0, car(t).1.z].map(|value| value / angle_unit);
+        let angles = [roll(t), 0.0, heading(t)].map(|value| value / angle_unit);
+        [&[t, ax, ay, az][..], &rates, &angles, &[speed(t) / speed_unit]].concat()
+    };
+    let degree = 1f64.to_radians();
+    let columns = "Time,Ax,Ay,Az,AVx,AVy,AVz,Roll,Pitch,Yaw,Vx";
+    let car_sim = sheet(columns, &times(40.0, 0.0, 20.0), |t| simulation(t, GRAVITY, degree, 1.0 / 3.6));
+    let columns = "Time [s],Car.ax [m/s^2],Car.ay [m/s^2],Car.az [m/s^2],Car.RollVel [rad/s],Car.PitchVel [rad/s],\
+                   Car.YawRate [rad/s],Car.Roll [rad],Car.Pitch [rad],Car.Yaw [rad],Car.v [m/s]";
+    let car_maker = sheet(columns, &times(100.0, 0.0, 20.0), |t| simulation(t, 1.0, 1.0, 1.0));
+    for (format, text) in [(Format::CarSim, car_sim), (Format::CarMaker, car_maker)] {
+        let recording = read_text(&text, &with_format(format)).unwrap();
+        for (time, input) in recording.times().zip(recording.inputs()) {
+            let body = Orientation::new(RollPitchYaw::new(roll(time), 0.0, 0.0)).rotation.transpose();
+            let force = Vector3::from(acceleration(time)) + body * Vector3::new(0.0, 0.0, GRAVITY);
+            assert!((input.specific_force - force).norm() < 1e-9, "{time}: {} is not {force}", input.specific_force);
+            assert!((input.angular_velocity.x - roll_rate(time)).abs() < 1e-9, "{time}");
+            assert!((input.angular_velocity.z - car(time).1.z).abs() < 1e-9, "{time}");
+            assert!((input.orientation.roll - roll(time)).abs() < 1e-9, "{time}");
+            assert!((input.speed - speed(time)).abs() < 1e-9, "{time}");
+        }
+        // The format is found out, and its angles and speed may be missing.
+        let message = read_text(&text, &ConventionOptions::default()).unwrap_err();
+        assert!(message.contains(&format!("--format {}", format.word())), "{message}");
+        let without_angles: String =
+            text.lines().map(|line| line.split(',').take(7).collect::<Vec<_>>().join(",") + "\n").collect();
+        let level = read_text(&without_angles, &with_format(format)).unwrap();
+        assert_is_the_car_in(&level, 0.02);
+    }
+}
+
+/// Checks the specific force alone.
+fn assert_is_the_car_in(recording: &Recording, tolerance: f64) {
+    for (time, input) in recording.times().zip(recording.inputs()) {
+        assert!((input.specific_force - car(time).0).norm() < tolerance, "{time}: {}", input.specific_force);
+    }
+}
+
+/// A name that a user gives beside a format is a name that must exist.
+#[test]
+fn a_name_beside_a_format_must_exist() {
+    let text =
+        sheet("SessionTime,LongAccel,LatAccel,VertAccel,RollRate,PitchRate,YawRate", &times(60.0, 0.0, 20.0), |t| {
+            [vec![t], sensed(&Matrix3::identity(), t, 1.0, 1.0).to_vec()].concat()
+        });
+    for (quantity, name) in [(Quantity::Speed, "Sped"), (Quantity::Angle(0), "Rol")] {
+        let options = ConventionOptions { columns: vec![(quantity, name.to_owned())], ..with_format(Format::IRacing) };
+        let message = read_text(&text, &options).unwrap_err();
+        assert!(message.contains(&format!("there is no column {name}")), "{message}");
+    }
+}
+
 #[test]
 fn a_turned_sensor_is_turned_back() {
     let text = |degrees: [f64; 3]| {

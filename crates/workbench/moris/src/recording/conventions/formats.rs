@@ -2,7 +2,7 @@
 
 use clap::ValueEnum;
 
-use super::{ConventionOptions, choices};
+use super::{ConventionOptions, Quantity, choices};
 
 choices! {
     /// A logger or simulator whose files are read without further options.
@@ -27,6 +27,10 @@ choices! {
         "vbox" Vbox,
         /// iRacing, .ibt converted to CSV
         "iracing" IRacing,
+        /// CarSim, results as CSV
+        "carsim" CarSim,
+        /// CarMaker, results as CSV
+        "carmaker" CarMaker,
         /// PX4, sensor_combined of ulog2csv
         "px4" Px4,
     }
@@ -46,6 +50,8 @@ impl Format {
             Format::Motec => include_str!("../../../formats/motec.toml"),
             Format::Vbox => include_str!("../../../formats/vbox.toml"),
             Format::IRacing => include_str!("../../../formats/iracing.toml"),
+            Format::CarSim => include_str!("../../../formats/carsim.toml"),
+            Format::CarMaker => include_str!("../../../formats/carmaker.toml"),
             Format::Px4 => include_str!("../../../formats/px4.toml"),
         }
     }
@@ -54,6 +60,11 @@ impl Format {
     pub fn title(self) -> String {
         let help = self.to_possible_value().and_then(|value| value.get_help().map(ToString::to_string));
         help.and_then(|help| help.split(',').next().map(str::to_owned)).unwrap_or_else(|| self.word().to_owned())
+    }
+
+    /// The format's name of a quantity's column.
+    pub fn column(self, quantity: Quantity) -> Option<String> {
+        self.options().columns.into_iter().find_map(|(named, name)| (named == quantity).then_some(name))
     }
 
     /// The format's conventions.

@@ -93,8 +93,10 @@ impl Conventions {
 
     /// True for a quantity that a recording must have, or whose column is named.
     pub fn expects(&self, quantity: Quantity) -> bool {
-        // Speed helps formats that have it, and no format needs it.
-        let is_named = self.columns.contains_key(&quantity) && (quantity != Quantity::Speed || self.format.is_none());
+        // Speed, angles and positions help formats that have them, and no format needs them.
+        let is_of_format =
+            |name: &String| self.format.is_some_and(|format| format.column(quantity).as_ref() == Some(name));
+        let is_named = self.columns.get(&quantity).is_some_and(|name| !is_of_format(name));
         self.needs(quantity) || is_named && !quantity.is_required()
     }
 
