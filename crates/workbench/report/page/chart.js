@@ -275,10 +275,11 @@ function drawLine(context, line, shown, width, yOf) {
   context.globalAlpha = 1;
 }
 
-/** A line's sample for the legend: of names and numbers of the page's own, never of a user's. */
-function swatch(line) {
+/** A line's sample for the legend. */
+function swatch({ colour: name, width, dash = [] }) {
   const made = document.createElement("template");
-  made.innerHTML = `<svg class="swatch" width="26" height="6" aria-hidden="true"><line x1="0" y1="3" x2="26" y2="3"
-    style="stroke: var(${line.colour})" stroke-width="${Math.min(line.width, 4)}" stroke-dasharray="${(line.dash || []).join(" ")}"/></svg>`;
-  return made.content.firstChild;
+  made.innerHTML = '<svg class="swatch" width="26" height="6" aria-hidden="true"><line x1="0" y1="3" x2="26" y2="3"/></svg>';
+  const sample = made.content.firstChild;
+  setAttributes(sample.firstChild, { style: `stroke: var(${name})`, "stroke-width": Math.min(width, 4), "stroke-dasharray": dash.join(" ") });
+  return sample;
 }

@@ -1,9 +1,15 @@
 // Building the document. Text is always text: nothing that a user has named can become markup.
 
+/** Sets attributes, and `style` by the object model: the page's policy forbids it as an attribute. */
+function setAttributes(made, { style = "", ...attributes }) {
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  if (style) made.style.cssText = style;
+  return made;
+}
+
 /** A new element with attributes and children (elements, or strings). */
 function element(tag, attributes = {}, children = []) {
-  const made = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  const made = setAttributes(document.createElement(tag), attributes);
   made.append(...children);
   return made;
 }

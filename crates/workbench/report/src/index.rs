@@ -32,12 +32,12 @@ pub fn index_html(title: &str, subtitle: &str, heads: &[&str], rows: &[IndexRow]
         let name = row.file.as_ref().map_or(name.clone(), |file| format!("<a href=\"{}\">{name}</a>", encoded(file)));
         let (class, mark) = if row.is_good { ("good", "\u{2713}") } else { ("warning", "!") };
         body += &format!(
-            "<tr class=\"group {class}\"><th scope=\"row\"><span class=\"finding-mark\" style=\"display: inline-block\">{mark}</span> \
+            "<tr class=\"group {class}\"><th scope=\"row\"><span class=\"finding-mark\">{mark}</span> \
              {name}</th><td class=\"verdict\">{}</td>{cells}</tr>\n",
             escaped(&row.verdict)
         );
     }
-    let head = Head { title, style: "a { color: var(--accent); }\n", ..Head::default() }.html();
+    let head = Head { title, style: "a { color: var(--accent); }\n.finding-mark { display: inline-block; }\n", ..Head::default() }.html(&[]);
     let (title, subtitle) = (escaped(title), escaped(subtitle));
     format!(
         "{head}<header>\n<h1>{title}</h1>\n<p id=\"subtitle\">{subtitle}</p>\n</header>\n\

@@ -21,7 +21,7 @@ mod tilt_limits;
 /// Parts of the page for pages of other packages.
 pub mod shared {
     pub use crate::encode::bytes;
-    pub use crate::page::{Head, assembled};
+    pub use crate::page::{COMPILED, Head, assembled};
 }
 
 pub use check::{ReportError, check};

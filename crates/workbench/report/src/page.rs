@@ -1,6 +1,9 @@
 //! The page: a template with the style, the scripts and the data put in.
 
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
+use sha2::{Digest as _, Sha256};
 
 use crate::check::{ReportError, check};
 use crate::data::Report;
@@ -17,6 +20,9 @@ const STYLE: &str = include_str!("../page/style.css");
 /// Runs before the other scripts, and says if one of them fails.
 const ALARM: &str = include_str!("../page/alarm.js");
 const WORKER: &str = concat!("\"use strict\";\n", include_str!("../page/module.js"), include_str!("../page/worker.js"));
+
+/// The source of scripts for a page with a WebAssembly.
+pub const COMPILED: &str = "'wasm-unsafe-eval'";
 
 /// Scripts for any page with a machine and parameters, in the order of their dependencies.
 const SHARED: [&str; 10] = [
@@ -58,17 +64,30 @@ pub struct Head<'a> {
     pub subtitle: &'a str,
     /// Style after that of all pages.
     pub style: &'a str,
-    /// Sources that the page may load and run: directives of a content security policy, beside
-    /// its styles and pictures.
+    /// Sources of scripts beside those in the page, as a content security policy has them.
+    pub scripts: &'a str,
+    /// Further directives of the policy.
     pub policy: &'a str,
 }
 
 impl Head<'_> {
-    /// All up to the page's body.
-    pub(crate) fn html(&self) -> String {
-        let style = format!("{STYLE}{}", self.style);
-        filled(HEAD, &[("title", escaped(self.title)), ("policy", self.policy.to_owned()), ("style", style)])
+    /// All up to the body of a page with these scripts. No other script and style can run.
+    pub(crate) fn html(&self, scripts: &[&str]) -> String {
+        let style = format!("\n{STYLE}{}", self.style);
+        let sources: String = scripts.iter().map(|script| format!("{} ", hash(script))).collect();
+        let policy = format!("script-src {sources}{}; {}", self.scripts, self.policy);
+        let policy = if scripts.is_empty() { String::new() } else { policy };
+        let texts =
+            [("title", escaped(self.title)), ("style-hash", hash(&style)), ("policy", policy), ("style", style)];
+        filled(HEAD, &texts)
     }
+}
+
+/// The hash of an element's text, as a content security policy has it.
+fn hash(text: &str) -> String {
+    // Line ends as a browser reads them.
+    let text = text.replace("\r\n", "\n").replace('\r', "\n");
+    format!("'sha256-{}'", STANDARD.encode(Sha256::digest(text)))
 }
 
 /// Data for the scripts.
@@ -99,7 +118,8 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
         title: &report.title,
         subtitle: &report.subtitle,
         style: "",
-        policy: "script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:",
+        scripts: COMPILED,
+        policy: "worker-src blob:",
     };
     Ok(assembled(&head, TEMPLATE, &page, &SCRIPTS))
 }
@@ -112,10 +132,11 @@ pub fn html(report: &Report) -> Result<String, ReportError> {
 pub fn assembled(head: &Head, template: &str, data: &impl Serialize, scripts: &[&str]) -> String {
     // No data can end the script element: in JSON, a < occurs in strings only, where it is escaped.
     let data = serde_json::to_string(data).expect("plain data serialise").replace('<', "\\u003c");
-    let script = [&SHARED, scripts].concat().join("\n");
+    let script = format!("\n(async () => {{\n\"use strict\";\n{}\n}})();\n", [&SHARED, scripts].concat().join("\n"));
+    let head_html = head.html(&[ALARM, &script]);
     let of_end = [("alarm", ALARM.to_owned()), ("data", data), ("script", script)];
     let heading = filled(HEADING, &[("title", escaped(head.title)), ("subtitle", escaped(head.subtitle))]);
-    head.html() + &filled(template, &[("heading", heading.trim_end().to_owned())]) + &filled(END, &of_end)
+    head_html + &filled(template, &[("heading", heading.trim_end().to_owned())]) + &filled(END, &of_end)
 }
 
 /// The template with every `{{name}}` replaced. The inserted text is not expanded again.
@@ -161,7 +182,7 @@ mod tests {
             assert!(!page.contains(outside), "the page holds {outside}");
         }
         assert!(!page.contains("{{"));
-        assert!(page.contains("default-src 'none'"));
+        assert!(page.contains("default-src 'none'") && !page.contains("unsafe-inline"));
     }
 
     #[test]

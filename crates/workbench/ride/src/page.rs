@@ -48,7 +48,8 @@ pub fn html(page: &Page) -> String {
         title: "Ride",
         subtitle: &page.subtitle,
         style: STYLE,
-        policy: "script-src 'unsafe-inline' 'wasm-unsafe-eval'",
+        scripts: shared::COMPILED,
+        policy: "",
     };
     shared::assembled(&head, TEMPLATE, page, &[&SHARED[..], &SCRIPTS].concat())
 }

@@ -64,7 +64,8 @@ impl Start {
             title: "Live",
             subtitle: &self.subtitle,
             style: &[ride::STYLE, STYLE].join("\n"),
-            policy: "script-src 'unsafe-inline'; connect-src 'self'",
+            scripts: "",
+            policy: "connect-src 'self'",
         };
         shared::assembled(&head, TEMPLATE, self, &[&ride::SHARED[..], &[ride::CONTROLS], &SCRIPTS].concat())
     }

@@ -1,0 +1,113 @@
+"""Policies of the pages' contents: nothing runs and nothing is styled but what a hash in the page's head names."""
+
+import base64
+import hashlib
+import os
+import subprocess
+import urllib.request
+from html.parser import HTMLParser
+
+import pytest
+from conftest import ROOT
+
+MORIS = [os.environ["MORIS"]] if "MORIS" in os.environ else ["cargo", "run", "--quiet", "--bin", "moris", "--"]
+RUNS = {"", "module", "text/javascript"}
+"""Types of scripts that a browser runs."""
+
+
+class Page(HTMLParser):
+    """A page's policies, the texts of its scripts and styles, and attributes that only an inline policy permits."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=False)
+        self.policies, self.texts, self.attributes, self.within = [], {"script": [], "style": []}, [], None
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag, attributes):
+        named = dict(attributes)
+        if tag == "meta" and named.get("http-equiv", "").lower() == "content-security-policy":
+            assert not any(self.texts.values()), "what stands before a policy is free of it"
+            self.policies.append(named["content"])
+        self.attributes += [(tag, name) for name, value in attributes if name == "style" or name.startswith("on") or "javascript:" in (value or "")]
+        runs = tag == "style" or tag == "script" and named.get("type", "") in RUNS
+        self.within = tag if runs else None
+        if runs:
+            self.texts[tag].append("")
+
+    def handle_data(self, data):
+        if self.within:
+            self.texts[self.within][-1] += data
+
+    def handle_endtag(self, tag):
+        self.within = None
+
+
+def directives(policy):
+    parts = [part.split() for part in policy.split(";") if part.strip()]
+    assert len({part[0] for part in parts}) == len(parts), policy
+    return {name: sources for name, *sources in parts}
+
+
+def check(text, scripts):
+    """A page with so many scripts. Returns its policy."""
+    page = Page(text)
+    [policy] = page.policies
+    assert "unsafe-inline" not in policy and "unsafe-eval" not in policy.replace("wasm-unsafe-eval", "")
+    allowed = directives(policy)
+    assert [allowed[name] for name in ("default-src", "base-uri", "form-action")] == [["'none'"]] * 3
+    assert page.attributes == []
+    assert [len(page.texts[kind]) for kind in ("script", "style")] == [scripts, 1]
+    for kind, texts in page.texts.items():
+        hashes = [source for source in allowed.get(f"{kind}-src", []) if source.startswith("'sha256-")]
+        digests = [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in texts]
+        assert hashes == [f"'sha256-{digest}'" for digest in digests], kind
+    return allowed
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """A folder with a report for each of two recordings, the list of them, and the page to ride."""
+    folder = tmp_path_factory.mktemp("pages")
+    (folder / "rides").mkdir()
+    for name, lateral in (("one", 0.5), ("two", -0.5)):
+        rows = [f"{0.01 * k},0.3,{lateral},9.80665,0,0,0" for k in range(300)]
+        (folder / "rides" / f"{name}.csv").write_text("\n".join(["time,ax,ay,az,wx,wy,wz", *rows, ""]))
+    simulated = subprocess.run([*MORIS, "simulate", folder / "rides", "--no-bound", "--report", folder], cwd=ROOT, capture_output=True, text=True)
+    assert simulated.returncode in (0, 3), simulated.stderr
+    subprocess.run([*MORIS, "ride", "--output", folder / "ride.html"], cwd=ROOT, check=True, capture_output=True)
+    return folder
+
+
+def test_reports_run_only_their_own_scripts(made):
+    for name in ("one", "two"):
+        allowed = check((made / f"{name}.html").read_text(), 2)
+        assert allowed["worker-src"] == ["blob:"] and "connect-src" not in allowed
+
+
+def test_the_list_of_reports_has_no_script(made):
+    assert "script-src" not in check((made / "index.html").read_text(), 0)
+
+
+def test_the_page_to_ride_runs_only_its_own_scripts(made):
+    allowed = check((made / "ride.html").read_text(), 2)
+    assert allowed["script-src"][-1] == "'wasm-unsafe-eval'" and "connect-src" not in allowed
+
+
+def test_the_page_of_live_runs_only_its_own_scripts():
+    live = [*MORIS, "live", "--from", "ride", "--dry", "--page", "--for", "30"]
+    with subprocess.Popen(live, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+        address = next(said.removeprefix("page: ").strip() for said in process.stderr if said.startswith("page: "))
+        with urllib.request.urlopen(address) as answer:
+            allowed = check(answer.read().decode(), 2)
+        process.stdin.write("stop\n")
+        process.stdin.close()
+    assert all(source.startswith("'sha256-") for source in allowed["script-src"]) and allowed["connect-src"] == ["'self'"]
+
+
+def test_a_changed_script_has_another_hash(made):
+    text = (made / "one.html").read_text()
+    with pytest.raises(AssertionError):
+        check(text.replace('"use strict";', '"use  strict";', 1), 2)
+    with pytest.raises(AssertionError):
+        check(text.replace("<main", '<main style="color: red"', 1), 2)
