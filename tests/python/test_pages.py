@@ -96,12 +96,11 @@ def test_the_page_to_ride_runs_only_its_own_scripts(made):
 
 def test_the_page_of_live_runs_only_its_own_scripts():
     live = [*MORIS, "live", "--from", "ride", "--dry", "--page", "--for", "30"]
-    with subprocess.Popen(live, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(live, cwd=ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         address = next(said.removeprefix("page: ").strip() for said in process.stderr if said.startswith("page: "))
         with urllib.request.urlopen(address) as answer:
             allowed = check(answer.read().decode(), 2)
-        process.stdin.write("stop\n")
-        process.stdin.close()
+        process.terminate()
     assert all(source.startswith("'sha256-") for source in allowed["script-src"]) and allowed["connect-src"] == ["'self'"]
 
 

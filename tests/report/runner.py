@@ -17,6 +17,8 @@ from playwright.sync_api import sync_playwright
 
 BROWSER, PAGES, PICTURES, MORIS = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]), sys.argv[4:]
 IS_FIREFOX = "firefox" in Path(BROWSER).name
+# For a picture Playwright adds the style "body {}" in Firefox, which the page's policy forbids: the hash that Firefox names.
+OF_PICTURES = "sha256-YjaKGiklmzC6wjXA513HAMmzus8VE61XCOT+SmwNZWA="
 LAPTOP, PHONE = {"width": 1366, "height": 768}, {"width": 390, "height": 844}
 checks = []
 
@@ -55,7 +57,7 @@ def watched_at(browser, address, is_own, *, quiet=True, expected=None, **options
         page.wait_for_selector("#alarm[hidden], body.failed", state="attached")
     yield page
     context.close()
-    said = [text for text in said if expected is None or expected not in text]
+    said = [text for text in said if (expected is None or expected not in text) and not (IS_FIREFOX and OF_PICTURES in text)]
     if quiet:
         assert not said, f"{address} says {said}"
     beyond = [url for url in asked if not is_own(url) and not url.startswith(("data:", "blob:"))]
